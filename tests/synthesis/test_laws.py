@@ -16,7 +16,7 @@ from gruebler.synthesis import (
 )
 from gruebler.synthesis.alt_construction import alt_construction
 from gruebler.synthesis.dead_centres import dead_centre_family
-from gruebler.synthesis.dyads import GuidingDyad
+from gruebler.synthesis.dyads import Displacements, GuidingDyad, all_dyads
 from gruebler.synthesis.positions import linkage_of_dyads
 
 turns, scales = st.floats(0.1, 3), st.floats(0.01, 100)
@@ -148,7 +148,7 @@ def dyads(draw, form):
 
 
 @settings(max_examples=10, deadline=None)
-@given(st.sampled_from([("RR", "RR"), ("RR", "RP")]), st.data(), st.floats(0.15, 0.35))
+@given(st.sampled_from([("RR", "RR"), ("RR", "RP"), ("RR", "PR")]), st.data(), st.floats(0.15, 0.35))
 def test_every_pair_of_dyads_comes_back_from_five_of_its_positions(forms, data, step):
     """Of dyads drawn at random; sliders on the frame are in `test_positions`. A PR with an RP dyad is no exact task."""
     one, two = (data.draw(dyads(form)) for form in forms)
@@ -172,3 +172,33 @@ def test_every_pair_of_dyads_comes_back_from_five_of_its_positions(forms, data, 
     alike = [pins(d) for d in everything(result) if d.form in names and len(pins(d)) == len(wanted)]
     gaps = [np.abs(own - wanted).max(initial=0.0) for own in alike]
     assert min(gaps, default=np.inf) < 1e-4 * (1 + wanted.max(initial=0.0))
+
+
+def carried_on_a_line_and_a_circle(rng):
+    """Four displacements of a body with a point on a line and one on a circle, and the first point; None if none."""
+    on_line, on_circle, centre = (complex(*rng.normal(size=2)) for _ in range(3))
+    along, radius = np.exp(1j * rng.uniform(-3, 3)), abs(on_circle - centre)
+    turns = np.exp(1j * np.linspace(0, rng.uniform(0.3, 1.2), 5)[1:])
+    arms = on_line + turns * (on_circle - on_line) - centre
+    across = (arms * np.conj(along)).real
+    square = across**2 - abs(arms) ** 2 + radius**2
+    if (square < 0).any():
+        return None
+    ways = np.array([-across - np.sqrt(square), -across + np.sqrt(square)])
+    nearest = np.take_along_axis(ways, abs(ways).argmin(axis=0)[None], 0)[0]
+    return Displacements(turns, on_line + nearest * along - turns * on_line), on_line
+
+
+@pytest.mark.parametrize("form", ["PR", "RP"])
+def test_a_slide_is_told_from_a_far_pivot(form):
+    """The pivot of a slide lies at infinity; with rounding it is found at some 1e4 to 1e8 sizes."""
+    rng, tried = np.random.default_rng(3), 0
+    for _ in range(150):
+        drawn = carried_on_a_line_and_a_circle(rng)
+        if drawn is None:
+            continue
+        displacements, pivot = drawn
+        found = all_dyads(displacements if form == "PR" else displacements.inverse).real
+        assert [d for d in found if d.form == form and abs(d.moving - pivot) < 1e-6 * (1 + abs(pivot))]
+        tried += 1
+    assert tried > 80

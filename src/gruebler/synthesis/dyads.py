@@ -29,6 +29,8 @@ _REAL = 1e-7
 """Two conjugate numbers nearer to real than this are looked at as real: a double root has half the digits of 1e-16."""
 _FAR = 1e-9
 """A homogeneous coordinate smaller than this part of the others is at infinity: pivots 1e9 sizes away are no pivots."""
+_REMOTE = 1e3  # sizes: a pivot that is farther may be one at infinity, found with rounding
+_SAME = 1e-2  # sizes: two dyads whose other pivots are nearer are one; remote pivots differ by their inverse distance
 _EXACT = 1e-11
 """A polished dyad misses its condition by less, relative to its size."""
 
@@ -250,7 +252,13 @@ def _real_dyad(given: Displacements, x: Complexes) -> GuidingDyad | None:
     centre = np.conj(np.linalg.svd(np.einsum("i,jik->jk", x, _rows(given)))[2][-1])
     if abs(centre[2]) < _FAR:
         return _sliding(given, "PR")
-    return _polished(given, complex(x[0] / x[2]), complex(centre[0] / centre[2]))
+    turning = _polished(given, complex(x[0] / x[2]), complex(centre[0] / centre[2]))
+    if turning is not None and max(abs(turning.moving), abs(turning.fixed)) < _REMOTE:
+        return turning
+    # A pivot at infinity is found somewhere far away: what is meant has a slide, fits, and has the other pivot.
+    form, pivot = ("PR", complex(x[0] / x[2])) if abs(centre[2]) < abs(x[2]) else ("RP", complex(centre[0] / centre[2]))
+    sliding = _sliding(given, form)
+    return sliding if sliding is not None and abs(sliding.moving - pivot) < _SAME * (1 + abs(pivot)) else turning
 
 
 def _sliding(given: Displacements, form: str) -> GuidingDyad | None:
