@@ -155,7 +155,7 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["check", "--lang", "fr"], "invalid choice"),
         (["check", "--nonsense"], "unknown arguments: --nonsense"),
         (["check", "--explian", "vcomp"], "did you mean '--explain'?"),
-        (["chek"], "there is no command 'chek'; did you mean 'check'?"),
+        (["chek"], "there is no command 'chek' (did you mean 'check'?); see gruebler --help"),
         (["help", "chek"], "did you mean 'check'?"),
         (["catalog", "sho"], "did you mean 'show'?"),
         (["synthesise", "position", "a.csv"], "did you mean 'positions'?"),

@@ -138,7 +138,7 @@ def command(name: str, words: Sequence[str] = ()) -> Command:
         old, new = shlex.join([name, *words]), FORMER[name].format(words=shlex.join(words) if words else "...")
         raise GrueblerError("`gruebler {old}` is now `gruebler {new}`", old=old, new=new)
     raise GrueblerError(
-        "there is no command {name!r}{suggestion} (see gruebler --help)",
+        "there is no command {name!r}{suggestion}; see gruebler --help",
         name=name,
         suggestion=nearest(name, command_names()),
     )
