@@ -454,7 +454,7 @@ def _task(**changes):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"method": "dead_centre.slider_crank"}, "unknown method .* did you mean 'dead_centres.slider_crank'"),
+        ({"method": "dead_centre.slider_crank"}, "unknown method .* .did you mean 'dead_centres.slider_crank'"),
         ({"given": {"a": 20}}, "missing a required argument: 'b'"),
         ({"given": {"a": 20, "b": 50, "q": 1}}, "unexpected keyword argument 'q'"),
     ],

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from gruebler.cli.linkage_inputs import linkage_of_lengths
 from gruebler.cli.point_inputs import point_of
-from gruebler.errors import GrueblerError
+from gruebler.errors import GrueblerError, LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.text import LANGUAGES, translate
 
 __all__ = ["branch_sign", "coupler_point"]
 
@@ -25,14 +27,23 @@ def branch_sign(label: str | None) -> int:
 
 
 def coupler_point(size: FourBar | SliderCrank | InvertedSliderCrank, text: str) -> tuple[float, float]:
-    """The coordinates of a point of the coupler: U along it from the crank, V to its left.
+    """The coordinates of a point of the coupler: U along it from the crank, V to its left; links in any language.
 
     >>> coupler_point(FourBar(25, 70, 40, 70), "45,40"), coupler_point(FourBar(25, 70, 40, 70), "R(coupler-rocker)")
     ((45.0, 40.0), (70.0, 0.0))
+    >>> coupler_point(FourBar(25, 70, 40, 70), "Koppel:45,40")
+    (45.0, 40.0)
     """
     point = point_of(text)
-    places = size.linkage().points_named(point) if isinstance(point, str) else (point,)
-    for place in places:
-        if place.link == "coupler":
-            return place.x, place.y
+    for lang in LANGUAGES:
+        linkage, coupler = linkage_of_lengths(size, lang), translate("coupler", lang)
+        try:
+            places = linkage.points_named(point) if isinstance(point, str) else (point,)
+        except LinkageError:
+            if lang == LANGUAGES[-1]:
+                raise
+            continue
+        for place in places:
+            if place.link == coupler:
+                return place.x, place.y
     raise GrueblerError("expected a point of the coupler such as coupler:45,40, but found {found!r}", found=text)
