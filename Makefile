@@ -46,10 +46,11 @@ wheel-test: $(READY)
 	build/wheel/venv/bin/python -m pip install --quiet --disable-pip-version-check \
 		"$$(ls build/wheel/*.whl)[test]"
 	cd build/wheel && venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
-		$(addprefix ../../tests/,cli catalog exercises sheets test_chain.py test_pairs.py)
+		$(addprefix ../../tests/,cli/test_cli.py cli/test_coverage.py cli/test_languages.py cli/test_synthesise.py catalog \
+		exercises/test_tables.py sheets test_chain.py test_front_door.py)
 
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise.
-NUMERIC := $(addprefix tests/,analysis cams fourbar geometry kinematics linkages realisation screws statics test_geneva.py)
+NUMERIC := $(addprefix tests/,analysis cams fourbar geometry kinematics linkages realisation screws forces test_geneva.py)
 test-blas: $(READY)
 	OPENBLAS_CORETYPE=Haswell $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
 	OPENBLAS_CORETYPE=SkylakeX $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
@@ -61,7 +62,8 @@ test-kernels: $(READY)
 	GRUEBLER_KERNELS=interpreted $(BIN)/python -m pytest -q -n 2 --longest 60
 
 # What other versions of Python and of the packages could break, in a few minutes; BROAD=tests runs everything.
-BROAD := $(addprefix tests/,analysis catalog cli fourbar isomorphism kinematics linkages mobility test_chain.py)
+BROAD := $(addprefix tests/,analysis catalog cli/test_cli.py cli/test_analyse.py cli/test_structure_commands.py fourbar \
+	isomorphism kinematics linkages mobility test_chain.py test_front_door.py)
 # Environments of their own, kept in build/: another version of the compiler does not touch the kernels of .venv.
 NEWEST ?= $(PYTHON)
 test-lowest: export NUMBA_CACHE_DIR = $(CURDIR)/build/lowest/kernels
