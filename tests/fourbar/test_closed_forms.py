@@ -172,6 +172,10 @@ def test_dead_centres_are_the_extremes_of_the_output(linkage):
     centres = linkage.dead_centres
     assume(centres is not None)
     assume(linkage.transmission_angle.smallest.mu > 0.1)
+    if isinstance(
+        linkage, InvertedSliderCrank
+    ):  # with a near d the extremes are too sharp for the parabola of `refined`
+        assume(abs(linkage.a - linkage.d) > 0.02 * linkage.d)
     start = (centres.inner.drive + centres.phi_forward / 2) % (2 * np.pi)
     output = linkage.motion(DENSE + start).output.value
     if not isinstance(linkage, SliderCrank):
