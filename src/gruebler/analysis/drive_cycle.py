@@ -6,7 +6,7 @@ docs/theory/events.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import degrees, pi
 from typing import NamedTuple
@@ -54,8 +54,6 @@ _LAW_NOISE = (
     1e-6,
     1e-3,
 )  # of the usual size: errors of the pieces of laws and their derivatives, and room
-_MANY = 64  # poses that are worth keeping
-_KEPT = 3  # motions: those on the grid, on the grid with the joints of laws, on parts of it
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
@@ -99,8 +97,6 @@ class DriveCycle(Brief):
     span: CycleSpan
     grid: Reals
     """Drive values, ascending, finer where the motion bends; of a full turn the first comes once more at the end."""
-    _kept: dict[bytes, Motion] = field(default_factory=dict, compare=False, kw_only=True)
-    """The last motions of many poses, by their drive values."""
 
     @property
     def linkage(self) -> Linkage:
@@ -140,43 +136,15 @@ class DriveCycle(Brief):
     def at(self, drives: Reals, order: int = 3) -> Motion:
         """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
 
-        Many poses are kept for the next call with these drive values. Raises `LinkageError` if one cannot be reached.
+        Raises `LinkageError` if one of them cannot be reached.
         """
         order_of = np.argsort(drives, kind="stable")
-        ascending = np.asarray(drives, np.float64)[order_of]
-        key = ascending.tobytes()
-        motion = self._kept.get(key)
-        if motion is None or motion.order < order:
-            motion = self._along(ascending, order)
-            if len(ascending) >= _MANY:
-                self._kept.pop(key, None)
-                self._kept[key] = motion
-            if len(self._kept) > _KEPT:
-                self._kept.pop(next(iter(self._kept)))
-        return _rows(motion, np.argsort(order_of, kind="stable"), order)
-
-    def _along(self, drives: Reals, order: int) -> Motion:
-        """The poses at ascending drive values."""
-        start = self._nearest(drives[0])
-        motion, rows = _run(self.plan, np.concatenate([start.drives[0], drives]), order, start)
+        first = self.start.drives[0]
+        path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
+        motion, rows = _run(self.plan, path, order, self.start)
         if not motion.complete:
             raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
-        motion.whole[:] += start.whole[0]
-        return _rows(motion, rows[1:], order)
-
-    def _nearest(self, drive: float) -> Motion:
-        """The start, or a nearer pose that is kept; none next to a change point or an end of the range."""
-        branching = [dyad.number for dyad in self.plan.dyads if dyad.branching]
-        best, margin = self.start, 0.0 if self.span.full else _WELL * self.span.width
-        for motion in self._kept.values():
-            at = motion.drives[:, 0]
-            well = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _WELL
-            well &= ((at >= self.span.low + margin) & (at <= self.span.high - margin)) | self.span.full
-            far = np.where(well, np.abs(at - drive), np.inf)
-            row = int(far.argmin())
-            if far[row] < abs(best.drives[0, 0] - drive):
-                best = _rows(motion, np.array([row]), 0)
-        return best
+        return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
     def end(self, function: Callable[[Motion], Reals | Complexes], upper: bool, size: float = 1.0) -> complex:
         """The value of a function of that size at an end of the range, where poses themselves are ill-conditioned.
@@ -291,15 +259,16 @@ class PathCycle(DriveCycle):
         """The drive values at parts of the path; (n, drives)."""
         return np.asarray(self.ends[0] + np.asarray(parts, np.float64)[:, None] * (self.ends[1] - self.ends[0]))
 
-    def _along(self, drives: Reals, order: int) -> Motion:
-        """The poses at ascending parts of the path; rates by the part."""
-        parts = np.concatenate([[0.0], drives])
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at parts of the path, in any order; rates by the part."""
+        order_of = np.argsort(drives, kind="stable")
+        parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
         motion = move(
             self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
         )
         if not motion.complete:
             raise LinkageError("{reason}", reason=motion.reason)
-        return _rows(motion, np.arange(1, len(parts)), order)
+        return _rows(motion, 1 + np.argsort(order_of, kind="stable"))
 
 
 def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCycle:
@@ -336,13 +305,13 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     return motion, rows
 
 
-def _rows(motion: Motion, rows: np.ndarray, order: int) -> Motion:
+def _rows(motion: Motion, rows: np.ndarray) -> Motion:
     return replace(
         motion,
         drives=motion.drives[rows],
-        places=motion.places[: order + 1, rows],
+        places=motion.places[:, rows],
         turns=motion.turns[rows],
-        rates=motion.rates[:order, rows],
+        rates=motion.rates[:, rows],
         whole=motion.whole[rows],
         roots=motion.roots[rows],
         unknowns=motion.unknowns[rows],
@@ -383,19 +352,15 @@ def _span(plan: Plan, start: Motion) -> CycleSpan:
     q = float(start.drives[0, 0])
     turning = _turns(plan)
     most = _MOST_WITH_WHEELS if plan.wheels else _MOST_TURNS
-    turns = 1 if turning else 0
-    while True:  # Most linkages are back after one turn, or have stopped.
-        steps = np.linspace(0, 2 * pi * turns if turning else _FAR * plan.lower.size, (turns if turning else 40) + 1)
-        above, rows = _run(plan, q + steps, 0, start)
-        back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
-        if back:
-            return CycleSpan(q, q + 2 * pi * back[0], True, back[0], (None, None))
-        if not above.complete or not turning or turns == most:
-            break
-        turns = min(2 * turns, most)
+    longest = 2 * pi * most if turning else _FAR * plan.lower.size
+    steps = np.linspace(0, longest, (most if turning else 40) + 1)
+    above, rows = _run(plan, q + steps, 0, start)
+    back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
+    if back:
+        return CycleSpan(q, q + 2 * pi * back[0], True, back[0], (None, None))
     short = steps[: _MOST_TURNS + 1] if turning else steps
     if above.complete:
-        above = _rows(above, rows[: len(short)], 0)
+        above = _rows(above, rows[: len(short)])
     below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
     return CycleSpan(low, high, False, 0, (below.stop, above.stop))
@@ -420,22 +385,21 @@ def _grid(cycle: DriveCycle) -> Reals:
 
     least = _STILL / cycle.drive_size
     suspect = np.ones(len(s) - 1, bool)
-    speed, change = np.empty((2, 0, len(cycle.plan.lower.mechanism.chain.links)))
     for _ in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
-        new = middles if len(speed) else np.concatenate([s, middles])
-        rates = cycle.at(drive(new), 3).rates  # of the order that the search for zeros asks for
-        speed, change = (np.concatenate([before, now]) for before, now in zip((speed, change), rates[:2], strict=True))
-        between = speed[len(s) :]
-        usual = np.quantile(np.abs(speed[: len(s)]), 0.9, axis=0)
+        rates = cycle.at(drive(np.concatenate([s, middles])), 2).rates
+        speed, change, between = rates[0, : len(s)], rates[1, : len(s)], rates[0, len(s) :]
+        usual = np.quantile(np.abs(speed), 0.9, axis=0)
         width = np.diff(drive(s))[:, None]
-        cubic = (speed[: len(s) - 1] + speed[1 : len(s)]) / 2 + width / 8 * (change[: len(s) - 1] - change[1 : len(s)])
+        cubic = (speed[:-1] + speed[1:]) / 2 + width / 8 * (change[:-1] - change[1:])
         off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + least
         bent = np.zeros(len(s) - 1, bool)
         bent[suspect] = off.any(axis=1)
         order = np.argsort(np.concatenate([s, middles]), kind="stable")
-        parts = np.where(suspect, 2, 1)
-        s, speed, change = np.concatenate([s, middles])[order], speed[order], change[order]
+        halved = np.flatnonzero(suspect)
+        parts = np.ones(len(s) - 1, int)
+        parts[halved] = 2
+        s = np.concatenate([s, middles])[order]
         suspect = np.repeat(bent, parts)
         if not suspect.any():
             break
