@@ -354,8 +354,13 @@ def _span(plan: Plan, start: Motion) -> CycleSpan:
     most = _MOST_WITH_WHEELS if plan.wheels else _MOST_TURNS
     longest = 2 * pi * most if turning else _FAR * plan.lower.size
     steps = np.linspace(0, longest, (most if turning else 40) + 1)
-    above, rows = _run(plan, q + steps, 0, start)
-    back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
+    for count in _doubled(
+        1 if turning else 40, len(steps) - 1
+    ):  # most linkages repeat after one turn, some with wheels after hundreds
+        above, rows = _run(plan, q + steps[: count + 1], 0, start)
+        back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
+        if back or not above.complete:
+            break
     if back:
         return CycleSpan(q, q + 2 * pi * back[0], True, back[0], (None, None))
     short = steps[: _MOST_TURNS + 1] if turning else steps
@@ -364,6 +369,14 @@ def _span(plan: Plan, start: Motion) -> CycleSpan:
     below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
     return CycleSpan(low, high, False, 0, (below.stop, above.stop))
+
+
+def _doubled(first: int, last: int) -> Iterator[int]:
+    """first, 2 first, 4 first, ... and last."""
+    while first < last:
+        yield first
+        first *= 2
+    yield last
 
 
 def _same(plan: Plan, motion: Motion, row: int) -> bool:

@@ -16,6 +16,7 @@ from enum import StrEnum
 
 from gruebler._numeric.modular import P, modular_inverse
 from gruebler.chain import Chain
+from gruebler.disjoint_sets import DisjointSets
 from gruebler.mobility.rank import Generic
 
 __all__ = ["IdleCondition", "IdleFreedom", "between_balls", "idle_freedoms"]
@@ -73,24 +74,16 @@ def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple
     Each part with the numbers of its two balls. Cost O(joint elements).
     """
     balls = [k for k, joint in enumerate(chain.joints) if joint.pair.name == "spherical"]
-    part_of = {link: link for link in chain.links}
-
-    def part(link: str) -> str:
-        while part_of[link] != link:
-            part_of[link] = link = part_of[part_of[link]]
-        return link
-
+    sets = DisjointSets(chain.links)
     for joint in chain.joints:
         if joint.pair.name != "spherical":
             for other in joint.links[1:]:
-                part_of[part(other)] = part(joint.links[0])
-    members: dict[str, list[str]] = {}
-    for link in chain.links:
-        members.setdefault(part(link), []).append(link)
+                sets.unite(joint.links[0], other)
+    members = {sets.find(links[0]): links for links in sets.classes()}
     at: dict[str, list[int]] = {}
     for k in balls:
         for link in chain.joints[k].links:
-            at.setdefault(part(link), []).append(k)
+            at.setdefault(sets.find(link), []).append(k)
     parts = []
     for root, links in members.items():
         part_balls = at.get(root, [])
