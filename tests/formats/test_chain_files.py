@@ -159,3 +159,23 @@ def test_the_table_of_forms_and_the_table_of_formats_agree():
     assert len(endings) == len(set(endings))
     for form in files.FORMATS:
         assert form.carries.in_language("de")
+
+
+WATT = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)")
+LETTERS = '"<>[]{}()=-;,&#/\\ \n\t0aé\x00'
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 12), st.sampled_from(LETTERS)), min_size=1, max_size=4))
+@pytest.mark.parametrize("form", [*GRAPHS, *LINES])
+def test_damaged_texts_are_a_chain_or_one_sentence(form, damages):
+    """What the parsers raise for letters lost and put in is a refusal, whatever its kind."""
+    text = LINES[form][1](WATT) if form in LINES else graph_text(WATT, form, [])
+    for number, lost, letter in damages:
+        place = number % (len(text) + 1)
+        text = text[:place] + letter + text[place + lost :]
+    try:
+        chain = LINES[form][0](text) if form in LINES else chain_from_graph_text(text, form)
+    except GrueblerError:
+        return
+    assert chain.n >= 3

@@ -47,11 +47,18 @@ def chain_from_graph_text(text: str, form: str) -> Chain:
         raise
     except RecursionError:
         raise GrueblerError("is nested too deeply") from None
-    except Exception as error:  # networkx raises what it meets
+    except _unreadable() as error:
         raise GrueblerError("is no {form} file: {reason}", form=form, reason=error or type(error).__name__) from None
     if graph.number_of_nodes() > _MOST:
         raise GrueblerError("a chain of {count:,} links is more than {most:,}", count=len(graph), most=_MOST)
     return _chain(graph)
+
+
+def _unreadable() -> tuple[type[Exception], ...]:
+    """What the parsers of networkx raise for a damaged text: few kinds of their own, mostly those of the builtins."""
+    import networkx
+
+    return networkx.NetworkXException, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, SyntaxError
 
 
 def graph_text(chain: Chain, form: str, left_out: list[Message]) -> str:
@@ -190,7 +197,7 @@ def _from_sparse6(line: str) -> Chain:
 
     try:
         graph = networkx.from_sparse6_bytes(line.removeprefix(">>sparse6<<").encode("ascii"))
-    except Exception as error:  # networkx raises what it meets
+    except _unreadable() as error:
         raise GrueblerError("is no sparse6 code: {reason}", reason=error or type(error).__name__) from None
     return _chain(networkx.MultiGraph(graph))
 
