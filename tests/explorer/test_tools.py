@@ -1,0 +1,19 @@
+"""Tests of the page are skipped where a tool is missing; in CI none may be."""
+
+import os
+import shutil
+from importlib.util import find_spec
+
+import pytest
+
+from tests.explorer.conftest import BROWSERS
+
+
+@pytest.mark.skipif("CI" not in os.environ, reason="elsewhere a missing tool skips the tests that need it")
+def test_nothing_that_the_page_is_tested_with_is_missing():
+    programs = [name for name in ("node", "npm") if shutil.which(name) is None]
+    packages = [
+        name for name in ("starlette", "uvicorn", "websockets", "anywidget", "playwright") if not find_spec(name)
+    ]
+    browser = any(shutil.which(name) for name in BROWSERS)
+    assert (programs, packages, browser) == ([], [], True)
