@@ -44,7 +44,7 @@ def dxf_from_linkage(
     Raises `GrueblerError` for wheels and cams, for lengths that are not positive, and without ezdxf.
     """
     try:
-        import ezdxf
+        from ezdxf.filemanagement import new
     except ImportError:
         raise GrueblerError('DXF needs ezdxf: pip install "gruebler[cad]"') from None
     hole = linkage.size / _HOLES if hole is None else hole
@@ -56,7 +56,7 @@ def dxf_from_linkage(
     drawing = drawing_of(linkage, left_out)
     pins = [joint for joint in drawing.joints if len(joint.links) > 1]
     origin = next((joint for joint in pins if drawing.frame in joint.links), pins[0])
-    document = ezdxf.new("R2000")
+    document = new("R2000")
     document.header["$INSUNITS"] = _UNITS.get(drawing.unit, 0)
     if drawing.unit not in _UNITS:
         left_out.append(message("the unit {unit}", unit=drawing.unit))
@@ -66,10 +66,10 @@ def dxf_from_linkage(
     layers = _layers(links)
     for number, link in enumerate(links):
         document.layers.add(layers[link], color=_COLOURS[number % len(_COLOURS)])
-        mine = [joint for joint in drawing.joints if link in joint.links]
-        outline = plate_outline([(joint.x - origin.x, joint.y - origin.y) for joint in mine], margin)
+        joints = [joint for joint in drawing.joints if link in joint.links]
+        outline = plate_outline([(joint.x - origin.x, joint.y - origin.y) for joint in joints], margin)
         space.add_lwpolyline(outline, format="xyb", close=True, dxfattribs={"layer": layers[link]})
-        for joint in mine:
+        for joint in joints:
             if len(joint.links) > 1 and (joint.slot is None or (joint.turns and link != joint.links[0])):
                 at = (joint.x - origin.x, joint.y - origin.y)
                 space.add_circle(at, hole / 2, dxfattribs={"layer": layers[link]})
