@@ -59,7 +59,7 @@ def test_special_dimensions_are_told():
     report = machine_report(entry("loco3"))
     assert (report.mobility.counted, report.moves) == (0, 1)
     assert "3 equal and parallel cranks" in report.explain()
-    assert "almost all sizes would give another mobility than 1" in report.explain()
+    assert "almost all other dimensions would give another mobility than 1" in report.explain()
     shaky = machine_report(entry("pumpjack_rod"))
     assert shaky.moves == 0
     assert "only shaky" in shaky.explain()

@@ -218,7 +218,7 @@ MISTAKES = [
     (
         '"R(rod-piston)" = [50, 0]',
         '"R(rod-piston)" = [5, 0], "R(piston-rod)" = [5, 0]',
-        "this joint stands there twice",
+        "this joint is given twice",
     ),
     (', "R(rod-piston)" = [50, 0]', "", "R(rod-piston) has no dimensions on 'rod'"),
     ("[0, 10, 0]", "[0, 10, true]", "expected an angle in degrees, but found True"),

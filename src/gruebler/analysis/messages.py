@@ -136,9 +136,9 @@ def stroke_lines(
         text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.")
     yield text.filled(forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
     if phi_forward - phi_back > _CONSTANT:
-        yield message("In the positive sense the way outward is the slow one.")
+        yield message("Turning counter-clockwise, the slow stroke is the outward one.")
     elif phi_back - phi_forward > _CONSTANT:
-        yield message("In the positive sense the way inward is the slow one.")
+        yield message("Turning counter-clockwise, the slow stroke is the inward one.")
 
 
 def time_lines(rpm: float | None, times: StrokeTimes | None, at_rest: float | None) -> Iterator[Message]:

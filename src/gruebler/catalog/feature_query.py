@@ -114,7 +114,7 @@ def read_pairs(text: str) -> tuple[tuple[Pair, int], ...]:
                 part=part,
             )
         if symbol in numbers:
-            raise GrueblerError("{query!r}: {symbol} stands there twice", query=text, symbol=symbol)
+            raise GrueblerError("{query!r}: {symbol} is given twice", query=text, symbol=symbol)
         numbers[symbol] = int(number)
     try:
         read = read_symbols(numbers, Space.PLANAR)

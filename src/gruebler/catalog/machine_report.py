@@ -218,8 +218,8 @@ _TEXTS = {
     "generic": message("{mobility}, for almost all sizes."),
     "hand": message("Not driven at a joint."),
     "special": message(
-        "What moves because of special dimensions stands above; almost all sizes would give another "
-        "mobility than {moves}."
+        "The motion that special dimensions allow is described above; almost all other dimensions "
+        "would give another mobility than {moves}."
     ),
     "assumed": message("Assumed; none are printed."),
     "source": message("From {source}."),

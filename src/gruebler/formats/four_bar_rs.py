@@ -44,7 +44,7 @@ def drawing_from_ron(text: str, left_out: list[Message]) -> PinDrawing:
         if match is None:
             raise GrueblerError("expected key: value, but found {text!r}", text=inner[place : place + 40])
         if match[1] in fields:
-            raise GrueblerError("the key {key!r} stands there twice", key=match[1])
+            raise GrueblerError("the key {key!r} is given twice", key=match[1])
         fields[match[1]] = match[2]
         place = match.end()
     state = fields.pop("stat", _STATES[0]).lower()

@@ -129,7 +129,9 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
         )
     way = given[0]
     if sizes.home is not None and way != "elements":
-        raise LinkageError("home goes with elements; {way} says itself how the linkage is assembled", way=way)
+        raise LinkageError(
+            "home is allowed with elements only; {way} itself decides how the linkage is assembled", way=way
+        )
     if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
         raise LinkageError(
             "unit: expected the name of a unit of length such as 'mm', but found {unit!r}", unit=sizes.unit[:20]
@@ -185,7 +187,7 @@ def _by_joint(
         except LinkageError as error:
             raise LinkageError("{where}: {error}", where=where, error=error) from None
         if number in out:
-            raise LinkageError("{where}.{joint}: this joint stands there twice", where=where, joint=joint)
+            raise LinkageError("{where}.{joint}: this joint is given twice", where=where, joint=joint)
         out[number] = _element(raw, f"{where}.{joint}", slots)
     return out
 

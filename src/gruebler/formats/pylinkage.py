@@ -243,7 +243,7 @@ def pylinkage_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict
     """
     frame = drawing.frame
     if any(joint.slot is not None and not (joint.turns and joint.links[0] == frame) for joint in drawing.joints):
-        raise GrueblerError("of what slides the format holds pins in slots of the frame only")
+        raise GrueblerError("the only sliding joints that the format can hold are pins in slots of the frame")
     members: dict[str, list[DrawnJoint]] = {}
     for joint in drawing.joints:
         for link in joint.links:

@@ -179,7 +179,7 @@ class DeadCentres(NamedTuple):
         """The times of both ways in seconds at a speed in turns a minute; a negative one turns the other way."""
         speed = as_finite("rpm", rpm)
         if speed == 0:
-            raise LinkageError("rpm must not be 0: a crank that stands still takes no time to speak of")
+            raise LinkageError("rpm must not be 0: the times of a crank at rest are undefined")
         angles = (self.phi_forward, self.phi_back) if speed > 0 else (self.phi_back, self.phi_forward)
         return StrokeTimes(*(angle / TURN * 60 / abs(speed) for angle in angles))
 

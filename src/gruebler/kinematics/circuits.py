@@ -358,10 +358,11 @@ def _start(
             break
     if best is None:
         raise LinkageError(
-            "the linkage cannot be assembled at any of {count} values of its drive; another drive value or a home may "
-            "help"
+            "the linkage cannot be assembled at any of {count} drive values; another drive value or a "
+            "reference pose (home) may help"
             if drive is None
-            else "the linkage cannot be assembled at {drive:.9g}; another drive value or a home may help",
+            else "the linkage cannot be assembled at {drive:.9g}; another drive value or a reference pose "
+            "(home) may help",
             count=_TRIALS,
             drive=drive,
         )
@@ -383,7 +384,7 @@ def _movable(system: ClosureSystem, pose: Reals, tangent: Reals, rank: int) -> t
 def _trial_values(lower: Linkage) -> Iterator[float]:
     """Drive values for a start, far apart at first, then closer and closer."""
     if not lower.mechanism.drives:
-        raise LinkageError("a circuit starts from a home position or from a drive value; this linkage has neither")
+        raise LinkageError("a circuit starts from a reference pose or from a drive value; this linkage has neither")
     reach = np.pi if lower.mechanism.drives[0].turning else _REACH * lower.size
     for k in range(_TRIALS):
         part = sum(((k >> bit) & 1) / 2 ** (bit + 1) for bit in range(10))
@@ -399,7 +400,8 @@ def _assembled(
     except LinkageError as error:
         if system.redundant and system.lower.reference_pose is None:
             raise LinkageError(
-                "{error} With a home (Linkage.drawn) its circuit can be followed all the same.", error=error
+                "{error} With a reference pose (Linkage.from_drawing) its circuit can be followed all the same.",
+                error=error,
             ) from None
         raise
     if not len(motion):

@@ -94,7 +94,7 @@ def _check_phase(lower: Linkage, keys: Keys, found: Condition) -> None:
     off -= part * floor(off / part + 0.5)
     if abs(off) > _MESHES:
         raise LinkageError(
-            "the non-circular wheels do not mesh at home: turn {keys!r}, or its direction, by {off:.9g}°",
+            "the non-circular wheels do not mesh in the reference pose: turn {keys!r}, or its direction, by {off:.9g}°",
             keys=keys[found.sides[1]][1],
             off=degrees(off),
         )

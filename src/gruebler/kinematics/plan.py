@@ -214,7 +214,8 @@ def plan(linkage: Linkage) -> Plan:
     lower = with_lower_pairs(linkage)
     if lower.reference_pose is None and round_joints(lower.mechanism, lower.elements):
         raise LinkageError(
-            "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
+            "wheels roll from a known position: the linkage needs a reference pose (home) or a drawing "
+            "(Linkage.from_drawing, places)"
         )
     parts = decompose(lower.mechanism)
     released: tuple[int, ...] = ()

@@ -115,8 +115,8 @@ def independent_part(linkage: Linkage) -> Independent:
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
-            "Its home position is a change point, or its drives leave something free there: give it another one. "
-            "`gruebler check --explain` says which velocities there are."
+            "Its reference pose is a change point, or its drives do not fix everything there: choose "
+            "another one. `gruebler check --explain` lists the possible velocities."
         )
     chosen = _simplest(linkage, list(_releases(conditions, x)), forces)
     return Independent(_released(linkage, chosen), tuple(sorted({_release.joint for _release in chosen})))

@@ -119,7 +119,9 @@ def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
     out = signs.copy()
     for part, label in zip(labelled_groups(plan), labels, strict=True):
         if isinstance(part, HigherGroup):
-            raise LinkageError("branch: a linkage with wheels and a larger group is assembled as in its home only")
+            raise LinkageError(
+                "branch: a linkage with wheels and a larger group can be assembled as in its reference pose only"
+            )
         out[part.number] = -1.0 if label == "-" else 1.0
         behind = plan.parts[plan.parts.index(part) :]
         if out[part.number] != signs[part.number] and any(isinstance(p, HigherGroup) and p.contacts for p in behind):

@@ -39,7 +39,7 @@ def closed_pose(
     """
     if isinstance(linkage, SpatialLinkage):
         if branch is not None:
-            raise LinkageError("a linkage that is given by its home has no assembly mode to choose")
+            raise LinkageError("a linkage given by its reference pose has no assembly mode to choose")
         closing = Closing.of(linkage)
         return closing, closing.home if at is None else _driven(closing, closing.home, at, linkage.size)
     closing = _planar(linkage)

@@ -40,8 +40,8 @@ _FINITE = {
         "to {reach:g} (radians; lengths in sizes of the linkage)."
     ),
     "stressed": message(
-        "Finite: 0. It is only shaky: the redundant constraints open by the square of the displacement, whichever "
-        "velocity is followed ({open:.1e} of the size after {reach:g})."
+        "Finite: 0. The linkage is only shaky: along every velocity the redundant constraints open "
+        "with the square of the displacement ({open:.1e} of the size after {reach:g})."
     ),
     "shaky": message(
         "Finite: 0. It is only shaky: along every velocity that was followed the joints open, by about the power "
@@ -82,12 +82,14 @@ _REASONS = {
         "turns about the line through them."
     ),
     "cranks": message(
-        "{links} are {number} equal and parallel cranks between {first} and {second}; two of them say all."
+        "{links} are {number} equal and parallel cranks between {first} and {second}; two of them would suffice."
     ),
     "copies": message(
         "between {first} and {second} the same guidance is there {number} times, joint for joint: {links}."
     ),
-    "planets": message("{links} are equal wheels on one carrier that mesh with the same wheels; one of them says all."),
+    "planets": message(
+        "{links} are equal wheels on one carrier that mesh with the same wheels; one of them would suffice."
+    ),
     "centres": message(
         "{first} and {second} touch on the line of their centres, where their bearings on {links} already hold the "
         "distance."

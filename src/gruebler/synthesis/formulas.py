@@ -175,7 +175,7 @@ class FunctionLaw:
         values = formula(np.linspace(low, high, 1001))
         if not np.isfinite(values).all():
             raise SynthesisError(
-                "the function {function!r} has no value somewhere from {low:g} to {high:g}",
+                "the function {function!r} is not defined everywhere from {low:g} to {high:g}",
                 function=self.function,
                 low=low,
                 high=high,

@@ -76,7 +76,9 @@ def synthesise_path(
         from gruebler.synthesis.curves import fit_path
 
         if oriented or task.fixed_pivots:
-            raise SynthesisError("so many points are met by least squares, without coupler angles and fixed pivots")
+            raise SynthesisError(
+                "this number of points is met by least squares, without coupler angles and fixed pivots"
+            )
         return fit_path(task, wanted, number=number, progress=progress)
     problem = next(p for p in PROBLEMS if p.poses == poses and p.given_pivots == bool(task.fixed_pivots))
     return _exact(task, wanted, problem, oriented, threads, progress)

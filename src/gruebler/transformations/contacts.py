@@ -68,13 +68,13 @@ def restore_roll_slide(chain: Chain, link: str) -> Step:
         or letters_of_pairs(j.pair for j in joints) not in _EQUIVALENTS
     ):
         raise TransformationError(
-            "{link} does not stand for a roll-slide joint: it must be a binary link with two simple "
+            "{link} cannot be replaced by a roll-slide joint: it must be a binary link with two simple "
             "revolutes, or one revolute and one prismatic joint",
             link=link,
         )
     if others[0] == others[1]:
         raise TransformationError(
-            "{link} does not stand for a roll-slide joint: both its joints are on {others!r}",
+            "{link} cannot be replaced by a roll-slide joint: both its joints are on {others!r}",
             link=link,
             others=others[0],
         )
