@@ -94,13 +94,15 @@ CHAIN = gr.Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
 MECHANISM = gr.Mechanism(CHAIN, "0", [0])
 FOUND_A_MECHANISM = "expected Chain, but found Mechanism: take its chain"
 MISTAKES = [
+    (lambda: gr.Chain.parse(5), "expected str, but found int"),
+    (lambda: gr.draw(CRANK_ROCKER, curvs=["K"]), "no option 'curvs' (did you mean 'curves'?)"),
     (lambda: gr.move(CHAIN, [0.0]), "a Chain has no dimensions: realise(mechanism) finds some"),
     (lambda: gr.move(gr.FourBar, [0.0]), "expected a linkage, a FourBar"),
     (lambda: gr.measures(entry("loco3").placed()), "expected a planar linkage, but found a SpatialLinkage"),
     (lambda: gr.draw(7), "values of type int have no picture"),
     (lambda: gr.draw(CRANK_ROCKER, poses=3), "draw_linkage has no option 'poses'"),
     (lambda: gr.animate(CHAIN), "values of type Chain have no moving picture"),
-    (lambda: gr.plot(CRANK_ROCKER, "transmision"), "there is no plot 'transmision'"),
+    (lambda: gr.plot(CRANK_ROCKER, "transmision"), "there is no plot 'transmision' (did you mean 'transmission'?)"),
     (lambda: gr.draw(CRANK_ROCKER).save("x.bmp"), "end it with .svg, .png or .pdf"),
     (lambda: gr.write("x.toml", CRANK_ROCKER), "the value comes first, then 'x.toml'"),
     (lambda: gr.write(CRANK_ROCKER, 7), "expected the path of a file, but found 7"),

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gruebler.atomic_files import atomic_file
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import picture_bytes, suffix_of
-from gruebler.errors import GrueblerError
+from gruebler.errors import GrueblerError, nearest
 
 if TYPE_CHECKING:
     from gruebler.drawing.canvas.moving_picture import MovingPicture
@@ -167,7 +167,12 @@ def plot(linkage: object, kind: str = "transfer", **options: Any) -> Picture:
     from gruebler.linkages.conversion import as_linkage
 
     if kind not in _PLOTS:
-        raise GrueblerError("there is no plot {kind!r}; there are {known}", kind=kind, known=", ".join(_PLOTS))
+        raise GrueblerError(
+            "there is no plot {kind!r}{suggestion}; there are {known}",
+            kind=kind,
+            suggestion=nearest(str(kind), _PLOTS),
+            known=", ".join(_PLOTS),
+        )
     return Picture(_called(_function(*_PLOTS[kind]), as_linkage(linkage), options))
 
 
@@ -213,9 +218,10 @@ def _called(function: Callable[..., Any], value: object, options: Mapping[str, A
     for option in options:
         if option not in known and "options" not in known:
             raise GrueblerError(
-                "{function} has no option {option!r}; it has {known}",
+                "{function} has no option {option!r}{suggestion}; it has {known}",
                 function=function.__name__,
                 option=option,
+                suggestion=nearest(option, known),
                 known=", ".join(known),
             )
     return function(value, **options)

@@ -251,7 +251,10 @@ def without_arm():
         (lambda: pair("inverse"), "one of two non-circular wheels has a transfer function, the other 'inverse'"),
         (lambda: pair("ellipse 0.5", (20, 0)), "tooth numbers on both wheels or on none"),
         (lambda: pair("ellipse 0.5", (-20, -20)), "teeth: expected a positive number, but found -20"),
-        (lambda: with_second(angle=pi + 0.01), "do not mesh in the reference pose: turn 'b', or its direction, by -0.57"),
+        (
+            lambda: with_second(angle=pi + 0.01),
+            "do not mesh in the reference pose: turn 'b', or its direction, by -0.57",
+        ),
         (lambda: with_second(Wheel(0, 0, 50)), "a non-circular wheel .* on each of its links"),
         (without_arm, "need a link that carries both centres by pins"),
     ],

@@ -19,7 +19,7 @@ from gruebler.chain.documents import read_document, read_graph6
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Alphabet, Pair, Space
 from gruebler.chain.soundness import check_connected, checked_joint, checked_links
-from gruebler.errors import ChainError, nearest
+from gruebler.errors import ChainError, expect, nearest
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -87,6 +87,7 @@ class Chain:
         >>> len(Chain.parse("g6:Cr").joints)
         4
         """
+        expect(text, str)
         if text.lstrip().lower().startswith("g6:"):
             return cls.from_graph6(text.strip()[3:].strip())
         read_space, joints = notation.read(text, space)
