@@ -424,6 +424,12 @@ export class MotionView {
     this.track.show(machine.cycle, machine.drive?.turning ?? true, machine.model.span.between, this.dead, this.least?.value ?? null, machine.model.unit);
   }
 
+  /** Where in the period an extreme lies; it is known to about a millionth of a radian. */
+  private placeOf(value: number): number {
+    const place = this.track.wrapped(value);
+    return this.machine.drive?.turning ? Math.round(place * 1e6) / 1e6 : place;
+  }
+
   shownDrive(value: number, digits = 5): string {
     const { drive, model } = this.machine;
     return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
@@ -455,11 +461,11 @@ export class MotionView {
     }
     if (Number.isFinite(mu)) {
       facts.push([t("Transmission angle"), angle(mu), mu < GOOD ? "bad" : "good"]);
-      if (this.least) facts.push([t("smallest"), `${angle(this.least.mu)} · ${this.shownDrive(this.track.wrapped(this.least.value), 4)}`, this.least.mu < GOOD ? "bad" : "good"]);
+      if (this.least) facts.push([t("smallest"), `${angle(this.least.mu)} · ${this.shownDrive(this.placeOf(this.least.value), 4)}`, this.least.mu < GOOD ? "bad" : "good"]);
     }
     const { cycle } = machine;
     if (machine.drive) facts.push([t("Range of the drive"), cycle.full ? (cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns })) : `${this.shownDrive(cycle.low, 5)} … ${this.shownDrive(cycle.high, 5)}`]);
-    if (this.dead.length) facts.push([t("Dead centres"), this.dead.map((value) => this.shownDrive(this.track.wrapped(value), 5)).join(", ")]);
+    if (this.dead.length) facts.push([t("Dead centres"), this.dead.map((value) => this.placeOf(value)).sort((a, b) => a - b).map((value) => this.shownDrive(value, 5)).join(", ")]);
     this.facts.replaceChildren(...facts.flatMap(([name, text, style]) => [h("dt", {}, name), h("dd", { class: style ?? "" }, text)]));
     for (const { plot } of this.plotParts) if (drive !== undefined) plot.at(this.plotted(drive));
   }

@@ -36,7 +36,7 @@ def add(parser: Parser) -> None:
         help="a file, a catalog entry, a chain or mechanism as text, lengths such as four-bar:25,70,40,70, or a link "
         "copied from the page (default: crankrocker)",
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="one file .html instead of a server")
+    parser.add_out(help="one file .html instead of a server", endings=("html", "htm"))
     parser.add_argument("--port", type=int, metavar="N", help="where it listens (default: 8117, or any free one)")
     parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help="who may reach it (default: 127.0.0.1)")
     parser.add_argument("--no-browser", action="store_true", help="only print the address")
@@ -47,12 +47,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.port is not None and not 0 <= arguments.port < 65536:
         raise GrueblerError("--port: expected a number from 0 to 65535, but found {port}", port=arguments.port)
     model = _model(arguments.linkage, arguments.lang)
-    if arguments.output is not None:
+    if arguments.out is not None:
         from gruebler.explorer.page import single_file
 
-        if arguments.output.suffix.lower() not in (".html", ".htm"):
-            raise GrueblerError("-o: expected a file .html, but found {name!r}", name=arguments.output.name)
-        write_file(arguments.output, single_file(model, _page_language(arguments.lang)).encode("utf-8"), arguments.lang)
+        write_file(arguments.out, single_file(model, _page_language(arguments.lang)).encode("utf-8"), arguments.lang)
         return 0
     return _serve(model, arguments)
 
