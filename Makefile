@@ -9,7 +9,7 @@ READY  := $(VENV)/.ready
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
 	@echo "make test        ruff, mypy --strict, all fast tests and doctests"
-	@echo "make slow        the long tests"
+	@echo "make slow        the long tests, and the fast ones with new random examples"
 	@echo "make torture     5,000 damaged inputs and 300 kills, see docs/reliability.md; about an hour"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with two other kernels of OpenBLAS"
@@ -35,6 +35,7 @@ test: $(READY)
 
 slow: $(READY)
 	$(BIN)/python -m pytest -q -m slow
+	GRUEBLER_NEW_EXAMPLES=1 $(BIN)/python -m pytest -q -n 2
 
 torture: $(READY)
 	$(BIN)/python -m tests.torture --inputs 5000 --kills 300

@@ -1,5 +1,6 @@
 """Settings that all tests share."""
 
+import os
 import signal
 from collections.abc import Iterator
 from types import FrameType
@@ -7,10 +8,13 @@ from types import FrameType
 import pytest
 from hypothesis import HealthCheck, settings
 
+# The fast tests try the same examples on every machine, so that a failure is one of the change at hand; `make slow`
+# draws new ones each time.
 # Compilation and the machine's load make single examples slow now and then; slowness is not what these tests judge.
 settings.register_profile(
     "gruebler",
     deadline=None,
+    derandomize="GRUEBLER_NEW_EXAMPLES" not in os.environ,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],  # both depend on load and on luck
 )
 settings.load_profile("gruebler")

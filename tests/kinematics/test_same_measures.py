@@ -291,8 +291,9 @@ def test_extremes_of_the_acceleration_between_limits(seed: int) -> None:
 
 @pytest.mark.slow
 def test_many_random_linkages() -> None:
-    wanted, tried, refused, failed = int(os.environ.get("GRUEBLER_LINKAGES", "40")), 0, 0, []
-    for seed in range(100_000):
+    wanted, first = int(os.environ.get("GRUEBLER_LINKAGES", "40")), int(os.environ.get("GRUEBLER_SEED", "0"))
+    tried, refused, failed = 0, 0, []
+    for seed in range(first, first + 100_000):
         linkage = well_placed(seed)
         if linkage is None:
             continue

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import SynthesisError
@@ -71,7 +71,14 @@ def test_pairs_of_a_linkage_give_it_back(data, starts):
         assert design.verdict.error < 1e-9
 
 
+NEAR_THE_FRAME = SliderCrank(3.0, 4.0, 0.21875), np.array([5.875, 6.3125, 6.65625, 6.90625, 7.34375])
+"""A dyad with a pivot 1e4 sizes away, next to the slide of the frame."""
+
+
 @settings(max_examples=10, deadline=None)
+@example(
+    (*NEAR_THE_FRAME, 3 * np.cos(NEAR_THE_FRAME[1]) + np.sqrt(16 - (3 * np.sin(NEAR_THE_FRAME[1]) - 0.21875) ** 2))
+)
 @given(coordinated(5))
 def test_five_pairs_with_free_starts_have_at_most_three_solutions(case):
     assume(not isinstance(case[0], InvertedSliderCrank))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import gzip
 import re
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -83,7 +84,8 @@ def _from_graphml(text: str) -> nx.Graph:
     import networkx
 
     parse_xml(text)  # refuses entities
-    return networkx.parse_graphml(text, force_multigraph=True)
+    with warnings.catch_warnings(action="ignore"):  # of keys without a type, which are read as strings
+        return networkx.parse_graphml(text, force_multigraph=True)
 
 
 def _to_graphml(chain: Chain, left_out: list[Message]) -> str:

@@ -6,6 +6,7 @@ point x to q_j x + t_j. docs/theory/synthesis-positions.md has the equations and
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import combinations, product
 from typing import NamedTuple
 
@@ -30,6 +31,8 @@ _REAL = 1e-7
 _FAR = 1e-9
 """A homogeneous coordinate smaller than this part of the others is at infinity: pivots 1e9 sizes away are no pivots."""
 _REMOTE = 1e3  # sizes: a pivot that is farther may be one at infinity, found with rounding
+_BENT = 1e-3
+"""A link bends the path of its pivot by about path² / length: a dyad that misses by less than this part is no slide."""
 _SAME = 1e-2  # sizes: two dyads whose other pivots are nearer are one; remote pivots differ by their inverse distance
 _EXACT = 1e-11
 """A polished dyad misses its condition by less, relative to its size."""
@@ -140,22 +143,21 @@ def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
 
     Raises `SynthesisError` for displacements that have infinitely many.
     """
+    if np.abs(given.q - 1).max() < _FAR:
+        raise SynthesisError("the body does not turn: every one of its points moves alike (a translation)")
     out = []
     for form, seen in (("PR", given), ("RP", given.inverse)):
-        q, t = (v[:3] for v in seen)
-        alpha = np.linalg.det(np.stack([q - 1, np.conj(q) - 1, t], axis=1))
-        if abs(alpha) < _FAR:
-            if np.abs(q - 1).max() < _FAR:
-                raise SynthesisError("the body does not turn: every one of its points moves alike (a translation)")
+        # The point x stays on a line of normal n: Re(n* (q - 1) x + n* t) = 0, linear in n* x and n.
+        q, t = seen.q - 1, seen.t
+        matrix = np.stack([q.real, -q.imag, t.real, t.imag], axis=1)
+        scale = np.abs(matrix).max(axis=0)
+        scale[scale == 0] = 1.0
+        _, values, vectors = np.linalg.svd(matrix / scale)
+        x, y, *along = vectors[-1] / scale
+        normal = complex(*along)
+        if values[2] < _EXACT * values[0] or abs(normal) < _FAR * abs(complex(x, y)):
             continue
-        normal = alpha / abs(alpha)
-        rows = np.stack([np.conj(normal) * (q - 1), normal * (np.conj(q) - 1)], axis=1)
-        right = -2 * np.real(np.conj(normal) * t)
-        matrix = np.stack([2 * rows[:, 0].real, -2 * rows[:, 0].imag], axis=1)
-        (x, y), *_ = np.linalg.lstsq(matrix, right, rcond=None)
-        point, direction = complex(x, y), complex(1j * normal)
-        if np.hypot(x, y) > 1 / _FAR:
-            continue
+        point, direction = complex(x, y) / normal.conjugate(), 1j * normal / abs(normal)
         dyad = GuidingDyad(form, point, point, direction)
         if misfit(given, dyad) <= 1e-9 * (1 + abs(point)):
             out.append(dyad)
@@ -225,7 +227,14 @@ def all_dyads(given: Displacements) -> Dyads:
     one, other = np.tensordot(_FORMS, products, axes=1)
     vectors = np.linalg.eig(np.linalg.solve(other, one))[1]
     found = [_point(products @ vectors[:, k]) for k in range(4)]
-    real = tuple(dyad for x in found if (dyad := _real_dyad(given, x)) is not None)
+    slides = [dyad for dyad in sliding_dyads(given) if misfit(given, dyad) <= 1e-8 * (1 + abs(dyad.moving))]
+    turning = [dyad for x in found if (dyad := _turning_dyad(given, x)) is not None]
+    turning.sort(key=lambda dyad: -dyad.length)
+    for slide in slides:  # its other pivot lies at infinity, and is found somewhere far away
+        claimed = next((dyad for dyad in turning if _approaches(given, dyad, slide)), None)
+        if claimed is not None:
+            turning.remove(claimed)
+    real = [*slides, *(dyad for dyad in turning if _is_exact(given, dyad))]
     return Dyads(_different(real), len(found))
 
 
@@ -239,37 +248,48 @@ def _point(products: Complexes) -> Complexes:
     return np.asarray(u[:, 0])
 
 
-def _real_dyad(given: Displacements, x: Complexes) -> GuidingDyad | None:
-    """The dyad of a solution in homogeneous isotropic coordinates, if it is real."""
+def _turning_dyad(given: Displacements, x: Complexes) -> GuidingDyad | None:
+    """The RR dyad of a solution in homogeneous isotropic coordinates, pivots at infinity far away; None if not real."""
     # Real points: the conjugate of the point, its first two coordinates exchanged, is the same point.
     mirrored = np.conj(x[[1, 0, 2]])
     phase = np.vdot(x, mirrored)
     if abs(abs(phase) - 1) > _REAL:
         return None
     x = x * np.sqrt(phase / abs(phase))
-    if abs(x[2]) < _FAR:
-        return _sliding(given, "RP")
     centre = np.conj(np.linalg.svd(np.einsum("i,jik->jk", x, _rows(given)))[2][-1])
-    if abs(centre[2]) < _FAR:
-        return _sliding(given, "PR")
-    turning = _polished(given, complex(x[0] / x[2]), complex(centre[0] / centre[2]))
-    if turning is not None and max(abs(turning.moving), abs(turning.fixed)) < _REMOTE:
-        return turning
-    # A pivot at infinity is found somewhere far away: what is meant has a slide, fits, and has the other pivot.
-    form, pivot = ("PR", complex(x[0] / x[2])) if abs(centre[2]) < abs(x[2]) else ("RP", complex(centre[0] / centre[2]))
-    sliding = _sliding(given, form)
-    return sliding if sliding is not None and abs(sliding.moving - pivot) < _SAME * (1 + abs(pivot)) else turning
+    start = GuidingDyad("RR", *(complex(p[0] / (p[2] if abs(p[2]) > _FAR**2 else _FAR**2)) for p in (x, centre)))
+    if min(abs(x[2]), abs(centre[2])) < _FAR:
+        return start
+    polished = _polished(given, start)
+    return polished if _is_exact(given, polished) else start
 
 
-def _sliding(given: Displacements, form: str) -> GuidingDyad | None:
-    for dyad in sliding_dyads(given):
-        if dyad.form == form and misfit(given, dyad) <= 1e-8 * (1 + abs(dyad.moving)):
-            return dyad
-    return None
+def _approaches(given: Displacements, dyad: GuidingDyad, slide: GuidingDyad) -> bool:
+    """Whether a long RR dyad is this slide, its far pivot found with rounding."""
+    near, form = (dyad.moving, "PR") if abs(dyad.moving) < abs(dyad.fixed) else (dyad.fixed, "RP")
+    if form != slide.form or abs(near - slide.moving) > _SAME * (1 + abs(near)):
+        return False
+    return dyad.length > _REMOTE or not _bends(given, dyad)
 
 
-def _polished(given: Displacements, x: complex, m: complex) -> GuidingDyad | None:
-    """The real RR dyad near a solution, by Newton's method; None if there is none."""
+def _is_exact(given: Displacements, dyad: GuidingDyad) -> bool:
+    """Whether an RR dyad guides the body to the last digits; a long one must do so as no slide does."""
+    if dyad.length > _REMOTE:
+        return _bends(given, dyad)
+    return dyad.length > _FAR and misfit(given, dyad) <= _EXACT * max(abs(dyad.moving), abs(dyad.fixed), 1.0)
+
+
+def _bends(given: Displacements, dyad: GuidingDyad) -> bool:
+    """Whether a long RR dyad fits the bend of its path, not just the path, which a slide would fit too."""
+    near_moving = abs(dyad.moving) < abs(dyad.fixed)
+    path = given.images(dyad.moving) if near_moving else given.inverse.images(dyad.fixed)
+    bend = float(np.abs(path - path[0]).max()) ** 2 / dyad.length
+    return misfit(given, dyad) + 4 * float(np.spacing(dyad.length)) < _BENT * bend
+
+
+def _polished(given: Displacements, start: GuidingDyad) -> GuidingDyad:
+    """An RR dyad near a solution, improved by Newton's method."""
+    x, m = start.moving, start.fixed
     scale = max(abs(x), abs(m), 1.0)
     q, t = given
     for _ in range(12):
@@ -281,11 +301,10 @@ def _polished(given: Displacements, x: complex, m: complex) -> GuidingDyad | Non
         x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
         if np.abs(step).max() < 1e-15 * scale:
             break
-    dyad = GuidingDyad("RR", x, m)
-    return dyad if misfit(given, dyad) <= _EXACT * scale and dyad.length > _FAR else None
+    return GuidingDyad("RR", x, m)
 
 
-def _different(dyads: tuple[GuidingDyad, ...]) -> tuple[GuidingDyad, ...]:
+def _different(dyads: Iterable[GuidingDyad]) -> tuple[GuidingDyad, ...]:
     out: list[GuidingDyad] = []
     for dyad in dyads:
         near = [
