@@ -325,3 +325,11 @@ def test_the_unit_of_an_angle_is_in_its_key(capsys):
     slide = rows["P(frame-slider)"]
     assert (slide["range"], slide["unit"]) == (pytest.approx(50, abs=1e-9), "mm")
     assert not any(key.endswith("_deg") for key in slide)
+
+
+@pytest.mark.parametrize(("machine", "says"), [("slider-crank:20,50", "fixed"), ("kurbelschleife", "turns")])
+def test_the_direction_of_a_slide(capsys, machine, says):
+    out = run(capsys, machine)[1]
+    assert ("is fixed." if says == "fixed" else "turns.") in next(
+        line for line in out.splitlines() if line.startswith("The direction of the slide")
+    )
