@@ -151,7 +151,7 @@ def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str]
 
     >>> from gruebler.fourbar import InvertedSliderCrank, SliderCrank
     >>> slide_directions(SliderCrank(20, 50).linkage()), slide_directions(InvertedSliderCrank(30, 50).linkage())
-    ({'P(frame-slider)': False}, {'P(slider-guide)': True})
+    ({'P(frame-slider)': False}, {'P(coupler-block)': True})
     """
     made = _circuit(linkage, branch)
     chain = made.linkage.mechanism.chain
