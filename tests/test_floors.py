@@ -25,7 +25,7 @@ FLOORS = [
     {"analysis", "screws", "forces"},
     {"geometry", "realisation", "formats", "drawing/linkage"},
     {"synthesis", "catalog"},
-    {"exercises", "file_formats", "sheets"},
+    {"constructions", "exercises", "file_formats", "sheets"},
     {"files", "pictures", "teaching"},
     {"explorer"},
     {"cli"},
