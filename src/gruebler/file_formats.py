@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     Value: TypeAlias = Chain | list[Chain] | Linkage | SpatialLinkage | TrainReading | Task
 
-__all__ = ["FORMATS", "Format", "Value"]
+__all__ = ["FORMATS", "Format", "Value", "json_of_another_program"]
 
 _TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
 _LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
@@ -214,6 +214,15 @@ _JSON_OF_OTHERS = {
     "motiongen": _JsonForm("motiongen", "is_motiongen", "drawing_from_motiongen", "motiongen_from_drawing"),
     "pylinkage": _JsonForm("pylinkage", "is_pylinkage", "drawing_from_pylinkage", "pylinkage_from_drawing"),
 }
+
+
+def json_of_another_program(path: Path) -> bool:
+    """Whether a JSON file is one of another program, by its keys; False for a file that is no JSON."""
+    try:
+        data = load_document(path, GrueblerError)
+    except GrueblerError:
+        return False
+    return any(form.shows(data) for form in _JSON_OF_OTHERS.values())
 
 
 def _json_of_others(name: str, title: Message, carries: Message) -> Format:

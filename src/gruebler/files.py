@@ -9,13 +9,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gruebler.errors import GrueblerError, nearest
-from gruebler.file_formats import FORMATS, Format
+from gruebler.file_formats import FORMATS, Format, json_of_another_program
 from gruebler.text import Message, joined, joined_by_or, message
 
 if TYPE_CHECKING:
     from gruebler.file_formats import Value
 
-__all__ = ["FORMATS", "Format", "FormatWarning", "convert", "format_of", "read", "write"]
+__all__ = [
+    "FORMATS",
+    "Format",
+    "FormatWarning",
+    "convert",
+    "format_of",
+    "is_of_another_program",
+    "read",
+    "write",
+]
+
+_OWN = frozenset({"toml", "csv", "text", "graph6"})  # names of formats that the other readers of this library know, too
 
 
 class FormatWarning(UserWarning):
@@ -50,6 +61,18 @@ def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
         endings=joined_by_or(endings),
         suffix=Path(path).suffix,
     )
+
+
+def is_of_another_program(path: Path) -> bool:
+    """Whether a file is one that `read` alone reads: by the ending of its name, of JSON by its keys.
+
+    >>> is_of_another_program(Path("leg.linkage2")), is_of_another_program(Path("leg.toml"))
+    (True, False)
+    """
+    if path.suffix.lower() == ".json":
+        return json_of_another_program(path)
+    others = [form for form in FORMATS if form.read is not None and form.name not in _OWN]
+    return path.name.lower().endswith(tuple(ending for form in others for ending in form.suffixes))
 
 
 def read(path: str | PathLike[str], format_name: str | None = None, *, left_out: list[Message] | None = None) -> Value:

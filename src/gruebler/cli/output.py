@@ -6,13 +6,14 @@ import codecs
 import json
 import math
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from gruebler.atomic_files import atomic_file
-from gruebler.text import translate
+from gruebler.text import Message, translate
 
-__all__ = ["print_json", "print_svg", "say_written", "write_file"]
+__all__ = ["print_json", "print_svg", "say_left_out", "say_written", "write_file"]
 
 
 def print_json(document: Any, indent: int | None = 2) -> None:
@@ -56,3 +57,9 @@ def write_file(path: Path, content: bytes, lang: str) -> None:
 def say_written(path: Path, lang: str, more: str = "") -> None:
     """Say on standard error that a file was written."""
     print(translate("Written: {path}{more}", lang, path=path, more=more), file=sys.stderr)
+
+
+def say_left_out(notes: Iterable[Message], lang: str) -> None:
+    """Say on standard error what a file has that the value does not have, or the other way round."""
+    for note in notes:
+        print(translate("Left out: {what}", lang, what=note), file=sys.stderr)
