@@ -112,10 +112,10 @@ def write(
     *,
     left_out: list[Message] | None = None,
 ) -> Path:
-    """Write a value into a file that `read` takes back; returns the path.
+    """Write a value into a file that `read` takes back, a motion as a table; returns the path.
 
     Args:
-        value: a linkage, a chain or a list of chains, a task.
+        value: a linkage, a chain or a list of chains, a task, a motion or its table (`Motion.table`).
         path: a file, which appears complete or not at all; the ending of its name says the format.
         format_name: the format, if the name does not say it: one of `FORMATS`.
         left_out: gets a message for each thing of the value that the file does not have; without it such things are
@@ -144,13 +144,15 @@ def write(
 
 def _check_kind(value: object) -> None:
     from gruebler.chain import Chain
+    from gruebler.columns import Table
+    from gruebler.kinematics.motion import Motion
     from gruebler.linkages import Linkage
     from gruebler.synthesis import Task
 
     chains = isinstance(value, Sequence) and value and all(isinstance(item, Chain) for item in value)
-    if not (chains or isinstance(value, Chain | Linkage | Task)):
+    if not (chains or isinstance(value, Chain | Linkage | Task | Motion | Table)):
         raise GrueblerError(
-            "values of type {kind} cannot be written; linkages, tasks, chains and lists of chains can",
+            "values of type {kind} cannot be written; linkages, tasks, motions, tables, chains and lists of chains can",
             kind=type(value).__name__,
         )
 
