@@ -336,3 +336,11 @@ def test_a_table_with_decimal_commas_and_german_headers(tmp_path, capsys):
     assert [cell.count(",") for cell in first.split(";")] == [1] * len(head.split(";"))
     assert main([*words, "--decimal-comma"]) == 2
     assert "--decimal-comma" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("machine", "says"), [("slider-crank:20,50", "fixed"), ("kurbelschleife", "turns")])
+def test_the_direction_of_a_slide(capsys, machine, says):
+    out = run(capsys, machine)[1]
+    assert ("is fixed." if says == "fixed" else "turns.") in next(
+        line for line in out.splitlines() if line.startswith("The direction of the slide")
+    )
