@@ -26,7 +26,7 @@ FLOORS = [
     {"geometry", "realisation", "formats", "drawing/linkage"},
     {"synthesis", "catalog"},
     {"constructions", "exercises", "file_formats", "sheets"},
-    {"files", "pictures", "teaching"},
+    {"files", "pictures", "teaching", "worksheets"},
     {"explorer"},
     {"cli"},
 ]
