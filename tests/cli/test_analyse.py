@@ -339,6 +339,14 @@ def test_a_table_with_decimal_commas_and_german_headers(tmp_path, capsys):
     assert "--decimal-comma" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("machine", "says"), [("slider-crank:20,50", "fixed"), ("kurbelschleife", "turns")])
+def test_the_direction_of_a_slide(capsys, machine, says):
+    out = run(capsys, machine)[1]
+    assert ("is fixed." if says == "fixed" else "turns.") in next(
+        line for line in out.splitlines() if line.startswith("The direction of the slide")
+    )
+
+
 def test_planes_are_printed_and_drawn(tmp_path, capsys):
     words = ["analyse", CRANK_ROCKER, "--planes"]
     assert main(words) == 0

@@ -12,6 +12,7 @@ import numpy as np
 
 from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.rotatability import slide_directions
 from gruebler.analysis.table import motion_table
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Alphabet
@@ -328,6 +329,11 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
             for row in rotatability(around)
         )
         print(translate("Relative motion at the joints: {pairs}.", lang, pairs=pairs))
+        for name, turns in slide_directions(around).items():
+            if turns:
+                print(translate("The direction of the slide {joint} turns.", lang, joint=names[name]))
+            else:
+                print(translate("The direction of the slide {joint} is fixed.", lang, joint=names[name]))
     if measures.branch:
         print(translate("Assembly mode: {branch}.", lang, branch=_label(measures.branch)))
         if others := _others(linkage, measures):
