@@ -27,7 +27,7 @@ def urdf_from_linkage(linkage: Linkage, left_out: list[Message]) -> str:
     >>> notes = []
     >>> robot = urdf_from_linkage(FourBar(25, 70, 40, 70).linkage(), notes)
     >>> robot.count("<link "), robot.count('type="continuous"'), str(notes[1])
-    (4, 3, 'the loops: the model is cut at R(coupler-rocker) and moves there as the linkage does not')
+    (4, 3, 'the loops: the model is cut at R(frame-rocker) and moves there as the linkage does not')
     """
     return _Robot(linkage, left_out).text(left_out)
 
