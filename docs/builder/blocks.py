@@ -1,0 +1,185 @@
+"""Blocks of a page that run while it is built: commands with what they print, pictures, files.
+
+The blocks of one page run in order and share a folder and their Python names, so that a page is one session.
+"""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import hashlib
+import io
+import os
+import re
+import shlex
+import tempfile
+import textwrap
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx.util.docutils import SphinxDirective
+
+import gruebler
+from gruebler.cli import main
+
+_SESSIONS: dict[str, tuple[Path, dict[str, Any]]] = {}
+_WIDTH = 88  # characters of a line that fit beside the navigation
+_LANGUAGE = re.compile(r", lang=lang\b")
+
+
+def _session(page: str) -> tuple[Path, dict[str, Any]]:
+    """The folder and the Python names of a page."""
+    if page not in _SESSIONS:
+        _SESSIONS[page] = Path(tempfile.mkdtemp(prefix="gruebler-docs-")), {"gr": gruebler}
+    return _SESSIONS[page]
+
+
+@contextlib.contextmanager
+def _working_in(folder: Path) -> Any:
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
+
+
+def run_command(line: str, folder: Path, lang: str = "en") -> tuple[int, str]:
+    """The exit status of a command line that begins with `gruebler`, and what it printed."""
+    words = shlex.split(line)
+    assert words[0] == "gruebler", line
+    printed = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    before = os.environ.get("GRUEBLER_LANG")
+    os.environ["GRUEBLER_LANG"] = lang
+    try:
+        with _working_in(folder), contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+            status = main(words[1:])
+    except SystemExit as stop:
+        status = int(stop.code or 0)
+    finally:
+        if before is None:
+            del os.environ["GRUEBLER_LANG"]
+        else:
+            os.environ["GRUEBLER_LANG"] = before
+    printed.flush()
+    return status, printed.buffer.getvalue().decode()  # type: ignore[attr-defined]
+
+
+class Command(SphinxDirective):
+    """A command line and what it prints; the page is not built if its exit status is another than the given one."""
+
+    has_content = True
+    option_spec = {  # noqa: RUF012  the interface of docutils
+        "lines": directives.nonnegative_int,
+        "status": directives.nonnegative_int,
+        "quiet": directives.flag,
+    }
+
+    def run(self) -> list[nodes.Node]:
+        """The command in one block, its output in the next."""
+        line = " ".join(each.strip().removesuffix("\\") for each in self.content)
+        shown = "\n".join(["$ " + self.content[0], *self.content[1:]])
+        folder, _ = _session(self.env.docname)
+        status, printed = run_command(line, folder, self.config.language)
+        if status != self.options.get("status", 0):
+            raise self.error(f"`{line}` ended with exit status {status}:\n{printed}")
+        whole = nodes.container(classes=["command-and-output"])
+        whole += nodes.literal_block(shown, shown, language="console", classes=["command-line"])
+        rows = [row for long in printed.rstrip().splitlines() for row in _wrapped(long)]
+        most = self.options.get("lines", len(rows))
+        if rows and "quiet" not in self.options:
+            text = "\n".join([*rows[:most], *(["..."] if len(rows) > most else [])])
+            whole += nodes.literal_block(text, text, language="text", classes=["output-of-command"])
+        return [whole]
+
+
+def _wrapped(row: str) -> list[str]:
+    """A long row of running text in several lines; rows of tables, which have wider gaps, stay whole."""
+    indent = len(row) - len(row.lstrip())
+    if len(row) <= _WIDTH or "  " in row.strip() or set(row) == {"-"}:
+        return [row[:_WIDTH]] if set(row) == {"-"} else [row]
+    return textwrap.wrap(row, _WIDTH, subsequent_indent=" " * (indent + 2), break_on_hyphens=False)
+
+
+class File(SphinxDirective):
+    """A small file that the commands after it read; its name is the argument."""
+
+    has_content = True
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """The file as a block with its name as title."""
+        name, text = self.arguments[0], "\n".join(self.content) + "\n"
+        folder, _ = _session(self.env.docname)
+        (folder / name).write_text(text, encoding="utf-8")
+        kind = {".toml": "toml", ".json": "json"}.get(Path(name).suffix, "text")
+        block = nodes.literal_block(text, text.rstrip(), language=kind)
+        whole = nodes.container(classes=["literal-block-wrapper"], literal_block=True)
+        whole += nodes.caption("", name)
+        whole += block
+        return [whole]
+
+
+class PictureBlock(SphinxDirective):
+    """A picture made by Python code, whose last line is the picture; the argument is its caption."""
+
+    has_content = True
+    required_arguments = 1
+    final_argument_whitespace = True
+    option_spec = {"hide-code": directives.flag}  # noqa: RUF012
+
+    def run(self) -> list[nodes.Node]:
+        """A figure, with the code to unfold."""
+        code = "\n".join(self.content)
+        folder, names = _session(self.env.docname)
+        names["lang"] = self.config.language
+        with _working_in(folder):
+            try:
+                picture = run_code(code, names)
+            except Exception as problem:
+                raise self.error(f"this code does not run: {problem!r}\n{code}") from problem
+        target = Path(self.env.srcdir) / "_pictures"
+        target.mkdir(exist_ok=True)
+        svg = picture.svg()
+        name = hashlib.sha256(svg.encode()).hexdigest()[:16] + ".svg"
+        (target / name).write_text(svg, encoding="utf-8")
+        figure = nodes.figure(classes=["picture"])
+        image = nodes.image(uri=f"/_pictures/{name}", alt=_plain(self.arguments[0]))
+        image["uri"], _ = self.env.relfn2path(image["uri"])
+        image["uri"] = "/" + image["uri"]
+        figure += image
+        words, problems = self.state.inline_text(self.arguments[0], self.lineno)
+        caption = nodes.caption(self.arguments[0], "", *words)
+        caption.source, caption.line = self.env.doc2path(self.env.docname), self.lineno
+        figure += caption
+        whole = nodes.container(classes=["shown-picture"])
+        whole += [figure, *problems]
+        if "hide-code" not in self.options:
+            shown = _LANGUAGE.sub("", code)
+            whole += nodes.raw("", '<details class="code-of-picture"><summary>Python</summary>', format="html")
+            whole += nodes.literal_block(shown, shown, language="python")
+            whole += nodes.raw("", "</details>", format="html")
+        return [whole]
+
+
+def run_code(code: str, names: dict[str, Any]) -> Any:
+    """Run the code; returns the value of its last line, an expression."""
+    tree = ast.parse(code)
+    last = tree.body.pop()
+    assert isinstance(last, ast.Expr), code
+    exec(compile(tree, "<picture>", "exec"), names)
+    return eval(compile(ast.Expression(last.value), "<picture>", "eval"), names)
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"[`*]|\]\([^)]*\)|\[", "", text)
+
+
+def setup(app: Any) -> None:
+    """The directives."""
+    app.add_directive("command", Command)
+    app.add_directive("file", File)
+    app.add_directive("picture", PictureBlock)
+    app.connect("env-purge-doc", lambda app, env, page: _SESSIONS.pop(page, None))
