@@ -12,7 +12,7 @@ import gruebler  # noqa: E402  after the path is set
 
 project = "gruebler"
 author = "The gruebler maintainers"
-copyright = "2026, The gruebler maintainers"  # noqa: A001  Sphinx asks for this name
+copyright = "2026, The gruebler maintainers"
 version = release = gruebler.__version__
 
 extensions = ["myst_parser", "sphinx_copybutton", "builder"]

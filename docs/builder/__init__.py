@@ -1,16 +1,16 @@
 """What this site needs of Sphinx: blocks that run, generated reference pages, typeset formulas.
 
-`blocks` has the directives `command`, `picture` and `file`; `pages` fills in the places marked `<!-- insert: NAME -->`;
-`formulas` sets the formulas of the theory pages.
+`blocks` has the directives `command`, `picture` and `file`, which run in a `session`; `pages` fills in the places
+marked `<!-- insert: NAME -->`; `formulas` sets formulas.
 """
 
 from typing import Any
 
-from builder import blocks, formulas, pages
-
 
 def setup(app: Any) -> dict[str, Any]:
     """Called by Sphinx."""
+    from builder import blocks, formulas, pages
+
     blocks.setup(app)
     pages.setup(app)
     formulas.setup(app)

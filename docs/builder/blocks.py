@@ -1,18 +1,9 @@
-"""Blocks of a page that run while it is built: commands with what they print, pictures, files.
-
-The blocks of one page run in order and share a folder and their Python names, so that a page is one session.
-"""
+"""Blocks of a page that run while it is built: commands with what they print, pictures, files."""
 
 from __future__ import annotations
 
-import ast
-import contextlib
 import hashlib
-import io
-import os
 import re
-import shlex
-import tempfile
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -21,56 +12,28 @@ from docutils import nodes
 from docutils.parsers.rst import directives
 from sphinx.util.docutils import SphinxDirective
 
-import gruebler
-from gruebler.cli import main
+from builder.session import Session
 
-_SESSIONS: dict[str, tuple[Path, dict[str, Any]]] = {}
+_SESSIONS: dict[str, Session] = {}
 _WIDTH = 88  # characters of a line that fit beside the navigation
 _LANGUAGE = re.compile(r", lang=lang\b")
 
 
-def _session(page: str) -> tuple[Path, dict[str, Any]]:
-    """The folder and the Python names of a page."""
-    if page not in _SESSIONS:
-        _SESSIONS[page] = Path(tempfile.mkdtemp(prefix="gruebler-docs-")), {"gr": gruebler}
-    return _SESSIONS[page]
+class _Running(SphinxDirective):
+    has_content = True
+
+    @property
+    def session(self) -> Session:
+        """The session of this page."""
+        page = self.env.docname
+        if page not in _SESSIONS:
+            _SESSIONS[page] = Session(lang=self.config.language)
+        return _SESSIONS[page]
 
 
-@contextlib.contextmanager
-def _working_in(folder: Path) -> Any:
-    before = Path.cwd()
-    os.chdir(folder)
-    try:
-        yield
-    finally:
-        os.chdir(before)
-
-
-def run_command(line: str, folder: Path, lang: str = "en") -> tuple[int, str]:
-    """The exit status of a command line that begins with `gruebler`, and what it printed."""
-    words = shlex.split(line)
-    assert words[0] == "gruebler", line
-    printed = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
-    before = os.environ.get("GRUEBLER_LANG")
-    os.environ["GRUEBLER_LANG"] = lang
-    try:
-        with _working_in(folder), contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
-            status = main(words[1:])
-    except SystemExit as stop:
-        status = int(stop.code or 0)
-    finally:
-        if before is None:
-            del os.environ["GRUEBLER_LANG"]
-        else:
-            os.environ["GRUEBLER_LANG"] = before
-    printed.flush()
-    return status, printed.buffer.getvalue().decode()  # type: ignore[attr-defined]
-
-
-class Command(SphinxDirective):
+class Command(_Running):
     """A command line and what it prints; the page is not built if its exit status is another than the given one."""
 
-    has_content = True
     option_spec = {  # noqa: RUF012  the interface of docutils
         "lines": directives.nonnegative_int,
         "status": directives.nonnegative_int,
@@ -79,12 +42,10 @@ class Command(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """The command in one block, its output in the next."""
-        line = " ".join(each.strip().removesuffix("\\") for each in self.content)
         shown = "\n".join(["$ " + self.content[0], *self.content[1:]])
-        folder, _ = _session(self.env.docname)
-        status, printed = run_command(line, folder, self.config.language)
+        status, printed = self.session.command("\n".join(self.content))
         if status != self.options.get("status", 0):
-            raise self.error(f"`{line}` ended with exit status {status}:\n{printed}")
+            raise self.error(f"`{shown}` ended with exit status {status}:\n{printed}")
         whole = nodes.container(classes=["command-and-output"])
         whole += nodes.literal_block(shown, shown, language="console", classes=["command-line"])
         rows = [row for long in printed.rstrip().splitlines() for row in _wrapped(long)]
@@ -103,29 +64,26 @@ def _wrapped(row: str) -> list[str]:
     return textwrap.wrap(row, _WIDTH, subsequent_indent=" " * (indent + 2), break_on_hyphens=False)
 
 
-class File(SphinxDirective):
+class File(_Running):
     """A small file that the commands after it read; its name is the argument."""
 
-    has_content = True
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
         """The file as a block with its name as title."""
-        name, text = self.arguments[0], "\n".join(self.content) + "\n"
-        folder, _ = _session(self.env.docname)
-        (folder / name).write_text(text, encoding="utf-8")
+        name, text = self.arguments[0], "\n".join(self.content)
+        self.session.file(name, text)
         kind = {".toml": "toml", ".json": "json"}.get(Path(name).suffix, "text")
-        block = nodes.literal_block(text, text.rstrip(), language=kind)
+        block = nodes.literal_block(text, text, language=kind)
         whole = nodes.container(classes=["literal-block-wrapper"], literal_block=True)
         whole += nodes.caption("", name)
         whole += block
         return [whole]
 
 
-class PictureBlock(SphinxDirective):
+class PictureBlock(_Running):
     """A picture made by Python code, whose last line is the picture; the argument is its caption."""
 
-    has_content = True
     required_arguments = 1
     final_argument_whitespace = True
     option_spec = {"hide-code": directives.flag}  # noqa: RUF012
@@ -133,13 +91,10 @@ class PictureBlock(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """A figure, with the code to unfold."""
         code = "\n".join(self.content)
-        folder, names = _session(self.env.docname)
-        names["lang"] = self.config.language
-        with _working_in(folder):
-            try:
-                picture = run_code(code, names)
-            except Exception as problem:
-                raise self.error(f"this code does not run: {problem!r}\n{code}") from problem
+        try:
+            picture = self.session.picture(code)
+        except Exception as problem:
+            raise self.error(f"this code does not run: {problem!r}\n{code}") from problem
         target = Path(self.env.srcdir) / "_pictures"
         target.mkdir(exist_ok=True)
         svg = picture.svg()
@@ -164,17 +119,12 @@ class PictureBlock(SphinxDirective):
         return [whole]
 
 
-def run_code(code: str, names: dict[str, Any]) -> Any:
-    """Run the code; returns the value of its last line, an expression."""
-    tree = ast.parse(code)
-    last = tree.body.pop()
-    assert isinstance(last, ast.Expr), code
-    exec(compile(tree, "<picture>", "exec"), names)
-    return eval(compile(ast.Expression(last.value), "<picture>", "eval"), names)
-
-
 def _plain(text: str) -> str:
     return re.sub(r"[`*]|\]\([^)]*\)|\[", "", text)
+
+
+def _forget(_app: Any, _env: Any, page: str) -> None:
+    _SESSIONS.pop(page, None)
 
 
 def setup(app: Any) -> None:
@@ -182,4 +132,4 @@ def setup(app: Any) -> None:
     app.add_directive("command", Command)
     app.add_directive("file", File)
     app.add_directive("picture", PictureBlock)
-    app.connect("env-purge-doc", lambda app, env, page: _SESSIONS.pop(page, None))
+    app.connect("env-purge-doc", _forget)

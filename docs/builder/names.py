@@ -109,7 +109,9 @@ def room_page(lang: str, room: str) -> str:
     del lang
     module = import_module(f"gruebler.{room}")
     lines = [f"# gruebler.{room}", "", *_markdown(inspect.getdoc(module) or ""), ""]
-    for name, value in sorted(_public()[room].items(), key=lambda item: (not inspect.isclass(item[1]), item[0].lower())):
+    for name, value in sorted(
+        _public()[room].items(), key=lambda item: (not inspect.isclass(item[1]), item[0].lower())
+    ):
         if inspect.ismodule(value):
             continue
         lines += _object(f"gruebler.{room}.{name}", value)
@@ -135,7 +137,7 @@ def _directive(kind: str, head: str, body: list[str], fence: str = "::::::") -> 
 def _class(name: str, kind: type) -> Iterator[str]:
     error = issubclass(kind, BaseException)
     signature = "" if error or issubclass(kind, enum.Enum) else _signature(kind).removesuffix(" -> None")
-    body = _markdown(inspect.getdoc(kind) or "") + [""]
+    body = [*_markdown(inspect.getdoc(kind) or ""), ""]
     fields = {field: (text, type_) for field, text, type_ in _fields(kind)}
     for field, (text, type_) in fields.items():
         body += _directive("py:attribute", field, [f":type: {type_}", "", *_markdown(text)], ":::::")
@@ -166,9 +168,9 @@ def _members(kind: type) -> Iterator[tuple[str, Any]]:
             if name.startswith("_") or name in seen:
                 continue
             seen.add(name)
-            if isinstance(value, classmethod | staticmethod | property) or inspect.isfunction(value):
-                if inspect.getdoc(value if isinstance(value, property) else getattr(kind, name)):
-                    yield name, value
+            ours = isinstance(value, classmethod | staticmethod | property) or inspect.isfunction(value)
+            if ours and inspect.getdoc(value if isinstance(value, property) else getattr(kind, name)):
+                yield name, value
 
 
 def _fields(kind: type) -> Iterator[tuple[str, str, str]]:

@@ -49,7 +49,22 @@ def _parser(parser: Any, lang: str) -> Iterator[str]:
         text = formatter._expand_help(action)
         yield f"`{invocation}`\n: {_text(' '.join(text.split()))}\n"
     if parser.epilog:
-        yield _text(translate(parser.epilog, lang)) + "\n"
+        yield from _epilog(translate(parser.epilog, lang), "Rückgabewert" if lang == "de" else "Exit status")
+
+
+def _epilog(text: str, status: str) -> Iterator[str]:
+    """The text after the options, its examples as a block."""
+    examples, dot, rest = text.partition(f". {status}")
+    _, colon, commands = examples.partition(": ")
+    if not dot and status not in text and colon:
+        commands, rest = commands.rstrip("."), ""
+    if colon and commands.lstrip().startswith("gruebler "):
+        lines = [each.strip() for each in re.split(r";\s+(?=gruebler )", commands)]
+        yield "```console\n" + "\n".join(f"$ {each}" for each in lines) + "\n```\n"
+        if rest:
+            yield _text(status + rest) + "\n"
+    else:
+        yield _text(text) + "\n"
 
 
 def _text(text: str) -> str:
@@ -73,7 +88,24 @@ def format_table(lang: str, _: str) -> str:
     return "\n".join(lines)
 
 
+def bibtex(lang: str, _: str) -> str:
+    """The entry for BibTeX, from CITATION.cff."""
+    del lang
+    text = (Path(__file__).parents[2] / "CITATION.cff").read_text(encoding="utf-8")
+    found = dict(re.findall(r'^(title|version|date-released): "?([^"\n]*)"?$', text, re.MULTILINE))
+    year = found["date-released"][:4]
+    return f"""```bibtex
+@software{{gruebler,
+  title   = {{{found["title"]}}},
+  author  = {{{{The gruebler maintainers}}}},
+  version = {{{found["version"]}}},
+  year    = {{{year}}},
+}}
+```"""
+
+
 _INSERTS: dict[str, Callable[[str, str], str]] = {
+    "bibtex": bibtex,
     "commands": command_reference,
     "formats": format_table,
     "front-door": front_door_table,
@@ -81,7 +113,7 @@ _INSERTS: dict[str, Callable[[str, str], str]] = {
 }
 
 
-def _insert(app: Any, page: str, source: list[str]) -> None:
+def _insert(app: Any, _page: str, source: list[str]) -> None:
     source[0] = _PLACE.sub(lambda found: _INSERTS[found[1]](app.config.language, found[2]), source[0])
 
 
