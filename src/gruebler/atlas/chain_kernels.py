@@ -356,7 +356,7 @@ def _circuits(n: int, total: int, desk: ChainMemory, out: Int64) -> bool:
 
 
 @njit(cache=True)
-def _closed(n: int, joints: int, alive: int, members: Int64) -> bool:
+def _closed(joints: int, alive: int, members: Int64) -> bool:
     """Whether these links are connected and each carries two joints at least, joints of one link left out."""
     once, twice, start = 0, 0, 0
     for j in range(joints):
@@ -408,7 +408,7 @@ def _dyadic(n: int, joints: int, loops: int, mobility: int, members: Int64, sets
                 if both != 2 or ends != here:
                     continue
                 left = alive & ~here
-                if not _closed(n, joints, left, members):
+                if not _closed(joints, left, members):
                     continue
                 seen = False
                 for i in range(fresh):
