@@ -18,19 +18,18 @@ from gruebler.atomic_files import atomic_file, temporary_directory
 
 __all__ = ["make_small_atlas"]
 
-_TASKS = (
-    AtlasTask("4-10", "0-7", "all", inversions=True),
-    AtlasTask("4-10", "1", inversions=True, drives="frame"),
-)
 
-
-def make_small_atlas(directory: Path) -> None:
-    """Write the small atlas into a directory; files that are there are replaced."""
+def make_small_atlas(directory: Path, most: int = 10) -> None:
+    """Write the small atlas, with chains of so many links at most, into a directory; files there are replaced."""
     directory.mkdir(parents=True, exist_ok=True)
+    tasks = (
+        AtlasTask(f"4-{most}", f"0-{most - 3}", "all", inversions=True),
+        AtlasTask(f"4-{most}", "1", inversions=True, drives="frame"),
+    )
     with temporary_directory() as folder:
-        every = build(_TASKS[0], folder / "all")
-        driven = build(_TASKS[1], folder / "driven")
-        manifest = {**every, "command": "; ".join(task.command() for task in _TASKS), "tables": {}}
+        every = build(tasks[0], folder / "all")
+        driven = build(tasks[1], folder / "driven")
+        manifest = {**every, "command": "; ".join(task.command() for task in tasks), "tables": {}}
         for table, source in (("chains", every), ("mechanisms", every), ("driven", driven)):
             where = folder / ("driven" if source is driven else "all")
             files = [read_part(where / file["path"])[0] for file in source["tables"][table]["files"]]

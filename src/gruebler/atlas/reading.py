@@ -108,9 +108,10 @@ class Atlas:
         import duckdb
 
         try:
-            return connection.sql(sql).to_arrow_table()
-        except AttributeError:  # a statement without an answer
-            raise GrueblerError("the query has no answer: it begins with select, with or from") from None
+            statements = connection.extract_statements(sql)
+            if len(statements) != 1 or statements[0].type != duckdb.StatementType.SELECT:
+                raise GrueblerError("a query is one statement that begins with select, with or from")
+            return connection.sql(statements[0]).to_arrow_table()
         except duckdb.Error as error:
             raise GrueblerError("the query cannot be answered: {reason}", reason=_reason(str(error))) from None
 

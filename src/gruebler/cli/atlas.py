@@ -34,7 +34,7 @@ def add(parser: Parser) -> None:
         description="All chains and mechanisms with their properties, in Parquet files. The atlas that comes with the "
         "library has all chains to 10 links. pip install 'gruebler[atlas]' brings what this needs.",
         epilog='Examples: gruebler atlas query "select code from chains where links = 10 and not planar"; '
-        "gruebler atlas build --links 4-14 twelve; gruebler atlas columns",
+        "gruebler atlas build --links 4-14 atlas14; gruebler atlas columns",
     )
     build = parser.add_command(
         "build",
