@@ -12,17 +12,18 @@ import numpy as np
 
 from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.rotatability import slide_directions
 from gruebler.analysis.table import motion_table
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of, with_points
-from gruebler.cli.output import print_json, write_file
+from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
-from gruebler.cli.printed_file import is_csv
+from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
-from gruebler.columns import Column, as_csv, shown
+from gruebler.columns import Column, shown
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.linkages import linkage_to_json
 from gruebler.kinematics import Motion, move
@@ -245,7 +246,7 @@ def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Nam
 
 def _listed(arguments: argparse.Namespace) -> bool:
     """Whether the poles are printed as a list below the table."""
-    return bool(arguments.poles and arguments.at and not arguments.json and not is_csv(arguments.out))
+    return bool(arguments.poles and arguments.at and not arguments.json and not is_table(arguments.out))
 
 
 def _others(linkage: Linkage, measures: Measures) -> list[str]:
@@ -268,14 +269,14 @@ def _report(
     columns: Sequence[Column],
     arguments: argparse.Namespace,
 ) -> int:
-    if is_csv(arguments.out):
-        write_file(arguments.out, as_csv(columns).encode("utf-8"), arguments.lang)
+    if is_table(arguments.out):
+        write_table(arguments.out, columns, arguments.lang, decimal_comma=arguments.decimal_comma)
     if arguments.json:
         print_json(_document(linkage, measures, motion, columns, arguments.lang))
     else:
         if measures is not None:
             _print_measures(linkage, measures, arguments.lang)
-        if columns and not is_csv(arguments.out):
+        if columns and not is_table(arguments.out):
             rows = shown(columns, arguments.lang)
             print_table([column.header for column in columns], rows, numbers=range(len(columns)))
         if columns and _listed(arguments):
@@ -305,6 +306,11 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
             for row in rotatability(around)
         )
         print(translate("Relative motion at the joints: {pairs}.", lang, pairs=pairs))
+        for name, turns in slide_directions(around).items():
+            if turns:
+                print(translate("The direction of the slide {joint} turns.", lang, joint=names[name]))
+            else:
+                print(translate("The direction of the slide {joint} is fixed.", lang, joint=names[name]))
     if measures.branch:
         print(translate("Assembly mode: {branch}.", lang, branch=_label(measures.branch)))
         if others := _others(linkage, measures):
