@@ -21,7 +21,7 @@ FLOORS = [
     {"enumeration", "mechanism"},
     {"assur", "linkages", "drawing/structure"},
     {"fourbar", "transformations", "type_synthesis"},
-    {"kinematics"},
+    {"atlas", "kinematics"},
     {"analysis", "screws", "forces"},
     {"geometry", "realisation", "formats", "drawing/linkage"},
     {"synthesis", "catalog"},
