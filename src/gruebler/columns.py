@@ -12,6 +12,7 @@ import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError, nearest
+from gruebler.notebook import ROWS_SHOWN, html_table
 from gruebler.text import number
 
 __all__ = ["Column", "Table", "as_csv", "shown"]
@@ -83,6 +84,11 @@ class Table:
     def csv(self) -> str:
         """The table as CSV, with units in its header."""
         return as_csv(self.columns)
+
+    def _repr_html_(self) -> str:
+        """The first rows, for notebooks."""
+        rows = shown(Column(c.name, c.unit, c.values[:ROWS_SHOWN], c.natural, c.noise) for c in self.columns)
+        return html_table([column.header for column in self.columns], rows, len(self))
 
 
 def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:
