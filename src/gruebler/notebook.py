@@ -1,6 +1,6 @@
-"""How values show themselves: in one line, and in a notebook as a picture.
+"""How values show themselves: in one line, in a notebook as a picture, a motion as a table.
 
-`gruebler/__init__.py` puts the drawing functions here, so that no value imports a higher room.
+`gruebler/__init__.py` puts the functions of higher rooms here, so that no value imports them.
 """
 
 from __future__ import annotations
@@ -8,11 +8,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 from html import escape
+from itertools import islice
+from typing import Any
 
-__all__ = ["ROWS_SHOWN", "Brief", "html_table", "svg_of"]
+__all__ = ["ROWS_SHOWN", "Brief", "html_table", "svg_of", "table_of"]
 
 svg_of: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
+
+table_of: Callable[..., Any] | None = None
+"""Makes the table of a motion; None until the front door has set it."""
 
 
 class Brief:
@@ -57,8 +62,6 @@ def html_table(headers: Sequence[str], rows: Iterable[Sequence[str]], size: int)
     '<table><tr><th>x</th></tr><tr><td>1 &lt; 2</td></tr></table>'
     """
     lines = ["".join(f"<th>{escape(each)}</th>" for each in headers)]
-    lines += [
-        "".join(f"<td>{escape(each)}</td>" for each in row) for row, _ in zip(rows, range(ROWS_SHOWN), strict=False)
-    ]
+    lines += ["".join(f"<td>{escape(each)}</td>" for each in row) for row in islice(rows, ROWS_SHOWN)]
     more = f"<p>{ROWS_SHOWN} of {size} rows</p>" if size > ROWS_SHOWN else ""
     return f"<table>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>{more}"

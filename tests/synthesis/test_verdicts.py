@@ -8,7 +8,11 @@ from hypothesis import strategies as st
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar
 from gruebler.kinematics import circuit, move
+from gruebler.mechanism import Mechanism
+from gruebler.realisation import realise
 from gruebler.synthesis import FunctionTask, PathTask, PositionTask, synthesise, synthesise_path
+from gruebler.synthesis.pictures import design_figure
+from gruebler.synthesis.results import Design, DesignVerdict
 
 
 def dense_path(linkage):
@@ -169,3 +173,12 @@ def test_verdicts_of_tasks_taken_from_four_bars(kind):
     accepted, out_of_reach = verdicts_of_drawn_tasks(kind, tasks)
     assert accepted >= tasks / 2  # the four-bar of the task itself, where the drive is not asked for otherwise
     assert out_of_reach > 0 or kind.startswith("function")
+
+
+def test_targets_are_marked_where_links_have_numbers():
+    """A target's number would be a link's name: it is P1 then."""
+    four_bar = FourBar(25, 70, 40, 70).linkage({"P": (45, 40)})
+    numbered = realise(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)")).linkage
+    for own, mark in ((four_bar, ">2<"), (numbered, ">P2<")):
+        design = Design(own, DesignVerdict(assembles=True), "four-bar")
+        assert mark in design_figure(PathTask([(0, 0), (9, 4), (14, 3), (20, 1), (30, 5)]), design).svg()

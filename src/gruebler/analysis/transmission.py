@@ -203,6 +203,13 @@ def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Comp
     return np.where(rest, rate, way), np.where(rest, 0, rate)
 
 
+def _pace(motion: Motion) -> Reals:
+    """How fast the joints move, as points of all their links; (rows,)."""
+    elements = motion.lower_linkage.elements.items()
+    speeds = [_point(motion, (link, complex(e.x, e.y), 1))[1] for (_, link), e in elements]
+    return np.asarray(np.linalg.norm(speeds, axis=0))
+
+
 def _folded(lines: _Lines) -> Reals:
     product = np.conj(lines.force) * lines.way
     return np.asarray(np.arctan2(np.abs(product.real), np.abs(product.imag)))
@@ -248,10 +255,16 @@ def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtre
             for x, mu in zip(places, values, strict=True)
         ]
         extremes += [Transmission(x, mu, leg.links) for x, mu in ends]
-    smallest = min(extremes, key=lambda extreme: extreme.mu)
-    extrema = [extreme for extreme in extremes if extreme.links == smallest.links]
-    largest = max(extrema, key=lambda extreme: extreme.mu)
-    return TransmissionExtremes(tuple(sorted(extremes)), smallest, largest, tuple(leg.links for leg in legs))
+    ordered = [extreme for together in cycle.by_place(extremes) for extreme in together]
+    smallest = _first(ordered, min(extreme.mu for extreme in ordered))
+    extrema = [extreme for extreme in ordered if extreme.links == smallest.links]
+    largest = _first(extrema, max(extreme.mu for extreme in extrema))
+    return TransmissionExtremes(tuple(ordered), smallest, largest, tuple(leg.links for leg in legs))
+
+
+def _first(extremes: list[Transmission], mu: float) -> Transmission:
+    """The first extreme with a transmission angle: of equal ones rounding chooses none."""
+    return next(extreme for extreme in extremes if abs(extreme.mu - mu) <= _CONSTANT)
 
 
 def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
@@ -272,6 +285,12 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
     def cosine(drives: Reals) -> Reals:
         return product(cycle.at(drives, 2)).real[None]
 
+    def unnormed(motion: Motion) -> Complexes:
+        """As `product`, but smooth where the driven point is slow next to a limit: of a speed by that of all joints."""
+        lines = _lines(motion, leg)
+        pace = np.abs(lines.way) if leg.guide is not None else _pace(motion)
+        return np.asarray(np.conj(lines.force) * lines.way / (np.abs(lines.force) * pace))
+
     slow = _LEAST / cycle.drive_size
     angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))
     constant = not cycle.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
@@ -284,6 +303,6 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
         return np.array(places or [cycle.span.low]), []
     ends = []
     for upper, at in ((False, cycle.span.low), (True, cycle.span.high)):
-        z = cycle.end(product, upper)
+        z = cycle.end(unnormed, upper)
         ends.append((at, float(np.arctan2(abs(z.real), abs(z.imag)))))
     return np.array(places), ends
