@@ -107,7 +107,7 @@ def test_files(capsys, tmp_path):
     assert [one["counted"] for one in json.loads(out)] == [1, -3, 0]
 
 
-@pytest.mark.parametrize("arguments", [[], ["--help"], ["help"], ["-h"]])
+@pytest.mark.parametrize("arguments", [["--help"], ["help"], ["-h"], ["--lang", "en", "--help"]])
 def test_the_overview_names_every_command_in_a_group(capsys, arguments):
     status, out, _ = run(capsys, *arguments)
     assert status == 0
