@@ -734,8 +734,10 @@ export class Machine {
     const { model } = this;
     const degrees = Math.PI / 180;
     const numbers = (raw: unknown, count: number): number[] => {
-      if (!Array.isArray(raw) || raw.length !== count || !raw.every((v) => typeof v === "number" && Number.isFinite(v))) throw new Refused(null);
-      return raw as number[];
+      if (!Array.isArray(raw) || raw.length !== count) throw new Refused(null);
+      const found = raw.map((v) => (typeof v === "string" ? parseFloat(v) : v) as number); // angles may have more digits than a number
+      if (!found.every((v) => Number.isFinite(v))) throw new Refused(null);
+      return found;
     };
     const poses = oneRow(this.pose, 0);
     if (drive !== undefined && Number.isFinite(drive)) this.drives[this.active] = drive;
