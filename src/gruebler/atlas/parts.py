@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_table"]
 
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
-_AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 4}  # pieces in a part
+_AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part
 _CHECKED = ("inversions", "joint_orbits", "drives")  # columns whose sums the enumeration counts as well
 
 
