@@ -25,8 +25,8 @@ FLOORS = [
     {"analysis", "screws", "forces"},
     {"geometry", "realisation", "formats", "drawing/linkage"},
     {"synthesis", "catalog"},
-    {"exercises", "file_formats", "sheets"},
-    {"files", "pictures", "teaching"},
+    {"constructions", "exercises", "file_formats", "sheets"},
+    {"files", "pictures", "teaching", "worksheets"},
     {"explorer"},
     {"cli"},
 ]

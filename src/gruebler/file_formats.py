@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gruebler.atomic_files import atomic_file
 from gruebler.documents import load_document
 from gruebler.errors import GrueblerError
-from gruebler.text import Message, message
+from gruebler.text import Message, message, reason_of
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -291,10 +291,31 @@ def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
     _write_text(path, mjcf_from_linkage(_as_linkage(value), left_out))
 
 
+def _write_urdf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.formats.urdf import urdf_from_linkage
+
+    _write_text(path, urdf_from_linkage(_as_linkage(value), left_out))
+
+
 def _write_dxf(value: Any, path: Path, left_out: list[Message]) -> None:
     from gruebler.formats.dxf import dxf_from_linkage
 
     _write_text(path, dxf_from_linkage(_as_linkage(value), left_out))
+
+
+def _write_dxf_of_links(value: Any, path: Path, left_out: list[Message]) -> None:
+    """One file a link, in a folder."""
+    from gruebler.formats.dxf import dxf_of_links
+
+    texts = dxf_of_links(_as_linkage(value), left_out)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise GrueblerError(
+            "{path}: the folder cannot be made ({reason})", path=path, reason=reason_of(error)
+        ) from None
+    for name, text in texts.items():
+        _write_text(path / f"{name}.dxf", text)
 
 
 def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
@@ -429,9 +450,17 @@ FORMATS: tuple[Format, ...] = (
         "dxf",
         (".dxf",),
         message("CAD, laser cutters (DXF)"),
-        message("plates of links of pins and slides with holes, paths of points, in one position"),
+        message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
         None,
         _write_dxf,
+    ),
+    Format(
+        "dxf-links",
+        (),
+        message("CAD, laser cutters (DXF), a file for each link"),
+        message("a folder of plates with holes and slots, one link a file, with its plane in the name"),
+        None,
+        _write_dxf_of_links,
     ),
     Format(
         "mjcf",
@@ -440,6 +469,14 @@ FORMATS: tuple[Format, ...] = (
         message("a linkage of pins, slides and slots as a model that runs, points, drives"),
         None,
         _write_mjcf,
+    ),
+    Format(
+        "urdf",
+        (".urdf",),
+        message("robots (URDF)"),
+        message("a linkage of pins, slides and slots as a tree: its loops are cut"),
+        None,
+        _write_urdf,
     ),
     Format(
         "spreadsheet",

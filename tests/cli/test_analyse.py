@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import re
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -344,3 +345,21 @@ def test_the_direction_of_a_slide(capsys, machine, says):
     assert ("is fixed." if says == "fixed" else "turns.") in next(
         line for line in out.splitlines() if line.startswith("The direction of the slide")
     )
+
+
+def test_planes_are_printed_and_drawn(tmp_path, capsys):
+    words = ["analyse", CRANK_ROCKER, "--planes"]
+    assert main(words) == 0
+    assert "Planes of the links, from below: 1: frame; 2: crank, rocker; 3: coupler." in capsys.readouterr().out
+    assert main([*words, "--json", "--lang", "de"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["planes"]["Koppel" if "Koppel" in document["planes"] else "coupler"] == 3
+    assert main(["analyse", "scissor2", "--planes"]) == 0
+    assert "cannot lie in planes" in capsys.readouterr().out
+    assert main(["analyse", "scissor2", "--planes", "--range", "20:40:5"]) == 0
+    assert "Planes of the links" in capsys.readouterr().out
+    assert main(["analyse", "pent", "--planes"]) == 2
+    assert main(["draw", CRANK_ROCKER, "--show", "planes", "-o", str(tmp_path / "x.svg")]) == 0
+    drawn = ElementTree.fromstring((tmp_path / "x.svg").read_text(encoding="utf-8"))
+    texts = [element.text for element in drawn.iter() if element.tag.endswith("text")]
+    assert sorted(texts) == ["1", "2", "2", "3"]

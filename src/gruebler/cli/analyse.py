@@ -33,6 +33,7 @@ from gruebler.linkages import Linkage
 from gruebler.text import Message, error_in_language, joined, message, translate
 
 if TYPE_CHECKING:
+    from gruebler.analysis.link_planes import LinkPlanes
     from gruebler.analysis.measures import Measures
     from gruebler.analysis.rotatability import Rotatability
     from gruebler.kinematics.circuits import Circuit
@@ -106,6 +107,12 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "--curvature", action="store_true", help="radius and centre of curvature of each --point; inflection circles"
     )
+    parser.add_argument(
+        "--planes",
+        action="store_true",
+        help="the planes in which the links, as plates, do not collide over the whole motion, or over the rows of "
+        "--range",
+    )
     parser.add_printed(help="print an object with linkage, measures, columns and rows", table=True)
 
 
@@ -124,8 +131,8 @@ def run(arguments: argparse.Namespace) -> int:
         read_branch(plan, arguments.branch)
     given = given_rows(arguments.range, arguments.at, turning)
     if len(turning) > 1:
-        if arguments.poles or arguments.curvature:
-            raise GrueblerError("--poles and --curvature need a linkage with one drive")
+        if arguments.poles or arguments.curvature or arguments.planes:
+            raise GrueblerError("--poles, --curvature and --planes need a linkage with one drive")
         if given is None:
             raise GrueblerError(
                 "the linkage has {count} drives: give --range FROM:TO:STEP for each, or --at VALUE,VALUE",
@@ -244,6 +251,15 @@ def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Nam
     return columns
 
 
+def _planes(linkage: Linkage, arguments: argparse.Namespace) -> LinkPlanes:
+    """The planes over the rows of --range, else over the whole motion."""
+    from gruebler.analysis.link_planes import link_planes
+
+    rows = given_rows(arguments.range, [], turning_drives(linkage))
+    between = None if rows is None else (float(np.min(rows)), float(np.max(rows)))
+    return link_planes(linkage, between=between)
+
+
 def _listed(arguments: argparse.Namespace) -> bool:
     """Whether the poles are printed as a list below the table."""
     return bool(arguments.poles and arguments.at and not arguments.json and not is_table(arguments.out))
@@ -272,10 +288,17 @@ def _report(
     if is_table(arguments.out):
         write_table(arguments.out, columns, arguments.lang, decimal_comma=arguments.decimal_comma)
     if arguments.json:
-        print_json(_document(linkage, measures, motion, columns, arguments.lang))
+        planes = {}
+        if arguments.planes:
+            found = _planes(linkage, arguments)
+            planes = {"planes": found.planes, "planes_message": found.explain(arguments.lang)}
+        print_json(_document(linkage, measures, motion, columns, arguments.lang) | planes)
     else:
         if measures is not None:
             _print_measures(linkage, measures, arguments.lang)
+        if arguments.planes:
+            print_text(_planes(linkage, arguments).explain(arguments.lang))
+            print()
         if columns and not is_table(arguments.out):
             rows = shown(columns, arguments.lang)
             print_table([column.header for column in columns], rows, numbers=range(len(columns)))

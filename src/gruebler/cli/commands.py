@@ -83,6 +83,10 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
     (
         message("Teaching"),
         (
+            Command(
+                "construct",
+                message("constructions with compass and ruler, step by step: dead centres, polygons, curvature, cams"),
+            ),
             Command("exercise", message("exercises and generated tasks: list, solve step by step, mark answers")),
             Command("sheet", message("data sheets of a collection: a mechanism on one page")),
             Command("table", message("teaching tables: joints, links, inversions, Grashof types")),
