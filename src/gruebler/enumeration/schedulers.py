@@ -42,7 +42,9 @@ class DaskScheduler:
         except ImportError:
             raise GrueblerError("a scheduler needs Dask: pip install 'gruebler[cluster]'") from None
         try:
-            client = Client(self.address, timeout=_PATIENCE, set_as_default=False)
+            client: Any = Client(  # type: ignore[no-untyped-call, unused-ignore]
+                self.address, timeout=_PATIENCE, set_as_default=False
+            )
         except (OSError, ValueError, TypeError):
             raise RunError("no Dask scheduler answers at {address}", address=self.address) from None
         return DaskExecutor(client)
