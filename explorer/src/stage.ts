@@ -201,10 +201,10 @@ export class Stage {
         front.append(element);
         this.labels.push({ element, at });
       };
-      model.links.slice(0, model.own).forEach((name, link) => {
+      model.links.slice(0, model.own).forEach((_, link) => {
         if (link === model.frame) return;
         const mine = machine.elementsOn(link);
-        text(name, "name", () => {
+        text(machine.linkName(link), "name", () => {
           const places = mine.map((k) => machine.elementAt(k));
           return [places.reduce((sum, p) => sum + p[0], 0) / places.length, places.reduce((sum, p) => sum + p[1], 0) / places.length];
         });
