@@ -430,15 +430,18 @@ export class Stage {
     const trace = (at: (row: number) => [number, number] | null) => {
       pen.beginPath();
       let on = false;
+      let last: [number, number] = [0, 0];
       for (let row = 0; row < values.length; row++) {
         const place = at(row);
         if (!place || !Number.isFinite(place[0] + place[1]) || Math.abs(place[0]) + Math.abs(place[1]) > 1e5) {
           on = false;
           continue;
         }
-        if (on) pen.lineTo(...place);
+        // a step far beyond the picture leads through infinity, to the other end of an asymptote
+        if (on && Math.hypot(place[0] - last[0], place[1] - last[1]) < 2 * (this.width + this.height)) pen.lineTo(...place);
         else pen.moveTo(...place);
         on = true;
+        last = place;
       }
       pen.stroke();
     };
