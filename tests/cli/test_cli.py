@@ -288,5 +288,5 @@ def test_a_table_is_not_written_under_the_name_of_a_picture(capsys, tmp_path):
     for command in (("analyse", "lambda"), ("statics", "slider-crank:20,60", "--load", "R(coupler-slider)=-1,0")):
         status, _, err = run(capsys, *command, "-o", str(tmp_path / "x.svg"))
         assert status == 2
-        assert "expected a name that ends with .txt, .json, .csv" in err
+        assert "expected a name that ends with .txt, .json, .csv or .parquet" in err
     assert list(tmp_path.iterdir()) == []
