@@ -18,7 +18,16 @@ def listed(chain):
 
 @pytest.mark.parametrize(
     ("links", "mobility", "joints"),
-    [(4, 1, "0"), (6, 1, "any"), (5, 2, "any"), (7, 2, "any"), (6, 3, "0"), (8, 3, "0"), (7, 4, "any"), (8, 5, "any")],
+    [
+        (4, 1, "0"),
+        (6, 1, "any"),
+        (5, 2, "any"),
+        (7, 2, "any"),
+        (6, 3, "0"),
+        pytest.param(8, 3, "0", marks=pytest.mark.slow),
+        (7, 4, "any"),
+        (8, 5, "any"),
+    ],
 )
 def test_every_chain_against_the_list(links, mobility, joints):
     chains = list(gr.chains(links, mobility, fractionated="all", multiple_joints=joints))

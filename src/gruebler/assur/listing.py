@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 _GROUP = 1.5e-5  # seconds on one core
-_INTERPRETED = 2e-2  # for a truss, if the kernel is interpreted
+_INTERPRETED = 4e-3  # for a truss, if the kernel is interpreted
 
 
 class GroupRow(NamedTuple):

@@ -26,7 +26,7 @@ __all__ = ["bulk_tables", "driven_table", "mechanism_table"]
 _BULK_LINKS = 7  # from here on: smaller chains have names of families, and their rows are few
 _NAMED = 4  # Assur groups of more links have no names
 _GROUPS = 1 << 19  # the most kinds of groups in a part of the work
-_INTERPRETED = 1e-2  # seconds for a driven mechanism, if the kernel is interpreted
+_INTERPRETED = 1e-4  # seconds for each link of a driven mechanism, if the kernel is interpreted
 
 
 def mechanism_table(codes: Iterable[str], mobility: int) -> pa.Table:
@@ -130,7 +130,7 @@ def bulk_tables(chains: pa.Table, *, driven: bool) -> dict[str, pa.Table] | None
     rows = int(chains["drives"].to_numpy().sum()) if driven else 0
     drives = np.zeros((rows, kernels.GROUPS + 1 + (n - 2) // 2), np.int32)
     counts = np.zeros(2, np.int64)
-    find = for_work(kernels.list_mechanisms, _INTERPRETED * rows)
+    find = for_work(kernels.list_mechanisms, _INTERPRETED * n * (rows + len(codes)))
     if not find(n, joints, text, np.cumsum(lengths).astype(np.int64), memory, frames, drives, counts):
         raise GrueblerError("a part of the atlas has too many kinds of Assur groups; take smaller pieces of work")
 

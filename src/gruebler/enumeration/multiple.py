@@ -26,7 +26,7 @@ __all__ = ["grown_joints", "with_multiple_joints"]
 _MANY = 99  # no limit: more than a chain can have
 _AT_ONCE = 64  # chains with simple joints that are grown together
 _BLOCK = 16384  # chains in a block
-_INTERPRETED = 2e-2  # seconds for a chain with simple joints of six links, if the kernel is interpreted
+_INTERPRETED = 2e-3  # seconds for a chain with simple joints of six links, if the kernel is interpreted
 
 
 def with_multiple_joints(
@@ -100,7 +100,7 @@ def grown_joints(
         return
     chains = np.array(simple, np.int64)
     memory = make_growth_memory(links, chains.shape[1])
-    grow = for_work(grow_chains, _INTERPRETED * len(chains) * 4.0 ** (links - 6))
+    grow = for_work(grow_chains, _INTERPRETED * len(chains) * 2.0 ** (links - 6))
     limits = fewest, _MANY if most is None else most, _MANY if largest is None else largest
     while True:
         block = np.empty((_BLOCK, 1 + chains.shape[1]), np.int64)

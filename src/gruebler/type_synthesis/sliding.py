@@ -28,7 +28,7 @@ Int64 = NDArray[np.int64]
 
 _PRIME = 2**31 - 1
 _AT_ONCE = 16  # chains in a piece of work
-_CHOICE = 3e-4  # seconds for a choice, if the kernel is interpreted
+_CHOICE = 6e-5  # seconds for a choice, if the kernel is interpreted
 
 
 def count_sliding_variants(
