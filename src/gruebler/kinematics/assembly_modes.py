@@ -173,21 +173,23 @@ class GroupSolver:
 
     def __init__(self, group: GroupConditions) -> None:
         from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.closure import closing
-        from gruebler._numeric.motion.newton import newton
+        from gruebler._numeric.motion.closure import Conditions, closing
+        from gruebler._numeric.motion.newton import new_newton_scratch, newton
+        from gruebler._numeric.motion.planar_jets import ElementJets
         from gruebler._numeric.work_estimates import closing_work, newton_work
 
         self.size, n = group.size, 3 * group.bodies
         self._group = group
-        self._arguments = (
-            group.kinds,
-            np.zeros((len(group.kinds), 8)),
-            np.zeros((0, 14)),
-            group.owners,
-            group.points.reshape(-1, 1),
-            group.lines,
+        self._conditions = Conditions(
+            kinds=group.kinds,
+            values=np.zeros((len(group.kinds), 8)),
+            pieces=np.zeros((0, 14)),
+            owners=group.owners,
+            elements=ElementJets(group.points.reshape(-1, 1), group.lines, np.zeros((0, 3))),
+            size=group.size,
         )
-        self._residual, self._jacobian, self._pivots = np.zeros(n), np.zeros((n, n)), np.zeros(n, np.int64)
+        self._scratch = new_newton_scratch(n)
+        self._residual, self._jacobian = self._scratch.residual, self._scratch.jacobian
         self._closing = partial(for_work, closing, closing_work(n))
         self._newton = partial(for_work, newton, newton_work(n))
         self._widest = max(self.size, float(np.abs(group.points).max()))
@@ -200,8 +202,7 @@ class GroupSolver:
 
     def settle(self, pose: Reals) -> bool:
         """Improve a pose, in place, by Newton's method; whether it then satisfies the conditions."""
-        work = self._residual, self._jacobian
-        self._newton()(*self._arguments, pose, self.size, *work, self._pivots, _STEPS)
+        self._newton()(self._conditions, pose, _STEPS, self._scratch)
         return self._is_closed(pose)
 
     def settle_singular(self, pose: Reals) -> bool:
@@ -212,7 +213,7 @@ class GroupSolver:
         return self._is_closed(pose)
 
     def _is_closed(self, pose: Reals) -> bool:
-        gap = self._closing()(*self._arguments, pose, self.size, self._residual, self._jacobian)
+        gap = self._closing()(self._conditions, pose, self._residual, self._jacobian)
         if not gap <= _CLOSED * max(self._widest, _farthest(pose)):
             return False
         turns = np.exp(1j * np.append(pose[2::3], 0.0))
@@ -252,7 +253,7 @@ class GroupSolver:
 
     def _slope(self, pose: Reals) -> tuple[Reals, Reals]:
         """The Jacobian, without unit, and the units of the pose; the residual is left behind."""
-        self._closing()(*self._arguments, pose, self.size, self._residual, self._jacobian)
+        self._closing()(self._conditions, pose, self._residual, self._jacobian)
         reach = max(self.size, _farthest(pose))
         unit = np.tile([reach, reach, 1.0], len(pose) // 3)
         return self._jacobian * (unit / self.size), unit

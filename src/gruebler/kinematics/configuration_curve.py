@@ -25,7 +25,8 @@ from gruebler.linkages.model import NEAR_REFERENCE
 from gruebler.linkages.wheels import carriers, round_joints
 
 if TYPE_CHECKING:
-    from gruebler._numeric.motion.tracing import LoopConditions, SampleBuffer, TraceScratch
+    from gruebler._numeric.motion.closure import Conditions
+    from gruebler._numeric.motion.tracing import SampleBuffer, TraceScratch
 
 __all__ = ["ChangeSample", "ClosureSystem", "TracedCurve", "closure_system", "nearest_on_curve", "trace_circuit"]
 
@@ -57,7 +58,7 @@ class ClosureSystem:
     """The links; the arms are numbered behind them."""
     arms: tuple[tuple[tuple[int, str], tuple[int, str]], ...]
     """For each arm the wheels between which it lies, by joint and link."""
-    conditions: LoopConditions
+    conditions: Conditions
     room: TraceScratch
     equations: int
     meshes: tuple[NDArray[np.int64], NDArray[np.int64]]
@@ -140,8 +141,9 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
 
     `LinkageError` if it has more than one freedom by count.
     """
-    from gruebler._numeric.motion.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL
-    from gruebler._numeric.motion.tracing import LoopConditions, new_trace_scratch
+    from gruebler._numeric.motion.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL, Conditions
+    from gruebler._numeric.motion.planar_jets import ElementJets
+    from gruebler._numeric.motion.tracing import new_trace_scratch
 
     chain, frame, size = lower.mechanism.chain, lower.mechanism.frame, lower.size
     bodies = tuple(link for link in chain.links if link != frame)
@@ -189,13 +191,17 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
         rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
     ends_of = [end for row in rows for end in row.places]
     laws, pieces = law_tables([row.law for row in rows])
-    conditions = LoopConditions(
-        np.array([row.kind for row in rows], np.int64),
-        np.array([owner for row in rows for owner in row.owners], np.int64),
-        np.array([[point] for point, _ in ends_of], np.complex128),
-        np.array([line for _, line in ends_of], np.complex128),
-        np.array([(*row.values, *law) for row, law in zip(rows, laws, strict=True)]),
-        pieces,
+    conditions = Conditions(
+        kinds=np.array([row.kind for row in rows], np.int64),
+        values=np.array([(*row.values, *law) for row, law in zip(rows, laws, strict=True)]),
+        pieces=pieces,
+        owners=np.array([owner for row in rows for owner in row.owners], np.int64),
+        elements=ElementJets(
+            np.array([[point] for point, _ in ends_of], np.complex128),
+            np.array([line for _, line in ends_of], np.complex128),
+            np.zeros((0, 3)),
+        ),
+        size=1.0,
     )
     first = np.cumsum([0, *(EQUATIONS[row.kind] for row in rows)])
     meshes = np.array([k for k, row in enumerate(rows) if row.kind in (TRAIN, TRAVEL)], np.int64)

@@ -7,15 +7,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure_rates import RateScratch
+from gruebler._numeric.motion.newton import NewtonScratch, new_newton_scratch
+from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets
+
 __all__ = [
     "APART",
     "APPROACH",
     "CARRY",
     "DONE",
+    "EXPECTED",
     "FARTHEST",
     "FLAT",
     "GOOD",
     "GROUP",
+    "KEPT",
     "LEAST",
     "LIMIT",
     "LOST",
@@ -31,6 +37,7 @@ __all__ = [
     "SINGULAR",
     "START",
     "TURN",
+    "GroupScratch",
     "MotionScratch",
     "PoseBuffer",
     "PoseMemory",
@@ -53,12 +60,13 @@ or at its first row already."""
 GOOD, APPROACH, APART, LOST, MEET = range(5)
 """What a trial pose is: to be trusted; near a zero of a dyad's root; without a dyad that closes; with a larger group
 that is not where it should be; with outer joints of a dyad that meet, its direction still unknown."""
+
 FLAT = 1e-12  # a squared root below this is zero: an exact change point
 NEAR = 1e-3  # below this root a change point is looked for
+KEPT = 0.25  # of its last value: a root that keeps less may have come through zero, the step is halved
+EXPECTED = 0.5  # of its last value: a root that is expected to keep less falls to a zero, which is looked for
 LEAST = 1e-14  # the smallest step, in rows
 NEAREST = 1e-8  # of the longest step: nearer to a singular position of a larger group it is taken for a limit
-
-
 FARTHEST = 1.0  # radians: a step that turns a wheel further is not taken, so that no whole turn is missed
 
 
@@ -94,7 +102,7 @@ class Program(NamedTuple):
     windings: Ints
     """(conditions,) where the angles of a condition that counts whole turns stand among the unknowns, else -1."""
     pieces: Reals
-    """(pieces, 2 + coefficients) of the laws, see `closure.law`."""
+    """(pieces, 2 + coefficients) of the laws, see `closure.evaluate_law`."""
 
 
 class PoseBuffer(NamedTuple):
@@ -115,12 +123,12 @@ class PoseBuffer(NamedTuple):
 
 
 class PoseMemory(NamedTuple):
-    """What the last poses were, newest first; index 3 is the trial."""
+    """What the last poses were, newest first; index 3 is the trial, index 4 what was predicted of it."""
 
     at: Reals  # (4,) their places on the path
     filled: Ints  # (1,) how many there are
     roots: Reals  # (4, dyads) signed roots
-    unknowns: Reals  # (4, 3 bodies and windings)
+    unknowns: Reals  # (5, 3 bodies and windings)
     determinants: Reals  # (4, groups)
     signs: Reals  # (dyads,) the sign that holds from here on
     change: Reals  # (dyads,) where the root goes through zero, NaN if that is not known
@@ -132,32 +140,31 @@ class PoseMemory(NamedTuple):
     which: Ints  # (1,) the dyad or group that spoils the trial
 
 
-class MotionScratch(NamedTuple):
-    places: Complexes
-    turns: Complexes
-    rates: Reals
-    points: Complexes
-    lines: Complexes
-    spins: Reals
-    group_points: Complexes
-    group_lines: Complexes
-    group_spins: Reals
-    residual: Reals
-    jacobian: Reals
-    normal: Reals
-    pivots: Ints
+class GroupScratch(NamedTuple):
+    """What a larger group is placed with; room for the largest one."""
+
+    elements: ElementJets
+    """Two slots for each closing condition."""
     values: Reals
-    body_places: Complexes
-    body_turns: Complexes
-    body_rates: Reals
+    """(conditions, 8) `Conditions.values`."""
+    bodies: BodyJets
+    newton: NewtonScratch
+    rates: RateScratch
+
+
+class MotionScratch(NamedTuple):
+    """What one pose is placed in."""
+
     drives: Reals
-    gap: Complexes
-    foretold: Reals
-    before: Complexes
-    turned: Ints
-    ends: Complexes
-    directions: Complexes
-    spun: Reals
+    """(4, drives) values and their three derivatives."""
+    links: BodyJets
+    dyad: ElementJets
+    """Six slots for the elements of a dyad; a drive uses the first."""
+    group: GroupScratch
+    last_turns: Complexes
+    """(links,) the turns of the pose accepted last."""
+    whole_turns: Ints
+    """(links,) whole turns since the first row."""
 
 
 def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
@@ -165,7 +172,7 @@ def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
         np.zeros(4),
         np.zeros(1, np.int64),
         np.zeros((4, dyads)),
-        np.zeros((4, unknowns)),
+        np.zeros((5, unknowns)),
         np.zeros((4, groups)),
         np.ones(dyads),
         np.full(dyads, np.nan),
@@ -181,29 +188,24 @@ def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
 def new_motion_scratch(links: int, conditions: int, bodies: int, drives: int) -> MotionScratch:
     c, b = max(conditions, 1), max(bodies, 1)
     return MotionScratch(
-        np.zeros((links, 4), np.complex128),
-        np.ones(links, np.complex128),
-        np.zeros((links, 3)),
-        np.zeros((6, 4), np.complex128),
-        np.zeros(6, np.complex128),
-        np.zeros((6, 3)),
-        np.zeros((2 * c, 4), np.complex128),
-        np.zeros(2 * c, np.complex128),
-        np.zeros((2 * c, 3)),
-        np.zeros(3 * b + 2),
-        np.zeros((3 * b + 2, 3 * b)),
-        np.zeros((3 * b, 3 * b)),
-        np.zeros(3 * b + 2, np.int64),
-        np.zeros((c, 8)),
-        np.zeros((b, 4), np.complex128),
-        np.ones(b, np.complex128),
-        np.zeros((b, 3)),
-        np.zeros((4, drives)),
-        np.zeros(4, np.complex128),
-        np.zeros(3 * b),
-        np.ones(links, np.complex128),
-        np.zeros(links, np.int64),
-        np.zeros(2, np.complex128),
-        np.ones(2, np.complex128),
-        np.zeros((2, 3)),
+        drives=np.zeros((4, drives)),
+        links=_body_jets(links),
+        dyad=_element_jets(6),
+        group=GroupScratch(
+            elements=_element_jets(2 * c),
+            values=np.zeros((c, 8)),
+            bodies=_body_jets(b),
+            newton=new_newton_scratch(3 * b),
+            rates=RateScratch(np.zeros(4, np.complex128), np.zeros((2, 3))),
+        ),
+        last_turns=np.ones(links, np.complex128),
+        whole_turns=np.zeros(links, np.int64),
     )
+
+
+def _body_jets(bodies: int) -> BodyJets:
+    return BodyJets(np.zeros((bodies, 4), np.complex128), np.ones(bodies, np.complex128), np.zeros((bodies, 3)))
+
+
+def _element_jets(slots: int) -> ElementJets:
+    return ElementJets(np.zeros((slots, 4), np.complex128), np.ones(slots, np.complex128), np.zeros((slots, 3)))
