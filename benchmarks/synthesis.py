@@ -171,6 +171,63 @@ def rival(task: PositionTask, points: np.ndarray) -> None:
         print(f"{name:36}{told:>40}{time.perf_counter() - start:>8.2f} s", flush=True)
 
 
+def rival_curves(places: int = 96, generations: int = 1000) -> None:
+    """Closed curves by pylinkage's differential evolution with its default settings: one crank, dyad, coupler point.
+
+    The score is the root mean square distance of places evenly along both curves after the best similarity, start and
+    sense, by the longer side of the target: the measure of `curves`.
+    """
+    try:
+        from pylinkage.actuators import Crank
+        from pylinkage.components import Ground
+        from pylinkage.dyads import FixedDyad, RRRDyad
+        from pylinkage.optimization import differential_evolution_optimization, kinematic_minimization
+        from pylinkage.simulation import Linkage
+    except ImportError:
+        print("pylinkage is not installed")
+        return
+
+    def even(z: np.ndarray) -> np.ndarray:
+        way = np.concatenate([[0], np.cumsum(np.abs(np.diff(np.append(z, z[0]))))])
+        at = np.linspace(0, way[-1], places, endpoint=False)
+        closed = np.append(z, z[0])
+        return np.interp(at, way, closed.real) + 1j * np.interp(at, way, closed.imag)
+
+    ground, far = Ground(0, 0, name="A"), Ground(1, 0, name="D")
+    crank = Crank(anchor=ground, radius=0.3, angular_velocity=2 * pi / places, initial_angle=0.1, name="B")
+    rocker = RRRDyad(anchor1=crank.output, anchor2=far, distance1=0.9, distance2=0.8, name="C")
+    point = FixedDyad(anchor1=crank.output, anchor2=rocker, distance=0.5, angle=0.4, name="P")
+    linkage = Linkage([ground, far, crank, rocker, point], name="four-bar")
+    errors, times = [], []
+    print(f"\n{'pylinkage':22}{'error':>10}{'time':>10}")
+    for name, (z, closed) in targets().items():
+        if not closed:
+            continue
+        wanted = even(z) - even(z).mean()
+        longer = max(np.ptp(z.real), np.ptp(z.imag))
+
+        @kinematic_minimization
+        def score(loci, wanted=wanted, longer=longer, **_: object) -> float:
+            own = even(np.array([complex(*row[-1]) for row in loci]))
+            own -= own.mean()
+            power = float(np.sum(np.abs(own) ** 2))
+            if not power > 0:
+                return float("inf")
+            fits = [np.abs(np.fft.ifft(np.fft.fft(wanted) * np.conj(np.fft.fft(w)))).max() for w in (own, own[::-1])]
+            rest = np.sum(np.abs(wanted) ** 2) - max(fits) ** 2 / power
+            return float(np.sqrt(max(rest, 0.0) / places) / longer)
+
+        start = time.perf_counter()
+        bounds = ([0.05, 0.1, 0.1, 0.05, -pi], [0.9, 3.0, 3.0, 3.0, pi])
+        found = differential_evolution_optimization(
+            score, linkage, bounds=bounds, order_relation=min, seed=1, maxiter=generations, verbose=False
+        )
+        times.append(time.perf_counter() - start)
+        errors.append(found[0].score)
+        print(f"{name:22}{errors[-1]:>10.3%}{times[-1]:>8.2f} s", flush=True)
+    print(f"{'median':22}{statistics.median(errors):>10.3%}{statistics.median(times):>8.2f} s")
+
+
 def main() -> None:
     finite_problems()
     drives = np.radians([10.0, 35.0, 60.0, 85.0, 110.0])
@@ -182,6 +239,7 @@ def main() -> None:
     points = PathTask(motion.point("P"), crank_angles=tuple(drives))
     print(f"five points with crank angles, with verdicts: {seconds(lambda: synthesise_path(points), 3):.2f} s")
     rival(task, motion.complex_point("P"))
+    rival_curves()
     six_bar_gradient()
     curves()
     six_bars()

@@ -15,9 +15,17 @@ name says otherwise.
 6856
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from lazy_loader import attach_stub
 
 from gruebler import notebook
+
+if TYPE_CHECKING:
+    from gruebler.columns import Table
+    from gruebler.kinematics.motion import Motion
 
 __version__ = "0.1.0"
 __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
@@ -31,3 +39,13 @@ def _picture(value: object) -> str:
 
 
 notebook.svg_of = _picture
+
+
+def _table(motion: Motion, *options: Any, **named: Any) -> Table:
+    """The table of a motion."""
+    from gruebler.analysis.table import motion_table
+
+    return motion_table(motion, *options, **named)
+
+
+notebook.table_of = _table

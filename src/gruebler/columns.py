@@ -6,9 +6,11 @@ import csv
 import io
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from itertools import count
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError, nearest
@@ -80,9 +82,66 @@ class Table:
         """The table without its first rows."""
         return Table(tuple(column.without(rows) for column in self.columns))
 
-    def csv(self) -> str:
-        """The table as CSV, with units in its header."""
-        return as_csv(self.columns)
+    def csv(self, *, decimal_comma: bool = False) -> str:
+        """The table as CSV, with units in its header; with decimal commas for spreadsheets, then ; between cells."""
+        return as_csv(self.columns, decimal_comma=decimal_comma)
+
+    def structured(self) -> NDArray[np.void]:
+        """A structured array, (rows,), of floats; its fields are the headers, with units.
+
+        >>> Table((Column("s", "mm", np.array([1.0, 2.0])),)).structured()["s [mm]"]
+        array([1., 2.])
+        """
+        headers = self._headers()
+        out = np.empty(len(self), [(header, np.float64) for header in headers])
+        for header, column in zip(headers, self.columns, strict=True):
+            out[header] = column.values
+        return out
+
+    def pandas(self) -> Any:
+        """A `pandas.DataFrame` whose columns are the headers, with units; `GrueblerError` without pandas."""
+        try:
+            import pandas
+        except ImportError:
+            raise GrueblerError("a DataFrame needs pandas: pip install pandas") from None
+        return pandas.DataFrame(self.structured())
+
+    def arrow(self) -> Any:
+        """A `pyarrow.Table`: columns by their headers, null where a quantity is not defined, name and unit as metadata.
+
+        Raises `GrueblerError` without pyarrow.
+        """
+        try:
+            import pyarrow
+        except ImportError:
+            raise GrueblerError('Arrow and Parquet need pyarrow: pip install "gruebler[atlas]"') from None
+        fields = [
+            pyarrow.field(header, pyarrow.float64(), metadata={"name": column.name, "unit": column.unit})
+            for header, column in zip(self._headers(), self.columns, strict=True)
+        ]
+        arrays = [pyarrow.array(column.values, from_pandas=True) for column in self.columns]
+        return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields))
+
+    def parquet(self) -> bytes:
+        """The content of a Parquet file of the table (`arrow`); `GrueblerError` without pyarrow."""
+        table = self.arrow()
+        from pyarrow.parquet import write_table
+
+        out = io.BytesIO()
+        write_table(table, out)
+        return out.getvalue()
+
+    def _headers(self) -> list[str]:
+        """The headers, a number behind one that comes again."""
+        headers: list[str] = []
+        for column in self.columns:
+            header = column.header
+            for k in count(2):
+                if header not in headers:
+                    break
+                header = f"{column.header} ({k})"
+            headers.append(header)
+        return headers
 
 
 def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:
@@ -106,17 +165,26 @@ def _cell(value: float, lang: str) -> str:
     return "∞" if np.isinf(value) else "–"
 
 
-def as_csv(columns: Iterable[Column]) -> str:
-    """A table with the units in its header; an empty cell where a quantity is not defined.
+def as_csv(columns: Iterable[Column], *, decimal_comma: bool = False) -> str:
+    r"""A table with the units in its header; an empty cell where a quantity is not defined.
 
     Headers that begin with = + - @, a tab or a line end get an apostrophe in front, so that no spreadsheet takes the
     name of a point for a formula. Numbers stay as they are.
+
+    Args:
+        columns: Of the same rows.
+        decimal_comma: Numbers with decimal commas and cells between semicolons, as spreadsheets expect them where the
+            comma is the decimal sign.
+
+    >>> as_csv([Column("x", "mm", np.array([1.5])), Column("y", "mm", np.array([np.nan]))], decimal_comma=True)
+    'x [mm];y [mm]\r\n1,5;\r\n'
     """
     columns = list(columns)
     text = io.StringIO()
-    writer = csv.writer(text)
+    writer = csv.writer(text, delimiter=";" if decimal_comma else ",")
     headers = [column.header for column in columns]
     writer.writerow(["'" + header if header.startswith(_FORMULA) else header for header in headers])
     for row in zip(*(column.values for column in columns), strict=True):
-        writer.writerow([repr(float(value)) if np.isfinite(value) else "" for value in row])
+        cells = [repr(float(value)) if np.isfinite(value) else "" for value in row]
+        writer.writerow([cell.replace(".", ",") for cell in cells] if decimal_comma else cells)
     return text.getvalue()

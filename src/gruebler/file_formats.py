@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gruebler.atomic_files import atomic_file
 from gruebler.documents import load_document
 from gruebler.errors import GrueblerError
-from gruebler.text import Message, message
+from gruebler.text import Message, message, reason_of
 
 if TYPE_CHECKING:
     from typing import TypeAlias
 
     from gruebler.chain import Chain
+    from gruebler.columns import Table
     from gruebler.formats.pin_drawings import PinDrawing
     from gruebler.gears import TrainReading
     from gruebler.linkages import Linkage
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
     Value: TypeAlias = Chain | list[Chain] | Linkage | SpatialLinkage | TrainReading | Task
 
-__all__ = ["FORMATS", "Format", "Value"]
+__all__ = ["FORMATS", "Format", "Value", "json_of_another_program"]
 
 _TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
 _LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
@@ -113,6 +114,43 @@ def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None
         raise GrueblerError("{path}: chains go to .json, .txt or .g6, not {suffix!r}", path=path, suffix=suffix)
 
 
+def _write_csv(value: Any, path: Path, left_out: list[Message]) -> None:
+    table = _as_table(value)
+    if table is None:
+        _write_task(value, path, left_out)
+    else:
+        _write_text(path, table.csv())
+
+
+def _write_spreadsheet(value: Any, path: Path, left_out: list[Message]) -> None:
+    """With a byte order mark: without it spreadsheets take ° and ′ for other signs."""
+    del left_out
+    _write_text(path, "\ufeff" + _required_table(value, path).csv(decimal_comma=True))
+
+
+def _write_parquet(value: Any, path: Path, left_out: list[Message]) -> None:
+    del left_out
+    _write_bytes(path, _required_table(value, path).parquet())
+
+
+def _as_table(value: Any) -> Table | None:
+    """The table of a motion, or the table itself; None for other values."""
+    from gruebler.columns import Table
+    from gruebler.kinematics.motion import Motion
+
+    if isinstance(value, Motion):
+        return value.table()
+    return value if isinstance(value, Table) else None
+
+
+def _required_table(value: Any, path: Path) -> Table:
+    table = _as_table(value)
+    if table is None:
+        kind = type(value).__name__
+        raise GrueblerError("{path}: the format holds motions and tables, not a {kind}", path=path, kind=kind)
+    return table
+
+
 def _task(path: Path, left_out: list[Message]) -> Task:
     """A task in CSV, or without a header a curve of four-bar-rs, closed if its name has ``.closed.``."""
     from gruebler.formats.four_bar_rs import curve_from_csv
@@ -144,8 +182,12 @@ def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
 
 
 def _write_text(path: Path, text: str) -> None:
+    _write_bytes(path, text.encode("utf-8"))
+
+
+def _write_bytes(path: Path, content: bytes) -> None:
     with atomic_file(path, durable=False) as file:
-        file.write(text.encode("utf-8"))
+        file.write(content)
 
 
 def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
@@ -216,6 +258,15 @@ _JSON_OF_OTHERS = {
 }
 
 
+def json_of_another_program(path: Path) -> bool:
+    """Whether a JSON file is one of another program, by its keys; False for a file that is no JSON."""
+    try:
+        data = load_document(path, GrueblerError)
+    except GrueblerError:
+        return False
+    return any(form.shows(data) for form in _JSON_OF_OTHERS.values())
+
+
 def _json_of_others(name: str, title: Message, carries: Message) -> Format:
     form = _JSON_OF_OTHERS[name]
 
@@ -244,6 +295,21 @@ def _write_dxf(value: Any, path: Path, left_out: list[Message]) -> None:
     from gruebler.formats.dxf import dxf_from_linkage
 
     _write_text(path, dxf_from_linkage(_as_linkage(value), left_out))
+
+
+def _write_dxf_of_links(value: Any, path: Path, left_out: list[Message]) -> None:
+    """One file a link, in a folder."""
+    from gruebler.formats.dxf import dxf_of_links
+
+    texts = dxf_of_links(_as_linkage(value), left_out)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise GrueblerError(
+            "{path}: the folder cannot be made ({reason})", path=path, reason=reason_of(error)
+        ) from None
+    for name, text in texts.items():
+        _write_text(path / f"{name}.dxf", text)
 
 
 def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
@@ -324,9 +390,9 @@ FORMATS: tuple[Format, ...] = (
         "csv",
         (".csv",),
         message("gruebler, CSV; curves of four-bar-rs are recognised"),
-        message("tasks of synthesis, completely"),
+        message("tasks of synthesis, completely; tables of motions with units in their headers (written)"),
         _task,
-        _write_task,
+        _write_csv,
     ),
     _lines("text", ".txt", message("gruebler, texts of chains"), message("chains one a line, with any joints")),
     _lines("graph6", ".g6", message("nauty, House of Graphs"), message("chains one a line: revolute, one between two")),
@@ -378,9 +444,17 @@ FORMATS: tuple[Format, ...] = (
         "dxf",
         (".dxf",),
         message("CAD, laser cutters (DXF)"),
-        message("plates of links of pins and slides with holes, paths of points, in one position"),
+        message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
         None,
         _write_dxf,
+    ),
+    Format(
+        "dxf-links",
+        (),
+        message("CAD, laser cutters (DXF), a file for each link"),
+        message("a folder of plates with holes and slots, one link a file, with its plane in the name"),
+        None,
+        _write_dxf_of_links,
     ),
     Format(
         "mjcf",
@@ -389,6 +463,22 @@ FORMATS: tuple[Format, ...] = (
         message("a linkage of pins, slides and slots as a model that runs, points, drives"),
         None,
         _write_mjcf,
+    ),
+    Format(
+        "spreadsheet",
+        (),
+        message("CSV for spreadsheets with decimal commas"),
+        message("tables of motions with units in their headers, semicolons between cells"),
+        None,
+        _write_spreadsheet,
+    ),
+    Format(
+        "parquet",
+        (".parquet",),
+        message("Parquet"),
+        message("tables of motions with units in their headers"),
+        None,
+        _write_parquet,
     ),
 )
 """Every format, those of this library first."""

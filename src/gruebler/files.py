@@ -9,13 +9,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gruebler.errors import GrueblerError, nearest
-from gruebler.file_formats import FORMATS, Format
+from gruebler.file_formats import FORMATS, Format, json_of_another_program
 from gruebler.text import Message, joined, joined_by_or, message
 
 if TYPE_CHECKING:
     from gruebler.file_formats import Value
 
-__all__ = ["FORMATS", "Format", "FormatWarning", "convert", "format_of", "read", "write"]
+__all__ = [
+    "FORMATS",
+    "Format",
+    "FormatWarning",
+    "convert",
+    "format_of",
+    "is_of_another_program",
+    "read",
+    "write",
+]
+
+_OWN = frozenset({"toml", "csv", "text", "graph6"})  # names of formats that the other readers of this library know, too
 
 
 class FormatWarning(UserWarning):
@@ -50,6 +61,18 @@ def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
         endings=joined_by_or(endings),
         suffix=Path(path).suffix,
     )
+
+
+def is_of_another_program(path: Path) -> bool:
+    """Whether a file is one that `read` alone reads: by the ending of its name, of JSON by its keys.
+
+    >>> is_of_another_program(Path("leg.linkage2")), is_of_another_program(Path("leg.toml"))
+    (True, False)
+    """
+    if path.suffix.lower() == ".json":
+        return json_of_another_program(path)
+    others = [form for form in FORMATS if form.read is not None and form.name not in _OWN]
+    return path.name.lower().endswith(tuple(ending for form in others for ending in form.suffixes))
 
 
 def read(path: str | PathLike[str], format_name: str | None = None, *, left_out: list[Message] | None = None) -> Value:
@@ -89,10 +112,10 @@ def write(
     *,
     left_out: list[Message] | None = None,
 ) -> Path:
-    """Write a value into a file that `read` takes back; returns the path.
+    """Write a value into a file that `read` takes back, a motion as a table; returns the path.
 
     Args:
-        value: a linkage, a chain or a list of chains, a task.
+        value: a linkage, a chain or a list of chains, a task, a motion or its table (`Motion.table`).
         path: a file, which appears complete or not at all; the ending of its name says the format.
         format_name: the format, if the name does not say it: one of `FORMATS`.
         left_out: gets a message for each thing of the value that the file does not have; without it such things are
@@ -121,13 +144,15 @@ def write(
 
 def _check_kind(value: object) -> None:
     from gruebler.chain import Chain
+    from gruebler.columns import Table
+    from gruebler.kinematics.motion import Motion
     from gruebler.linkages import Linkage
     from gruebler.synthesis import Task
 
     chains = isinstance(value, Sequence) and value and all(isinstance(item, Chain) for item in value)
-    if not (chains or isinstance(value, Chain | Linkage | Task)):
+    if not (chains or isinstance(value, Chain | Linkage | Task | Motion | Table)):
         raise GrueblerError(
-            "values of type {kind} cannot be written; linkages, tasks, chains and lists of chains can",
+            "values of type {kind} cannot be written; linkages, tasks, motions, tables, chains and lists of chains can",
             kind=type(value).__name__,
         )
 

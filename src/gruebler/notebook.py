@@ -1,17 +1,21 @@
-"""How values show themselves: in one line, and in a notebook as a picture.
+"""How values show themselves: in one line, in a notebook as a picture, a motion as a table.
 
-`gruebler/__init__.py` puts the drawing functions here, so that no value imports a higher room.
+`gruebler/__init__.py` puts the functions of higher rooms here, so that no value imports them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import fields
+from typing import Any
 
-__all__ = ["Brief", "svg_of"]
+__all__ = ["Brief", "svg_of", "table_of"]
 
 svg_of: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
+
+table_of: Callable[..., Any] | None = None
+"""Makes the table of a motion; None until the front door has set it."""
 
 
 class Brief:

@@ -121,7 +121,9 @@ def work() -> None:
         circuit(entry(name).linkage())
     gr.move(entry("crane_cyl").linkage(), np.linspace(34.5, 47, 6), **steady)
     assembly_modes(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))
-    move_many(four_bars([25, 30], 70, 40, 70), gr.from_degrees(0, 60, 5), speed=1.0)
+    move_many(
+        four_bars([25, 30], 70, 40, 70), gr.from_degrees(0, 60, 5), speed=1.0, threads=1
+    )  # nobody else writes what is compared
     for problem in PROBLEMS[2:]:  # four-bars through positions and points: a short way from known solutions
         begin, z = load_generic_solutions(problem)
         follow_from_generic(problem, z[:2], begin, begin * (1.01 + 0.005j), 1e-3)

@@ -122,6 +122,18 @@ def test_a_jump_is_no_zero() -> None:
     assert find_zeros(lambda x: np.zeros((1, len(x))), np.linspace(0, 1, 20)) == ()
 
 
+@pytest.mark.parametrize("width", [1e-3, 1e-5, 1e-6])
+def test_a_steep_zero_is_no_jump(width: float) -> None:
+    """Between two sharp extremes of a function whose places are rounded to 1e-11, so that it is never 0."""
+
+    def steep(x: np.ndarray) -> np.ndarray:
+        off = np.floor((x - 0.501) * 1e11) / 1e11 + 5e-12
+        return (off / (off**2 + width**2))[None]
+
+    grid = np.sort(np.concatenate([np.linspace(0, 1, 20), 0.501 + width * np.array([-2, -1, 1, 2])]))
+    assert [zero.at for zero in find_zeros(steep, grid)] == pytest.approx([0.501], rel=0, abs=1e-11)
+
+
 # --- against closed forms ----------------------------------------------------------------------------
 
 length = st.floats(0.2, 5)

@@ -1,8 +1,13 @@
 """The table of a motion against closed forms and against the motion itself."""
 
+import csv
+import io
+import sys
+
 import numpy as np
 import pytest
 
+import gruebler as gr
 from gruebler.analysis import motion_table
 from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, SliderCrank
@@ -61,3 +66,86 @@ def test_an_unknown_column_is_answered_by_the_nearest():
         GrueblerError, match=r"no column 'slidr' \(did you mean 'slider'\?\); it has R\(frame-crank\), slider"
     ):
         table()["slidr"]
+
+
+def test_a_motion_of_any_speed_has_the_same_derivatives_by_the_drive():
+    """s' and s'' do not depend on velocity and acceleration of the drive, which change from row to row."""
+    path = from_degrees(0, 350, 10)
+    speed, acceleration = np.linspace(2.0, 5.0, len(path)), np.linspace(-1.0, 3.0, len(path))
+    plain = move(SIZE.linkage(), path, speed=1.0).table()
+    driven = move(SIZE.linkage(), path, speed=speed, acceleration=acceleration).table()
+    for name in ("slider", "slider′", "slider′′"):
+        assert driven[name] == pytest.approx(plain[name], rel=1e-12, abs=1e-9)
+    judge = SIZE.motion(path, omega=speed, alpha=acceleration, branch=1).output
+    assert driven["v slider"] == pytest.approx(judge.velocity, rel=1e-9, abs=1e-8)
+    assert driven["a slider"] == pytest.approx(judge.acceleration, rel=1e-9, abs=1e-8)
+    assert not {"v slider", "a slider"} & {column.name for column in plain}
+
+
+def test_a_drive_that_rests_says_nothing_about_derivatives():
+    table = move(SIZE.linkage(), [0.5, 1.0], speed=[0.0, 2.0]).table()
+    assert np.isnan(table["slider′"]).tolist() == [True, False]
+    assert table["v slider"][0] == 0
+
+
+def test_rates_do_not_go_with_a_motion_of_another_speed():
+    with pytest.raises(GrueblerError, match="solved for speed 1"):
+        motion_table(move(SIZE.linkage(), [0.5], speed=2.0), rates=(1.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_the_same_numbers_in_every_form(lang, tmp_path):
+    """Structured array and CSV in two forms."""
+    motion = move(FourBar(25, 70, 40, 70).linkage(), from_degrees(0, 90, 30), speed=1.0)
+    table = motion.table(["rocker", "rocker"], ["R(crank-coupler)"], transmission="rocker", lang=lang)
+    array = table.structured()
+    names = list(array.dtype.names)
+    assert names[:3] == [f"{'R' if lang == 'en' else 'D'}(frame-crank) [°]", "rocker [°]", "rocker′"]
+    assert "rocker [°] (2)" in names
+    assert np.array_equal(np.column_stack([array[name] for name in names]), table.rows)
+    with gr.write(table, tmp_path / "t.csv").open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    assert [float(row[1]) for row in rows] == table["rocker"].tolist()
+    assert header[1] == "rocker [°]"
+    content = gr.write(table, tmp_path / "s.csv", "spreadsheet").read_bytes()
+    assert content.startswith(b"\xef\xbb\xbf")
+    header, *rows = csv.reader(io.StringIO(content.decode("utf-8-sig")), delimiter=";")
+    assert [float(row[1].replace(",", ".")) for row in rows] == table["rocker"].tolist()
+    assert header[-1] == names[-1]
+
+
+def test_pandas_has_the_headers():
+    pytest.importorskip("pandas")
+    table = move(SIZE.linkage(), from_degrees(0, 90, 30), speed=1.0).table()
+    frame = table.pandas()
+    assert list(frame.columns) == [column.header for column in table]
+    assert frame["slider [mm]"].tolist() == table["slider"].tolist()
+
+
+def test_parquet_keeps_names_and_units(tmp_path):
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    table = move(SIZE.linkage(), [0.5, 1.0], speed=[0.0, 2.0]).table()
+    read = parquet.read_table(gr.write(table, tmp_path / "t.parquet"))
+    assert read.column_names == [column.header for column in table]
+    assert read["slider [mm]"].to_pylist() == table["slider"].tolist()
+    assert read["slider′ [mm/rad]"].to_pylist() == [None, table["slider′"][1]]
+    assert read.schema.field("slider [mm]").metadata == {b"name": b"slider", b"unit": b"mm"}
+
+
+@pytest.mark.parametrize(("method", "package"), [("pandas", "pandas"), ("arrow", "pyarrow"), ("parquet", "pyarrow")])
+def test_a_missing_package_is_one_sentence(method, package, monkeypatch):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(GrueblerError, match=f"needs? {package}: pip install"):
+        getattr(move(SIZE.linkage(), [0.5]).table(), method)()
+
+
+def test_a_motion_is_written_and_other_values_are_no_tables(tmp_path):
+    motion = move(SIZE.linkage(), [0.5, 1.0])
+    lines = gr.write(motion, tmp_path / "m.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "R(frame-crank) [°],slider [mm]"
+    with pytest.raises(GrueblerError, match="holds motions and tables, not a Linkage"):
+        gr.write(SIZE, tmp_path / "m.parquet")
+    with pytest.raises(GrueblerError, match="a task of synthesis"):
+        gr.write(SIZE, tmp_path / "m.csv")

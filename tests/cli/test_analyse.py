@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import re
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -325,3 +326,40 @@ def test_the_unit_of_an_angle_is_in_its_key(capsys):
     slide = rows["P(frame-slider)"]
     assert (slide["range"], slide["unit"]) == (pytest.approx(50, abs=1e-9), "mm")
     assert not any(key.endswith("_deg") for key in slide)
+
+
+def test_a_table_with_decimal_commas_and_german_headers(tmp_path, capsys):
+    path = tmp_path / "t.csv"
+    words = ["analyse", CRANK_ROCKER, "--range", "0:90:30", "--lang", "de"]
+    assert main([*words, "-o", str(path), "--decimal-comma"]) == 0
+    head, first, *_ = path.read_text(encoding="utf-8-sig").splitlines()
+    assert head.split(";")[:2] == ["D(Gestell-Kurbel) [°]", "Schwinge [°]"]
+    assert [cell.count(",") for cell in first.split(";")] == [1] * len(head.split(";"))
+    assert main([*words, "--decimal-comma"]) == 2
+    assert "--decimal-comma" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("machine", "says"), [("slider-crank:20,50", "fixed"), ("kurbelschleife", "turns")])
+def test_the_direction_of_a_slide(capsys, machine, says):
+    out = run(capsys, machine)[1]
+    assert ("is fixed." if says == "fixed" else "turns.") in next(
+        line for line in out.splitlines() if line.startswith("The direction of the slide")
+    )
+
+
+def test_planes_are_printed_and_drawn(tmp_path, capsys):
+    words = ["analyse", CRANK_ROCKER, "--planes"]
+    assert main(words) == 0
+    assert "Planes of the links, from below: 1: frame; 2: crank, rocker; 3: coupler." in capsys.readouterr().out
+    assert main([*words, "--json", "--lang", "de"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["planes"]["Koppel" if "Koppel" in document["planes"] else "coupler"] == 3
+    assert main(["analyse", "scissor2", "--planes"]) == 0
+    assert "cannot lie in planes" in capsys.readouterr().out
+    assert main(["analyse", "scissor2", "--planes", "--range", "20:40:5"]) == 0
+    assert "Planes of the links" in capsys.readouterr().out
+    assert main(["analyse", "pent", "--planes"]) == 2
+    assert main(["draw", CRANK_ROCKER, "--show", "planes", "-o", str(tmp_path / "x.svg")]) == 0
+    drawn = ElementTree.fromstring((tmp_path / "x.svg").read_text(encoding="utf-8"))
+    texts = [element.text for element in drawn.iter() if element.tag.endswith("text")]
+    assert sorted(texts) == ["1", "2", "2", "3"]

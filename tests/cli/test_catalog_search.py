@@ -113,3 +113,14 @@ def test_show_in_full(capsys):
     assert run(capsys, "show", "exercise-6", "--full")[1] == plain  # an exercise has nothing to be derived here
     _, out, _ = run(capsys, "list")
     assert len(out.splitlines()) > len(entries())
+
+
+def test_guide_mechanisms_name_the_guided_link_and_no_transfer_function(capsys):
+    # Chapter 1: links of a guide mechanism guide or are guided; the word transfer function is not used for it.
+    out = run(capsys, "show", "mzc", "--full")[1]
+    assert "Guided link: coupler; guiding links: crank, rocker." in out
+    assert "Transfer function" not in out
+    out = run(capsys, "show", "crankrocker", "--full")[1]
+    assert "Transfer function:" in out
+    assert "Guide mechanism" not in out
+    assert "Guide mechanism" not in run(capsys, "show", "friction_forced", "--full")[1]

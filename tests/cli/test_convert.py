@@ -1,5 +1,6 @@
 """`gruebler convert`: files of other programs on the command line."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -50,13 +51,45 @@ def test_a_file_is_not_written_over_itself(tmp_path, capsys):
     assert path.read_text(encoding="utf-8").startswith("R(0-1)")
 
 
-def test_other_commands_name_the_conversion(capsys):
-    assert main(["analyse", str(FILES / "klann.linkage2")]) == 2
-    assert "gruebler convert" in capsys.readouterr().err
-
-
 def test_a_linkage_with_points_is_no_task(tmp_path):
     """The key ``points`` is of tasks, too."""
     linkage = FourBar(25, 70, 40, 70).linkage({"K": (45, 40)})
     for suffix in (".toml", ".json"):
         assert read(write(linkage, tmp_path / f"a{suffix}")) == linkage
+
+
+OTHERS = [
+    "klann.linkage2",
+    "jansen.pyslvs",
+    "shaper.pmks",
+    "mkh1.ron",
+    "motiongen-rrpr.json",
+    "pylinkage-four-bar.json",
+]
+
+
+@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("command", [["assur"], ["check", "--json"], ["analyse", "--json"], ["inversions"]])
+def test_commands_read_files_of_other_programs_as_they_read_the_converted_file(command, name, tmp_path, capsys):
+    """The same output, to the letter, apart from the name of the file."""
+    shutil.copy(FILES / name, tmp_path / name)
+    own = tmp_path / f"{Path(name).stem}.toml"
+    write(read(tmp_path / name, left_out=[]), own)
+    printed = []
+    for path in (tmp_path / name, own):
+        status = main([*command[:1], str(path), *command[1:]])
+        captured = capsys.readouterr()
+        printed.append((status, captured.out.replace(str(path), "FILE")))
+        said = captured.err.splitlines()
+        assert len(said) == len(set(said))
+    assert printed[0] == printed[1]
+    assert printed[0][1]
+
+
+def test_a_file_of_chains_is_no_linkage(tmp_path, capsys):
+    path = tmp_path / "chain.graphml"
+    write(FourBar(25, 70, 40, 70).linkage().mechanism.chain, path)
+    assert main(["check", str(path)]) == 0
+    assert main(["inversions", str(path)]) == 0
+    assert main(["analyse", str(path)]) == 2
+    assert "has chains without dimensions" in capsys.readouterr().err

@@ -156,7 +156,7 @@ def test_files_of_what_is_printed(capsys, tmp_path):
     assert main([*words, "-o", str(text)]) == main([*words, "-o", str(data)]) == 0
     assert text.read_text(encoding="utf-8") == printed
     assert json.loads(data.read_text(encoding="utf-8"))["closed"]
-    assert main([*words, "-o", str(tmp_path / "path.parquet")]) == 2
+    assert main([*words, "-o", str(tmp_path / "path.pdf")]) == 2
     assert main([*words, "--cognates", "-o", str(tmp_path / "path.csv")]) == 2
     assert not (tmp_path / "path.csv").exists()
 

@@ -106,4 +106,28 @@ def test_tables(capsys, name):
 def test_an_answer_is_given_once(capsys):
     status, _, err = run(capsys, "exercise", "check", "6", "F=2", "F=1")
     assert status == 2
-    assert "F is answered twice" in err
+    assert "F is given twice" in err
+
+
+def test_own_values(capsys):
+    status, out, _ = run(capsys, "exercise", "solve", "15", "--set", "a=40", "--set", "b=120")
+    assert status == 0
+    assert "H = l_a - l_i = 158.745 - 77.4597 = 81.2854 mm" in out
+    assert "printed" not in out
+    assert "KEY=VALUE" in run(capsys, "exercise", "solve", "15", "--set", "a")[2]
+    assert "gives" not in run(capsys, "table", "inversions", "25,70,40,70")[2]
+    assert "four lengths" in run(capsys, "table", "inversions", "slider-crank:20,50")[2]
+
+
+def test_inversions_of_lengths(capsys, tmp_path):
+    out = run(capsys, "inversions", "four-bar:2,5,4,5")[1]
+    assert [line.split()[:2] for line in out.splitlines()[1:]] == [
+        [frame, drive] for frame, drives in zip("abcd", ("bd", "ac", "bd", "ac"), strict=True) for drive in drives
+    ]
+    page = tmp_path / "inversions.html"
+    assert run(capsys, "inversions", "slider-crank:20,50", "-o", str(page))[0] == 0
+    text = page.read_text(encoding="utf-8")
+    assert text.count("<figure>") == 8
+    assert text.count("inverted slider-crank with turning guide</figcaption>") == 2
+    assert "without lengths" in run(capsys, "inversions", "four-bar:2,5,4,5", "--drives")[2]
+    assert "need lengths" in run(capsys, "inversions", "quad", "-o", str(page))[2]

@@ -347,8 +347,9 @@ def test_at_least_one_process():
 
 
 ENDLESS = """
-import os, sys, time
+import os, signal, sys, time
 from gruebler.enumeration.worker_pool import ProcessPools, run_work
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell lets background jobs ignore it
 def work(number):
     os.write(1, b"%d\\n" % os.getpid())  # in one go, so that lines do not mix
     time.sleep(600)

@@ -31,6 +31,7 @@ from gruebler.exercises import (
     transfer,
     transmission_angle,
     velocities,
+    with_values,
 )
 from gruebler.exercises.messages import source_text
 from gruebler.exercises.solution import fill_template, number
@@ -264,8 +265,37 @@ def test_tables_of_exercises_2_and_15():
     table = _rows(solve(exercise("2")))
     assert table[:, [1, 2]] == pytest.approx(np.array(B1["E2"]), **CLOSE)
     assert table[:, [0, 3]] == pytest.approx(np.array(B1["E2_from_outer"]), **CLOSE)
-    fifteen = _rows(solve(exercise("15")))
+    fifteen = _rows(solve(with_values(exercise("15"), {"start": "stretched"})))
     assert fifteen == pytest.approx(np.array(B1["E15"]["table_dphi_phiabs_x_strokefromouter"]), **CLOSE)
+
+
+def test_exercise_15_starts_where_crank_and_coupler_overlap():
+    # The exercise asks from the Decklage of crank and coupler; 3.6.2.1 uses the word for lying over each other.
+    solution = solve(exercise("15"))
+    table = _rows(solution)
+    printed = [61.847, 64.968, 73.963, 88.342, 106.308, 123.277, 132.875, 130.419, 116.042, 95.379, 76.697, 65.348]
+    assert table[:-1, 2] == pytest.approx(printed, abs=6e-4)
+    assert table[0, 2] == pytest.approx(solution.number("l_i"))
+    assert table[:, 3] == pytest.approx(table[:, 2] - table[0, 2])
+
+
+def test_own_values_of_an_exercise():
+    own = with_values(exercise("15"), {"a": "40", "b": "120"})
+    assert own.given == {"a": 40, "b": 120, "e": -20, "start": "overlapping"}
+    assert solve(own).number("H") == pytest.approx(np.sqrt(160**2 - 400) - np.sqrt(80**2 - 400))
+    assert all(question.printed is None for question in own.asked)
+    assert "a = 40" in own.task.in_language("de")
+    with pytest.raises(CatalogError, match="no quantity 'q'"):
+        with_values(exercise("15"), {"q": 1})
+    with pytest.raises(CatalogError, match="a: expected a number, but found 'long'"):
+        with_values(exercise("15"), {"a": "long"})
+    with pytest.raises(LinkageError, match="start is overlapping or stretched"):
+        solve(with_values(exercise("15"), {"start": "left"}))
+
+
+def test_the_coupler_has_an_angular_acceleration_at_constant_speed():
+    # 3.6.1 says that it vanishes; docs/theory/exercises.md
+    assert solve(exercise("example-3.6.2")).number("α_b") == pytest.approx(25.805, abs=5e-4)
 
 
 # --- literature: B4, coupler points ------------------------------------------------------------------

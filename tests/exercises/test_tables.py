@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from gruebler import FourBar, GrueblerError, rotatability
+from gruebler import Chain, FourBar, GrueblerError, move, rotatability
 from gruebler.catalog import entries
 from gruebler.chain.pairs import PAIRS
 from gruebler.exercises import TABLES, lines_of_table, teaching_table
-from gruebler.fourbar import FOUR_BAR_TYPES
+from gruebler.fourbar import FOUR_BAR_TYPES, sized_inversions
 
 # Table 2.2 of the seeds, reconstructed: f, German symbol, German name.
 JOINTS = [
@@ -28,14 +28,33 @@ JOINTS = [
 
 
 def test_joints():
-    (table,) = teaching_table("joints")
+    table, contacts, connections = teaching_table("joints")
     assert len(table.rows) == len(PAIRS)
-    told = {(int(row[0]), row[3].in_language("de"), row[4].in_language("de")) for row in table.rows if row[0] != "-"}
+    told = {
+        (int(row[0]), row[3].in_language("de"), row[4].in_language("de").partition(",")[0])
+        for row in table.rows
+        if row[0] != "-"
+    }
     assert set(JOINTS) <= told
     for f, u, *_ in (row for row in table.rows if row[0] != "-"):
         assert int(f) + int(u) == 6
     ordered = [int(row[0]) for row in table.rows if row[0] != "-"]
     assert ordered == sorted(ordered)
+    # Section 2.1: surface contact means small stress and large forces, contact in a line or point the opposite.
+    assert [[str(cell) for cell in row[1:]] for row in contacts.rows] == [
+        ["surface", "small", "large"],
+        ["line or point", "large", "small"],
+    ]
+    assert [row[2:] for row in connections.rows[:3]] == [("6", "0"), ("1 … 5", "1 … 5"), ("0", "6")]
+    assert [row[2:] for row in connections.rows[3:]] == [("3", "0"), ("1 … 2", "1 … 2"), ("0", "3")]
+
+
+def test_names_of_figures_2_2_and_2_6():
+    names = [row[4].in_language("de") for row in teaching_table("joints")[0].rows]
+    assert "Gleitwälzgelenk, Rollgleitgelenk" in names
+    assert "Schubgelenk, Schleifengelenk" in names
+    chain = Chain.parse("Rollgleitgelenk(0-1) Drehgelenk(1-2) Schleifengelenk(2-0)")
+    assert [joint.pair.name for joint in chain.joints] == ["roll_slide", "revolute", "prismatic"]
 
 
 def test_links():
@@ -92,13 +111,32 @@ def test_grashof():
 def test_transfer():
     values, kinds = teaching_table("transfer")
     rows = np.array(values.rows, float)
-    assert rows[:, 1] == pytest.approx(rows[:, 0] / 2)
-    assert rows[[0, -1], 2] == pytest.approx(rows[0, 2])  # the rocker comes back
-    assert rows[6, 3] == pytest.approx(40)  # the stroke of 2a
-    assert rows[-1, 5] == pytest.approx(90)  # one step of a cross with four slots
-    assert [str(row[1]).split(",")[0] for row in kinds.rows] == ["uniform"] + 4 * ["non-uniform"]
-    assert [row[3] for row in kinds.rows] == ["0%", "0%", "0%", "50%", "75%"]
-    assert [str(row[2]) for row in kinds.rows] == ["one sense", "to and fro", "to and fro", "to and fro", "one sense"]
+    assert rows[:, 1] == pytest.approx(-rows[:, 0] / 2)  # external wheels turn against each other
+    assert rows[:, 2] == pytest.approx(-rows[:, 0] * 2 / 3)
+    assert rows[:, 3] == pytest.approx(rows[:, 0] / 2)
+    assert rows[[0, -1], 4] == pytest.approx(rows[0, 4])  # the rocker comes back
+    assert rows[6, 5] == pytest.approx(40)  # the stroke of 2a
+    assert rows[-1, 7] == pytest.approx(-90)  # one step of a cross with four slots
+    turned = move(entries()["geneva"].linkage(), np.radians([-180, 0, 180])).angle("cross")
+    assert np.degrees(turned[-1] - turned[0]) == pytest.approx(rows[-1, 7])  # the sense of the general solver
+    assert [str(row[1]).split(",")[0] for row in kinds.rows] == 3 * ["uniform"] + 4 * ["non-uniform"]
+    assert [row[3] for row in kinds.rows] == ["0%", "0%", "0%", "0%", "0%", "50%", "75%"]
+    against, with_drive = "always against the drive", "always with the drive"
+    assert [str(row[2]) for row in kinds.rows] == [against, against, with_drive, *3 * ["to and fro"], against]
+
+
+def test_inversions_of_own_lengths():
+    types = {row[1]: row[-1] for row in teaching_table("inversions", (50, 25, 60, 70))[0].rows}
+    for each in sized_inversions(FourBar(50, 25, 60, 70)):
+        if each.drive == min("abcd", key=lambda letter: (letter not in _beside(each.frame), letter)):
+            assert str(types[each.frame]).partition(" driven")[0] == str(each.type).partition(" driven")[0]
+    with pytest.raises(GrueblerError, match="only the table inversions takes lengths"):
+        teaching_table("joints", (1, 2, 3, 4))
+
+
+def _beside(letter):
+    k = "abcd".index(letter)
+    return "abcd"[k - 1] + "abcd"[(k + 1) % 4]
 
 
 @pytest.mark.parametrize("name", TABLES)

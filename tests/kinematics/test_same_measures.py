@@ -256,7 +256,7 @@ def test_offset_coordinates_do_not_move_the_ends_of_a_larger_group() -> None:
     assert other.travel == pytest.approx(result.travel, rel=0, abs=1e-8)
 
 
-@pytest.mark.parametrize("seed", [392, 1809])
+@pytest.mark.parametrize("seed", [392, 1809, 3007])
 def test_transmission_angle_at_sharp_limits_of_a_larger_group(seed: int) -> None:
     """At a limit the output can move while the drive stands, so that the leg pushes across its way: the angle is 0."""
     linkage = random_linkage(seed)
@@ -287,6 +287,22 @@ def test_extremes_of_the_acceleration_between_limits(seed: int) -> None:
     assert [c.drive for c in found] == pytest.approx([-found[2].drive, 0.0, found[2].drive], rel=1e-9, abs=1e-9)
     assert [c.value for c in found] == pytest.approx([c.value for c in reversed(found)])
     assert found[0].kind == found[2].kind != found[1].kind
+
+
+def test_extremes_of_the_acceleration_beside_a_sharp_extreme_of_the_velocity() -> None:
+    """The output's velocity has a peak of a width of 3e-4 radians, with an extreme of the acceleration on either side.
+
+    The second derivative of the output is a derivative of the first: extremes of both kinds take turns.
+    """
+    linkage = random_linkage(4213)
+    for other in (linkage, mirrored(linkage), in_other_coordinates(linkage, -2.6, 0.8 * linkage.size)):
+        found = measures(other).transfer
+        peak = max(found.velocity, key=lambda c: abs(c.value))
+        near = [c for c in found.acceleration if abs(c.drive - peak.drive) < 1e-3]
+        kinds = [c.kind for c in found.acceleration]
+        assert [c.drive < peak.drive for c in near] == [True, False]
+        assert near[0].value == pytest.approx(-near[1].value, rel=0.02)
+        assert all(a != b for a, b in zip(kinds, [*kinds[1:], kinds[0]], strict=True))
 
 
 @pytest.mark.slow

@@ -148,15 +148,15 @@ def dyads(draw, form):
 
 
 @settings(max_examples=10, deadline=None)
-@given(st.sampled_from([("RR", "RR"), ("RR", "RP"), ("RR", "PR")]), st.data(), st.floats(0.15, 0.35))
+@given(st.sampled_from([("RR", "RR"), ("RR", "RP"), ("RR", "PR"), ("PR", "RP")]), st.data(), st.floats(0.15, 0.35))
 def test_every_pair_of_dyads_comes_back_from_five_of_its_positions(forms, data, step):
-    """Of dyads drawn at random; sliders on the frame are in `test_positions`. A PR with an RP dyad is no exact task."""
+    """Of dyads drawn at random; sliders on the frame are in `test_positions`."""
     one, two = (data.draw(dyads(form)) for form in forms)
     try:
         linkage = linkage_of_dyads(one, two, 0.3 + 0.4j, "mm")
         assume(pins_of(linkage).min(initial=1) > 0.3)
-        start = circuit(linkage, step=0.05).drive[0]
-        motion = move(linkage, start + step * np.arange(5))
+        drive = circuit(linkage, step=0.05).drive
+        motion = move(linkage, drive[len(drive) // 2] + step * np.arange(5))  # a slide comes from far away
     except LinkageError:
         assume(False)
     assume(motion.complete)

@@ -1,11 +1,18 @@
 """Verdicts against the motion itself: accepted designs carry out their task, rejected ones fail as is said of them."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar
 from gruebler.kinematics import circuit, move
-from gruebler.synthesis import PathTask, synthesise_path
+from gruebler.mechanism import Mechanism
+from gruebler.realisation import realise
+from gruebler.synthesis import FunctionTask, PathTask, PositionTask, synthesise, synthesise_path
+from gruebler.synthesis.pictures import design_figure
+from gruebler.synthesis.results import Design, DesignVerdict
 
 
 def dense_path(linkage):
@@ -43,3 +50,135 @@ def test_verdicts_of_five_points_with_given_pivots(seed):
             assert not missed.any()
         else:  # it misses the worst point by what is said
             assert abs(nearest.min(axis=0).max() - design.verdict.error * task.size) <= gap
+
+
+def angle_gap(angles, wanted):
+    return np.abs(np.exp(1j * np.asarray(angles)) - np.exp(1j * np.asarray(wanted)))
+
+
+def position_gaps(task):
+    """How far rows of a motion are from each position; (rows, positions), relative to the size."""
+
+    def gaps(rows, linkage):
+        turned = rows.angle("coupler")[:, None] - linkage.reference_pose["coupler"].angle
+        near = np.abs(rows.complex_point("P")[:, None] - task.origins) / task.size
+        return np.hypot(near, angle_gap(turned, np.angle(task.turns / task.turns[0])))
+
+    return gaps
+
+
+def timed_gaps(task):
+    z, timing = np.array([complex(*p) for p in task.points]), np.array(task.crank_angles)
+
+    def gaps(rows, linkage):
+        start = linkage.reference_pose["crank"].angle  # the first point's
+        crank = rows.angle("crank")[:, None] - start
+        near = np.abs(rows.complex_point("P")[:, None] - z) / task.size
+        return np.hypot(near, angle_gap(crank, timing - timing[0]))
+
+    return gaps
+
+
+def function_gaps(task):
+    inputs, outputs = (np.array(v) - v[0] for v in (task.inputs, task.outputs))
+
+    def gaps(rows, linkage):
+        pose = linkage.reference_pose
+        crank = angle_gap(rows.angle("crank")[:, None] - pose["crank"].angle, inputs)
+        if task.output == "angle":
+            return np.hypot(crank, angle_gap(rows.angle("rocker")[:, None] - pose["rocker"].angle, outputs))
+        return np.hypot(crank, np.abs(rows.displacement(3)[:, None] - outputs) / np.ptp(outputs))
+
+    return gaps
+
+
+def assert_verdicts(result, gaps_of):
+    """Accepted designs meet all targets in order without a turn of the drive; rejected ones fail as said.
+
+    Returns how many designs were accepted, and how many were rejected because a target is out of reach.
+    """
+    for design in result.designs:
+        steps = np.diff(design.drives)
+        assert (steps > 0).all() or (steps < 0).all()
+        between = np.concatenate(
+            [np.linspace(*pair, 15) for pair in zip(design.drives, design.drives[1:], strict=False)]
+        )
+        motion = move(design.linkage, between)
+        assert motion.complete
+        at = np.minimum(15 * np.arange(len(design.drives)), len(between) - 1)
+        assert np.diag(gaps_of(motion, design.linkage)[at]).max() < 1e-8
+    out_of_reach = 0
+    for design in result.rejected:
+        reasons = [str(reason) for reason in design.verdict.reasons]
+        assert reasons
+        if any("followed" in reason for reason in reasons):
+            continue
+        gaps = gaps_of(circuit(design.linkage, step=0.01).samples, design.linkage)
+        spread = np.abs(np.diff(gaps, axis=0)).max()
+        nearest = gaps.min(axis=0)
+        if any("cannot be reached" in reason for reason in reasons):
+            out_of_reach += 1
+            assert abs(nearest.max() - design.verdict.error) <= spread
+        else:
+            assert nearest.max() <= spread
+            assert any("order" in reason or "branches" in reason or "differ" in reason for reason in reasons)
+    return len(result.designs), out_of_reach
+
+
+def of_random_four_bar(rng, count):
+    """Rows of a random four-bar at drive values in order, with its coupler point; None if it does not pass them."""
+    lengths = rng.uniform(1, 4, 4)
+    if 2 * lengths.max() >= lengths.sum():
+        return None
+    linkage = FourBar(*lengths).linkage({"P": tuple(rng.uniform(-2, 3, 2))})
+    drive = circuit(linkage, step=0.05).drive
+    values = drive[len(drive) // 3] + np.cumsum(rng.uniform(0.15, 0.5, count))
+    try:
+        motion = move(linkage, values)
+    except LinkageError:
+        return None
+    return motion if motion.complete else None
+
+
+def verdicts_of_drawn_tasks(kind, wanted):
+    """All verdicts of so many tasks; how many designs were accepted and how many targets were out of reach."""
+    rng, tried, accepted, out_of_reach = np.random.default_rng(11), 0, 0, 0
+    while tried < wanted:
+        motion = of_random_four_bar(rng, 5)
+        if motion is None:
+            continue
+        if kind == "positions":
+            rows = zip(motion.point("P"), motion.angle("coupler"), strict=True)
+            task = PositionTask(tuple((*p, a) for p, a in rows))
+            gaps = position_gaps(task)
+        elif kind == "timed points":
+            task = PathTask(motion.point("P"), crank_angles=tuple(motion.angle("crank")))
+            gaps = timed_gaps(task)
+        else:
+            free = kind == "function, free starts"
+            count = 5 if free else 3
+            inputs, outputs = motion.angle("crank")[:count], np.unwrap(motion.angle("rocker"))[:count]
+            if free:
+                inputs, outputs = inputs - 0.3, outputs + 0.4
+            task = FunctionTask(tuple(inputs), tuple(outputs), start_input=not free, start_output=not free)
+            gaps = function_gaps(task)
+        good, missed = assert_verdicts(synthesise(task), gaps)
+        tried, accepted, out_of_reach = tried + 1, accepted + good, out_of_reach + missed
+    return accepted, out_of_reach
+
+
+@pytest.mark.parametrize("kind", ["positions", "timed points", "function", "function, free starts"])
+def test_verdicts_of_tasks_taken_from_four_bars(kind):
+    tasks = {"positions": 8, "timed points": 4}.get(kind, 12)
+    accepted, out_of_reach = verdicts_of_drawn_tasks(kind, tasks)
+    assert accepted >= tasks / 2  # the four-bar of the task itself, where the drive is not asked for otherwise
+    assert out_of_reach > 0 or kind.startswith("function")
+
+
+def test_targets_are_marked_where_links_have_numbers():
+    """A target's number would be a link's name: it is P1 then."""
+    four_bar = FourBar(25, 70, 40, 70).linkage({"P": (45, 40)})
+    numbered = realise(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)")).linkage
+    for own, mark in ((four_bar, ">2<"), (numbered, ">P2<")):
+        design = Design(own, DesignVerdict(assembles=True), "four-bar")
+        assert mark in design_figure(PathTask([(0, 0), (9, 4), (14, 3), (20, 1), (30, 5)]), design).svg()

@@ -32,7 +32,9 @@ from gruebler.notebook import Brief
 __all__ = ["CycleSpan", "DriveCycle", "PathCycle", "drive_cycle", "path_cycle"]
 
 _CELLS = 360  # of the first grid
-_LEVELS = 5  # how often a cell is halved where the motion bends
+_LEVELS = 16  # how often a cell is halved where the motion bends: to 3e-7 of a turning drive
+_LEVELS_OF_SLOW = 5  # the same for slow links: of one that does not turn, all is rounding next to change points
+_SLOW = 1e-2  # of the usual rate of the fastest link: a slow one turns less
 _STILL = 1e-12  # of the natural size: a rate (of a turn, by the drive) below it is a rounding
 _BEND = 1e-3  # by how much a rate may differ from its cubic, of the usual rate
 _MOST_TURNS = 8  # after which a linkage must be back where it was
@@ -398,11 +400,13 @@ def _grid(cycle: DriveCycle) -> Reals:
 
     least = _STILL / cycle.drive_size
     suspect = np.ones(len(s) - 1, bool)
-    for _ in range(_LEVELS):
+    for level in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
         rates = cycle.at(drive(np.concatenate([s, middles])), 2).rates
         speed, change, between = rates[0, : len(s)], rates[1, : len(s)], rates[0, len(s) :]
         usual = np.quantile(np.abs(speed), 0.9, axis=0)
+        if level >= _LEVELS_OF_SLOW:
+            usual = np.maximum(usual, _SLOW * usual.max())
         width = np.diff(drive(s))[:, None]
         cubic = (speed[:-1] + speed[1:]) / 2 + width / 8 * (change[:-1] - change[1:])
         off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + least

@@ -8,6 +8,8 @@ from functools import lru_cache
 from math import pi
 from typing import NamedTuple
 
+import numpy as np
+
 from gruebler.errors import LinkageError
 from gruebler.kinematics.circuits import Circuit, Quantity, circuit
 from gruebler.linkages import Linkage
@@ -15,7 +17,7 @@ from gruebler.linkages.conversion import LinkageLike
 from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism.roles import Role
 
-__all__ = ["DriveRange", "Rotatability", "drive_range", "motion_roles", "rotatability"]
+__all__ = ["DriveRange", "Rotatability", "drive_range", "motion_roles", "rotatability", "slide_directions"]
 
 _FREEDOMS = {
     "revolute": ("turn",),
@@ -26,6 +28,7 @@ _FREEDOMS = {
 """What two links can do against each other in a joint."""
 
 _ROUND = 1e-9  # a relative angle whose range is 2 pi but for this turns fully
+_STEADY = 1e-6  # radians: rounding turns a slide by some 1e-14, a motion by far more
 
 
 class Rotatability(NamedTuple):
@@ -141,6 +144,22 @@ def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None 
         elif out[link] is not Role.SLIDER:
             out[link] = Role.CRANK if _row(made, number, links, freedom).full else Role.ROCKER
     return out
+
+
+def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, bool]:
+    """Each slide by its name: whether its direction turns against the frame (German: *Schleifengelenk*).
+
+    >>> from gruebler.fourbar import InvertedSliderCrank, SliderCrank
+    >>> slide_directions(SliderCrank(20, 50).linkage()), slide_directions(InvertedSliderCrank(30, 50).linkage())
+    ({'P(frame-slider)': False}, {'P(coupler-block)': True})
+    """
+    made = _circuit(linkage, branch)
+    chain = made.linkage.mechanism.chain
+    return {
+        name: float(np.ptp(made.angle(joint.links[0]))) > _STEADY
+        for name, joint in zip(chain.joint_names(), chain.joints, strict=True)
+        if joint.pair.name == "prismatic"
+    }
 
 
 def drive_range(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> DriveRange:

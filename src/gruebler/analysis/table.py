@@ -14,6 +14,7 @@ from gruebler.analysis.transmission import transmission_angle
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Alphabet
 from gruebler.columns import Column, Table
+from gruebler.errors import LinkageError
 from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import CamDisc, GenevaDriver, Linkage, NonCircular
@@ -46,16 +47,18 @@ def motion_table(
 
     Angles are in degrees, their derivatives in radians, lengths in the linkage's unit, times in seconds. The name of
     a derivative by the drive has a prime for each order; rates in time are ω, α, j of angles and v, a, j of lengths.
+    Of a motion of one drive that was solved for another speed than 1 both are there.
 
     Args:
-        motion: Of one drive solved for speed 1, of several for their rates, to the second or third order; or to
-            order 0, for positions only.
+        motion: Solved to the second or third order; to order 0 or 1 the table has positions only.
         outputs: Links or sliding joints; without them the linkage's outputs.
         points: Names of points or joints.
-        rates: Velocity, acceleration and jerk of one drive, in radians or units of length and seconds; None: rates by
-            the drive only.
+        rates: Velocity, acceleration and jerk of one drive, in radians or units of length and seconds, for a motion
+            solved for speed 1; without them rates in time are those that the motion was solved for.
         transmission: The output whose transmission angle gets a column.
         lang: Language of the column names and joint symbols.
+
+    Raises `GrueblerError` for unknown names, and for rates of a motion that was solved for others.
 
     >>> from gruebler.fourbar import FourBar
     >>> from gruebler.kinematics import from_degrees, move
@@ -76,9 +79,12 @@ def motion_table(
         out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
     turning = mechanism.drives[0].turning
     per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
-    timed = len(mechanism.drives) > 1 or rates is not None
-    v, a, j = (1.0, 0.0, 0.0) if rates is None else rates
     orders = range(1, motion.order + 1) if motion.order >= 2 else ()
+    solved = _drive_rates(motion) if orders and len(mechanism.drives) == 1 else None
+    if rates is not None and solved is not None:
+        raise LinkageError("rates of the drive go with a motion that was solved for speed 1")
+    timed = len(mechanism.drives) > 1 or rates is not None or solved is not None
+    v, a, j = (1.0, 0.0, 0.0) if rates is None else rates
 
     def in_time(order: int, track: Callable[[int], Reals]) -> Reals:
         """A derivative in time from those by the drive; of several drives they are in time already."""
@@ -87,6 +93,16 @@ def motion_table(
         if order == 2:
             return track(2) * v**2 + track(1) * a
         return track(3) * v**3 + 3 * track(2) * v * a + track(1) * j
+
+    def by_drive(order: int, track: Callable[[int], Reals]) -> Reals:
+        """A derivative by the drive, of the first or second order, from those in time: dx/dt = x' v."""
+        if solved is None:
+            return track(order)
+        speed, acceleration = solved
+        with np.errstate(divide="ignore", invalid="ignore"):  # a drive that rests says nothing about them
+            slope = track(1) / speed
+            found = slope if order == 1 else (track(2) - slope * acceleration) / speed**2
+        return np.where(speed == 0, np.nan, found)
 
     noise = (1e-12,) * 4
     if any(isinstance(element, CamDisc | GenevaDriver | NonCircular) for element in linkage.elements.values()):
@@ -97,7 +113,8 @@ def motion_table(
         out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
         for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
             name, usually = f"{output.name}{'′' * order}", natural / unit**order
-            out.append(Column(name, _by(own, per, order), output.values(motion, order), usually, noise[order]))
+            values = by_drive(order, partial(output.values, motion))
+            out.append(Column(name, _by(own, per, order), values, usually, noise[order]))
         for order in orders if timed else ():
             name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
             values = in_time(order, partial(output.values, motion))
@@ -118,6 +135,15 @@ def motion_table(
                 for k, axis in enumerate(_RATES[order - 1])
             ]
     return Table(tuple(out))
+
+
+def _drive_rates(motion: Motion) -> tuple[Reals, Reals] | None:
+    """Velocity and acceleration of the only drive, (rows,) each; None if it was solved for speed 1 throughout."""
+    if motion.speeds is None:
+        return None
+    velocity, acceleration, *jerk = motion.speeds[:, :, 0]
+    plain = (velocity == 1.0).all() and not acceleration.any() and not any(each.any() for each in jerk)
+    return None if plain else (velocity, acceleration)
 
 
 def _seconds(order: int) -> str:

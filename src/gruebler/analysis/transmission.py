@@ -203,6 +203,13 @@ def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Comp
     return np.where(rest, rate, way), np.where(rest, 0, rate)
 
 
+def _pace(motion: Motion) -> Reals:
+    """How fast the joints move, as points of all their links; (rows,)."""
+    elements = motion.lower_linkage.elements.items()
+    speeds = [_point(motion, (link, complex(e.x, e.y), 1))[1] for (_, link), e in elements]
+    return np.asarray(np.linalg.norm(speeds, axis=0))
+
+
 def _folded(lines: _Lines) -> Reals:
     product = np.conj(lines.force) * lines.way
     return np.asarray(np.arctan2(np.abs(product.real), np.abs(product.imag)))
@@ -272,6 +279,12 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
     def cosine(drives: Reals) -> Reals:
         return product(cycle.at(drives, 2)).real[None]
 
+    def unnormed(motion: Motion) -> Complexes:
+        """As `product`, but smooth where the driven point is slow next to a limit: of a speed by that of all joints."""
+        lines = _lines(motion, leg)
+        pace = np.abs(lines.way) if leg.guide is not None else _pace(motion)
+        return np.asarray(np.conj(lines.force) * lines.way / (np.abs(lines.force) * pace))
+
     slow = _LEAST / cycle.drive_size
     angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))
     constant = not cycle.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
@@ -284,6 +297,6 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
         return np.array(places or [cycle.span.low]), []
     ends = []
     for upper, at in ((False, cycle.span.low), (True, cycle.span.high)):
-        z = cycle.end(product, upper)
+        z = cycle.end(unnormed, upper)
         ends.append((at, float(np.arctan2(abs(z.real), abs(z.imag)))))
     return np.array(places), ends

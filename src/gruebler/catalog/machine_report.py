@@ -11,7 +11,7 @@ import numpy as np
 
 from gruebler.catalog.feature_query import entry_features, entry_mechanism, features_to_json
 from gruebler.catalog.features import AccessFeatures
-from gruebler.chain.pairs import Alphabet
+from gruebler.chain.pairs import Alphabet, Contact
 from gruebler.errors import LinkageError
 from gruebler.formats.catalog_records import Entry, source_text
 from gruebler.linkages import Linkage
@@ -83,6 +83,19 @@ class MachineReport(Brief):
             return self.freedoms.mobility
         claimed = self.entry.claims.mobility
         return self.mobility.generic if claimed is None else claimed
+
+    @property
+    def guiding_and_guided(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """The links that guide and those that are guided; both empty for a machine that transmits a motion.
+
+        Guided is an output that is not jointed to the frame and touches no link with a higher pair; the moving links
+        jointed to it guide it.
+        """
+        chain, frame = self.mechanism.chain, self.mechanism.frame
+        beside = {link: {n for j in chain.joints if link in j.links for n in j.links} for link in chain.links}
+        rolling = {link for j in chain.joints if j.pair.contact is Contact.HIGHER for link in j.links}
+        guided = tuple(link for link in self.entry.outputs if frame not in beside[link] and link not in rolling)
+        return tuple(link for link in chain.links if link not in guided and beside[link] & {*guided}), guided
 
     def explain(self, lang: str = "en") -> str:
         """The report as a text with titled sections, in English (``en``) or German (``de``)."""
@@ -211,6 +224,7 @@ _TITLES = {
     "drive": message("Drive"),
     "dimensions": message("Dimensions"),
     "measures": message("Transfer function"),
+    "guided": message("Motion of the guided link"),
     "points": message("Guided points"),
 }
 _TEXTS = {
@@ -228,6 +242,7 @@ _TEXTS = {
     "range": message("Shown between {low:g}{unit} and {high:g}{unit}."),
     "shown": message("In the range shown the transmission angle is {small:.4g}° to {large:.4g}°."),
     "partial": message("As drawn, {output} goes by {ratio:.6g} for each unit of {drive} (angles in radians)."),
+    "guides": message("Guide mechanism. Guided link: {guided}; guiding links: {guides}."),
     "rest": message("As drawn, {output} rests while {drive} moves."),
     "closed": message("{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high."),
     "open": message(
@@ -252,16 +267,20 @@ def _sections(report: MachineReport, lang: str) -> Iterator[tuple[str, list[str]
         yield "drive", [names, report.drives.explain(lang) if usual else say("special", moves=report.moves)]
     if lines := _dimension_lines(report.entry, say, lang):
         yield "dimensions", lines
+    guides, guided = report.guiding_and_guided
+    title = "guided" if guided else "measures"
     if report.measures is not None:
         lines = report.measures.explain(lang).splitlines()
+        if guided:
+            lines.insert(0, say("guides", guides=", ".join(guides), guided=", ".join(guided)))
         if report.shown_mu is not None:
             small, large = (degrees(mu) for mu in report.shown_mu)
             lines.append(say("shown", small=small, large=large))
-        yield "measures", lines
+        yield title, lines
     elif report.partials:
         partials = zip(report.partials, report.mechanism.drive_names(alphabet), strict=True)
         yield (
-            "measures",
+            title,
             [
                 say("partial" if partial.value else "rest", output=partial.output, ratio=partial.value, drive=name)
                 for partial, name in partials

@@ -22,7 +22,18 @@ from types import MappingProxyType
 from gruebler.errors import PairError, nearest
 from gruebler.text import Message, joined, joined_by_or, message
 
-__all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "in_alphabets", "pair", "read_symbols"]
+__all__ = [
+    "OTHER_NAMES",
+    "PAIRS",
+    "Alphabet",
+    "Closure",
+    "Contact",
+    "Pair",
+    "Space",
+    "in_alphabets",
+    "pair",
+    "read_symbols",
+]
 
 
 class Space(StrEnum):
@@ -286,7 +297,13 @@ PAIRS: tuple[Pair, ...] = (
 )
 
 _BY_NAME = {p.name: p for p in PAIRS}
-_BY_FULL_NAME = {p.name: p for p in PAIRS} | {p.german.casefold(): p for p in PAIRS}
+OTHER_NAMES = MappingProxyType({"Rollgleitgelenk": "roll_slide", "Schleifengelenk": "prismatic"})
+"""Further German names that table 2.2 and section 2.6 use; a *Schleifengelenk* is a slide whose direction turns."""
+_BY_FULL_NAME = (
+    {p.name: p for p in PAIRS}
+    | {p.german.casefold(): p for p in PAIRS}
+    | {name.casefold(): _BY_NAME[other] for name, other in OTHER_NAMES.items()}
+)
 
 
 def pair(name: str) -> Pair:
@@ -296,6 +313,8 @@ def pair(name: str) -> Pair:
     1
     >>> pair("Gleitwälzgelenk").u(Space.PLANAR)
     1
+    >>> pair("Rollgleitgelenk"), pair("Schleifengelenk")
+    (<pair roll_slide>, <pair prismatic>)
 
     Raises `PairError` for any other name, with the nearest known name.
     """

@@ -12,17 +12,18 @@ import numpy as np
 
 from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.rotatability import slide_directions
 from gruebler.analysis.table import motion_table
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of, with_points
-from gruebler.cli.output import print_json, write_file
+from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
-from gruebler.cli.printed_file import is_csv
+from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
-from gruebler.columns import Column, as_csv, shown
+from gruebler.columns import Column, shown
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.linkages import linkage_to_json
 from gruebler.kinematics import Motion, move
@@ -32,6 +33,7 @@ from gruebler.linkages import Linkage
 from gruebler.text import Message, error_in_language, joined, message, translate
 
 if TYPE_CHECKING:
+    from gruebler.analysis.link_planes import LinkPlanes
     from gruebler.analysis.measures import Measures
     from gruebler.analysis.rotatability import Rotatability
     from gruebler.kinematics.circuits import Circuit
@@ -105,6 +107,12 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "--curvature", action="store_true", help="radius and centre of curvature of each --point; inflection circles"
     )
+    parser.add_argument(
+        "--planes",
+        action="store_true",
+        help="the planes in which the links, as plates, do not collide over the whole motion, or over the rows of "
+        "--range",
+    )
     parser.add_printed(help="print an object with linkage, measures, columns and rows", table=True)
 
 
@@ -123,8 +131,8 @@ def run(arguments: argparse.Namespace) -> int:
         read_branch(plan, arguments.branch)
     given = given_rows(arguments.range, arguments.at, turning)
     if len(turning) > 1:
-        if arguments.poles or arguments.curvature:
-            raise GrueblerError("--poles and --curvature need a linkage with one drive")
+        if arguments.poles or arguments.curvature or arguments.planes:
+            raise GrueblerError("--poles, --curvature and --planes need a linkage with one drive")
         if given is None:
             raise GrueblerError(
                 "the linkage has {count} drives: give --range FROM:TO:STEP for each, or --at VALUE,VALUE",
@@ -243,9 +251,18 @@ def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Nam
     return columns
 
 
+def _planes(linkage: Linkage, arguments: argparse.Namespace) -> LinkPlanes:
+    """The planes over the rows of --range, else over the whole motion."""
+    from gruebler.analysis.link_planes import link_planes
+
+    rows = given_rows(arguments.range, [], turning_drives(linkage))
+    between = None if rows is None else (float(np.min(rows)), float(np.max(rows)))
+    return link_planes(linkage, between=between)
+
+
 def _listed(arguments: argparse.Namespace) -> bool:
     """Whether the poles are printed as a list below the table."""
-    return bool(arguments.poles and arguments.at and not arguments.json and not is_csv(arguments.out))
+    return bool(arguments.poles and arguments.at and not arguments.json and not is_table(arguments.out))
 
 
 def _others(linkage: Linkage, measures: Measures) -> list[str]:
@@ -268,14 +285,21 @@ def _report(
     columns: Sequence[Column],
     arguments: argparse.Namespace,
 ) -> int:
-    if is_csv(arguments.out):
-        write_file(arguments.out, as_csv(columns).encode("utf-8"), arguments.lang)
+    if is_table(arguments.out):
+        write_table(arguments.out, columns, arguments.lang, decimal_comma=arguments.decimal_comma)
     if arguments.json:
-        print_json(_document(linkage, measures, motion, columns, arguments.lang))
+        planes = {}
+        if arguments.planes:
+            found = _planes(linkage, arguments)
+            planes = {"planes": found.planes, "planes_message": found.explain(arguments.lang)}
+        print_json(_document(linkage, measures, motion, columns, arguments.lang) | planes)
     else:
         if measures is not None:
             _print_measures(linkage, measures, arguments.lang)
-        if columns and not is_csv(arguments.out):
+        if arguments.planes:
+            print_text(_planes(linkage, arguments).explain(arguments.lang))
+            print()
+        if columns and not is_table(arguments.out):
             rows = shown(columns, arguments.lang)
             print_table([column.header for column in columns], rows, numbers=range(len(columns)))
         if columns and _listed(arguments):
@@ -305,6 +329,11 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
             for row in rotatability(around)
         )
         print(translate("Relative motion at the joints: {pairs}.", lang, pairs=pairs))
+        for name, turns in slide_directions(around).items():
+            if turns:
+                print(translate("The direction of the slide {joint} turns.", lang, joint=names[name]))
+            else:
+                print(translate("The direction of the slide {joint} is fixed.", lang, joint=names[name]))
     if measures.branch:
         print(translate("Assembly mode: {branch}.", lang, branch=_label(measures.branch)))
         if others := _others(linkage, measures):

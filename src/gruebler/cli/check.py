@@ -13,7 +13,7 @@ from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercis
 from gruebler.chain import Chain
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import is_lengths, linkage_of
+from gruebler.cli.linkage_inputs import is_lengths, linkage_of, value_of_another_program
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
@@ -228,6 +228,10 @@ def _structures(word: str, space: str | None, lang: str) -> Iterator[Structure]:
             yield from structures_of_lines(text, "standard input", space)
     elif is_structure_text(word):
         yield Structure(word, "", chain_of_text(word, space))
+    elif (foreign := value_of_another_program(word, lang)) is not None:
+        for number, value in enumerate(foreign if isinstance(foreign, list) else [foreign], 1):
+            name = f"{path.stem} {number}" if isinstance(foreign, list) else path.stem
+            yield Structure(name, str(path), value)
     elif path.is_file() or path.suffix.lower() in STRUCTURE_ENDINGS:
         yield from read_structures(path, space)
     elif is_lengths(word):

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
-from gruebler.cli.output import say_written
+from gruebler.cli.output import say_left_out, say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError
-from gruebler.text import message, translate
+from gruebler.text import message
 
 __all__ = ["add", "run"]
 
@@ -45,6 +44,5 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError("name the file to read and the file to write, or --formats for the list of formats")
     notes = convert(arguments.source, arguments.target, arguments.source_format, arguments.target_format)
     say_written(Path(arguments.target), lang)
-    for note in notes:
-        print(translate("Left out: {what}", lang, what=note), file=sys.stderr)
+    say_left_out(notes, lang)
     return 0

@@ -15,12 +15,12 @@ from gruebler.cli import curve_cognates, curve_guidance, curve_straight
 from gruebler.cli.drive_rows import add_range, driven_path
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, linkage_of
-from gruebler.cli.output import print_json, write_file
+from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
-from gruebler.cli.printed_file import is_csv
+from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import Cell, print_table
-from gruebler.columns import Column, as_csv
+from gruebler.columns import Column
 from gruebler.errors import GrueblerError
 from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
 from gruebler.text import Message, joined_by_or, message, number, translate
@@ -149,7 +149,7 @@ def run(arguments: argparse.Namespace) -> int:
     """The path of a point, or what is asked about it; status 1 if no part of it is straight enough."""
     question = next((name for name in _MODES if getattr(arguments, name) not in (None, False)), _PATH)
     _check(arguments, question)
-    if question and is_csv(arguments.out):
+    if question and is_table(arguments.out):
         raise GrueblerError("-o {path}: only the path of a point is written as .csv", path=arguments.out)
     return _MODES[question](arguments) if question else _path(arguments)
 
@@ -180,11 +180,11 @@ def _path(arguments: argparse.Namespace) -> int:
     drives = [math.radians(value) if turning else value for value in arguments.contact]
     contacts = [curve.contact(drive) for drive in drives]
     directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
-    if is_csv(arguments.out):
-        write_file(arguments.out, as_csv(_polygon(curve)).encode("utf-8"), arguments.lang)
+    if is_table(arguments.out):
+        write_table(arguments.out, _polygon(curve), arguments.lang, decimal_comma=arguments.decimal_comma)
     if arguments.json:
         print_json(_document(curve, contacts, directions))
-    elif not is_csv(arguments.out):
+    elif not is_table(arguments.out):
         _print(curve, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
     return 0
 

@@ -92,6 +92,7 @@ def add(parser: Parser) -> None:
             "poles",
             "centrodes",
             "inflection",
+            "planes",
             "dimensions",
             "scale",
         ),

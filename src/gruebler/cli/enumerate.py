@@ -20,6 +20,7 @@ from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import printed_to_file
 from gruebler.cli.tables import print_table
+from gruebler.cli.trains import trains
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.run_request import run_count, run_list
@@ -51,9 +52,11 @@ def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="List or count all planar chains of revolute joints that have no rigid part, each once. With "
-        "--assortments, list the numbers of binary, ternary, ... links that such chains can have.",
-        epilog="Examples: gruebler enumerate --links 8 --count --orbits; gruebler enumerate --links 8 --assortments. A "
-        "run with --checkpoint can be stopped at any time; the same command continues it.",
+        "--assortments, list the numbers of binary, ternary, ... links that such chains can have; with --trains, "
+        "list epicyclic gear trains.",
+        epilog="Examples: gruebler enumerate --links 8 --count --orbits; gruebler enumerate --links 8 --assortments; "
+        "gruebler enumerate --links 5 --trains. A run with --checkpoint can be stopped at any time; the same command "
+        "continues it.",
     )
     parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
     parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
@@ -79,6 +82,9 @@ def add(parser: Parser) -> None:
         "--orbits", action="store_true", help="with --count: also count inversions and driven mechanisms"
     )
     parser.add_argument("--assortments", action="store_true", help="list only the link assortments")
+    parser.add_argument(
+        "--trains", action="store_true", help="epicyclic gear trains: axes as (multiple) joints, and gear pairs"
+    )
     parser.add_argument("--format", choices=("text", "graph6", "json"), help="format of the list (default: text)")
     parser.add_out(help="write into a file instead: .txt, .g6 or .json")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="number of processes (default: 1)")
@@ -93,6 +99,8 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.written = ()
         with printed_to_file(arguments):
             return assortments(arguments)
+    if arguments.trains:
+        return trains(arguments)
     request = Request(
         arguments.links,
         arguments.mobility,

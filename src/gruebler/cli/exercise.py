@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -24,10 +25,11 @@ from gruebler.exercises import (
     task_as_dict,
     task_text,
     value_text,
+    with_values,
 )
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import source_text
-from gruebler.text import message, translate
+from gruebler.text import Message, message, translate
 
 __all__ = ["add", "run"]
 
@@ -47,9 +49,9 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="Exercises and worked examples, solved step by step and compared with the printed answers; "
         "generated tasks with structures of the enumeration and random dimensions.",
-        epilog="Examples: gruebler exercise solve 15 --lang de; gruebler exercise new --kind mobility --level 2 "
-        "--seed 7; gruebler exercise check mobility-2-7 n=8 F=1. Exit status: 0 success, 1 an answer is wrong, 2 "
-        "wrong usage.",
+        epilog="Examples: gruebler exercise solve 15 --set a=40 --set b=120; gruebler exercise new --kind mobility "
+        "--level 2 --seed 7; gruebler exercise check mobility-2-7 n=8 F=1. Exit status: 0 success, 1 an answer is "
+        "wrong, 2 wrong usage.",
     )
     listing = parser.add_command("list", help="list all exercises and worked examples")
     show = parser.add_command("show", help="show a task without its solution")
@@ -57,6 +59,13 @@ def add(parser: Parser) -> None:
     for action in (show, solve):
         action.add_argument(
             "ids", nargs="+", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)"
+        )
+        action.add_argument(
+            "--set",
+            action="append",
+            default=[],
+            metavar="KEY=VALUE",
+            help="another value of a given quantity, such as a=40 (repeatable)",
         )
     new = parser.add_command("new", help="generate tasks; the same seed gives the same task")
     new.add_argument("--kind", choices=_KINDS, required=True, help="topic of the task")
@@ -79,9 +88,9 @@ def run(arguments: argparse.Namespace) -> int:
         case "list":
             _list(arguments)
         case "show":
-            _print([exercise(id) for id in arguments.ids], arguments, solved=False)
+            _print([_task(id, arguments) for id in arguments.ids], arguments, solved=False)
         case "solve":
-            _print([exercise(id) for id in arguments.ids], arguments, solved=True)
+            _print([_task(id, arguments) for id in arguments.ids], arguments, solved=True)
         case "new":
             if not 1 <= arguments.count <= _MOST:
                 raise GrueblerError(
@@ -93,6 +102,25 @@ def run(arguments: argparse.Namespace) -> int:
         case "check":
             return _mark(exercise(arguments.id), arguments)
     return 0
+
+
+def _task(id: str, arguments: argparse.Namespace) -> Exercise:
+    """An exercise, with own values of its given quantities."""
+    values = _pairs(arguments.set, message("expected a value KEY=VALUE such as a=40, but found {word!r}"))
+    return with_values(exercise(id), values) if values else exercise(id)
+
+
+def _pairs(words: Sequence[str], problem: Message) -> dict[str, str]:
+    """The values of words KEY=VALUE; `GrueblerError` for any other word, and for a key that comes twice."""
+    values: dict[str, str] = {}
+    for word in words:
+        key, equals, value = (part.strip() for part in word.partition("="))
+        if not equals or not key or not value:
+            raise GrueblerError("{problem}", problem=problem.filled(word=word))
+        if key in values:
+            raise GrueblerError("{key} is given twice; give one value for each key", key=key)
+        values[key] = value
+    return values
 
 
 def _list(arguments: argparse.Namespace) -> None:
@@ -117,14 +145,7 @@ def _print(tasks: list[Exercise], arguments: argparse.Namespace, *, solved: bool
 
 
 def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
-    answers: dict[str, str] = {}
-    for word in arguments.answers:
-        key, equals, answer = word.partition("=")
-        if not equals or not key.strip() or not answer.strip():
-            raise GrueblerError("expected an answer KEY=ANSWER such as H=40, but found {word!r}", word=word)
-        if key.strip() in answers:
-            raise GrueblerError("{key} is answered twice; give one answer for each key", key=key.strip())
-        answers[key.strip()] = answer
+    answers = _pairs(arguments.answers, message("expected an answer KEY=ANSWER such as H=40, but found {word!r}"))
     marks = grade(task, answers)
     right = all(each.mark is Mark.RIGHT for each in marks)
     if arguments.json:

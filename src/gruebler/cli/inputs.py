@@ -7,17 +7,27 @@ from pathlib import Path
 
 from gruebler.catalog import entry
 from gruebler.chain import Chain
+from gruebler.cli.linkage_inputs import value_of_another_program
 from gruebler.errors import GrueblerError
+from gruebler.files import is_of_another_program
 from gruebler.formats.structures import chain_of_text, is_code, is_structure_text
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.screws import SpatialLinkage
 
 __all__ = ["assortment_of", "chain_from_word", "mechanism_of", "outputs_of"]
 
 
-def _of_file(word: str) -> Mechanism | None:
-    """The mechanism of a file with the dimensions of a linkage or the screws of its joints, if the word is one."""
+def _of_file(word: str, lang: str = "en") -> Linkage | SpatialLinkage | Chain | None:
+    """What a file holds, with the dimensions of a linkage, the screws of its joints or a chain of another program."""
     path = Path(word)
+    foreign = value_of_another_program(word, lang)
+    if isinstance(foreign, list):
+        if len(foreign) != 1:
+            raise GrueblerError("{path}: expected one chain, but found {count}", path=path, count=len(foreign))
+        return foreign[0]
+    if foreign is not None:
+        return foreign
     if is_structure_text(word) or not path.suffix or not path.is_file():
         return None
     if path.suffix.lower() not in (".toml", ".json"):
@@ -26,20 +36,20 @@ def _of_file(word: str) -> Mechanism | None:
         )
     from gruebler.formats.screws import read_any_linkage
 
-    return read_any_linkage(path).mechanism
+    return read_any_linkage(path)
 
 
 def chain_from_word(word: str, space: str | None = None, lang: str = "en") -> Chain:
     """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
-    if (mechanism := _of_file(word)) is not None:
-        return mechanism.chain
+    if (found := _of_file(word, lang)) is not None:
+        return found if isinstance(found, Chain) else found.mechanism.chain
     return chain_of_text(word, space) if is_structure_text(word) else entry(word).in_language(lang).chain()
 
 
 def mechanism_of(word: str, frame: str | None, drives: Sequence[str], lang: str = "en") -> Mechanism:
     """The mechanism of a text or code with its marks, a linkage file, or an entry; frame and drives given here win."""
-    if (drawn := _of_file(word)) is not None:
-        mechanism = drawn
+    if (found := _of_file(word, lang)) is not None:
+        mechanism = Mechanism(found, found.links[0]) if isinstance(found, Chain) else found.mechanism
     elif not is_structure_text(word):
         record = entry(word).in_language(lang)
         chain = record.chain()
@@ -54,11 +64,10 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str], lang: str 
 
 def outputs_of(word: str, lang: str = "en") -> tuple[str, ...]:
     """The output links that a text's mark, a linkage file or a catalog entry names."""
-    if _of_file(word) is not None:
-        from gruebler.formats.screws import read_any_linkage
-
-        linkage = read_any_linkage(Path(word))
-        return linkage.outputs if isinstance(linkage, Linkage) else ()
+    if not is_structure_text(word) and is_of_another_program(Path(word)):
+        return ()  # no other format has them
+    if (found := _of_file(word, lang)) is not None:
+        return found.outputs if isinstance(found, Linkage) else ()
     if not is_structure_text(word):
         return entry(word).in_language(lang).outputs
     if is_code(word) or ";" not in word:

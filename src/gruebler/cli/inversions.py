@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from pathlib import Path
 
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.output import print_json
+from gruebler.cli.linkage_inputs import is_lengths, size_of
+from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
+from gruebler.fourbar import SizedInversion, double_slide_inversions, sized_inversions
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
-from gruebler.text import message
+from gruebler.text import message, translate
 
 __all__ = ["add", "item", "run"]
 
+_DOUBLE_SLIDE = "double-slide:"
+_PICTURES = (".html", ".pdf")
 _HEADERS = {
     "frame": message("frame"),
     "drive": message("drive"),
@@ -30,13 +35,15 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="List the mechanisms of a chain: one for each frame, or for each frame and drive. Choices that are "
         "equal by the symmetry of the chain are listed once.",
-        epilog="Examples: gruebler inversions 'R(0-1) R(1-2) R(2-3) P(0-3)'; gruebler inversions wiper --drives "
+        epilog="Examples: gruebler inversions 'R(0-1) R(1-2) R(2-3) P(0-3)'; gruebler inversions four-bar:2,5,4,5 "
+        "-o inversions.html; gruebler inversions wiper --drives "
         "--with-output --text | gruebler check -.",
     )
     parser.add_argument(
         "chain",
         metavar="CHAIN",
-        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry",
+        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry; or lengths: "
+        "four-bar:2,5,4,5, slider-crank:20,50, double-slide:40",
     )
     parser.add_argument(
         "--space", choices=("planar", "spherical", "spatial"), help="space of the chain (default: planar)"
@@ -49,19 +56,16 @@ def add(parser: Parser) -> None:
     parser.add_argument("--text", action="store_true", help="one mechanism per line, as other commands read it")
     parser.add_argument("--count", action="store_true", help="print only the number")
     parser.add_printed(help="print an object with count and items")
+    parser.set_defaults(written=_PICTURES)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """List or count the inversions of one chain."""
+    word = arguments.chain
+    if is_lengths(word) or word.startswith(_DOUBLE_SLIDE):
+        return _sized(word, arguments)
+    _check(arguments)
     chain = chain_from_word(arguments.chain, arguments.space, language_of_names(arguments))
-    if not arguments.drives:
-        for option, given in (
-            ("--with-output", arguments.with_output),
-            ("--anywhere", arguments.anywhere),
-            ("--number", arguments.number != 1),
-        ):
-            if given:
-                raise GrueblerError("{option} needs --drives", option=option)
     if arguments.drives:
         drivens = list(
             driven_mechanisms(
@@ -83,6 +87,77 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _print(drivens, arguments.lang)
     return 0
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    """Raise `GrueblerError` for options that do not go together."""
+    if arguments.out is not None and arguments.out.suffix.lower() in _PICTURES:
+        raise GrueblerError(
+            "pictures to scale need lengths, such as four-bar:2,5,4,5; gruebler gallery draws the structures"
+        )
+    if arguments.drives:
+        return
+    for option, given in (
+        ("--with-output", arguments.with_output),
+        ("--anywhere", arguments.anywhere),
+        ("--number", arguments.number != 1),
+    ):
+        if given:
+            raise GrueblerError("{option} needs --drives", option=option)
+
+
+def _sized(word: str, arguments: argparse.Namespace) -> int:
+    """The mechanisms of a chain of given lengths: each frame with each drive there."""
+    for option in ("drives", "anywhere", "with_output", "text"):
+        if getattr(arguments, option):
+            raise GrueblerError(
+                "{option} lists mechanisms of a chain without lengths", option="--" + option.replace("_", "-")
+            )
+    if word.startswith(_DOUBLE_SLIDE):
+        made = double_slide_inversions(*_one_length(word.removeprefix(_DOUBLE_SLIDE)))
+    else:
+        size = size_of(word)
+        assert size is not None  # is_lengths
+        made = sized_inversions(size)
+    lang, path = arguments.lang, arguments.out
+    if path is not None and path.suffix.lower() in _PICTURES:
+        write_file(path, _page(word, made, path, lang), lang)
+    elif arguments.json:
+        items = [{"frame": each.frame, "drive": each.drive, "type": each.type.in_language(lang)} for each in made]
+        print_json({"count": len(made)} | ({} if arguments.count else {"items": items}))
+    elif arguments.count:
+        print(len(made))
+    else:
+        headers = (message("frame"), message("drive"), message("mechanism"))
+        print_table(headers, [(each.frame, each.drive, each.type) for each in made], lang=lang)
+    return 0
+
+
+def _one_length(text: str) -> tuple[float]:
+    try:
+        return (float(text),)
+    except ValueError:
+        raise GrueblerError("double-slide: expected a length, but found {text!r}", text=text) from None
+
+
+def _page(word: str, made: Sequence[SizedInversion], path: Path, lang: str) -> bytes:
+    """The mechanisms to scale, one picture for each frame, drives that give the same mechanism together."""
+    from gruebler.drawing.canvas import gallery_html
+    from gruebler.drawing.canvas.gallery import Item, Section
+    from gruebler.drawing.linkage.picture import draw_linkage
+
+    items = []
+    for each in made:
+        name = each.type.in_language(lang)
+        caption = translate("frame {frame}, drive {drive}: {name}", lang, frame=each.frame, drive=each.drive, name=name)
+        items.append(Item(draw_linkage(each.linkage, labels=True, lang=lang, name=name), caption))
+    title = translate("Inversions of {chain}", lang, chain=word)
+    sections = [Section("", tuple(items), wide=True)]
+    if path.suffix.lower() == ".html":
+        return gallery_html(title, sections, lang=lang).encode("utf-8")
+    from gruebler.drawing.canvas.matplotlib_files import gallery_pdf
+
+    return gallery_pdf(title, sections)
 
 
 def item(driven: DrivenMechanism) -> dict[str, object]:

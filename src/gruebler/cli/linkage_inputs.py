@@ -6,12 +6,14 @@ import re
 from collections.abc import Callable, Collection
 from pathlib import Path
 
+from gruebler.chain import Chain
+from gruebler.cli.output import say_left_out
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage, LinkPoint
-from gruebler.text import translate
+from gruebler.text import Message, translate
 
 __all__ = [
     "add_branch",
@@ -21,6 +23,7 @@ __all__ = [
     "linkage_of",
     "linkage_of_lengths",
     "size_of",
+    "value_of_another_program",
     "with_points",
 ]
 
@@ -38,8 +41,8 @@ def add_linkage(command: Parser) -> None:
     command.add_argument(
         "linkage",
         metavar="FILE|ID|LENGTHS",
-        help="a .toml or .json file, a catalog entry with dimensions, or lengths: four-bar:A,B,C,D, "
-        "slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
+        help="a .toml or .json file or one of another program (`gruebler convert --formats`), a catalog entry with "
+        "dimensions, or lengths: four-bar:A,B,C,D, slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
     )
 
 
@@ -108,16 +111,14 @@ def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float
         return linkage_of_lengths(size, lang), None
     kind, colon, _ = word.partition(":")
     path = Path(word)
+    foreign = value_of_another_program(word, lang)
+    if isinstance(foreign, Linkage):
+        return foreign, None
+    if foreign is not None:
+        raise GrueblerError("{path}: has chains without dimensions; expected a linkage", path=path)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
-        from gruebler.files import FORMATS
         from gruebler.formats.linkages import read_linkage
 
-        others = [ending for form in FORMATS if form.read is not None for ending in form.suffixes]
-        if path.name.lower().endswith(tuple(others)) and path.suffix.lower() not in (".toml", ".json"):
-            raise GrueblerError(
-                "{path}: another format; `gruebler convert {path} NAME.toml` makes a file that this command reads",
-                path=path,
-            )
         return read_linkage(path), None
     if "(" in word:
         raise GrueblerError(
@@ -144,6 +145,23 @@ def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float
             sized=sized,
         )
     return record.linkage(), record.dimensions.range
+
+
+def value_of_another_program(word: str, lang: str = "en") -> Linkage | Chain | list[Chain] | None:
+    """What a file of another program holds; None if the word is no name of one.
+
+    What is not read of it is said on standard error.
+    """
+    from gruebler.files import is_of_another_program, read
+
+    path = Path(word)
+    if "(" in word or not is_of_another_program(path):
+        return None
+    left_out: list[Message] = []
+    value = read(path, left_out=left_out)
+    say_left_out(left_out, lang)
+    assert isinstance(value, Linkage | Chain | list)
+    return value
 
 
 def _of_lengths(kind: str, text: str) -> FourBar | SliderCrank | InvertedSliderCrank:

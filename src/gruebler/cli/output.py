@@ -6,13 +6,15 @@ import codecs
 import json
 import math
 import sys
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from gruebler.atomic_files import atomic_file
-from gruebler.text import translate
+from gruebler.columns import Column, Table, as_csv
+from gruebler.text import Message, translate
 
-__all__ = ["print_json", "print_svg", "say_written", "write_file"]
+__all__ = ["print_json", "print_svg", "say_left_out", "say_written", "write_file", "write_table"]
 
 
 def print_json(document: Any, indent: int | None = 2) -> None:
@@ -53,6 +55,21 @@ def write_file(path: Path, content: bytes, lang: str) -> None:
     say_written(path, lang)
 
 
+def write_table(path: Path, columns: Sequence[Column], lang: str, *, decimal_comma: bool = False) -> None:
+    """Write a table by the ending of a name, .csv or .parquet; ``decimal_comma`` as `as_csv`."""
+    if path.suffix.lower() == ".parquet":
+        content = Table(tuple(columns)).parquet()
+    else:
+        content = as_csv(columns, decimal_comma=decimal_comma).encode("utf-8-sig" if decimal_comma else "utf-8")
+    write_file(path, content, lang)
+
+
 def say_written(path: Path, lang: str, more: str = "") -> None:
     """Say on standard error that a file was written."""
     print(translate("Written: {path}{more}", lang, path=path, more=more), file=sys.stderr)
+
+
+def say_left_out(notes: Iterable[Message], lang: str) -> None:
+    """Say on standard error what a file has that the value does not have, or the other way round."""
+    for note in notes:
+        print(translate("Left out: {what}", lang, what=note), file=sys.stderr)

@@ -14,6 +14,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NoReturn
 
+from gruebler.cli.printed_file import TABLES
 from gruebler.errors import GrueblerError, nearest, shortened
 from gruebler.text import LANGUAGES, LOCALE, joined_by_or, message, translate
 
@@ -108,7 +109,7 @@ class Parser(argparse.ArgumentParser):
 
         Args:
             help: What is printed with `--json`.
-            table: Whether the command itself writes a table to a .csv file.
+            table: Whether the command itself writes a table to a .csv or .parquet file.
             pictures: Whether it writes pictures, besides what it prints.
         """
         self.add_argument("--json", action="store_true", help=help)
@@ -118,10 +119,16 @@ class Parser(argparse.ArgumentParser):
                 "write what is printed: .txt, or .json as with --json"
             )
         elif table:
-            self.add_out(help="write into a file instead: .txt, .json as with --json, or .csv with the columns")
+            self.add_out(
+                help="write into a file instead: .txt, .json as with --json, or the columns: .csv, or .parquet (needs "
+                "pyarrow)"
+            )
+            self.add_argument(
+                "--decimal-comma", action="store_true", help="in .csv: decimal commas, semicolons between cells"
+            )
         else:
             self.add_out(help="write into a file instead: .txt, or .json as with --json")
-        self.set_defaults(written=_PICTURES if pictures else (".csv",) if table else ())
+        self.set_defaults(written=_PICTURES if pictures else TABLES if table else ())
 
     def replaced(self, old: str, new: str, like: str = ".*") -> None:
         """Answer an option that has another name now by the new name.

@@ -11,14 +11,17 @@ from pathlib import Path
 from gruebler.errors import GrueblerError
 from gruebler.text import joined_by_or
 
-__all__ = ["is_csv", "printed_to_file"]
+__all__ = ["TABLES", "is_table", "printed_to_file"]
+
+TABLES = (".csv", ".parquet")
+"""Endings of files with tables."""
 
 _ENDINGS = (".txt", ".json")
 
 
-def is_csv(path: Path | None) -> bool:
+def is_table(path: Path | None) -> bool:
     """Whether a file is named for a table."""
-    return path is not None and path.suffix.lower() == ".csv"
+    return path is not None and path.suffix.lower() in TABLES
 
 
 @contextmanager
@@ -31,6 +34,8 @@ def printed_to_file(arguments: argparse.Namespace) -> Iterator[None]:
     written: tuple[str, ...] = getattr(arguments, "written", ())
     path = arguments.out if hasattr(arguments, "written") else None
     ending = "" if path is None else path.suffix.lower()
+    if getattr(arguments, "decimal_comma", False) and ending != ".csv":
+        raise GrueblerError("--decimal-comma goes with -o and a name that ends with .csv")
     if path is None or ending in written:
         yield
         return

@@ -14,12 +14,12 @@ from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of
-from gruebler.cli.output import print_json, write_file
+from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
-from gruebler.cli.printed_file import is_csv
+from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table
-from gruebler.columns import Column, as_csv, shown
+from gruebler.columns import Column, shown
 from gruebler.errors import GrueblerError
 from gruebler.forces import Loads, Statics, component_table, statics, statics_table
 from gruebler.kinematics import Motion, move
@@ -94,11 +94,13 @@ def run(arguments: argparse.Namespace) -> int:
     held = statics(motion, loads)
     columns_lang = language_of_names(arguments)
     table = statics_table(held, arguments.friction, columns_lang)
-    if is_csv(arguments.out):
-        write_file(arguments.out, as_csv([*table, *component_table(held, columns_lang)]).encode("utf-8"), lang)
+    if is_table(arguments.out):
+        write_table(
+            arguments.out, [*table, *component_table(held, columns_lang)], lang, decimal_comma=arguments.decimal_comma
+        )
     if arguments.json:
         print_json(_document(held, [*table, *component_table(held, columns_lang)], lang))
-    elif not is_csv(arguments.out):
+    elif not is_table(arguments.out):
         _print(held, table.columns, lang)
     return 0 if motion.complete and not held.singular.any() else 1
 

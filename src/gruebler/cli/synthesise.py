@@ -12,6 +12,7 @@ from pathlib import Path
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
+from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.errors import SynthesisError
 from gruebler.formats.linkages import write_linkage
 from gruebler.synthesis import (
@@ -31,10 +32,11 @@ from gruebler.synthesis import (
     synthesise_positions,
 )
 from gruebler.synthesis.structural_error import Minimax
-from gruebler.text import joined, message, number, numbers, translate
+from gruebler.text import joined, message, number, numbers, plural, translate
 
 __all__ = ["add", "run"]
 
+_REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
 _COLUMNS = (
     *(message("design"), message("drive"), message("full turn"), message("transmission angle")),
     message("pin distances, link by link"),
@@ -121,7 +123,9 @@ def add(parser: Parser) -> None:
         kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
         kind.add_argument("--json", action="store_true", help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
-        kind.add_argument("--draw", type=Path, metavar="FILE", help="draw the designs: .html all, .svg the best one")
+        kind.add_argument(
+            "--draw", type=Path, metavar="FILE", help="draw the designs: .html all; .svg, .png or .pdf the best one"
+        )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -284,11 +288,18 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
         print(translate("None of the designs examined meets the task.", lang))
     if (rejected or not result.designs) and result.rejected:
         print()
-        designs = result.rejected if rejected else result.rejected[:5]
+        designs = result.rejected if rejected else result.rejected[:_REJECTED]
         rows: list[list[Cell]] = [
             [design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs
         ]
         print_table((message("rejected"), message("reason")), rows, lang=lang)
+        more = len(result.rejected) - len(designs)
+        if more:
+            print(
+                plural(
+                    "and {count} more, which --rejected lists", "and {count} more, which --rejected lists", more, lang
+                )
+            )
 
 
 def _row(position: int, design: Design, lang: str) -> list[Cell]:
@@ -313,8 +324,7 @@ def _lengths(design: Design, lang: str) -> str:
 
 
 def _check_picture(path: Path) -> None:
-    if path.suffix.lower() not in (".html", ".svg"):
-        raise SynthesisError("{path}: end the name with .html or .svg", path=path)
+    suffix_of(path, (*SUFFIXES, "html"))
     if not path.parent.is_dir():
         raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
@@ -323,9 +333,12 @@ def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
     """The best design, or all on a page."""
     from gruebler.synthesis.pictures import design_figure, designs_page
 
-    alone = path.suffix.lower() == ".svg"
-    text = design_figure(found.task, found.designs[0], lang=lang).svg() if alone else designs_page(found, lang=lang)
-    write_file(path, text.encode("utf-8"), lang)
+    suffix = suffix_of(path, (*SUFFIXES, "html"))
+    if suffix == "html":
+        content = designs_page(found, lang=lang).encode("utf-8")
+    else:
+        content = picture_bytes(design_figure(found.task, found.designs[0], lang=lang), suffix)
+    write_file(path, content, lang)
 
 
 def _minimax(found: SynthesisResult) -> Minimax:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 
+from gruebler.cli.linkage_inputs import size_of
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
+from gruebler.errors import GrueblerError
 from gruebler.exercises import lines_of_table, table_as_dict, teaching_table
+from gruebler.fourbar import FourBar
 
 __all__ = ["add", "run"]
 
@@ -20,15 +23,24 @@ def add(parser: Parser) -> None:
         description="Tables for teaching, computed when they are printed: joints by degrees of freedom, links by "
         "joints and motion, the four inversions of a four-bar chain, four-bars by Grashof's condition with the "
         "smallest integer lengths, transfer functions of gears, linkages, cams and Geneva drives.",
-        epilog="Example: gruebler table grashof --lang de",
+        epilog="Examples: gruebler table grashof --lang de; gruebler table inversions 25,70,40,70",
     )
     parser.add_argument("name", choices=_TABLES, metavar="NAME", help="joints, links, inversions, grashof or transfer")
+    parser.add_argument(
+        "lengths",
+        nargs="?",
+        metavar="LENGTHS",
+        help="of the table inversions: other lengths a,b,c,d, such as 25,70,40,70",
+    )
     parser.add_printed(help="print a list of objects with title, headers and rows")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the tables of a name."""
-    tables = teaching_table(arguments.name)
+    size = None if arguments.lengths is None else size_of(arguments.lengths)
+    if arguments.lengths is not None and not isinstance(size, FourBar):
+        raise GrueblerError("expected four lengths such as 25,70,40,70, but found {word!r}", word=arguments.lengths)
+    tables = teaching_table(arguments.name, (size.a, size.b, size.c, size.d) if isinstance(size, FourBar) else ())
     if arguments.json:
         print_json([table_as_dict(table) for table in tables])
     else:

@@ -4,6 +4,7 @@ from gruebler.enumeration.assortment import Assortment, assortment_number, assor
 from gruebler.enumeration.condition import fractionation
 from gruebler.enumeration.contracted import ContractedGraph, contracted_graphs
 from gruebler.enumeration.counting import ChainCount, count_simple_chains
+from gruebler.enumeration.epicyclic import EpicyclicCount, EpicyclicTrain, count_epicyclic_trains, epicyclic_trains
 from gruebler.enumeration.listing import chains, count_chains
 from gruebler.enumeration.multiple_assortment import each_joint_assortment, joint_assortment_number, joint_assortments
 from gruebler.enumeration.request import Request, RequestCount
@@ -13,6 +14,8 @@ __all__ = [
     "Assortment",
     "ChainCount",
     "ContractedGraph",
+    "EpicyclicCount",
+    "EpicyclicTrain",
     "Request",
     "RequestCount",
     "assortment_number",
@@ -21,10 +24,12 @@ __all__ = [
     "chains_of",
     "contracted_graphs",
     "count_chains",
+    "count_epicyclic_trains",
     "count_simple_chains",
     "each_assortment",
     "each_joint_assortment",
     "edge_blocks",
+    "epicyclic_trains",
     "fractionation",
     "graph6_blocks",
     "joint_assortment_number",

@@ -11,7 +11,7 @@ from gruebler.exercises.loader import all_exercises, exercise
 from gruebler.exercises.messages import lines_of_table, solution_text, task_text, value_text
 from gruebler.exercises.serialisation import grades_as_list, solution_as_dict, table_as_dict, task_as_dict
 from gruebler.exercises.solution import Check, Heading, Mistake, Result, Solution, SolutionStep, Table
-from gruebler.exercises.solving import Comparison, compare, methods, solve
+from gruebler.exercises.solving import Comparison, compare, methods, solve, with_values
 from gruebler.exercises.tables import TABLES, teaching_table
 
 __all__ = [
@@ -46,4 +46,5 @@ __all__ = [
     "task_text",
     "teaching_table",
     "value_text",
+    "with_values",
 ]

@@ -10,7 +10,7 @@ from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_ste
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages.quantities import as_positive
-from gruebler.text import Message, in_every_language, message
+from gruebler.text import Message, in_every_language, joined_by_or, message
 
 __all__ = ["central_crank_rocker", "crank_rocker", "slider_crank", "stroke_middle", "stroke_table"]
 
@@ -117,14 +117,26 @@ def _add_times(builder: SolutionBuilder, delta: float, angles: dict[str, str], f
     return longer
 
 
-def stroke_table(
-    a: float, e: float = 0.0, b: float | None = None, ratio: float | None = None, step: float = 30, unit: str = "mm"
-) -> Solution:
-    """The transfer function s(φ) of a slider-crank in steps from the outer dead centre, with stroke and division.
+_STARTS = ("overlapping", "stretched")
 
-    The crank turns counter-clockwise. The table has the crank angle from the dead centre and from the slider's line,
-    the slider's displacement s from below the crank's pivot, and its displacement from the outer dead centre.
+
+def stroke_table(
+    a: float,
+    e: float = 0.0,
+    b: float | None = None,
+    ratio: float | None = None,
+    step: float = 30,
+    start: str = "stretched",
+    unit: str = "mm",
+) -> Solution:
+    """The transfer function s(φ) of a slider-crank in steps from a dead centre, with stroke and division.
+
+    It begins where crank and coupler are ``stretched`` (outer dead centre) or ``overlapping`` (*Decklage*, inner dead
+    centre). The crank turns counter-clockwise. The table has the crank angle from that dead centre and from the
+    slider's line, the slider's displacement s from below the crank's pivot, and its distance from the dead centre.
     """
+    if start not in _STARTS:
+        raise LinkageError("start is {starts}, not {start!r}", starts=joined_by_or(_STARTS), start=start)
     as_step(step)
     builder = SolutionBuilder(unit)
     rod = _rod(builder, a, b, ratio)
@@ -132,7 +144,9 @@ def stroke_table(
     _add_dead_centres(builder, size)
     centres = size.dead_centres
     assert centres is not None  # _add_dead_centres raises for the others
-    start = centres.outer.drive if centres.outer.drive < pi else centres.outer.drive - 2 * pi
+    from_outer = start == "stretched"
+    first = centres.outer if from_outer else centres.inner
+    begin = first.drive if first.drive < pi or not from_outer else first.drive - 2 * pi
     low = "" if not e else " - e" if e > 0 else " + e"
     builder.say(
         message("The slider's way at every crank angle, counted from below the crank's pivot:"),
@@ -140,11 +154,14 @@ def stroke_table(
     )
     rows = []
     for k in range(int(360 / step + 1e-9) + 1):
-        phi = start + radians(k * step)
+        phi = begin + radians(k * step)
         s = a * cos(phi) + sqrt(rod**2 - (a * sin(phi) - e) ** 2)
-        rows.append((k * step, degrees(phi), s, centres.outer.output - s))
-    title = message("Transfer function s(φ), from the outer dead centre")
-    headers = ("Δφ [°]", "φ [°]", f"s [{unit}]", f"l_a - s [{unit}]")
+        rows.append((k * step, degrees(phi), s, abs(first.output - s)))
+    if from_outer:
+        title = message("Transfer function s(φ), from the outer dead centre (crank and coupler stretched)")
+    else:
+        title = message("Transfer function s(φ), from the inner dead centre (crank and coupler overlapping)")
+    headers = ("Δφ [°]", "φ [°]", f"s [{unit}]", f"l_a - s [{unit}]" if from_outer else f"s - l_i [{unit}]")
     builder.table(title, headers, rows, decimals=3)
     inner = (centres.inner.drive - centres.outer.drive) % (2 * pi)
     name = message("crank angle from the outer to the inner dead centre")

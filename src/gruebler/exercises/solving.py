@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib import import_module
 
 from gruebler.errors import CatalogError, nearest
-from gruebler.exercises.solution import Result, Solution, Value
+from gruebler.exercises.solution import Result, Solution, Value, figure
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
-from gruebler.text import LANGUAGES, Readable
+from gruebler.text import LANGUAGES, Readable, in_every_language, joined, message
 
-__all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve"]
+__all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve", "with_values"]
 
 Method = Callable[..., Solution]
 
@@ -68,6 +68,61 @@ def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], 
     except TypeError as error:
         raise CatalogError("{id}: given: {error} of {method}", id=id, error=error, method=name) from None
     return method(**arguments)
+
+
+_ALTERNATIVES = ({"b", "ratio"},)
+"""Quantities of which only one is given: giving one leaves out the others."""
+
+
+def with_values(exercise: Exercise, values: Mapping[str, float | str]) -> Exercise:
+    """The exercise with other given quantities, and without the printed answers and remarks to the former ones.
+
+    Raises `CatalogError` for a quantity that the method of the exercise does not take, or that is no number.
+
+    >>> from gruebler.catalog import catalog_folder
+    >>> from gruebler.formats import read_exercise
+    >>> eleven = read_exercise(catalog_folder() / "solved" / "exercise-11.toml")
+    >>> solve(with_values(eleven, {"a": 30}))["H"]
+    60.0
+    """
+    parameters = inspect.signature(methods()[exercise.method or ""]).parameters
+    given = dict(exercise.given)
+    for key, value in values.items():
+        if key not in parameters:
+            raise CatalogError(
+                "{id} has no quantity {key!r}{suggestion}; it has {known}",
+                id=exercise.id,
+                key=key,
+                suggestion=nearest(key, parameters),
+                known=joined(parameters, ", "),
+            )
+        for other in set().union(*(group for group in _ALTERNATIVES if key in group)) - {key, *values}:
+            given.pop(other, None)
+        given[key] = _number(key, value) if "float" in str(parameters[key].annotation) else value
+    shown = {key: figure(value) if isinstance(value, float | int) else value for key, value in given.items()}
+    changed = joined([message("{name} = {value}", name=key, value=value) for key, value in shown.items()], ", ")
+    task = message("{task} Here with other values: {values}.", task=exercise.task, values=changed)
+    asked = tuple(Question(question.key) for question in exercise.asked)
+    return Exercise(
+        id=exercise.id,
+        name=exercise.name,
+        source=exercise.source,
+        task=in_every_language(task.in_language),
+        method=exercise.method,
+        given=given,
+        cases=exercise.cases,
+        asked=asked,
+    )
+
+
+def _number(key: str, value: float | str) -> float:
+    """A quantity as a number; `CatalogError` if it is none."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return float(value.replace(",", "."))
+    except ValueError:
+        raise CatalogError("{key}: expected a number, but found {value!r}", key=key, value=value) from None
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import product
 from math import degrees, pi, radians, tau
@@ -13,10 +13,11 @@ from gruebler.analysis import motion_roles
 from gruebler.cams import read_lift
 from gruebler.catalog import entries
 from gruebler.chain import Chain
-from gruebler.chain.pairs import PAIRS, Alphabet, Contact, Pair, Space
+from gruebler.chain.pairs import OTHER_NAMES, PAIRS, Alphabet, Contact, Pair, Space
 from gruebler.errors import GrueblerError, nearest
 from gruebler.exercises.solution import Table, Value
 from gruebler.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
+from gruebler.gears import read_train, speeds
 from gruebler.geneva import Geneva
 from gruebler.linkages import Linkage
 from gruebler.text import Message, Text, arity, in_every_language, joined, message
@@ -37,7 +38,7 @@ def joints() -> tuple[Table, ...]:
     )
     ranked = sorted(PAIRS, key=lambda p: (len(_freedoms(p)), list(Contact).index(p.contact)))
     title = message("Joints by their degree of freedom f")
-    return (Table(title, headers, tuple(_joint_row(p) for p in ranked)),)
+    return Table(title, headers, tuple(_joint_row(p) for p in ranked)), _lower_and_higher(), _connections()
 
 
 def _freedoms(kind: Pair) -> tuple[str, ...]:
@@ -52,14 +53,42 @@ _CONTACTS = {
 _CLOSURES = {"form": message("form"), "force": message("force"), "material": message("material")}
 
 
+def _lower_and_higher() -> Table:
+    """What the contact of the elements means for stress and force (section 2.1)."""
+    rows = (
+        (_CONTACTS[Contact.LOWER], message("surface"), message("small"), message("large")),
+        (_CONTACTS[Contact.HIGHER], message("line or point"), message("large"), message("small")),
+    )
+    headers = (
+        message("pair"),
+        message("contact in a"),
+        message("stress in the material"),
+        message("forces it can transmit"),
+    )
+    return Table(message("Lower and higher pairs"), headers, rows)
+
+
+def _connections() -> Table:
+    """The motions that no joint, any joint and a rigid connection leave two links."""
+    rows: list[tuple[Value, ...]] = []
+    for space in (Space.SPATIAL, Space.PLANAR):
+        b, most = space.b, space.greatest_freedom
+        rows.append((space.adjective, message("none"), str(b), "0"))
+        rows.append((space.adjective, message("joint"), f"1 … {most}", f"{b - most} … {b - 1}"))
+        rows.append((space.adjective, message("rigid"), "0", str(b)))
+    title = message("Freedoms f that a connection leaves, u = b - f that it takes away")
+    return Table(title, (message("space"), message("connection"), "f", "u"), tuple(rows))
+
+
 def _joint_row(kind: Pair) -> tuple[Value, ...]:
     spatial, planar = (kind.freedoms.get(space) for space in (Space.SPATIAL, Space.PLANAR))
+    others = [name for name, pair in OTHER_NAMES.items() if pair == kind.name]
     return (
         str(len(spatial)) if spatial else "-",
         str(6 - len(spatial)) if spatial else "-",
         str(len(planar)) if planar else "-",
         in_every_language(lambda lang: kind.symbols.get(Alphabet.of_language(lang), "-")),
-        Text(kind.name.replace("_", " "), kind.german),
+        Text(kind.name.replace("_", " "), ", ".join((kind.german, *others))),
         _CONTACTS[kind.contact],
         joined(_CLOSURES[closure.value] for closure in kind.closures),
     )
@@ -116,9 +145,9 @@ def _roles() -> Table:
 _SIDES = (("d", "b"), ("e", "d"), ("f", "a"), ("g", "c"))
 
 
-def inversion_table() -> tuple[Table, ...]:
-    """The four mechanisms of one four-bar chain (table 2.3), roles from motion: a shortest, c opposite to it."""
-    chain = {"a": 2.0, "b": 5.0, "c": 4.0, "d": 5.0}
+def inversion_table(a: float = 2, b: float = 5, c: float = 4, d: float = 5) -> tuple[Table, ...]:
+    """The four mechanisms of one four-bar chain (table 2.3), roles from motion; printed with a shortest, c opposite."""
+    chain = {"a": a, "b": b, "c": c, "d": d}
     ring = "abcd"
     rows: list[tuple[Value, ...]] = []
     for row, frame in _SIDES:
@@ -130,7 +159,7 @@ def inversion_table() -> tuple[Table, ...]:
         roles = dict(zip((frame, crank, coupler, rocker), motion_roles(size.linkage()).values(), strict=True))
         cells = [roles[name] for name in ring]
         rows.append((f"({row})", frame, *cells, in_every_language(size.type.name)))
-    title = message("One chain, four mechanisms: a = 2, b = 5, c = 4, d = 5")
+    title = message("One chain, four mechanisms: a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g}", **chain)
     headers = ("", message("frame"), *ring, message("mechanism"))
     return (Table(title, headers, tuple(rows)),)
 
@@ -172,7 +201,10 @@ _Column = tuple[Message, str, Callable[[np.ndarray], np.ndarray]]
 
 
 def transfer() -> tuple[Table, ...]:
-    """Gears, linkages, cams and Geneva drives by their transfer functions over one turn of the drive."""
+    """Wheels, belts, linkages, cams and Geneva drives by their transfer functions over one turn of the drive.
+
+    Angles are positive in the sense of the drive.
+    """
     phi = np.radians(np.arange(0, 361, 30))
     slider = SliderCrank(20, 50)
     rocker = FourBar(25, 70, 40, 70)
@@ -180,14 +212,16 @@ def transfer() -> tuple[Table, ...]:
     cross = Geneva(4)
     first = float(slider.motion(0.0).output.value)
     columns: list[_Column] = [
-        (message("gears i = 2"), "ψ [°]", lambda x: np.degrees(x / 2)),
+        (message("gears 20:40"), "ψ [°]", lambda x: np.degrees(x) * _ratio("gear", 20, 40)),
+        (message("friction wheels 20:30"), "ψ [°]", lambda x: np.degrees(x) * _ratio("friction", 20, 30)),
+        (message("belt 20:40"), "ψ [°]", lambda x: np.degrees(x) * _ratio("belt", 20, 40)),
         (message("crank-rocker"), "ψ [°]", lambda x: np.degrees(rocker.motion(x).output.value)),
         (message("slider-crank"), "s [mm]", lambda x: first - slider.motion(x).output.value),
         (message("cam"), "s [mm]", lambda x: lift.at(x % tau)),
         (
             message("Geneva"),
             "ψ [°]",
-            lambda x: -np.degrees(cross.move(x - pi).angle) + np.degrees(cross.move(-pi).angle),
+            lambda x: np.degrees(cross.move(x - pi).angle) - np.degrees(cross.move(-pi).angle),
         ),
     ]
     values = [function(phi) for _, _, function in columns]
@@ -196,6 +230,13 @@ def transfer() -> tuple[Table, ...]:
     headers = [joined([mechanism, quantity], ": ") for mechanism, quantity, _ in columns]
     table = Table(title, ("φ [°]", *headers), tuple(rows), decimals=2)
     return table, _kinds_of_transfer(columns)
+
+
+def _ratio(kind: str, drive: int, wheel: int) -> float:
+    """The speed of a wheel for that of the wheel that drives it."""
+    speed = speeds(read_train(f"{kind} drive:{drive} wheel:{wheel}; drive=1").train, {"drive": 1}).values["wheel"]
+    assert speed is not None
+    return float(speed)
 
 
 def _kinds_of_transfer(columns: list[_Column]) -> Table:
@@ -208,7 +249,11 @@ def _kinds_of_transfer(columns: list[_Column]) -> Table:
         still = float(np.mean(np.abs(slope) < 1e-9 * np.abs(slope).max()))
         back = float(slope.min()) < -1e-9 * np.abs(slope).max() < 1e-9 * np.abs(slope).max() < float(slope.max())
         kind = message("uniform, linear") if steady else message("non-uniform")
-        sense = message("to and fro") if back else message("one sense")
+        if back:
+            sense = message("to and fro")
+        else:
+            forward = float(slope.max()) > -float(slope.min())
+            sense = message("always with the drive") if forward else message("always against the drive")
         rows.append((mechanism, kind, sense, f"{still:.0%}"))
     title = message("Properties of the transfer function")
     headers = (
@@ -230,8 +275,8 @@ TABLES: dict[str, Callable[[], tuple[Table, ...]]] = {
 """The tables by their names in the command line."""
 
 
-def teaching_table(name: str) -> tuple[Table, ...]:
-    """The tables of a name: joints, links, inversions, grashof, transfer.
+def teaching_table(name: str, lengths: Sequence[float] = ()) -> tuple[Table, ...]:
+    """The tables of a name: joints, links, inversions (of four lengths, if they are given), grashof, transfer.
 
     >>> [row[-1].in_language("de") for row in teaching_table("inversions")[0].rows]
     ['Kurbelschwinge', 'Kurbelschwinge', 'Doppelkurbel', 'Doppelschwinge mit umlaufender Koppel']
@@ -243,4 +288,8 @@ def teaching_table(name: str) -> tuple[Table, ...]:
             name=name,
             suggestion=nearest(name, TABLES),
         )
-    return TABLES[name]()
+    if not lengths:
+        return TABLES[name]()
+    if name != "inversions" or len(lengths) != len(_SIDES):
+        raise GrueblerError("only the table inversions takes lengths: a, b, c, d of a four-bar")
+    return inversion_table(*lengths)

@@ -1,86 +1,157 @@
-"""Drawings for CAD and laser cutting (DXF of release 2000): a plate for each link, with holes, in the drawn position.
+"""Drawings for CAD and laser cutting (DXF of release 2000): a plate for each link, with holes and slots.
 
-Every link has a layer of its own name with its outline, which keeps a margin around the pins, and the holes of its
-turning joints at their true diameter; SLIDES has the lines along which links slide, CURVES the paths of named points,
-POINTS the points themselves. The origin is the first pin of the frame, the unit stands in the header.
+Every link has a layer of its own name with its outline, which keeps a margin around pins and slots, holes at their true
+diameter, and slots as long as pins move in them. CURVES has the paths of named points, POINTS the points themselves.
+With all links in one drawing these lie in one position, and the origin is the first hole or slot of the frame; a link
+alone has its first hole there. The unit stands in the header.
 """
 
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
-from math import atan2, cos, hypot, pi, remainder, sin, tan
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import atan2, cos, pi, remainder, sin, tan
 from typing import Any
 
 import numpy as np
 
-from gruebler.analysis.rotatability import drive_range
-from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnJoint, drawing_of, lower_linkage
+from gruebler.analysis.link_planes import link_planes, plate_sizes
+from gruebler.analysis.plates import Plate, Plates, hull, plates_of, whole_motion
+from gruebler.errors import GrueblerError, LinkageError
+from gruebler.formats.pin_drawings import lower_linkage
 from gruebler.kinematics import move
-from gruebler.linkages import Linkage
+from gruebler.kinematics.reference_pose import pose_at_reference
+from gruebler.kinematics.solve import cached_plan
+from gruebler.linkages import Linkage, Pose2D
 from gruebler.text import Message, message
 
-__all__ = ["dxf_from_linkage", "plate_outline"]
+__all__ = ["dxf_from_linkage", "dxf_of_links", "plate_outline"]
 
 _UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "dm": 14}
-_ROWS = 361
 _FORBIDDEN = dict.fromkeys(map(ord, '<>/\\":;?*|=`'), "_")  # in names of layers
 _COLOURS = (7, 1, 3, 5, 4, 6, 30, 150)
-_HOLES = 30  # the size of the linkage over the diameter of a hole
+_POINTS, _CURVES = "POINTS", "CURVES"
 
 
 def dxf_from_linkage(
     linkage: Linkage, left_out: list[Message], *, hole: float | None = None, margin: float | None = None
 ) -> str:
-    """The text of a DXF file; needs ezdxf.
+    """The text of a DXF file with all links in one position; needs ezdxf.
+
+    The description of a layer names the plane of its link (`gruebler.analysis.link_planes`), if there are planes in
+    which nothing collides.
 
     Args:
         linkage: with turning and sliding joints only.
         left_out: gets a message for each thing that the drawing does not have.
-        hole: the diameter of the holes, in the linkage's unit; a thirtieth of its size if not given.
+        hole: the diameter of holes and the width of slots, in the linkage's unit; a thirtieth of its size if not given.
         margin: from the centre of a hole to the edge of the plate; the diameter of a hole if not given.
 
-    Raises `GrueblerError` for wheels and cams, for lengths that are not positive, and without ezdxf.
+    Raises `GrueblerError` for wheels and cams, for lengths that do not fit, and without ezdxf.
     """
+    document = _new_document(linkage.unit, left_out)
+    plates, sizes, planes = _cut(linkage, left_out, hole, margin)
+    lower, frame = plates.linkage, plates.linkage.mechanism.frame
+    poses, first = lower.required_pose, plates.plates[frame].places[0]
+    origin = complex(*poses[frame].put(first.real, first.imag))
+    space = document.modelspace()
+    for number, (link, layer) in enumerate(_layers(list(plates.plates)).items()):
+        pose = poses[link]
+        _add_plate(
+            document,
+            layer,
+            plates.plates[link],
+            sizes,
+            partial(_posed, pose, origin),
+        )
+        document.layers.get(layer).description = planes[link]
+        document.layers.get(layer).color = _COLOURS[number % len(_COLOURS)]
+    for name in (_CURVES, _POINTS):
+        document.layers.add(name, color=8)
+    for name, point in lower.points.items():
+        x, y = poses[point.link].put(point.x, point.y)
+        space.add_point((x - origin.real, y - origin.imag), dxfattribs={"layer": _POINTS})
+        path = plates.motion.complex_point(name) - origin
+        if len(path) > 1:
+            closed = abs(path[-1] - path[0]) < 1e-9 * lower.size  # a whole turn ends where it began, but for rounding
+            places = np.column_stack([path.real, path.imag])[: -1 if closed else None]
+            space.add_lwpolyline(places.tolist(), close=closed, dxfattribs={"layer": _CURVES})
+    return _text(document)
+
+
+def dxf_of_links(
+    linkage: Linkage, left_out: list[Message], *, hole: float | None = None, margin: float | None = None
+) -> dict[str, str]:
+    """The texts of DXF files of one link each, by names for the files: ``2 coupler`` for the coupler in the plane 2.
+
+    Each plate has its first hole at the origin and its second on the x axis. Arguments and errors as those of
+    `dxf_from_linkage`.
+    """
+    plates, sizes, planes = _cut(linkage, left_out, hole, margin)
+    if linkage.points:
+        left_out.append(message("paths of points"))
+    out = {}
+    for link, layer in _layers(list(plates.plates)).items():
+        document = _new_document(linkage.unit, [])
+        plate = plates.plates[link]
+        first = plate.places[0]
+        other = next((z for z in plate.places if abs(z - first) > 1e-9 * plates.linkage.size), first + 1)
+        turn = (other - first).conjugate() / abs(other - first)
+        _add_plate(document, layer, plate, sizes, partial(_laid, first, turn))
+        document.layers.get(layer).description = planes[link]
+        out[f"{planes[link].removeprefix(_PLANE)} {layer}".strip()] = _text(document)
+    return out
+
+
+_PLANE = "plane "
+
+
+def _posed(pose: Pose2D, origin: complex, z: complex) -> complex:
+    return complex(*pose.put(z.real, z.imag)) - origin
+
+
+def _laid(first: complex, turn: complex, z: complex) -> complex:
+    return (z - first) * turn
+
+
+def _cut(
+    linkage: Linkage, left_out: list[Message], hole: float | None, margin: float | None
+) -> tuple[Plates, tuple[float, float], dict[str, str]]:
+    """The plates, the diameter of holes and the margin, and the plane of each link as a text; without planes empty."""
+    lower = lower_linkage(linkage)
+    sizes = plate_sizes(lower.size, hole, margin)
+    left_out.append(message("drives"))
+    if linkage.outputs:
+        left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
+    try:
+        motion = whole_motion(lower)
+    except LinkageError as error:
+        drives = pose_at_reference(cached_plan(lower), np.zeros(len(lower.mechanism.drives))).drives
+        plates = plates_of(move(lower, drives[None]))
+        left_out.append(message("the lengths of slots, paths and planes ({reason})", reason=error))
+        return plates, sizes, dict.fromkeys(plates.plates, "")
+    plates = plates_of(motion)
+    found = link_planes(lower, hole=sizes[0], margin=sizes[1])
+    if found.planes is None:
+        left_out.append(message("the planes of links ({reason})", reason=found.message))
+    return plates, sizes, {link: f"{_PLANE}{found.planes[link]}" if found.planes else "" for link in plates.plates}
+
+
+def _new_document(unit: str, left_out: list[Message]) -> Any:
     try:
         from ezdxf.filemanagement import new
     except ImportError:
         raise GrueblerError('DXF needs ezdxf: pip install "gruebler[cad]"') from None
-    hole = linkage.size / _HOLES if hole is None else hole
-    margin = hole if margin is None else margin
-    if not 0 < hole / 2 < margin < float("inf"):
-        raise GrueblerError(
-            "a hole of {hole:g} needs a margin of more than its radius, not {margin:g}", hole=hole, margin=margin
-        )
-    drawing = drawing_of(linkage, left_out)
-    pins = [joint for joint in drawing.joints if len(joint.links) > 1]
-    origin = next((joint for joint in pins if drawing.frame in joint.links), pins[0])
     document = new("R2000")
-    document.header["$INSUNITS"] = _UNITS.get(drawing.unit, 0)
-    if drawing.unit not in _UNITS:
-        left_out.append(message("the unit {unit}", unit=drawing.unit))
-    document.header["$MEASUREMENT"] = 0 if drawing.unit in ("in", "ft") else 1
-    space = document.modelspace()
-    links = list(dict.fromkeys([drawing.frame, *(link for joint in drawing.joints for link in joint.links)]))
-    layers = _layers(links)
-    for number, link in enumerate(links):
-        document.layers.add(layers[link], color=_COLOURS[number % len(_COLOURS)])
-        joints = [joint for joint in drawing.joints if link in joint.links]
-        outline = plate_outline([(joint.x - origin.x, joint.y - origin.y) for joint in joints], margin)
-        space.add_lwpolyline(outline, format="xyb", close=True, dxfattribs={"layer": layers[link]})
-        for joint in joints:
-            if len(joint.links) > 1 and (joint.slot is None or (joint.turns and link != joint.links[0])):
-                at = (joint.x - origin.x, joint.y - origin.y)
-                space.add_circle(at, hole / 2, dxfattribs={"layer": layers[link]})
-    for name in ("SLIDES", "CURVES", "POINTS"):
-        document.layers.add(name, color=8)
-    _add_slides(space, drawing.joints, origin, linkage.size)
-    for joint in drawing.joints:
-        if len(joint.links) == 1:
-            space.add_point((joint.x - origin.x, joint.y - origin.y), dxfattribs={"layer": "POINTS"})
-    _add_curves(space, linkage, origin, left_out)
-    left_out.append(message("drives"))
+    document.header["$INSUNITS"] = _UNITS.get(unit, 0)
+    if unit not in _UNITS:
+        left_out.append(message("the unit {unit}", unit=unit))
+    document.header["$MEASUREMENT"] = 0 if unit in ("in", "ft") else 1
+    return document
+
+
+def _text(document: Any) -> str:
     out = io.StringIO()
     document.write(out)
     return out.getvalue()
@@ -91,35 +162,26 @@ def _layers(links: Sequence[str]) -> dict[str, str]:
     layers: dict[str, str] = {}
     for link in links:
         name = link.translate(_FORBIDDEN)
-        while name.lower() in (used.lower() for used in (*layers.values(), "0", "slides", "curves", "points")):
+        while name.lower() in (used.lower() for used in (*layers.values(), "0", "curves", "points")):
             name += "_"
         layers[link] = name
     return layers
 
 
-def _add_slides(space: Any, joints: Sequence[DrawnJoint], origin: DrawnJoint, size: float) -> None:
-    for joint in joints:
-        if joint.slot is not None:
-            dx, dy = size / 2 * cos(joint.slot), size / 2 * sin(joint.slot)
-            x, y = joint.x - origin.x, joint.y - origin.y
-            space.add_line((x - dx, y - dy), (x + dx, y + dy), dxfattribs={"layer": "SLIDES"})
-
-
-def _add_curves(space: Any, linkage: Linkage, origin: DrawnJoint, left_out: list[Message]) -> None:
-    """The paths of the named points over the whole range of the drive."""
-    if not linkage.points:
-        return
-    if len(linkage.mechanism.drives) != 1:
-        left_out.append(message("paths of points: they need one drive"))
-        return
-    lower = lower_linkage(linkage)
-    way = drive_range(lower)
-    path = np.linspace(0, 2 * pi, _ROWS) if way.full else np.linspace(way.lowest, way.highest, _ROWS)[1:-1]
-    motion = move(lower, path)
-    for name in linkage.points:
-        if len(motion):
-            places = motion.point(name) - (origin.x, origin.y)
-            space.add_lwpolyline(places.tolist(), close=way.full, dxfattribs={"layer": "CURVES"})
+def _add_plate(
+    document: Any, layer: str, plate: Plate, sizes: tuple[float, float], put: Callable[[complex], complex]
+) -> None:
+    """The edge, the holes and the slots of a plate, put where it lies."""
+    document.layers.add(layer)
+    space, (hole, margin) = document.modelspace(), sizes
+    places = [put(z) for z in plate.places]
+    edges = [plate_outline([(z.real, z.imag) for z in places], margin)]
+    for slot in plate.slots:
+        edges.append(plate_outline([(z.real, z.imag) for z in map(put, slot)], hole / 2))
+    for edge in edges:
+        space.add_lwpolyline(edge, format="xyb", close=True, dxfattribs={"layer": layer})
+    for z in map(put, plate.holes):
+        space.add_circle((z.real, z.imag), hole / 2, dxfattribs={"layer": layer})
 
 
 def plate_outline(places: Sequence[tuple[float, float]], margin: float) -> list[tuple[float, float, float]]:
@@ -130,42 +192,17 @@ def plate_outline(places: Sequence[tuple[float, float]], margin: float) -> list[
     >>> [tuple(round(v, 9) for v in corner) for corner in plate_outline([(0, 0), (4, 0)], 1)]
     [(0.0, -1.0, 0.0), (4.0, -1.0, 1.0), (4.0, 1.0, 0.0), (0.0, 1.0, 1.0)]
     """
-    hull = _hull(places)
-    if len(hull) == 1:
-        x, y = hull[0]
+    corners = [(z.real, z.imag) for z in hull([complex(x, y) for x, y in places])]
+    if len(corners) == 1:
+        x, y = corners[0]
         return [(x - margin, y, 1.0), (x + margin, y, 1.0)]
     out = []
-    for k, (x, y) in enumerate(hull):
-        to_x, to_y = hull[(k + 1) % len(hull)]
-        next_x, next_y = hull[(k + 2) % len(hull)]
+    for k, (x, y) in enumerate(corners):
+        to_x, to_y = corners[(k + 1) % len(corners)]
+        next_x, next_y = corners[(k + 2) % len(corners)]
         along, after = atan2(to_y - y, to_x - x), atan2(next_y - to_y, next_x - to_x)
         turn = remainder(after - along, 2 * pi)
         nx, ny = margin * sin(along), -margin * cos(along)
         out.append((x + nx, y + ny, 0.0))
         out.append((to_x + nx, to_y + ny, tan(abs(turn) / 4)))
     return out
-
-
-def _hull(places: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """The corners of the convex hull, counter-clockwise; places that are nearly on an edge are left out."""
-    points = sorted(set(places))
-    size = max(hypot(x - points[0][0], y - points[0][1]) for x, y in points)
-    points = [
-        points[0],
-        *(p for p, q in zip(points[1:], points, strict=False) if hypot(p[0] - q[0], p[1] - q[1]) > 1e-9 * size),
-    ]
-    if len(points) < 3:
-        return points
-
-    def half(ordered: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-        chain: list[tuple[float, float]] = []
-        for x, y in ordered:
-            while len(chain) > 1:
-                (ax, ay), (bx, by) = chain[-2:]
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-9 * size**2:
-                    break
-                chain.pop()
-            chain.append((x, y))
-        return chain[:-1]
-
-    return half(points) + half(points[::-1])

@@ -15,6 +15,7 @@ from gruebler.fourbar.grashof import (
     turning_ranges,
     types_along,
 )
+from gruebler.fourbar.inversions import SizedInversion, double_slide_inversions, sized_inversions
 from gruebler.fourbar.inverted_slider_crank import InvertedSliderCrank
 from gruebler.fourbar.slider_crank import SliderCrank, StrokeMidpoint
 from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, SLIDER_CRANK_TYPES
@@ -33,10 +34,13 @@ __all__ = [
     "InvertedSliderCrank",
     "LengthRange",
     "LinkageType",
+    "SizedInversion",
     "SliderCrank",
     "StrokeMidpoint",
     "StrokeTimes",
+    "double_slide_inversions",
     "grashof",
+    "sized_inversions",
     "turning_ranges",
     "types_along",
 ]

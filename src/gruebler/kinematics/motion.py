@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cmath import rect
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from gruebler import notebook
 from gruebler.arrays import Complexes, Reals
+from gruebler.columns import Table
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
@@ -70,6 +72,8 @@ class Motion(LinkPoses, Brief):
     stop: Stop | None
     unbounded: tuple[int, ...] = ()
     """Rows at a limit of the drive, where links would have to move infinitely fast: their rates are NaN."""
+    speeds: Reals | None = None
+    """(order, rows, drives): the rates of the drives that it was solved for; None if it could not begin."""
 
     def __len__(self) -> int:
         return len(self.drives)
@@ -128,6 +132,29 @@ class Motion(LinkPoses, Brief):
         from gruebler.kinematics.branches import branch_of
 
         return branch_of(self.plan, self.roots[0], self.unknowns[0], self.drives[0])
+
+    def table(
+        self,
+        outputs: Sequence[str] | None = None,
+        points: Sequence[str] = (),
+        *,
+        transmission: str | None = None,
+        lang: str = "en",
+    ) -> Table:
+        """Drives, outputs and points row by row, with derivatives: `gruebler.analysis.motion_table`.
+
+        `Table.structured`, `Table.pandas`, `Table.arrow` and `Table.csv` give it to other programs, `gruebler.write`
+        writes it into a file.
+
+        Args:
+            outputs: Links or sliding joints; without them the linkage's outputs.
+            points: Names of points or joints.
+            transmission: The output whose transmission angle gets a column.
+            lang: Language of the headers.
+        """
+        assert notebook.table_of is not None  # set by the front door
+        table: Table = notebook.table_of(self, outputs, points, transmission=transmission, lang=lang)
+        return table
 
     def _repr_svg_(self) -> str | None:
         """The first pose with some others thinly, for notebooks."""

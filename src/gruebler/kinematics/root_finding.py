@@ -21,7 +21,8 @@ Jet = Callable[[Reals], Reals]
 
 _NONE = 1e-9  # of the usual size: a value below is taken for none; rounding reaches some 1e-12
 _FLAT = 1e-4  # a slope below this part of the usual one asks whether the zero is a multiple one
-_JUMP = 1e-4  # of the usual size: a change of sign with larger values is a jump; next to change points 1e-6 is rounding
+_JUMP = 1e-4  # of the usual size or of that beside it: a change of sign with larger values is a jump; next to change
+# points 1e-6 is rounding
 _WINDOW = 0.1  # of a cell: how far from such a zero that of the last derivative may lie
 _EDGE = 0.01  # of a part between joints: so far from both at most, however short it is
 _INSIDE = 9  # places within each part between joints, besides those of the grid
@@ -280,8 +281,10 @@ def _crossings(jet: Jet, left: Reals, right: Reals, usual: float) -> list[Zero]:
     """The zeros in brackets, but no jumps."""
     if not len(left):
         return []
-    found, rises = bracketed_root(lambda x: jet(x)[0], left, right), jet(left)[0] < 0
-    near = np.abs(jet(found)[0]) <= _JUMP * usual
+    before, behind = jet(left)[0], jet(right)[0]
+    found, rises = bracketed_root(lambda x: jet(x)[0], left, right), before < 0
+    size = np.maximum(usual, np.maximum(np.abs(before), np.abs(behind)))  # a steep function is large near by
+    near = np.abs(jet(found)[0]) <= _JUMP * size
     return [Zero(float(x), 1, bool(up)) for x, up in zip(found[near], rises[near], strict=True)]
 
 

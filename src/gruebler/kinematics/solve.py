@@ -95,7 +95,8 @@ def move(
         # the start may be a change point of the independent part: the way from home tells the way on
         motion = motion_from_rows(made, path, _from_home(made, path, speeds, upto))
     start = pose_at_reference(made, path[0]) if home else ReferencePose(path[0], signs, unknowns)
-    return replace(motion, unbounded=set_change_point_rows(made, motion, path, speeds, start))
+    unbounded = set_change_point_rows(made, motion, path, speeds, start)
+    return replace(motion, unbounded=unbounded, speeds=speeds[:, : len(motion)])
 
 
 def starting_configuration(plan: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:

@@ -248,6 +248,29 @@ class Linkage:
             raise LinkageError("the same sizes need the same chain and the same frame")
         return self._changed(mechanism=mechanism)
 
+    def with_frame(self, frame: str, drive: str) -> Linkage:
+        """The same sizes on another frame, with a link driven there; the reference pose is seen from the new frame.
+
+        Raises `LinkageError` for a link that is not jointed to the frame.
+
+        >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+        >>> drawn = Linkage.from_drawing(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
+        >>> drawn.with_frame("1", "2").mechanism.text()
+        'R(0-1) R(1-2) R(2-3) R(0-3); frame=1; drive=R(1-2)'
+        """
+        chain = self.mechanism.chain
+        between = [k for k, joint in enumerate(chain.joints) if {frame, drive} <= {*joint.links}]
+        if not between:
+            raise LinkageError("{drive} is not jointed to {frame}", drive=drive, frame=frame)
+        mechanism = Mechanism(chain, frame, [chain.joint_names()[between[0]]])
+        pose = self.reference_pose
+        if pose is not None:
+            held = pose[frame]
+            pose = {
+                link: Pose2D(*held.to_local(place.x, place.y), place.angle - held.angle) for link, place in pose.items()
+            }
+        return self._changed(mechanism=mechanism, reference_pose=pose, outputs=())
+
     def with_reference_pose(self, reference_pose: Mapping[str, tuple[float, float, float]] | None) -> Linkage:
         """The same sizes with another home position: x, y and angle of every link, in radians; or without one."""
         return self._changed(reference_pose=reference_pose)

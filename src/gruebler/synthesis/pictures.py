@@ -23,7 +23,7 @@ _MOST_MARKS = 12  # targets that get a name; of more every second, third, ... is
 
 
 def _marked(task: Task, linkage: Linkage) -> Linkage:
-    """The linkage with the targets as points of its frame, by their numbers."""
+    """The linkage with the targets as points of its frame, by their numbers; as P1, P2 ... if links have numbers."""
     match task:
         case PositionTask():
             places = task.origins
@@ -32,9 +32,10 @@ def _marked(task: Task, linkage: Linkage) -> Linkage:
         case _:
             return linkage
     step = -(-len(places) // _MOST_MARKS)
-    frame = linkage.mechanism.frame
-    numbered = {str(k + 1): (frame, float(z.real), float(z.imag)) for k, z in enumerate(places) if k % step == 0}
-    return linkage.with_points(numbered)
+    chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
+    letter = "P" if any(link.isdigit() for link in chain.links) else ""
+    names = [f"{letter}{k + 1}" for k in range(len(places))]
+    return linkage.with_points({names[k]: (frame, places[k].real, places[k].imag) for k in range(0, len(places), step)})
 
 
 def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:

@@ -13,7 +13,9 @@ import numpy as np
 
 from gruebler.analysis.drive_cycle import PathCycle
 from gruebler.analysis.events import stops
+from gruebler.analysis.link_planes import link_planes
 from gruebler.analysis.outputs import find_output
+from gruebler.analysis.plates import plates_of
 from gruebler.analysis.transmission import PushingLink, pushing_links
 from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.labels import note_near
@@ -221,6 +223,20 @@ def _push(posed: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, comp
     return at, force, normal if (force.conjugate() * normal).real >= 0 else -normal
 
 
+def _planes(context: LayerContext) -> list[Shape]:
+    """At every link the number of its plane, counted from below."""
+    posed, shapes = context.posed, list(context.drawn)
+    posed.driven()
+    planes, plates = link_planes(posed.linkage).planes, plates_of(posed.pose).plates
+    texts: list[Shape] = []
+    for link, plane in (planes or {}).items():
+        ends = plates[link].places[: 1 if link == posed.lower.mechanism.frame else 2]
+        middle = sum(ends) / len(ends)
+        at = posed.place(LinkPoint(link, middle.real, middle.imag))
+        texts.append(note_near(at, str(plane), "value", [*shapes, *texts]))
+    return texts
+
+
 def point_names(posed: PosedLinkage, shapes: Sequence[Shape]) -> Iterable[TextShape]:
     """The names of points, beside them."""
     drawn = list(shapes)
@@ -243,6 +259,7 @@ LAYERS: Mapping[str, Layer] = {
     "velocities": velocity_arrows,
     "accelerations": acceleration_arrows,
     "poles": pole_marks,
+    "planes": _planes,
     "dimensions": dimension_lines,
     "scale": _later,
 }

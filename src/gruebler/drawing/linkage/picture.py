@@ -52,6 +52,7 @@ _LAYER_NAMES = {
     "velocities": message("velocities"),
     "accelerations": message("accelerations"),
     "poles": message("instant centres"),
+    "planes": message("planes of the links"),
     "dimensions": message("dimensions"),
     "scale": message("scale"),
 }
@@ -83,7 +84,7 @@ def draw_linkage(
         between: drive values of its range, for curves and the size of the picture; by default the full range.
         curves: points or joints whose paths are drawn.
         show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
-            ``inflection``, ``dimensions``, ``scale``.
+            ``inflection``, ``planes``, ``dimensions``, ``scale``.
         output: the link of dead centres and transmission angle, by default the linkage's own output; also
             that of centrodes and inflection circle, by default a link that is no neighbour of the frame.
         ghost: the number of thinly drawn positions, evenly through the range of the drive; at most 60.
