@@ -99,7 +99,7 @@ def plates_of(motion: Motion) -> Plates:
     lower = motion.lower_linkage
     chain = lower.mechanism.chain
     for joint in chain.joints:
-        if joint.pair.name not in ("revolute", "prismatic"):
+        if not joint.pair.is_basic:
             raise LinkageError("plates turn or slide against each other; {joint} cannot join them", joint=joint)
     blocks = _blocks(lower, motion.linkage.mechanism.chain.links)
     links = [link for link in chain.links if link not in blocks]
@@ -120,7 +120,7 @@ def plates_of(motion: Motion) -> Plates:
 
     for number, joint in enumerate(chain.joints):
         elements = {link: lower.elements[number, link] for link in joint.links if link not in blocks}
-        if joint.pair.name == "revolute":
+        if joint.pair.is_revolute:
             slide = next((blocks[link] for link in joint.links if link in blocks), None)
             add({link: complex(pin.x, pin.y) for link, pin in elements.items()}, slide)
         elif number not in blocks.values():

@@ -158,7 +158,7 @@ def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str]
     return {
         name: float(np.ptp(made.angle(joint.links[0]))) > _STEADY
         for name, joint in zip(chain.joint_names(), chain.joints, strict=True)
-        if joint.pair.name == "prismatic"
+        if joint.pair.is_prismatic
     }
 
 

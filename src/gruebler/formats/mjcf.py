@@ -62,7 +62,7 @@ class _Model:
             for other in joint.links:
                 if other != centre:
                     first = number in driven and other == driven[number][1]
-                    edges.append((0 if first else 1 if joint.pair.name == "prismatic" else 2, number, centre, other))
+                    edges.append((0 if first else 1 if joint.pair.is_prismatic else 2, number, centre, other))
         sets = DisjointSets(mechanism.chain.links)
         self.tree: dict[str, list[tuple[int, str]]] = {link: [] for link in mechanism.chain.links}
         self.closing: list[tuple[int, str, str]] = []
@@ -152,7 +152,7 @@ class _Model:
         if number not in self.signs:
             self.signs[number] = -1 if drive is not None and drive.between[0] == child else 1
         motor = "" if drive is None else f' armature="{self._inertia(drive)!r}"'
-        if joint.pair.name == "revolute":
+        if joint.pair.is_revolute:
             return f'<joint name={name} type="hinge" axis="0 0 1" pos="{self._at(element.x, element.y)}"{motor}/>'
         angle = direction(element)
         return f'<joint name={name} type="slide" axis="{cos(angle)!r} {sin(angle)!r} 0"{motor}/>'

@@ -24,7 +24,6 @@ from gruebler.notebook import Brief
 __all__ = ["Dyad", "HigherGroup", "Plan", "plan"]
 
 _DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
-_LETTERS = {"revolute": "R", "prismatic": "P"}
 _FORMS = {code: form for form, code in _DYADS.items()}
 _BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
 # Between two checks a drive moves no further: within that a pose is predicted so well that Newton's method stays on its
@@ -300,7 +299,7 @@ class _Planner:
             count = len(self.conditions)
             self.operations.append((GROUP, count))
             self.conditions.append(self._conditions(group, base, roots))
-            contacts = any(member.pair.name not in _LETTERS for _, member in group.joints)
+            contacts = any(not member.pair.is_basic for _, member in group.joints)
             self.parts.append(HigherGroup(number, roots, count, base, contacts))
         for root in roots:
             for link in [link for link, at in self.against.items() if at == root and link != root]:
@@ -317,16 +316,16 @@ class _Planner:
         if (
             len(group.bodies) != 2
             or len(group.joints) != 3
-            or any(len(m.links) + m.outer != 2 or m.pair.name not in _LETTERS for _, m in group.joints)
+            or any(len(m.links) + m.outer != 2 or not m.pair.is_basic for _, m in group.joints)
         ):
             return None
         outer: dict[int, tuple[int, str]] = {}
         inner = (-1, "")
         for joint, member in group.joints:
             if member.outer:
-                outer[member.links[0]] = joint, _LETTERS[member.pair.name]
+                outer[member.links[0]] = joint, member.pair.symbol()
             else:
-                inner = joint, _LETTERS[member.pair.name]
+                inner = joint, member.pair.symbol()
         one, two = 0, 1
         form = outer[0][1] + inner[1] + outer[1][1]
         if form not in _DYADS:
@@ -349,8 +348,8 @@ class _Planner:
             sides += [(self._element(joint, roots[body]), body) for body in member.links]
             for element, body in sides[1:]:
                 both, owners = (sides[0][0], element), (sides[0][1], body)
-                if member.pair.name in _LETTERS:
-                    out.append(Condition({"revolute": PIN, "prismatic": SLIDE}[member.pair.name], both, owners))
+                if member.pair.is_basic:
+                    out.append(Condition(PIN if member.pair.is_revolute else SLIDE, both, owners))
                 else:
                     try:
                         out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)

@@ -17,7 +17,7 @@ import numpy as np
 from gruebler.arrays import Reals
 from gruebler.assur import decompose
 from gruebler.chain import Chain, Joint
-from gruebler.chain.pairs import Pair, pair
+from gruebler.chain.pairs import Pair, Space, pair
 from gruebler.errors import LinkageError
 from gruebler.linkages import Element, Line, Linkage, Pin, with_lower_pairs
 from gruebler.linkages.elements import direction
@@ -136,9 +136,7 @@ class ReferenceConditions:
         self.rows: list[_ConditionRow] = []
         for number, joint in enumerate(chain.joints):
             for other in joint.links[1:]:
-                self.rows += [_ConditionRow(number, (joint.links[0], other))] * (
-                    1 if joint.pair.name in ("roll_slide", "double_slide") else 2
-                )
+                self.rows += [_ConditionRow(number, (joint.links[0], other))] * (joint.pair.u(Space.PLANAR))
 
     def of(self, joint: int) -> list[int]:
         """The numbers of a joint's conditions."""
@@ -201,7 +199,7 @@ class ReferenceConditions:
 
     def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:
         first, other = links
-        if joint.pair.name == "revolute":
+        if joint.pair.is_revolute:
             yield self._way(x, number, links, 1 + 0j, "")
             yield self._way(x, number, links, 1j, "")
             return
@@ -209,7 +207,7 @@ class ReferenceConditions:
         along = self._line(x, number, lined)
         if joint.pair.name != "double_slide":
             yield self._way(x, number, links, 1j * along, lined)
-        if joint.pair.name != "roll_slide":
+        if not joint.pair.is_roll_slide:
             turned = self._line(x, number, other) * self._line(x, number, first).conjugate()
             yield phase(turned), self._turn(first, other)
 
@@ -293,7 +291,7 @@ def _releases(conditions: ReferenceConditions, x: Reals) -> Iterator[_Release]:
 def _force(conditions: ReferenceConditions, number: int, link: str) -> Reals:
     """What a joint transmits to one of its links, (1 or 2, rows), from the forces of all conditions."""
     mine = conditions.of(number)
-    each = 1 if conditions.chain.joints[number].pair.name in ("roll_slide", "double_slide") else 2
+    each = conditions.chain.joints[number].pair.u(Space.PLANAR)
     out = np.zeros((each, len(conditions.rows)))
     for place, k in enumerate(mine):
         first, other = conditions.rows[k].links
@@ -305,7 +303,7 @@ def _bar(linkage: Linkage, number: int, link: str) -> float | None:
     """The direction of a link with two pins on it, from the other pin to this one; None if it has other joints."""
     joints = linkage.mechanism.chain.joints
     ends = [n for n, joint in enumerate(joints) if link in joint.links]
-    if len(ends) != 2 or any(joints[n].pair.name != "revolute" for n in ends) or link == linkage.mechanism.frame:
+    if len(ends) != 2 or any(not joints[n].pair.is_revolute for n in ends) or link == linkage.mechanism.frame:
         return None
     here = linkage.elements[number, link]
     there = linkage.elements[next(n for n in ends if n != number), link]
@@ -388,7 +386,7 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
         kind = joint.pair
         for _release in (one for one in chosen if one.joint == number):
             here = members.pop(_release.link)
-            if _release.pair is not None and joint.pair.name == "revolute":
+            if _release.pair is not None and joint.pair.is_revolute:
                 block = f"block {names[number]} {_release.link}"
                 members[block] = Pin(0, 0)
                 elements[block] = {}

@@ -100,7 +100,7 @@ def _pole(s: JointGeometry) -> Iterator[Reason]:
 def _is_bar(s: JointGeometry, link: str, ends: tuple[str, ...]) -> bool:
     """Whether a link has two turning joints of two links, one with each of the ends."""
     joints = [s.chain.joints[k] for k in _joints(s, (link,))]
-    turning = all(j.pair.name == "revolute" and len(j.links) == 2 for j in joints)
+    turning = all(j.pair.is_revolute and len(j.links) == 2 for j in joints)
     return turning and sorted(name for j in joints for name in j.links if name != link) == sorted(ends)
 
 
@@ -230,7 +230,7 @@ def _locking(s: JointGeometry) -> Iterator[Reason]:
 def _line(s: JointGeometry) -> Iterator[Reason]:
     """All redundant joints on one line: a stretched or folded position."""
     joints = sorted(s.instant.redundant)
-    if s.chain.space is not Space.PLANAR or any(s.chain.joints[k].pair.name != "revolute" for k in joints):
+    if s.chain.space is not Space.PLANAR or any(not s.chain.joints[k].pair.is_revolute for k in joints):
         return
     points = np.array([s.at(k) for k in joints])
     spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)

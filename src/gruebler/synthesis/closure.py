@@ -81,7 +81,7 @@ class DesignClosure:
     def __init__(self, linkage: Linkage) -> None:
         lower = with_lower_pairs(linkage)
         chain, frame = lower.mechanism.chain, lower.mechanism.frame
-        wrong = [joint.pair.name for joint in chain.joints if joint.pair.name not in ("revolute", "prismatic")]
+        wrong = [joint.pair.name for joint in chain.joints if not joint.pair.is_basic]
         if wrong:
             raise SynthesisError(
                 "linkages of turning and sliding joints are fitted, not those with {wrong} joints", wrong=wrong[0]
@@ -105,7 +105,7 @@ class DesignClosure:
         ]
         sides = [[joint[side] for joint in joints] for side in (0, 1)]
         self._bodies = [np.array([self.column.get(key[1], self.frame_column) // 3 for key in keys]) for keys in sides]
-        self._slides = np.flatnonzero([chain.joints[number].pair.name == "prismatic" for (number, _), _ in joints])
+        self._slides = np.flatnonzero([chain.joints[number].pair.is_prismatic for (number, _), _ in joints])
         starts = [np.array([self.start[key] for key in keys], np.int64) for keys in sides]
         self._starts = starts
         self._lines = [start[self._slides] + 2 for start in starts]

@@ -29,7 +29,7 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
     """
     linkage = design.linkage
     chain, home = linkage.mechanism.chain, linkage.reference_pose
-    if home is None or any(joint.pair.name != "revolute" for joint in chain.joints[:3]):
+    if home is None or any(not joint.pair.is_revolute for joint in chain.joints[:3]):
         return None
     places = [
         complex(*home[link].put(*linkage.elements[number, link][:2]))
