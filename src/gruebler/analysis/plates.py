@@ -145,17 +145,17 @@ def _blocks(lower: Linkage, named: Sequence[str]) -> dict[str, int]:
     links on one slide that is the block which is no link of the linkage itself.
     """
     mechanism = lower.mechanism
-    found: dict[str, int] = {}
+    blocks: dict[str, int] = {}
     busy = {mechanism.frame, *(point.link for point in lower.points.values())}
     busy |= {link for drive in mechanism.drives if drive.turning for link in drive.between}
     joints = mechanism.chain.joints
     for link in sorted(mechanism.chain.links, key=lambda link: link in named):
         numbers = [number for number, joint in enumerate(joints) if link in joint.links]
         kinds = {joints[number].pair.name: number for number in numbers}
-        if len(numbers) != 2 or len(kinds) != 2 or link in busy or kinds["prismatic"] in found.values():
+        if len(numbers) != 2 or len(kinds) != 2 or link in busy or kinds["prismatic"] in blocks.values():
             continue
-        found[link] = kinds["prismatic"]
-    return found
+        blocks[link] = kinds["prismatic"]
+    return blocks
 
 
 def _base(lower: Linkage, slide: int, blocks: Mapping[str, int]) -> str:

@@ -220,12 +220,12 @@ class GroupSolver:
         first, second = (turns[self._group.owners] * self._group.lines).reshape(-1, 2).T
         return bool(((first.conj() * second).real > 0)[self._group.kinds == SLIDE].all())
 
-    def index_of_known(self, found: Sequence[Reals], pose: Reals) -> int:
+    def index_of_known(self, known_poses: Sequence[Reals], pose: Reals) -> int:
         """The number of the mode among those found that a pose is, -1 if it is new.
 
         Copies of a singular mode are known by the pose half way between them: it is closed, too.
         """
-        for k, known in enumerate(found):
+        for k, known in enumerate(known_poses):
             step = pose - known
             step[2::3] = np.mod(step[2::3] + np.pi, 2 * np.pi) - np.pi
             gap = np.abs(step)
@@ -276,11 +276,11 @@ def _farthest(pose: Reals) -> float:
     return float(np.abs(pose.reshape(-1, 3)[:, :2]).max())
 
 
-def ordered_modes(found: Sequence[Reals], size: float, bodies: int) -> tuple[Reals, list[int]]:
+def ordered_modes(distinct: Sequence[Reals], size: float, bodies: int) -> tuple[Reals, list[int]]:
     """Poses as (modes, bodies, 3), angles in (-pi, pi], in an order that small errors do not change; and that order."""
-    if not found:
+    if not distinct:
         return np.empty((0, bodies, 3)), []
-    poses = np.array(found).reshape(-1, bodies, 3)
+    poses = np.array(distinct).reshape(-1, bodies, 3)
     top = np.pi + _BEYOND_PI
     poses[:, :, 2] = top - np.mod(top - poses[:, :, 2], 2 * np.pi)
     keys = np.concatenate([poses[:, :, 2], poses[:, :, 0] / size, poses[:, :, 1] / size], axis=1).round(5)
@@ -314,25 +314,25 @@ def search_modes(group: GroupConditions, *, seed: int = 0, patience: int = 30, m
         return flat
 
     degenerate = all(solver.is_singular(start()) for _ in range(3))
-    found: list[Reals] = []
+    distinct: list[Reals] = []
     hits: list[int] = []
     starts = arrivals = idle = 0
-    while starts < most and arrivals < patience * (len(found) + 1) and idle < 50 * patience * (len(found) + 1):
+    while starts < most and arrivals < patience * (len(distinct) + 1) and idle < 50 * patience * (len(distinct) + 1):
         starts, idle = starts + 1, idle + 1
         unknowns = start()
         if not solver.settle(unknowns):
             continue
         arrivals += 1
-        number = solver.index_of_known(found, unknowns)
+        number = solver.index_of_known(distinct, unknowns)
         if number < 0 and solver.is_singular(unknowns) and solver.moves(unknowns):
             degenerate = True
             break
         if number < 0:
-            found.append(unknowns)
+            distinct.append(unknowns)
             hits.append(0)
             arrivals = idle = 0
         hits[number] += 1
-    poses, order = ordered_modes(found, size, bodies)
-    multiplicities = tuple(2 if solver.is_singular(found[k]) else 1 for k in order)
+    poses, order = ordered_modes(distinct, size, bodies)
+    multiplicities = tuple(2 if solver.is_singular(distinct[k]) else 1 for k in order)
     method: Method = "degenerate" if degenerate else "search"
     return AssemblyModes(poses, multiplicities, method, None, starts, tuple(hits[k] for k in order))

@@ -310,7 +310,7 @@ def _run(
     speeds: Reals,
     starts: tuple[Reals, Reals],
     kept: NDArray[np.int64],
-    out: DesignPoses,
+    poses: DesignPoses,
     threads: int | None,
 ) -> None:
     from gruebler._numeric.motion.batch import DesignInputs, run_designs
@@ -324,6 +324,6 @@ def _run(
     workers = max(1, min(threads or os.cpu_count() or 1, len(designs)))
     cuts = [len(designs) * k // workers for k in range(workers + 1)]
     with ThreadPoolExecutor(workers) as pool:
-        jobs = [pool.submit(run_designs, program, inputs, path, speeds, kept, out, part) for part in pairwise(cuts)]
+        jobs = [pool.submit(run_designs, program, inputs, path, speeds, kept, poses, part) for part in pairwise(cuts)]
     for job in jobs:
         job.result()

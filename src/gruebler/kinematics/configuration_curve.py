@@ -85,10 +85,10 @@ class ClosureSystem:
                 for (_, link), e in zip(ends, elements, strict=True)
             ]
             rows.append(np.array([centres[0].real, centres[0].imag, phase(centres[1] - centres[0])]))
-        out = np.concatenate(rows)
+        pose = np.concatenate(rows)
         self.conditions.values[self.meshes[1], 2] = 0
-        self.conditions.values[self.meshes[1], 2] = self.linearised(out)[0][self.meshes[0]]
-        return out
+        self.conditions.values[self.meshes[1], 2] = self.linearised(pose)[0][self.meshes[0]]
+        return pose
 
     def linearised(self, x: Reals) -> tuple[Reals, Reals]:
         """Residual and Jacobian: (equations,) and (equations, unknowns)."""
@@ -292,20 +292,20 @@ def _follow(system: ClosureSystem, pose: Reals, tangent: Reals, longest: float, 
         if status == FULL:
             curve = _larger(curve)
         elif status == FLIP:
-            way = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
+            chord = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
             ends = curve.poses[count - 1], curve.poses[count]
-            found = _change(system, *ends) if way <= _SHORT else None
+            change_pose = _change(system, *ends) if chord <= _SHORT else None
             several = False
-            if found is None and way <= _SHORT:
-                found, lost = _meeting(system, *ends, curve.tangents[count - 1])
+            if change_pose is None and chord <= _SHORT:
+                change_pose, lost = _meeting(system, *ends, curve.tangents[count - 1])
                 several = lost > 1
-            if found is None:
-                step = way / 2
+            if change_pose is None:
+                step = chord / 2
                 if step < SHORTEST:
                     status = -1
                     break
                 continue
-            changes.append(ChangeSample(found, count - 1, several))
+            changes.append(ChangeSample(change_pose, count - 1, several))
             count += 1
             if _is_start(curve, count - 1):
                 status = CLOSED
@@ -330,10 +330,10 @@ def _room(samples: int, unknowns: int) -> SampleBuffer:
 
 
 def _larger(curve: SampleBuffer) -> SampleBuffer:
-    out = _room(2 * len(curve.arcs), curve.poses.shape[1])
-    for new, old in zip(out, curve, strict=True):
+    larger = _room(2 * len(curve.arcs), curve.poses.shape[1])
+    for new, old in zip(larger, curve, strict=True):
         new[: len(old)] = old
-    return out
+    return larger
 
 
 def _is_start(curve: SampleBuffer, sample: int) -> bool:
@@ -342,21 +342,21 @@ def _is_start(curve: SampleBuffer, sample: int) -> bool:
     return bool(sample > 1 and np.abs(gap).max() < _SAME and curve.tangents[sample] @ curve.tangents[0] > _AHEAD)
 
 
-def _change(made: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
+def _change(closure: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
     """The pose between two neighbouring samples in which the Jacobian loses its rank; None if it does not on the curve.
 
     Newton's method on F(x) + beta psi = 0, J(x)^T psi = 0, |psi| = 1 for x, psi, beta; beta is 0 at a change point.
     """
-    rows = made.independent(one)
-    x, n, p = (one + two) / 2, made.unknowns, len(rows)
+    rows = closure.independent(one)
+    x, n, p = (one + two) / 2, closure.unknowns, len(rows)
     beta = 0.0
-    psi = np.linalg.svd(made.linearised(x)[1][rows])[0][:, -1]
+    psi = np.linalg.svd(closure.linearised(x)[1][rows])[0][:, -1]
     for _ in range(15):
-        residual, matrix = (part[rows] for part in made.linearised(x))
+        residual, matrix = (part[rows] for part in closure.linearised(x))
         equations = np.concatenate([residual + beta * psi, matrix.T @ psi, [(psi @ psi - 1) / 2]])
         system = np.zeros((n + p + 1, n + p + 1))
         system[:p, :n], system[:p, n : n + p], system[:p, -1] = matrix, beta * np.eye(p), psi
-        system[p:-1, :n], system[p:-1, n : n + p] = _curvature(made, x, psi, rows), matrix.T
+        system[p:-1, :n], system[p:-1, n : n + p] = _curvature(closure, x, psi, rows), matrix.T
         system[-1, n : n + p] = psi
         try:
             move = np.linalg.solve(system, equations)
@@ -392,8 +392,8 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
     place = before / max(before + behind, 1e-300)
     for width in _NEARER:
         places = place + width * _BESIDE
-        found = [at(float(part)) for part in places]
-        values = np.array([value for _, value in found])
+        samples = [at(float(part)) for part in places]
+        values = np.array([value for _, value in samples])
         line = np.polynomial.Polynomial.fit(_BESIDE, np.sign(_BESIDE) * values, 3)
         roots = [root.real for root in line.roots() if abs(root.imag) < _REAL and abs(root.real) < 1]
         if not roots:
@@ -401,7 +401,7 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
         shift = float(min(roots, key=abs))
         place += width * shift
     weights = np.array([np.prod([(shift - v) / (u - v) for v in _BESIDE if v != u]) for u in _BESIDE])
-    pose = weights @ np.array([one for one, _ in found])
+    pose = weights @ np.array([one for one, _ in samples])
     singular = np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[: system.unknowns - 1]
     lost = int((singular < _LOST * values.min()).sum())
     return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost
@@ -424,19 +424,19 @@ def _touches(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -> Iter
 
 def _curvature(system: ClosureSystem, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
     """The derivative of J^T psi, by differences; its error slows Newton's method down but does not mislead it."""
-    out, h = np.empty((len(x), len(x))), _DIFFERENCE
+    curvature, h = np.empty((len(x), len(x))), _DIFFERENCE
     for k in range(len(x)):
         for sign in (1, -1):
             moved = x.copy()
             moved[k] += sign * h
             side = system.linearised(moved)[1][rows].T @ psi
-            out[:, k] = side if sign == 1 else (out[:, k] - side) / (2 * h)
-    return out
+            curvature[:, k] = side if sign == 1 else (curvature[:, k] - side) / (2 * h)
+    return curvature
 
 
 def _quiet_changes(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -> tuple[ChangeSample, ...]:
     """Change points of a redundantly constrained linkage: there is no determinant; its shortest row has a minimum 0."""
-    out = []
+    changes = []
     for k in range(1, len(gauges) - 1):
         if gauges[k] < min(_SMALL, gauges[k - 1]) and gauges[k] <= gauges[k + 1]:
             pose = _change(system, samples.poses[k - 1], samples.poses[k + 1])
@@ -447,5 +447,5 @@ def _quiet_changes(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -
             if pose is None or np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2] > _ZERO:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
-            out.append(ChangeSample(pose, k if ahead else k - 1, several))
-    return tuple(out)
+            changes.append(ChangeSample(pose, k if ahead else k - 1, several))
+    return tuple(changes)

@@ -168,7 +168,7 @@ class Plan(Brief):
         There a dyad may be impossible for so short a way that steps would pass it unseen.
         """
         program = self.program
-        out: list[tuple[int, float]] = []
+        values: list[tuple[int, float]] = []
         for _, k, near, far, sign in (o for o in self.operations if o[0] == PUSH):
             line = program.lines[near]
             turn = line * np.conj(program.lines[far])
@@ -184,9 +184,11 @@ class Plan(Brief):
                         - program.points[one]
                     )
                     value = float(-sign * (np.conj(line) * gap).real)
-                    if not any(k == number and abs(value - known) <= _ONE * self.lower.size for number, known in out):
-                        out.append((k, value))
-        return tuple(out)
+                    if not any(
+                        k == number and abs(value - known) <= _ONE * self.lower.size for number, known in values
+                    ):
+                        values.append((k, value))
+        return tuple(values)
 
     def element_arrays(self, lower: Linkage) -> tuple[np.ndarray, np.ndarray]:
         """Points and directions (complex) of the elements of a linkage of this structure, with lower pairs."""
@@ -198,10 +200,10 @@ class Plan(Brief):
 
 def _table(rows: Iterable[tuple[int, ...]], width: int) -> np.ndarray:
     rows = list(rows)
-    out = np.full((len(rows), width), -1, np.int64)
+    table = np.full((len(rows), width), -1, np.int64)
     for k, row in enumerate(rows):
-        out[k, : len(row)] = row
-    return out
+        table[k, : len(row)] = row
+    return table
 
 
 def _starts(lengths: Iterable[int]) -> np.ndarray:
@@ -342,19 +344,19 @@ class _Planner:
         return _DYADS[form], elements, first, second
 
     def _conditions(self, group: SolvedGroup, base: str, roots: tuple[str, ...]) -> tuple[Condition, ...]:
-        out: list[Condition] = []
+        conditions: list[Condition] = []
         for joint, member in group.joints:
             sides = [(self._element(joint, base), -1)] if member.outer else []
             sides += [(self._element(joint, roots[body]), body) for body in member.links]
             for element, body in sides[1:]:
                 both, owners = (sides[0][0], element), (sides[0][1], body)
                 if member.pair.is_basic:
-                    out.append(Condition(PIN if member.pair.is_revolute else SLIDE, both, owners))
+                    conditions.append(Condition(PIN if member.pair.is_revolute else SLIDE, both, owners))
                 else:
                     try:
-                        out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
+                        conditions += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
                             "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error
                         ) from None
-        return tuple(out)
+        return tuple(conditions)
