@@ -152,7 +152,7 @@ def test_lengths_show_themselves_in_notebooks_as_their_linkage(size):
 
 
 def test_reports_and_sheets_show_themselves_in_notebooks():
-    report = gr.mobility_report("R(0-1) R(1-2) R(2-3) R(3-0)")
+    report = gr.mobility_report(gr.Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
     html = report._repr_html_()
     assert html.startswith(report.chain._repr_svg_())
     assert "F = 3(n - 1) - 2 g1 = 3(4 - 1) - 2·4 = 1" in html

@@ -36,6 +36,15 @@ PARTIAL = ".partial"
 _NAME = 40  # characters of the final name in the temporary one: with the rest it stays below the 255 bytes of a name
 
 
+def _target(path: Path) -> Path:
+    """Where links lead."""
+    with suppress(OSError, RuntimeError):  # Python below 3.13 raises RuntimeError for a loop of links
+        target = path.resolve()
+        if not target.is_symlink():
+            return target
+    raise RunError("{path} cannot be written: its links lead nowhere", path=path)
+
+
 @contextmanager
 def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Iterator[BinaryIO]:
     """A file to write that appears complete or not at all: written under a temporary name, then renamed.
@@ -50,10 +59,7 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
     """
     if not path.name:
         raise RunError("{path!r} names no file to write", path=str(path))
-    try:
-        path = path.resolve()
-    except (OSError, RuntimeError):  # Python below 3.13 raises RuntimeError for a loop of links
-        raise RunError("{path} cannot be written: its links lead nowhere", path=path) from None
+    path = _target(path)
     if path.exists() and not path.is_file():
         raise RunError("{path} cannot be written: it is not an ordinary file", path=path)
     if tidy:

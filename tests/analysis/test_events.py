@@ -10,10 +10,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.analysis import measures
-from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle
+from gruebler.analysis.drive_cycle import CycleSpan, DriveCycle, by_place, drive_cycle
 from gruebler.analysis.events import change_points, crossings, dead_centres, transfer_function
 from gruebler.analysis.outputs import find_output
+from gruebler.catalog import entry
 from gruebler.errors import LinkageError
+from gruebler.events import ChangePoint
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import Motion, move
 from gruebler.kinematics.root_finding import bracketed_root, find_zeros
@@ -346,6 +348,31 @@ def test_change_points_of_larger_groups_are_named() -> None:
     assert [point.links for point in found] == [("2", "h", "3", "4")] * 4
     assert np.degrees([point.drive for point in found]) == pytest.approx([0, tilt, 180, 180 + tilt], abs=1e-8)
     assert measures(parallel_legs(error=1e-3)).change_points == ()
+
+
+@pytest.mark.parametrize("error", [-1e-10, -1e-12, 0.0, 1e-12, 1e-10])
+@pytest.mark.parametrize("size", [1.0, 1e-6, 1e6])
+def test_events_at_one_place_are_in_the_order_of_their_links(error: float, size: float) -> None:
+    half = CycleSpan(0.0, 4 * size, False, 0, (None, None))
+    first, other = ChangePoint((2 + error) * size, ("b",)), ChangePoint(2 * size, ("a",))
+    later = ChangePoint((2 + 1e-6) * size, ("a",))
+    assert by_place([first, later, other], half, size) == by_place([other, first, later], half, size)
+    assert by_place([first, later, other], half, size) == [[other, first], [later]]
+
+
+@pytest.mark.parametrize("error", [0.0, 1e-12, 1e-10])
+def test_the_end_of_a_period_is_its_beginning(error: float) -> None:
+    full = CycleSpan(1.0, 1 + 2 * math.pi, True, 1, (None, None))
+    last, first, between = ChangePoint(2 * math.pi - error, ("a",)), ChangePoint(0.0, ("b",)), ChangePoint(3.0, ("b",))
+    assert by_place([first, between, last], full, 1.0) == [[last, first], [between]]
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e-3, 0.7, 1, 2.54, 1e6])
+def test_a_lift_whose_groups_change_at_once(scale: float) -> None:
+    found = measures(entry("hubpodium_blocks").linkage().scaled(scale))
+    assert [point.links for point in found.change_points] == [("arm2", "block1"), ("platform", "block2")]
+    assert [point.several for point in found.change_points] == [True, True]
+    assert found.explain().count("More than two curves of positions meet there.") == 1
 
 
 @pytest.mark.parametrize("long", [30, 100, 1000])

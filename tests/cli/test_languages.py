@@ -21,6 +21,7 @@ JSON = {
         ["excavator", "--at", "1000,900,700", "--speed", "1", "--speed", "2", "--speed", "0"],
         ["four-bar:25,70,40,150"],
     ],
+    "atlas": [["query", "select * from chains where links = 6"], ["columns"]],
     "assur": [["lambda"], [QUAD], ["--list", "2"]],
     "cam": [["rise 20 90; fall 20 90; dwell", "--base", "40", "--roller", "10"], ["--laws"]],
     "catalog": [

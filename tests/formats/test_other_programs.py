@@ -451,15 +451,15 @@ def test_a_file_of_a_hundred_megabytes_is_refused_unread(form, tmp_path):
 
 
 @pytest.mark.parametrize("path", REAL, ids=lambda path: path.name)
-def test_a_file_that_is_cut_off_is_refused_or_read(path, tmp_path):
+def test_a_file_that_is_cut_off_is_refused(path, tmp_path):
     whole = path.read_bytes()
-    for part in (0.2, 0.5, 0.9, 0.99):
+    joint_by_joint = path.name == "six-bar-version-1.pmks"  # an address: what is left of it is one, too
+    for part in (0.2, 0.5) if joint_by_joint else (0.2, 0.5, 0.9, 0.99):
         cut = tmp_path / path.name
         cut.write_bytes(whole[: int(len(whole) * part)])
-        try:
+        with pytest.raises(GrueblerError) as caught:
             files.read(cut, left_out=[])
-        except GrueblerError as error:
-            assert str(cut) in str(error)  # noqa: PT017
+        assert str(cut) in str(caught.value)
 
 
 def test_links_that_are_welded_in_a_ring_are_one():

@@ -10,6 +10,7 @@ from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.errors import LinkageError
 from gruebler.forces import Loads, statics
+from gruebler.fourbar import FourBar
 from gruebler.kinematics import circuit, from_degrees, move
 from gruebler.kinematics.batch import move_many
 from gruebler.kinematics.solve import cached_plan
@@ -41,6 +42,42 @@ def dixon(xs, ys, off=0.0):
     places[len(xs) + len(ys) - 1] = (off, ys[-1])
     mechanism = Mechanism(Chain.parse(" ".join(joints)), "b00", [Drive(0, "Rz", ("b00", "b01"))])
     return Linkage.from_drawing(mechanism, places)
+
+
+def kempe(a=2.0, s=1.5, d=2.2, k=1.2, h=0.8, angle=1.4, off=0.0):
+    """Kempe's focal linkage: a four-bar ABCD, a joint F and bars from F to joints P, Q, R, S on its sides.
+
+    a, s, d: AP, FS and SA; k, h: the ratios of FRCQ to APFS and of FRDS to BPFQ, which are similar as mirror images.
+    angle: APF. off: by how much P is misplaced along its side.
+    """
+    m = k / h
+    p = np.sqrt((d**2 * (k**2 + m) + s**2 * (h**-2 + m) - m * (m + 1) * a**2) / (m + 1))
+    at = {"A": complex(-a), "B": complex(m * a), "P": complex(off), "F": p * np.exp(1j * (np.pi - angle))}
+
+    def third(one, other, to_one, to_other):
+        """The corner right of the way from one to the other."""
+        far = abs(other - one)
+        along = (far**2 + to_one**2 - to_other**2) / (2 * far)
+        return one + (other - one) / far * (along - 1j * np.sqrt(to_one**2 - along**2))
+
+    at["S"] = third(at["F"], at["A"], s, d)
+    at["Q"] = third(at["B"], at["F"], s / h, k * d)
+    at["C"] = at["Q"] + (at["Q"] - at["B"]) * k * h
+    at["D"] = at["S"] + (at["S"] - at["A"]) * k * h
+    at["R"] = (h * at["C"] + k * at["D"]) / (k + h)
+    joints = {
+        "A": "ab-da",
+        "B": "ab-bc",
+        "C": "bc-cd",
+        "D": "cd-da",
+        "P": "ab-fp",
+        "Q": "bc-fq",
+        "R": "cd-fr",
+        "S": "da-fs",
+    }
+    places = {f"R({links})": at[name] for name, links in (joints | {"F": "fp-fq-fr-fs"}).items()}
+    mechanism = Mechanism.parse(" ".join(places) + "; frame=ab; drive=R(ab-da)")
+    return Linkage.from_drawing(mechanism, {joint: (z.real, z.imag) for joint, z in places.items()})
 
 
 @pytest.mark.parametrize("angle", [0.3, 1.0, 2.5])
@@ -105,6 +142,44 @@ def test_dixons_linkage_against_its_closed_form(count):
         assert now**2 == pytest.approx(x**2 - shared, abs=1e-12)
     for y, now in zip(ys, along[1], strict=True):
         assert now**2 == pytest.approx(y**2 + shared, abs=1e-12)
+
+
+FOCAL = [{}, {"a": 3.0, "s": 2.0, "d": 2.5, "k": 1.0, "h": 1.0}, {"a": 1.0, "s": 2.0, "d": 1.6, "k": 0.7, "h": 1.1}]
+
+
+@pytest.mark.parametrize(("sizes", "full"), list(zip(FOCAL, [False, False, True], strict=True)))
+def test_kempes_focal_linkage_over_its_whole_range(sizes, full):
+    linkage = kempe(**sizes)
+    assert freedoms(linkage).mobility == 1
+    assert circuit(linkage).closed  # all joints at once, with other equations
+    span = measures(linkage, output="cd").span
+    assert span.full == full
+    motion = move(linkage, np.linspace(span.low, span.high, 402)[1:-1])  # poses at its limits have half their digits
+    assert motion.complete
+    assert motion.closure_error < 1e-9
+    a, b, c, d, p, q, r, s, f = (motion.complex_point(joint) for joint in linkage.mechanism.chain.joint_names())
+    sides = [float(np.abs(x - y)[0]) for x, y in ((a, d), (b, c), (c, d), (a, b))]
+    assert span.width == pytest.approx(FourBar(*sides).limits[0].width, rel=1e-9)  # the focus adds no limits
+
+    def similar(first, second, ratio):
+        """Mirror images of one another in another size."""
+        (z1, z2, z3), (w1, w2, w3) = first, second
+        assert (w2 - w1) / (w3 - w1) == pytest.approx(np.conj((z2 - z1) / (z3 - z1)), rel=0, abs=1e-8)
+        assert abs(w3 - w1) == pytest.approx(ratio * abs(z3 - z1), rel=1e-8)
+
+    k, h = sizes.get("k", 1.2), sizes.get("h", 0.8)
+    similar((a, p, f), (f, r, c), k)
+    similar((a, s, f), (f, q, c), k)
+    similar((b, p, f), (f, r, d), h)
+    similar((b, q, f), (f, s, d), h)
+    seen = (a - f) / (b - f) * (c - f) / (d - f)  # F sees AB and CD under angles whose sum is 180 degrees
+    assert seen / np.abs(seen) == pytest.approx(-1, rel=0, abs=1e-8)
+    assert np.ptp(np.abs(f - a)) > 0.1
+
+
+def test_a_focal_linkage_with_a_misplaced_joint_is_refused():
+    with pytest.raises(LinkageError, match="leave mobility 0"):
+        cached_plan(kempe(off=0.01))
 
 
 @pytest.mark.parametrize("id", ["loco3", "loco4", "toolbox2"])

@@ -46,7 +46,6 @@ _NEAR = 1e-9  # of the range: joints of a law that are nearer are one
 _EVEN = 1e-9  # the same for its derivatives
 _EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer
 _THERE = 1e-5  # radians: a pose that differs by less is the same
-_TOGETHER = 1e-8  # radians or sizes: change points that are nearer are one
 _LOST = 1e-6  # of the largest singular value: less is zero
 _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change point, in steps
 _STEP = 0.02  # radians, or parts of the size
@@ -305,19 +304,10 @@ def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
 
 def _meetings(cycle: DriveCycle, change_points: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
-    near = _TOGETHER * cycle.drive_size
-
-    def gap(first: ChangePoint, other: ChangePoint) -> float:
-        distance = abs(first.drive - other.drive)
-        return min(distance, abs(cycle.span.period - distance))
-
-    ordered = sorted(change_points)
     return tuple(
-        change_point._replace(
-            several=change_point.several
-            or any(other is not change_point and gap(change_point, other) < near for other in ordered)
-        )
-        for change_point in ordered
+        change_point._replace(several=change_point.several or len(together) > 1)
+        for together in cycle.by_place(change_points)
+        for change_point in together
     )
 
 

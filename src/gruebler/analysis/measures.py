@@ -30,7 +30,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gruebler.analysis.drive_cycle import CycleSpan, DriveCycle, drive_cycle
+from gruebler.analysis.drive_cycle import CycleSpan, DriveCycle, by_place, drive_cycle
 from gruebler.analysis.events import (
     Crossing,
     Dwell,
@@ -255,7 +255,8 @@ class Measures(Brief):
         if self.phi_forward is not None and self.phi_back is not None:
             yield from stroke_lines(units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells))
         yield from time_lines(self.speed_rpm, self.times, self.dwell_time if self.dwells else None)
-        yield from change_point_lines(units, self.change_points)
+        drive_size = 1.0 if self.turning_drive else self.linkage.size
+        yield from change_point_lines(units, by_place(self.change_points, self.span, drive_size))
         if self.change_points_error is not None:
             yield unknown_change_points_message(self.change_points_error)
         if self.transmission is not None:

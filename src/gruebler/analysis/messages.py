@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import zip_longest
+from collections.abc import Iterable, Iterator, Sequence
 from math import degrees
 from typing import NamedTuple
 
@@ -169,11 +168,11 @@ def motion_share_message(units: MeasureUnits, moving: float, period: float, rati
     )
 
 
-def change_point_lines(units: MeasureUnits, points: Sequence[ChangePoint]) -> Iterator[Message]:
+def change_point_lines(units: MeasureUnits, places: Iterable[Sequence[ChangePoint]]) -> Iterator[Message]:
     """Where groups may change their assembly modes; that several curves meet is said once of a place."""
-    for point, following in zip_longest(points, points[1:]):
-        again = following is not None and following.several and abs(following.drive - point.drive) <= _CONSTANT
-        yield _change_point(units, point, several=point.several and not again)
+    for points in places:
+        for point in points:
+            yield _change_point(units, point, several=point.several and point is points[-1])
 
 
 def _change_point(units: MeasureUnits, point: ChangePoint, *, several: bool) -> Message:

@@ -255,10 +255,16 @@ def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtre
             for x, mu in zip(places, values, strict=True)
         ]
         extremes += [Transmission(x, mu, leg.links) for x, mu in ends]
-    smallest = min(extremes, key=lambda extreme: extreme.mu)
-    extrema = [extreme for extreme in extremes if extreme.links == smallest.links]
-    largest = max(extrema, key=lambda extreme: extreme.mu)
-    return TransmissionExtremes(tuple(sorted(extremes)), smallest, largest, tuple(leg.links for leg in legs))
+    ordered = [extreme for together in cycle.by_place(extremes) for extreme in together]
+    smallest = _first(ordered, min(extreme.mu for extreme in ordered))
+    extrema = [extreme for extreme in ordered if extreme.links == smallest.links]
+    largest = _first(extrema, max(extreme.mu for extreme in extrema))
+    return TransmissionExtremes(tuple(ordered), smallest, largest, tuple(leg.links for leg in legs))
+
+
+def _first(extremes: list[Transmission], mu: float) -> Transmission:
+    """The first extreme with a transmission angle: of equal ones rounding chooses none."""
+    return next(extreme for extreme in extremes if abs(extreme.mu - mu) <= _CONSTANT)
 
 
 def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:

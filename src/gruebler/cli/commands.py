@@ -44,6 +44,7 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
                 message("the mechanisms of a chain: each frame, drive and output link that makes a difference"),
             ),
             Command("variants", message("all chains and mechanisms with given kinds of joints, drives and outputs")),
+            Command("atlas", message("all chains and mechanisms with their properties in files: build, query")),
             Command("assur", message("decompose a mechanism into Assur groups, or list all groups")),
             Command("extend", message("add a dyad or coupler to a chain, or show how the chain is built from dyads")),
         ),
@@ -82,6 +83,10 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
     (
         message("Teaching"),
         (
+            Command(
+                "construct",
+                message("constructions with compass and ruler, step by step: dead centres, polygons, curvature, cams"),
+            ),
             Command("exercise", message("exercises and generated tasks: list, solve step by step, mark answers")),
             Command("sheet", message("data sheets of a collection: a mechanism on one page")),
             Command("table", message("teaching tables: joints, links, inversions, Grashof types")),

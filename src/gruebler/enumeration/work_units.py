@@ -31,6 +31,7 @@ __all__ = [
     "PieceTally",
     "Work",
     "add_tallies",
+    "chains_of_piece",
     "chains_of_request",
     "work_units",
 ]
@@ -112,10 +113,10 @@ def chains_of_request(request: Request) -> Iterator[Chain]:
                 yield from (chain for chain in chains if request.assortment in (None, chain.assortment))
         return
     for work in work_units(request):
-        yield from (chain for _, chain in _chains(request, work))
+        yield from (chain for _, chain in chains_of_piece(request, work))
 
 
-def _chains(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
+def chains_of_piece(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
     """The chains of a piece with their classes, for pieces without contracted graphs."""
     if isinstance(work, RingPiece):
         yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
@@ -148,7 +149,7 @@ class PieceCounter:
         if isinstance(work, WorkPiece):
             return [PieceTally("none", *piece_count) for piece_count in count_piece(work, self.orbits)]
         sums: dict[tuple[str, Assortment], list[int]] = {}
-        for kind, chain in _chains(self.request, work):
+        for kind, chain in chains_of_piece(self.request, work):
             row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])
             for k, number in enumerate((1, *(_orbits(chain) if self.orbits else ()))):
                 row[k] += number
@@ -216,7 +217,7 @@ class PieceLister:
         if isinstance(work, WorkPiece):
             yield from (("none", edges) for edges in list_piece(work).tolist())
         else:
-            for kind, chain in _chains(self.request, work):
+            for kind, chain in chains_of_piece(self.request, work):
                 yield kind, [[chain.index(link) for link in joint.links] for joint in chain.joints]
 
     def _written(self, kind: str, joints: Iterable[Iterable[int]]) -> str:

@@ -21,6 +21,7 @@ from gruebler.drawing.canvas.shapes import Point, Shape
 from gruebler.drawing.canvas.symbols import (
     JointMember,
     JointSign,
+    arrow,
     bar,
     joint_sign,
     polygon,
@@ -38,6 +39,7 @@ from gruebler.mechanism import Mechanism
 __all__ = ["PlacedChain", "chain_of", "draw", "letters", "mean_scale", "paint", "place_joints"]
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
+_ASIDE = 17.0  # pixels between the middle of a link and its output arrow
 _NARROW = 30.0  # pixels between a joint and another link, at least, unless the picture becomes too large
 
 
@@ -61,6 +63,8 @@ def draw(
     structure: Chain | Mechanism,
     *,
     labels: bool = False,
+    symbols: bool = False,
+    outputs: Collection[str] = (),
     lang: str = "en",
     name: str = "",
     names: Mapping[str, str] | None = None,
@@ -70,6 +74,8 @@ def draw(
     Args:
         structure: the chain or mechanism.
         labels: whether to name the links.
+        symbols: whether to write the symbol of its pair beside every joint, in the alphabet of the language.
+        outputs: links that get a double arrow.
         lang: language of title and description, ``en`` or ``de``.
         name: the title; by default a name derived from the structure.
         names: other names for links in the picture.
@@ -78,10 +84,16 @@ def draw(
     >>> len(picture.svg()) < 5000
     True
     """
-    from gruebler.drawing.canvas.labels import labels_or_numbers
+    from gruebler.drawing.canvas.labels import labels_or_numbers, note_near
 
     placed = place_joints(structure)
     shapes = paint(placed)
+    for link in outputs:
+        shapes += _output(placed, link, shapes)
+    if symbols:
+        for number, joint in enumerate(placed.chain.joints):
+            symbol = joint.pair.symbol(Alphabet.of_language(lang))
+            shapes.append(note_near(placed.joints[number], symbol, "letter", shapes))
     if labels:
         degrees = chain_of(structure).degrees
         outlines = {link: placed.outlines[link] for link in degrees}
@@ -194,6 +206,20 @@ def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
 def letters(pair: Pair) -> str:
     """The international symbol of a pair, or the German one where there is none."""
     return pair.symbols.get(Alphabet.INTERNATIONAL) or pair.symbols[Alphabet.GERMAN]
+
+
+def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
+    """A double arrow along the longest side of a link, on the side where there is more space."""
+    from gruebler.drawing.canvas.free_space import Obstacles, complexes
+
+    corners = placed.outlines[link]
+    first, last = max(pairwise([*corners, corners[0]]), key=lambda side: side[1].minus(side[0]).length)
+    along = last.minus(first).unit
+    middle = first.plus(last.minus(first), 0.5)
+    sides = [middle.plus(along.across, side) for side in (_ASIDE, -_ASIDE)]
+    free = Obstacles(shapes).free(complexes(sides), 2 * _ASIDE)
+    at = sides[0] if free[0] >= free[1] else sides[1]
+    return [shape for way in (1, -1) for shape in arrow(at, at.plus(along, way * 11.0), "velocity", "velocity-head")]
 
 
 def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:
