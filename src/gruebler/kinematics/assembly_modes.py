@@ -175,7 +175,6 @@ class GroupSolver:
         from gruebler._numeric.compiling import for_work
         from gruebler._numeric.motion.closure import Conditions, closing
         from gruebler._numeric.motion.newton import new_newton_scratch, newton
-        from gruebler._numeric.motion.planar_jets import ElementJets
         from gruebler._numeric.work_estimates import closing_work, newton_work
 
         self.size, n = group.size, 3 * group.bodies
@@ -185,7 +184,9 @@ class GroupSolver:
             values=np.zeros((len(group.kinds), 8)),
             pieces=np.zeros((0, 14)),
             owners=group.owners,
-            elements=ElementJets(group.points.reshape(-1, 1), group.lines, np.zeros((0, 3))),
+            points=group.points.reshape(-1, 1),
+            lines=group.lines,
+            spins=np.zeros((0, 3)),
             size=group.size,
         )
         self._scratch = new_newton_scratch(n)

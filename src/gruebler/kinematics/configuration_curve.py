@@ -142,7 +142,6 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
     `LinkageError` if it has more than one freedom by count.
     """
     from gruebler._numeric.motion.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL, Conditions
-    from gruebler._numeric.motion.planar_jets import ElementJets
     from gruebler._numeric.motion.tracing import new_trace_scratch
 
     chain, frame, size = lower.mechanism.chain, lower.mechanism.frame, lower.size
@@ -196,11 +195,9 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
         values=np.array([(*row.values, *law) for row, law in zip(rows, laws, strict=True)]),
         pieces=pieces,
         owners=np.array([owner for row in rows for owner in row.owners], np.int64),
-        elements=ElementJets(
-            np.array([[point] for point, _ in ends_of], np.complex128),
-            np.array([line for _, line in ends_of], np.complex128),
-            np.zeros((0, 3)),
-        ),
+        points=np.array([[point] for point, _ in ends_of], np.complex128),
+        lines=np.array([line for _, line in ends_of], np.complex128),
+        spins=np.zeros((0, 3)),
         size=1.0,
     )
     first = np.cumsum([0, *(EQUATIONS[row.kind] for row in rows)])

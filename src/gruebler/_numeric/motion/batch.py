@@ -88,23 +88,10 @@ def run_designs(
         np.empty((dyads, rows)),
         np.empty((unknowns, rows)),
     )
-    room = _Room(
-        poses,
-        new_pose_memory(dyads, unknowns, len(program.conditions) - 1),
-        new_motion_scratch(links, len(program.kinds), len(program.roots), path.shape[1]),
-        np.zeros(REGISTERS),
-    )
+    memory = new_pose_memory(dyads, unknowns, len(program.conditions) - 1)
+    scratch = new_motion_scratch(links, len(program.kinds), len(program.roots), path.shape[1])
     move = for_work(_designs, (part[1] - part[0]) * walking(program, rows, order))
-    move(program, designs, path, speeds, kept, out, part, room)
-
-
-class _Room(NamedTuple):
-    """What one design after another is moved in."""
-
-    poses: PoseBuffer
-    memory: PoseMemory
-    scratch: MotionScratch
-    registers: Reals
+    move(program, designs, path, speeds, kept, out, part, poses, memory, scratch, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
@@ -116,9 +103,12 @@ def _designs(
     kept: Ints,
     out: DesignPoses,
     part: tuple[int, int],
-    room: _Room,
+    poses: PoseBuffer,
+    memory: PoseMemory,
+    scratch: MotionScratch,
+    registers: Reals,
 ) -> None:
-    p, poses = program, room.poses
+    p = program
     for n in range(part[0], part[1]):
         design = Program(
             p.operations, p.links, designs.points[n], designs.lines[n], p.conditions, p.kinds, p.sides, p.owners,
@@ -127,7 +117,7 @@ def _designs(
         end, signs, start = 0, designs.signs[n], designs.starts[n]
         if not np.isnan(signs.sum()):
             poses.whole[:] = 0
-            end = walk_path(design, path, speeds, signs, start, poses, room.memory, room.scratch, room.registers)[1]
+            end = walk_path(design, path, speeds, signs, start, poses, memory, scratch, registers)[1]
         out.reached[n] = end
         for m in range(len(kept)):
             link = kept[m]

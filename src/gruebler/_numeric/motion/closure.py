@@ -35,7 +35,6 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.lanes import logarithm
-from gruebler._numeric.motion.planar_jets import ElementJets
 
 __all__ = [
     "EQUATIONS",
@@ -74,8 +73,12 @@ class Conditions(NamedTuple):
     """(pieces, 2 + coefficients) of the laws, see `evaluate_law`."""
     owners: Ints
     """(2 conditions,) the body that carries the element, -1 for what is known."""
-    elements: ElementJets
-    """(2 conditions) slots: against the body or, of what is known, where they are."""
+    points: Complexes
+    """(2 conditions, 4) the jet of each element's point: against its body or, of what is known, where it is."""
+    lines: Complexes
+    """(2 conditions,) the element's direction."""
+    spins: Reals
+    """(2 conditions, 3) the rates of that direction; none where nothing is derived."""
     size: float
     """A length of the order of the linkage."""
 
@@ -121,7 +124,7 @@ def evaluate_law(pieces: Reals, values: Reals, angle: float) -> tuple[float, flo
 def closing(conditions: Conditions, unknowns: Reals, residual: Reals, jacobian: Reals) -> float:
     """Write residual and Jacobian at the unknowns (x, y, angle of each body); returns the largest residual."""
     kinds, values, pieces, owners = conditions.kinds, conditions.values, conditions.pieces, conditions.owners
-    points, lines, size = conditions.elements.points, conditions.elements.lines, conditions.size
+    points, lines, size = conditions.points, conditions.lines, conditions.size
     row = 0
     for c in range(len(kinds)):
         a, b = owners[2 * c], owners[2 * c + 1]

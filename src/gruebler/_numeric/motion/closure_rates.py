@@ -45,7 +45,7 @@ def closing_rates(order: int, conditions: Conditions, bodies: BodyJets, scratch:
     TRAVEL.
     """
     kinds, values, pieces, owners = conditions.kinds, conditions.values, conditions.pieces, conditions.owners
-    points, lines, spins = conditions.elements.points, conditions.elements.lines, conditions.elements.spins
+    points, lines, spins = conditions.points, conditions.lines, conditions.spins
     turns, rates, places, size = bodies.turns, bodies.rates, bodies.places, conditions.size
     gap, spins_of_sides = scratch.gap, scratch.spins
     row = 0

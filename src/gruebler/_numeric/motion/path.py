@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.motion.dyads import dyad_square
 from gruebler._numeric.motion.placing import accept_pose, forget_poses, set_drives, try_pose, zero_ahead
+from gruebler._numeric.motion.planar_jets import ElementJets
 from gruebler._numeric.motion.program import (
     APART,
     APPROACH,
@@ -90,7 +91,7 @@ def _square_at(
     if verdict in (APPROACH, APART) and memory.which[0] == number:
         for operation in program.operations:
             if 2 <= operation[0] < GROUP and operation[9] == number:
-                return dyad_square(operation[0], s.dyad, program.size)
+                return dyad_square(operation[0], ElementJets(s.points, s.lines, s.spins), program.size)
     if verdict == GOOD or (verdict == MEET and memory.which[0] == number):
         return float(memory.roots[3, number] ** 2)
     return np.nan
@@ -148,9 +149,8 @@ def _look_for_change(
 def _record(row: int, poses: PoseBuffer, memory: PoseMemory, s: MotionScratch) -> None:
     """Count whole turns, and write a row if it is one."""
     order = len(poses.rates)
-    links = s.links
-    for link in range(len(links.turns)):
-        turn, last = links.turns[link], s.last_turns[link]
+    for link in range(len(s.turns)):
+        turn, last = s.turns[link], s.last_turns[link]
         if (turn.imag < 0) != (last.imag < 0) and last.real * abs(turn.imag) + turn.real * abs(last.imag) < 0:
             s.whole_turns[link] += 1 if turn.imag < 0 else -1
         s.last_turns[link] = turn
@@ -159,9 +159,9 @@ def _record(row: int, poses: PoseBuffer, memory: PoseMemory, s: MotionScratch) -
         poses.turns[link, row] = turn
         poses.whole[link, row] = s.whole_turns[link]
         for k in range(order + 1):
-            poses.places[k, link, row] = links.places[link, k]
+            poses.places[k, link, row] = s.places[link, k]
         for k in range(order):
-            poses.rates[k, link, row] = links.rates[link, k]
+            poses.rates[k, link, row] = s.rates[link, k]
     if row >= 0:
         for m in range(len(poses.roots)):
             poses.roots[m, row] = memory.roots[3, m]
@@ -267,7 +267,7 @@ def walk_path(
     if verdict != GOOD:
         return START, 0, 0.0, memory.which[0] if verdict == APART else -1 - memory.which[0]
     for link in range(len(s.last_turns)):
-        s.last_turns[link] = s.links.turns[link]
+        s.last_turns[link] = s.turns[link]
         s.whole_turns[link] = 0
     accept_pose(0.0, memory)
     _record(0, poses, memory, s)
@@ -367,7 +367,7 @@ def _reversed(program: Program, memory: PoseMemory, s: MotionScratch) -> int:
             number, body = operation[9], operation[7]
             if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
                 continue  # it has only passed near a change point, and may turn fast
-            turn, last = s.links.turns[body], s.last_turns[body]
+            turn, last = s.turns[body], s.last_turns[body]
             if abs(memory.roots[3, number]) < NEAR and turn.real * last.real + turn.imag * last.imag < 0:
                 return int(number)
     return -1
@@ -421,7 +421,7 @@ def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: PoseM
             place = at + step if at < 1 and at - step < 0 else at - step
             set_drives(path, speeds, place, s)
             if try_pose(program, 0, place, memory, s) == GOOD:
-                turn += _EXTRAPOLATION[k] * s.links.turns[body]
+                turn += _EXTRAPOLATION[k] * s.turns[body]
                 continue
         turn = s.last_turns[body] if at > 0 else 1 + 0j
         break

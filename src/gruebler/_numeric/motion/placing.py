@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.motion.closure import MESH, Conditions, closing, unwound_angle
-from gruebler._numeric.motion.closure_rates import closing_rates
+from gruebler._numeric.motion.closure_rates import RateScratch, closing_rates
 from gruebler._numeric.motion.dyads import dyad_place, dyad_rates, dyad_square, meeting
-from gruebler._numeric.motion.newton import close_near_singular, factor, newton, solve_factored
+from gruebler._numeric.motion.newton import NewtonScratch, close_near_singular, factor, newton, solve_factored
 from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets, carry, rotated_derivative, set_element_jet
 from gruebler._numeric.motion.program import (
     APART,
@@ -29,7 +29,6 @@ from gruebler._numeric.motion.program import (
     RPR,
     RRR,
     TURN,
-    GroupScratch,
     MotionScratch,
     PoseMemory,
     Program,
@@ -58,9 +57,9 @@ def _drive(kind: int, operation: Ints, program: Program, order: int, s: MotionSc
     on_near, on_far = operation[2], operation[3]
     near, far = program.links[on_near], program.links[on_far]
     sign, d = operation[4], operation[1]
-    drives, places, turns, rates = s.drives, s.links.places, s.links.turns, s.links.rates
-    set_element_jet(order, near, program.points[on_near], program.lines[on_near], s.links, 0, s.dyad)
-    points = s.dyad.points
+    drives, places, turns, rates, points = s.drives, s.places, s.turns, s.rates, s.points
+    links, elements = BodyJets(places, turns, rates), ElementJets(points, s.lines, s.spins)
+    set_element_jet(order, near, program.points[on_near], program.lines[on_near], links, 0, elements)
     point = program.points[on_far]
     if kind == TURN:
         angle = sign * drives[0, d]
@@ -75,7 +74,7 @@ def _drive(kind: int, operation: Ints, program: Program, order: int, s: MotionSc
         for k in range(1, order + 1):
             places[far, k] = points[0, k] - rotated_derivative(k, turn, w, a, j, point, 0j, 0j, 0j)
         return
-    line = s.dyad.lines[0]
+    line = s.lines[0]
     turn = line * program.lines[on_far].conjugate()
     turns[far] = turn
     slide0, slide1, slide2, slide3 = drives[0, d] + 0j, drives[1, d] + 0j, drives[2, d] + 0j, drives[3, d] + 0j
@@ -127,7 +126,7 @@ def _sine(sine: float, number: int, memory: PoseMemory) -> tuple[int, float]:
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _predict(at: float, first: int, last: int, memory: PoseMemory) -> None:
-    """Extrapolate the unknowns of a larger group from the last poses: the prediction, from which the trial starts."""
+    """Extrapolate the unknowns of a larger group from the last poses into the trial."""
     t = memory.at
     count = memory.filled[0]
     if count > 2 and abs(t[0] - t[2]) < _SAME_PLACE * abs(t[0] - t[1]):  # there and back by equal steps
@@ -142,7 +141,7 @@ def _predict(at: float, first: int, last: int, memory: PoseMemory) -> None:
             if count > 2:
                 d12 = (memory.unknowns[1, k] - memory.unknowns[2, k]) / (t[1] - t[2])
                 y += (d01 - d12) / (t[0] - t[2]) * (at - t[0]) * (at - t[1])
-        memory.unknowns[3, k] = memory.unknowns[4, k] = y
+        memory.unknowns[3, k] = y
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -155,12 +154,12 @@ def zero_ahead(number: int, memory: PoseMemory) -> float:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _expected(number: int, first: int, last: int, size: float, at: float, memory: PoseMemory) -> bool:
+def _expected(number: int, first: int, last: int, size: float, at: float, memory: PoseMemory, s: MotionScratch) -> bool:
     """Whether the trial of a larger group is near its prediction, and on the same side of singular positions."""
     missed = moved = 0.0
     for k in range(first, last):
         scale = size if k % 3 == 2 else 1.0
-        missed = max(missed, scale * abs(memory.unknowns[3, k] - memory.unknowns[4, k]))
+        missed = max(missed, scale * abs(memory.unknowns[3, k] - s.predicted[k - first]))
         moved = max(moved, scale * abs(memory.unknowns[3, k] - memory.unknowns[0, k]))
     if memory.singular[0] == 1 + number:
         return missed <= _STRAIGHT_DEVIATION * moved
@@ -185,32 +184,30 @@ def _set_values(start: int, end: int, program: Program, memory: PoseMemory, valu
             values[c - start, 3], values[c - start, 4] = memory.unknowns[0, first], memory.unknowns[0, first + 1]
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _element_at(point: complex, line: complex, body: int, unknowns: Reals) -> tuple[complex, complex]:
-    """Where a point and a direction of a body lie at the unknowns; those of what is known (-1) lie there already."""
-    if body < 0:
-        return point, line
-    turn = complex(cos(unknowns[3 * body + 2]), sin(unknowns[3 * body + 2]))
-    return complex(unknowns[3 * body], unknowns[3 * body + 1]) + turn * point, turn * line
-
-
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _wind(start: int, end: int, root: int, program: Program, memory: PoseMemory, elements: ElementJets) -> bool:
+def _wind(start: int, end: int, root: int, program: Program, memory: PoseMemory, s: MotionScratch) -> bool:
     """Write the angles that count whole turns into the trial; false if one has turned too far to be sure of them."""
-    unknowns, points, lines = memory.unknowns[3, 3 * root :], elements.points, elements.lines
     for c in range(start, end):
-        first, slot = program.windings[c], 2 * (c - start)
+        first = program.windings[c]
         if first < 0:
             continue
-        point_a, line_a = _element_at(points[slot, 0], lines[slot], program.owners[2 * c], unknowns)
-        point_b, line_b = _element_at(points[slot + 1, 0], lines[slot + 1], program.owners[2 * c + 1], unknowns)
+        points, lines = s.ends, s.directions
+        for side in range(2):
+            slot = 2 * (c - start) + side
+            body = program.owners[2 * c + side]
+            points[side], lines[side] = s.group_points[slot, 0], s.group_lines[slot]
+            if body >= 0:
+                k = 3 * (root + body)
+                turn = complex(cos(memory.unknowns[3, k + 2]), sin(memory.unknowns[3, k + 2]))
+                points[side] = complex(memory.unknowns[3, k], memory.unknowns[3, k + 1]) + turn * points[side]
+                lines[side] = turn * lines[side]
         near = memory.unknowns[0, first], memory.unknowns[0, first + 1]
         if program.kinds[c] == MESH:
-            along = (point_b - point_a).conjugate()
-            memory.unknowns[3, first] = unwound_angle(line_a * along, near[0])
-            memory.unknowns[3, first + 1] = unwound_angle(line_b * along, near[1])
+            along = (points[1] - points[0]).conjugate()
+            memory.unknowns[3, first] = unwound_angle(lines[0] * along, near[0])
+            memory.unknowns[3, first + 1] = unwound_angle(lines[1] * along, near[1])
         else:
-            memory.unknowns[3, first] = unwound_angle(line_a.conjugate() * line_b, near[0])
+            memory.unknowns[3, first] = unwound_angle(lines[0].conjugate() * lines[1], near[0])
             memory.unknowns[3, first + 1] = 0
         for k in range(2):
             if memory.filled[0] > 0 and abs(memory.unknowns[3, first + k] - near[k]) > FARTHEST:
@@ -219,40 +216,45 @@ def _wind(start: int, end: int, root: int, program: Program, memory: PoseMemory,
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _group(
-    number: int, program: Program, order: int, at: float, memory: PoseMemory, links: BodyJets, group: GroupScratch
-) -> bool:
+def _group(number: int, program: Program, order: int, at: float, memory: PoseMemory, s: MotionScratch) -> bool:
     """Place the bodies of a larger group by Newton's method from what the last poses let expect."""
     start, end = program.conditions[number], program.conditions[number + 1]
     first, last = program.bodies[number], program.bodies[number + 1]
+    links = BodyJets(s.places, s.turns, s.rates)
+    elements = ElementJets(s.group_points, s.group_lines, s.group_spins)
+    bodies = BodyJets(s.body_places, s.body_turns, s.body_rates)
+    work = NewtonScratch(s.residual, s.jacobian, s.normal, s.pivots)
     for slot in range(2 * (end - start)):
         e = program.sides[2 * start + slot]
         link = program.links[e]
-        set_element_jet(order, link, program.points[e], program.lines[e], links, slot, group.elements)
+        set_element_jet(order, link, program.points[e], program.lines[e], links, slot, elements)
     _predict(at, 3 * first, 3 * last, memory)
     unknowns = memory.unknowns[3, 3 * first : 3 * last]
-    _set_values(start, end, program, memory, group.values)
+    for k in range(len(unknowns)):
+        s.predicted[k] = unknowns[k]
+    _set_values(start, end, program, memory, s.values)
     conditions = Conditions(
         program.kinds[start:end],
-        group.values,
+        s.values,
         program.pieces,
         program.owners[2 * start : 2 * end],
-        group.elements,
+        s.group_points,
+        s.group_lines,
+        s.group_spins,
         program.size,
     )
     singular = memory.singular[0] == -1 - number
     if singular:
-        close_near_singular(conditions, unknowns, group.newton)
+        close_near_singular(conditions, unknowns, work)
     else:
-        steps, determinant = newton(conditions, unknowns, _NEWTON_STEPS, group.newton)
+        steps, determinant = newton(conditions, unknowns, _NEWTON_STEPS, work)
         memory.determinants[3, number] = determinant
         if steps < 0:
             return False
-        if memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, program.size, at, memory):
+        if memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, program.size, at, memory, s):
             return False
-    if not _wind(start, end, first, program, memory, group.elements):
+    if not _wind(start, end, first, program, memory, s):
         return False
-    bodies = group.bodies
     for k in range(last - first):
         bodies.turns[k] = complex(cos(unknowns[3 * k + 2]), sin(unknowns[3 * k + 2]))
         for m in range(4):
@@ -261,16 +263,11 @@ def _group(
             bodies.rates[k, m] = 0
         bodies.places[k, 0] = complex(unknowns[3 * k], unknowns[3 * k + 1])
     if order > 0:
-        n, jacobian, pivots, target = (
-            3 * (last - first),
-            group.newton.jacobian,
-            group.newton.pivots,
-            group.newton.residual,
-        )
+        n, jacobian, pivots, target = 3 * (last - first), s.jacobian, s.pivots, s.residual
         closing(conditions, unknowns, target, jacobian)
         factor(jacobian, n, pivots)
         for k in range(1, order + 1):
-            closing_rates(k, conditions, bodies, group.rates, target)
+            closing_rates(k, conditions, bodies, RateScratch(s.gap, s.gap_spins), target)
             solve_factored(jacobian, n, pivots, target)
             for b in range(last - first):
                 bodies.places[b, k] = complex(target[3 * b], target[3 * b + 1])
@@ -288,7 +285,7 @@ def _group(
 @njit(cache=True, error_model="numpy", _nrt=False)
 def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: MotionScratch) -> int:
     """Place everything at a place on the path; the drives stand in the scratch. Returns whether to trust it."""
-    links = s.links
+    links, elements = BodyJets(s.places, s.turns, s.rates), ElementJets(s.points, s.lines, s.spins)
     for link in range(len(links.turns)):
         links.turns[link] = 1
         links.places[link, 0] = 0
@@ -304,9 +301,9 @@ def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: Mot
             for slot in range(6):
                 e = operation[1 + slot]
                 link = program.links[e]
-                set_element_jet(order, link, program.points[e], program.lines[e], links, slot, s.dyad)
+                set_element_jet(order, link, program.points[e], program.lines[e], links, slot, elements)
             number = operation[9]
-            square = dyad_square(kind, s.dyad, program.size)
+            square = dyad_square(kind, elements, program.size)
             if kind in (PRP, RPP):
                 verdict, root = _sine(square, number, memory)
             else:
@@ -316,16 +313,16 @@ def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: Mot
                 memory.which[0] = number
                 return verdict
             first, second = operation[7], operation[8]
-            if kind in (RRR, RPR) and meeting(kind, s.dyad, program.size):
+            if kind in (RRR, RPR) and meeting(kind, elements, program.size):
                 if memory.met[number] != at:
                     memory.which[0] = number
                     return MEET
                 links.turns[first] = memory.direction[number]
-            dyad_place(kind, root, s.dyad, first, second, links, program.size)
+            dyad_place(kind, root, elements, first, second, links, program.size)
             if order > 0:
-                dyad_rates(kind, order, s.dyad, first, second, links)
+                dyad_rates(kind, order, elements, first, second, links)
         elif kind == GROUP:
-            if not _group(operation[1], program, order, at, memory, links, s.group):
+            if not _group(operation[1], program, order, at, memory, s):
                 memory.which[0] = operation[1]
                 return LOST
         else:

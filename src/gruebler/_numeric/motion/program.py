@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.motion.closure_rates import RateScratch
-from gruebler._numeric.motion.newton import NewtonScratch, new_newton_scratch
+from gruebler._numeric.motion.newton import new_newton_scratch
 from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets
 
 __all__ = [
@@ -37,7 +36,6 @@ __all__ = [
     "SINGULAR",
     "START",
     "TURN",
-    "GroupScratch",
     "MotionScratch",
     "PoseBuffer",
     "PoseMemory",
@@ -123,12 +121,12 @@ class PoseBuffer(NamedTuple):
 
 
 class PoseMemory(NamedTuple):
-    """What the last poses were, newest first; index 3 is the trial, index 4 what was predicted of it."""
+    """What the last poses were, newest first; index 3 is the trial."""
 
     at: Reals  # (4,) their places on the path
     filled: Ints  # (1,) how many there are
     roots: Reals  # (4, dyads) signed roots
-    unknowns: Reals  # (5, 3 bodies and windings)
+    unknowns: Reals  # (4, 3 bodies and windings)
     determinants: Reals  # (4, groups)
     signs: Reals  # (dyads,) the sign that holds from here on
     change: Reals  # (dyads,) where the root goes through zero, NaN if that is not known
@@ -140,31 +138,52 @@ class PoseMemory(NamedTuple):
     which: Ints  # (1,) the dyad or group that spoils the trial
 
 
-class GroupScratch(NamedTuple):
-    """What a larger group is placed with; room for the largest one."""
-
-    elements: ElementJets
-    """Two slots for each closing condition."""
-    values: Reals
-    """(conditions, 8) `Conditions.values`."""
-    bodies: BodyJets
-    newton: NewtonScratch
-    rates: RateScratch
-
-
 class MotionScratch(NamedTuple):
-    """What one pose is placed in."""
+    """What one pose is placed in: arrays by what they serve; kernels put them together as the tuples named here."""
 
     drives: Reals
     """(4, drives) values and their three derivatives."""
-    links: BodyJets
-    dyad: ElementJets
-    """Six slots for the elements of a dyad; a drive uses the first."""
-    group: GroupScratch
+
+    # the links, as `BodyJets`
+    places: Complexes
+    turns: Complexes
+    rates: Reals
     last_turns: Complexes
     """(links,) the turns of the pose accepted last."""
     whole_turns: Ints
     """(links,) whole turns since the first row."""
+
+    # the six elements of a dyad, as `ElementJets`; a drive uses the first
+    points: Complexes
+    lines: Complexes
+    spins: Reals
+
+    # the conditions of a larger group, as `Conditions`, with room for those of the largest group
+    group_points: Complexes
+    group_lines: Complexes
+    group_spins: Reals
+    values: Reals
+    predicted: Reals
+    """(unknowns,) of its bodies, from the last poses."""
+    ends: Complexes
+    """(2,) where the points of one condition lie."""
+    directions: Complexes
+    """(2,) the directions there."""
+
+    # the bodies of a larger group, as `BodyJets`
+    body_places: Complexes
+    body_turns: Complexes
+    body_rates: Reals
+
+    # its linear equations, as `NewtonScratch`
+    residual: Reals
+    jacobian: Reals
+    normal: Reals
+    pivots: Ints
+
+    # one condition after another, as `RateScratch`
+    gap: Complexes
+    gap_spins: Reals
 
 
 def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
@@ -172,7 +191,7 @@ def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
         np.zeros(4),
         np.zeros(1, np.int64),
         np.zeros((4, dyads)),
-        np.zeros((5, unknowns)),
+        np.zeros((4, unknowns)),
         np.zeros((4, groups)),
         np.ones(dyads),
         np.full(dyads, np.nan),
@@ -187,19 +206,22 @@ def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
 
 def new_motion_scratch(links: int, conditions: int, bodies: int, drives: int) -> MotionScratch:
     c, b = max(conditions, 1), max(bodies, 1)
+    dyad, group, newton = _element_jets(6), _element_jets(2 * c), new_newton_scratch(3 * b)
     return MotionScratch(
-        drives=np.zeros((4, drives)),
-        links=_body_jets(links),
-        dyad=_element_jets(6),
-        group=GroupScratch(
-            elements=_element_jets(2 * c),
-            values=np.zeros((c, 8)),
-            bodies=_body_jets(b),
-            newton=new_newton_scratch(3 * b),
-            rates=RateScratch(np.zeros(4, np.complex128), np.zeros((2, 3))),
-        ),
-        last_turns=np.ones(links, np.complex128),
-        whole_turns=np.zeros(links, np.int64),
+        np.zeros((4, drives)),
+        *_body_jets(links),
+        np.ones(links, np.complex128),
+        np.zeros(links, np.int64),
+        *dyad,
+        *group,
+        np.zeros((c, 8)),
+        np.zeros(3 * b),
+        np.zeros(2, np.complex128),
+        np.ones(2, np.complex128),
+        *_body_jets(b),
+        *newton,
+        np.zeros(4, np.complex128),
+        np.zeros((2, 3)),
     )
 
 
