@@ -10,13 +10,9 @@ from pathlib import Path
 import pytest
 
 import gruebler as gr
+from tests.docs_session import DOCS, Session, blocks_of
 
 ROOT = Path(__file__).parents[1]
-DOCS = ROOT / "docs"
-sys.path.insert(0, str(DOCS))
-
-from builder.session import Session, blocks_of  # noqa: E402  it stands in docs
-
 PAGES = sorted(path for path in DOCS.rglob("*.md") if any(blocks_of(path.read_text(encoding="utf-8"))))
 SLOW = {"gallery"}
 RUNNER = doctest.DocTestRunner(verbose=False, optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS)

@@ -104,11 +104,21 @@ def bibtex(lang: str, _: str) -> str:
 ```"""
 
 
+def further_theory(lang: str, _: str) -> str:
+    """A list of the theory pages that no list of the index names."""
+    folder = Path(__file__).parents[1] / "theory"
+    listed = set((folder / "index.md").read_text(encoding="utf-8").split())
+    further = sorted({path.stem for path in folder.glob("*.md")} - listed - {"index"})
+    title = "Weitere" if lang == "de" else "Further"
+    return "\n".join(["```{toctree}", ":maxdepth: 1", f":caption: {title}", "", *further, "```"]) if further else ""
+
+
 _INSERTS: dict[str, Callable[[str, str], str]] = {
     "bibtex": bibtex,
     "commands": command_reference,
     "formats": format_table,
     "front-door": front_door_table,
+    "further-theory": further_theory,
     "room": room_page,
 }
 

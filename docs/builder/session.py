@@ -62,7 +62,7 @@ class Session:
 
     def command(self, text: str) -> tuple[int, str]:
         """The exit status of a command that begins with `gruebler`, and what it printed."""
-        words = shlex.split(" ".join(row.strip().removesuffix("\\") for row in text.splitlines()))
+        words = shlex.split(" ".join(row.strip().removesuffix("\\").strip() for row in text.splitlines()))
         if words[0] != "gruebler":
             raise ValueError(f"expected a command that begins with gruebler: {text}")
         printed = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")

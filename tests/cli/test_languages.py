@@ -40,6 +40,7 @@ JSON = {
         ["--guidance"],
     ],
     "enumerate": [["--links", "6"], ["--links", "6", "--assortments"], ["--links", "6", "--count"]],
+    "construct": [[], ["geneva"], ["dead-centres", "slider-crank:17,60,15"]],
     "exercise": [["list"], ["show", "exercise-1"], ["solve", "example-3.5.4-lambda"]],
     "extend": [["lambda", "--dyad"], ["quad_strut", "--derivation"]],
     "gears": [["sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; load arm=-50"]],

@@ -198,3 +198,12 @@ def test_commands(tmp_path, capsys):
 
 def test_an_empty_document_has_a_page():
     assert len(document_pages(Document("a", "b", ()))) == 1
+
+
+def test_exercise_12_has_its_graphical_way(tmp_path):
+    file = tmp_path / "12.html"
+    assert main(["exercise", "solve", "12", "15", "8", "--lang", "de", "-o", str(file)]) == 0
+    text = file.read_text(encoding="utf-8")
+    assert "91,24" in text  # the frame, measured in the construction
+    assert text.count("<svg") == 4  # three constructions, and the slider-crank of exercise 15
+    assert "55 &lt; d &lt; 85" in text

@@ -41,6 +41,7 @@ _MARKS = {
 _MOST = 1000
 
 
+_DOCUMENTS = (".pdf", ".html", ".tex", ".md")
 _KINDS = ("mobility", "grashof", "dead-centre", "transmission-angle", "dyad", "velocity")
 
 
@@ -55,7 +56,10 @@ def add(parser: Parser) -> None:
     )
     listing = parser.add_command("list", help="list all exercises and worked examples")
     show = parser.add_command("show", help="show a task without its solution")
-    solve = parser.add_command("solve", help="solve a task step by step and check the result by a second method")
+    solve = parser.add_command(
+        "solve",
+        help="solve a task step by step, checked by a second method; -o also .pdf, .html, .tex, .md with figures",
+    )
     for action in (show, solve):
         action.add_argument(
             "ids", nargs="+", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)"
@@ -95,6 +99,7 @@ def add(parser: Parser) -> None:
     sheet.add_out(help="the sheet: .pdf, .html, .tex or .md", required=True, endings=("pdf", "html", "tex", "md"))
     for action in (listing, show, solve, new, check):
         action.add_printed(help="print JSON, with texts in both languages")
+    solve.set_defaults(written=_DOCUMENTS)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -105,7 +110,7 @@ def run(arguments: argparse.Namespace) -> int:
         case "show":
             _print([_task(id, arguments) for id in arguments.ids], arguments, solved=False)
         case "solve":
-            _print([_task(id, arguments) for id in arguments.ids], arguments, solved=True)
+            _solve([_task(id, arguments) for id in arguments.ids], arguments)
         case "new":
             if not 1 <= arguments.count <= _MOST:
                 raise GrueblerError(
@@ -138,6 +143,18 @@ def _pairs(words: Sequence[str], problem: Message) -> dict[str, str]:
             raise GrueblerError("{key} is given twice; give one value for each key", key=key)
         values[key] = value
     return values
+
+
+def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> None:
+    """Print the solutions, or write them with figures and constructions."""
+    suffix = "" if arguments.out is None else arguments.out.suffix.lower()
+    if suffix in _DOCUMENTS:
+        from gruebler.worksheets import document_bytes, solution_document
+
+        content = document_bytes(solution_document(tasks, lang=arguments.lang), suffix.removeprefix("."))
+        write_file(arguments.out, content, arguments.lang)
+    else:
+        _print(tasks, arguments, solved=True)
 
 
 def _sheet(arguments: argparse.Namespace) -> None:

@@ -38,11 +38,12 @@ class DaskScheduler:
             RunError: no scheduler answers at the address.
         """
         try:
-            from distributed import Client
+            import distributed
         except ImportError:
             raise GrueblerError("a scheduler needs Dask: pip install 'gruebler[cluster]'") from None
         try:
-            client = Client(self.address, timeout=_PATIENCE, set_as_default=False)
+            connect: Any = distributed.Client
+            client = connect(self.address, timeout=_PATIENCE, set_as_default=False)
         except (OSError, ValueError, TypeError):
             raise RunError("no Dask scheduler answers at {address}", address=self.address) from None
         return DaskExecutor(client)

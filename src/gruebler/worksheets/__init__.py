@@ -7,7 +7,7 @@ from gruebler.worksheets.blocks import Document
 from gruebler.worksheets.files import DOCUMENT_SUFFIXES, document_bytes
 from gruebler.worksheets.machines import catalog_book, machine_document
 from gruebler.worksheets.posters import POSTERS, poster
-from gruebler.worksheets.tasks import TaskSheet, task_sheet
+from gruebler.worksheets.tasks import TaskSheet, solution_document, task_sheet
 
 __all__ = [
     "DOCUMENT_SUFFIXES",
@@ -18,5 +18,6 @@ __all__ = [
     "document_bytes",
     "machine_document",
     "poster",
+    "solution_document",
     "task_sheet",
 ]

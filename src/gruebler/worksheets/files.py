@@ -67,26 +67,31 @@ def _html(document: Document) -> bytes:
     ).encode()
 
 
+def _markup(text: str) -> str:
+    """Text for HTML, with subscripts."""
+    return "".join(f"<sub>{escape(part)}</sub>" if low else escape(part) for part, low in split_subscripts(text))
+
+
 def _html_block(block: Block) -> Iterator[str]:
     match block:
         case Heading(text, level):
-            yield f"<h{level + 1}>{escape(text)}</h{level + 1}>"
+            yield f"<h{level + 1}>{_markup(text)}</h{level + 1}>"
         case Paragraph(text, small):
-            yield f"<p{' class=small' if small else ''}>{'<br>'.join(map(escape, text.split(chr(10))))}</p>"
+            yield f"<p{' class=small' if small else ''}>{'<br>'.join(map(_markup, text.split(chr(10))))}</p>"
         case Pictures(figures, captions, height):
             items = []
             for k, figure in enumerate(figures):
                 wide = min(1.0, height / figure.height) * figure.width
-                caption = f"<figcaption>{escape(captions[k])}</figcaption>" if k < len(captions) else ""
+                caption = f"<figcaption>{_markup(captions[k])}</figcaption>" if k < len(captions) else ""
                 items.append(f'<figure style="max-width:{wide:.0f}px">{figure.svg(styled=False)}{caption}</figure>')
             yield f'<div class="row">{"".join(items)}</div>'
         case Rows(headers, rows):
-            yield f"<table><tr>{''.join(f'<th>{escape(cell)}</th>' for cell in headers)}</tr>"
+            yield f"<table><tr>{''.join(f'<th>{_markup(cell)}</th>' for cell in headers)}</tr>"
             for row in rows:
-                yield f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>"
+                yield f"<tr>{''.join(f'<td>{_markup(cell)}</td>' for cell in row)}</tr>"
             yield "</table>"
         case AnswerLines(asked, space):
-            lines = "".join(f'<p>{escape(name)}<span class="line"></span></p>' for name in asked)
+            lines = "".join(f'<p>{_markup(name)}<span class="line"></span></p>' for name in asked)
             yield f'<div class="answer" style="padding-top:{space:.0f}px">{lines}</div>'
         case PageBreak():
             yield '<div class="break"></div>'

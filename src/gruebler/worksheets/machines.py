@@ -11,6 +11,7 @@ from gruebler.catalog.feature_query import entry_mechanism
 from gruebler.catalog.features import access_features
 from gruebler.chain.pairs import Alphabet
 from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.linkage.contact_shapes import contact_shapes
 from gruebler.drawing.linkage.curve_plots import coupler_plot
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.drawing.linkage.picture import draw_linkage
@@ -102,7 +103,8 @@ def _machine_blocks(
 
 def _pictures(mechanism: Mechanism, linkage: Linkage | None, lang: str, outputs: Sequence[str]) -> Pictures:
     """The linkage to scale, if there are dimensions, and the structure with the symbols of the joints."""
-    structure = draw(mechanism, labels=True, symbols=True, outputs=outputs, lang=lang)
+    contacts = None if linkage is None else contact_shapes(linkage)
+    structure = draw(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
     caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
     if linkage is not None:
         try:

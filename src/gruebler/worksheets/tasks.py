@@ -23,7 +23,7 @@ from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.text import joined, message, translate
 from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
 
-__all__ = ["TaskSheet", "construction_of", "exercise_figure", "task_sheet"]
+__all__ = ["TaskSheet", "construction_of", "exercise_figure", "solution_document", "task_sheet"]
 
 _MOST = 60
 _SPACE = {"mobility": 60.0, "grashof": 80.0, "dyad": 60.0}
@@ -108,7 +108,7 @@ def exercise_figure(exercise: Exercise, lang: str = "en") -> Figure | None:
 
     >>> from gruebler.exercises import exercise
     >>> exercise_figure(exercise("mobility-1-7")).title
-    'kinematic chain'
+    "Watt's chain"
     """
     given = exercise.given
     if isinstance(given.get("chain"), str):
@@ -126,9 +126,11 @@ def _size(exercise: Exercise) -> FourBar | SliderCrank | None:
     """The linkage of the given lengths, if they are all given and it can be assembled."""
     given = exercise.given
     lengths = {key: float(given[key]) for key in ("a", "b", "c", "d", "e") if isinstance(given.get(key), int | float)}
+    if "b" not in lengths and {"a", "ratio"} <= {*given}:
+        lengths["b"] = float(given["a"]) / float(given["ratio"])
     if {*"abcd"} <= {*lengths}:
         size: FourBar | SliderCrank = FourBar(*(lengths[key] for key in "abcd"))
-    elif {*"ab"} <= {*lengths} and not {*"cd"} & {*lengths} and "ratio" not in given and "free" not in given:
+    elif {*"ab"} <= {*lengths} and not {*"cd"} & {*lengths} and "free" not in given:
         size = SliderCrank(lengths["a"], lengths["b"], lengths.get("e", 0.0))
     else:
         return None
@@ -172,10 +174,26 @@ def construction_of(exercise: Exercise) -> Construction | None:
     return None
 
 
+def solution_document(exercises: Sequence[Exercise], *, lang: str = "en") -> Document:
+    """The solutions of exercises with figures, and with the constructions that give the same.
+
+    >>> from gruebler.exercises import exercise
+    >>> len([block for block in solution_document([exercise("12")]).blocks if isinstance(block, Pictures)])
+    1
+    """
+    blocks = [block for each in exercises for block in _solution_blocks(each, 0, lang)]
+    names = ", ".join(each.id for each in exercises)
+    return Document(translate("Solutions: {kinds}", lang, kinds=names), "", tuple(blocks), lang)
+
+
 def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
+    """A solution; its heading has the number of the task, or its name for the number 0."""
     solution = solve(exercise)
-    yield Heading(translate("Task {number}: {id}", lang, number=number, id=exercise.id))
+    heading = translate("Task {number}: {id}", lang, number=number, id=exercise.id)
+    yield Heading(heading if number else f"{exercise.name.in_language(lang)} ({exercise.id})")
     yield Paragraph(exercise.task.in_language(lang))
+    if number == 0 and (figure := exercise_figure(exercise, lang)) is not None:
+        yield Pictures((figure,), height=170.0)
     count = 0
     for part in solution.parts:
         if isinstance(part, PartHeading):
@@ -193,7 +211,7 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
     yield Rows(
         headers, tuple((_name(r.key, r.name.in_language(lang)), value_text(r.value, r.unit, lang)) for r in asked)
     )
-    if isinstance(exercise.given.get("chain"), str):
+    if number and isinstance(exercise.given.get("chain"), str):
         yield Pictures((draw(_chain(exercise), labels=True, lang=lang),), height=170.0)
     whole = construction_of(exercise)
     if whole is not None:

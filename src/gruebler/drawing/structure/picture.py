@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -57,6 +57,8 @@ class PlacedChain:
     crossing: frozenset[str] = frozenset()
     """Links drawn with a halo above others."""
     faces: tuple[tuple[int, ...], ...] = ()
+    contacts: Mapping[tuple[int, str], str] = field(default_factory=dict)
+    """What the bodies of higher pairs are, by joint and link."""
 
 
 def draw(
@@ -64,6 +66,7 @@ def draw(
     *,
     labels: bool = False,
     symbols: bool = False,
+    contacts: Mapping[tuple[int, str], str] | None = None,
     outputs: Collection[str] = (),
     lang: str = "en",
     name: str = "",
@@ -75,10 +78,14 @@ def draw(
         structure: the chain or mechanism.
         labels: whether to name the links.
         symbols: whether to write the symbol of its pair beside every joint, in the alphabet of the language.
+        contacts: what the bodies of higher pairs are, by joint number and link, in the words of
+            `gruebler.drawing.canvas.symbols.CONTACTS`: ``gear``, ``cam``, ``roller``, ...
         outputs: links that get a double arrow.
         lang: language of title and description, ``en`` or ``de``.
         name: the title; by default a name derived from the structure.
         names: other names for links in the picture.
+
+    Raises `gruebler.errors.ChainError` for an output that is no link.
 
     >>> picture = draw(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"))
     >>> len(picture.svg()) < 5000
@@ -87,6 +94,8 @@ def draw(
     from gruebler.drawing.canvas.labels import labels_or_numbers, note_near
 
     placed = place_joints(structure)
+    if contacts:
+        placed = replace(placed, contacts=_renumbered(chain_of(structure), placed.chain, contacts))
     shapes = paint(placed)
     for link in outputs:
         shapes += _output(placed, link, shapes)
@@ -127,6 +136,15 @@ def place_joints(structure: Chain | Mechanism) -> PlacedChain:
         frozenset(plain.links[max(pair)] for pair in layout.crossings),
         tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
     )
+
+
+def _renumbered(chain: Chain, placed: Chain, contacts: Mapping[tuple[int, str], str]) -> dict[tuple[int, str], str]:
+    """The same with the joint numbers of the placed chain, whose joints stand in another order."""
+    where = {(joint.pair.name, frozenset(joint.links)): number for number, joint in enumerate(placed.joints)}
+    return {
+        (where[chain.joints[number].pair.name, frozenset(chain.joints[number].links)], link): shape
+        for (number, link), shape in contacts.items()
+    }
 
 
 def _ordered(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> tuple[Chain, dict[int, int]]:
@@ -196,7 +214,8 @@ def _sign(placed: PlacedChain, number: int) -> tuple[JointSign, list[str]]:
     members = [JointMember(towards(placed, link, number), link == placed.frame) for link in links]
     flat = placed.chain.space is Space.PLANAR
     letter = "" if flat else letters(joint.pair)
-    return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter), links
+    known = [placed.contacts[number, link] for link in links if (number, link) in placed.contacts]
+    return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter, shapes=known), links
 
 
 def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
@@ -212,6 +231,7 @@ def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
     """A double arrow along the longest side of a link, on the side where there is more space."""
     from gruebler.drawing.canvas.free_space import Obstacles, complexes
 
+    placed.chain.index(link)  # raises ChainError for an unknown link
     corners = placed.outlines[link]
     first, last = max(pairwise([*corners, corners[0]]), key=lambda side: side[1].minus(side[0]).length)
     along = last.minus(first).unit
