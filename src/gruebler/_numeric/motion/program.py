@@ -219,7 +219,10 @@ def new_motion_scratch(links: int, conditions: int, bodies: int, drives: int) ->
         np.zeros(2, np.complex128),
         np.ones(2, np.complex128),
         *_body_jets(b),
-        *newton,
+        newton.residual,
+        newton.jacobian,
+        newton.normal,
+        newton.pivots,
         np.zeros(4, np.complex128),
         np.zeros((2, 3)),
     )
