@@ -87,3 +87,11 @@ def test_commands_of_the_readme(tmp_path):
         ran = subprocess.run(["bash", "-c", shell + each], cwd=tmp_path, capture_output=True, text=True, check=False)
         assert ran.returncode in (0, 1), f"{each}\n{ran.stderr}"
         assert ran.returncode == 0 or not ran.stderr, f"{each}\n{ran.stderr}"
+
+
+def test_every_place_has_the_same_version():
+    cited = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert re.search(r"^version: (.*)$", cited, re.MULTILINE)[1] == gr.__version__
+    changes = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert changes[0] == "[Unreleased]"
+    assert changes[1].startswith(f"[{gr.__version__}] - 20")

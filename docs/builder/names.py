@@ -87,6 +87,8 @@ def front_door_table(lang: str, _: str) -> str:
     for name in sorted(gruebler.__all__, key=lambda each: (each in documented_rooms(), each.lower())):
         if name in _NO_ROOMS:
             continue
+        if name not in state:
+            raise ValueError(f"{_STABILITY}: expected a row for the name {name}")
         value = getattr(gruebler, name)
         link = f"{{py:obj}}`gr.{name} <{_place_of(name)}>`"
         if inspect.ismodule(value):

@@ -38,6 +38,7 @@ def _group(title: str, commands: tuple[Command, ...], lang: str) -> Iterator[str
 
 
 def _parser(parser: Any, lang: str) -> Iterator[str]:
+    parser.translate_placeholders()
     if parser.description:
         yield _text(translate(parser.description, lang)) + "\n"
     yield f"```text\n{parser.format_usage().split(': ', 1)[1].rstrip()}\n```\n"

@@ -25,16 +25,10 @@ class Argument(NamedTuple):
     choices: tuple[str, ...]
     """The values that it can have; empty if it is not a choice."""
     help: str
-
-    @property
-    def takes_file(self) -> bool:
-        """Whether a value may be the name of a file."""
-        return any(word in self.placeholder.replace("|", " ").split() for word in _FILES)
-
-    @property
-    def takes_entry(self) -> bool:
-        """Whether a value may be an entry of the catalog."""
-        return "ID" in self.placeholder.split("|")
+    takes_file: bool
+    """Whether a value may be the name of a file."""
+    takes_entry: bool
+    """Whether a value may be an entry of the catalog."""
 
 
 class CommandNode(NamedTuple):
@@ -68,17 +62,32 @@ def _node(name: str, summary: str, parser: Parser) -> CommandNode:
             summaries = {choice.dest: choice.help for choice in action._choices_actions}
             for word, below in action.choices.items():
                 actions.append(_node(f"{name} {word}", translate(summaries[word] or "", parser.lang), below))
+    arguments = tuple(_arguments(parser))
     described, after = (translate(text or "", parser.lang) for text in (parser.description, parser.epilog))
     usage = " ".join(parser.format_usage().split()).partition(": ")[2]
-    return CommandNode(name, summary, described, usage, after, tuple(_arguments(parser)), tuple(actions))
+    return CommandNode(name, summary, described, usage, after, arguments, tuple(actions))
 
 
 def _arguments(parser: Parser) -> Iterator[Argument]:
-    for action in parser._actions:
+    kinds = [set(_placeholder(action).replace("|", " ").split()) for action in parser._actions]
+    parser.translate_placeholders()
+    for action, words in zip(parser._actions, kinds, strict=True):
         if isinstance(action, argparse._SubParsersAction) or action.help is argparse.SUPPRESS:
             continue
-        choices = tuple(map(str, action.choices or ()))
-        names = action.metavar if isinstance(action.metavar, tuple) else (action.metavar or ("|".join(choices)),)
-        placeholder = "" if action.nargs == 0 else " ".join(map(str, names)) or action.dest.upper()
-        text = " ".join(parser._get_formatter()._expand_help(action).split()) if action.help else ""
-        yield Argument(tuple(action.option_strings), placeholder, choices, text)
+        yield Argument(
+            tuple(action.option_strings),
+            _placeholder(action),
+            tuple(map(str, action.choices or ())),
+            " ".join(parser._get_formatter()._expand_help(action).split()) if action.help else "",
+            not words.isdisjoint(_FILES),
+            "ID" in words,
+        )
+
+
+def _placeholder(action: argparse.Action) -> str:
+    """What stands for the value of an argument; empty if it takes none."""
+    if action.nargs == 0:
+        return ""
+    if isinstance(action.metavar, tuple):
+        return " ".join(action.metavar)
+    return action.metavar or "|".join(map(str, action.choices or ())) or action.dest.upper()
