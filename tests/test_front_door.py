@@ -8,6 +8,7 @@ import pytest
 
 import gruebler as gr
 from gruebler.catalog import entry
+from gruebler.sheets.layout import page
 from gruebler.synthesis import DeadCentreTask, PathTask
 from gruebler.text import error_in_language
 
@@ -148,3 +149,13 @@ def test_values_of_many_numbers_are_printed_in_a_line():
 def test_lengths_show_themselves_in_notebooks_as_their_linkage(size):
     assert size._repr_svg_() == size.linkage()._repr_svg_()
     assert size._repr_svg_().startswith("<svg")
+
+
+def test_reports_and_sheets_show_themselves_in_notebooks():
+    report = gr.mobility_report(gr.Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
+    html = report._repr_html_()
+    assert html.startswith(report.chain._repr_svg_())
+    assert "F = 3(n - 1) - 2 g1 = 3(4 - 1) - 2·4 = 1" in html
+    mzc = gr.teaching.sheet("mzc")
+    assert mzc._repr_svg_() == page(mzc).svg()
+    assert f"<title>{mzc.record.title}</title>" in mzc._repr_svg_()

@@ -178,6 +178,8 @@ def plot(linkage: object, kind: str = "transfer", **options: Any) -> Picture:
 
 def picture_of(value: object) -> str:
     """The SVG of a value for a notebook; of a linkage that cannot be placed, its structure and the reason."""
+    if type(value).__name__ == "Sheet":
+        return str(_function("sheets.layout", "page")(value).svg())
     value, kind = _drawn(value)
     match type(value).__name__:
         case "Linkage":

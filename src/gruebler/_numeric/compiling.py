@@ -62,7 +62,7 @@ _recipes: dict[Callable[..., Any], _Recipe] = {}
 _dispatchers: dict[Callable[..., Any], Any] = {}
 _spent: dict[Callable[..., Any], float] = {}
 _lock = RLock()
-_told: list[Progress] = []  # none or one
+_progress: list[Progress] = []  # none or one
 
 
 def njit(*signature: Callable[[], Any], **options: Any) -> Callable[[Kernel], Kernel]:
@@ -95,7 +95,7 @@ def kernels() -> list[Callable[..., Any]]:
 
 def on_compiling(progress: Progress | None) -> None:
     """Have a function called before each kernel that is compiled (not loaded); None: silence, as at first."""
-    _told[:] = [] if progress is None else [progress]
+    _progress[:] = [] if progress is None else [progress]
 
 
 def for_work(kernel: Kernel, seconds: float) -> Kernel:
@@ -134,8 +134,10 @@ def price(kernel: Callable[..., Any]) -> float:
     loading = _LOADING_KERNEL + (0.0 if "numba" in sys.modules else _LOADING_NUMBA)
     if is_cached(kernel):
         return loading
-    missing = [one for one in _called(kernel) if one not in _dispatchers or not _dispatchers[one].signatures]
-    instructions = sum(len(one.__code__.co_code) // 2 for one in missing if not is_cached(one))
+    missing = [
+        called for called in _called(kernel) if called not in _dispatchers or not _dispatchers[called].signatures
+    ]
+    instructions = sum(len(called.__code__.co_code) // 2 for called in missing if not is_cached(called))
     return loading + (_FIRST_COMPILING + _COMPILING * instructions) / _RUNS
 
 
@@ -174,14 +176,14 @@ def _is_kernel(value: Any) -> bool:
 
 def _called(kernel: Callable[..., Any]) -> list[Callable[..., Any]]:
     """A kernel and all kernels that it calls, itself or through others."""
-    found = {kernel: None}
+    called = {kernel: None}
     waiting = [kernel]
     while waiting:
         for _, value in _names(waiting.pop()):
-            if _is_kernel(value) and _recipes[value].make is None and value not in found:
-                found[value] = None
+            if _is_kernel(value) and _recipes[value].make is None and value not in called:
+                called[value] = None
                 waiting.append(value)
-    return list(found)
+    return list(called)
 
 
 def _dispatcher(kernel: Callable[..., Any]) -> Any:
@@ -193,21 +195,21 @@ def _dispatcher(kernel: Callable[..., Any]) -> Any:
         _dispatchers[kernel] = recipe.make()
         return _dispatchers[kernel]
     names = dict(_names(kernel))
-    mine: dict[str, Any] = {"__name__": kernel.__module__, "__builtins__": __builtins__}
-    copy = FunctionType(kernel.__code__, mine, kernel.__name__, kernel.__defaults__)
+    namespace: dict[str, Any] = {"__name__": kernel.__module__, "__builtins__": __builtins__}
+    copy = FunctionType(kernel.__code__, namespace, kernel.__name__, kernel.__defaults__)
     copy.__doc__ = kernel.__doc__
     for name, value in names.items():
         if value is not kernel:
-            mine[name] = _dispatcher(value) if _is_kernel(value) else value
-    made = _made(copy, recipe)
+            namespace[name] = _dispatcher(value) if _is_kernel(value) else value
+    dispatcher = _jitted(copy, recipe)
     for name, value in names.items():
         if value is kernel:
-            mine[name] = made
-    _dispatchers[kernel] = made
-    return made
+            namespace[name] = dispatcher
+    _dispatchers[kernel] = dispatcher
+    return dispatcher
 
 
-def _made(function: Callable[..., Any], recipe: _Recipe) -> Any:
+def _jitted(function: Callable[..., Any], recipe: _Recipe) -> Any:
     """The dispatcher of numba, with its cache in the folder of `kernel_cache`."""
     import numba
 
@@ -257,12 +259,12 @@ class _Listener:
         self._report()
 
     def _report(self) -> None:
-        if not _told:
+        if not _progress:
             return
         name = self.open[-1].py_func.__name__ if self.open else ""
         if name or not self.depth:
             done = sum(id(_dispatchers.get(kernel)) in self.done for kernel in self.wanted)
-            _told[0](name, done, len(self.wanted))
+            _progress[0](name, done, len(self.wanted))
 
 
 @cache

@@ -273,20 +273,20 @@ def _solve(matrix: Complexes, right: Complexes) -> bool:
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def _norm(v: Complexes) -> float:
-    out = 0.0
+    largest = 0.0
     for i in range(UNKNOWNS):
-        out = max(out, abs(v[i]))
-    return out
+        largest = max(largest, abs(v[i]))
+    return largest
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def _relative(step: Complexes, z: Complexes) -> float:
     """The largest change of an unknown, relative to it; small ones count against the largest of all."""
     size = 1e-3 * _norm(z)
-    out = 0.0
+    largest = 0.0
     for i in range(UNKNOWNS):
-        out = max(out, abs(step[i]) / (abs(z[i]) + size + 1e-300))
-    return out
+        largest = max(largest, abs(step[i]) / (abs(z[i]) + size + 1e-300))
+    return largest
 
 
 @njit(cache=True, error_model="numpy", nogil=True)

@@ -30,7 +30,7 @@ _UNUSED_DAYS = 60  # after so long without use the kernels of another version ar
 def _name() -> str:
     digest = sha256()
     for path in sorted(_SOURCES.rglob("*.py")):
-        if path.name not in ("kernel_cache.py", "work.py"):  # nothing of these goes into compiled code
+        if path.name not in ("kernel_cache.py", "work_estimates.py"):  # nothing of these goes into compiled code
             digest.update(path.name.encode())
             digest.update(path.read_bytes())
     return f"kernels-{digest.hexdigest()[:16]}"
@@ -50,11 +50,11 @@ def _places() -> Iterator[Path]:
             yield Path(base) / "gruebler"
             return
     try:
-        home = Path.home()
+        home_folder = Path.home()
     except RuntimeError:
         return
-    if home.is_absolute() and home.is_dir():
-        yield home / ".cache" / "gruebler"
+    if home_folder.is_absolute() and home_folder.is_dir():
+        yield home_folder / ".cache" / "gruebler"
 
 
 def _only_mine(folder: Path) -> bool:
@@ -62,23 +62,23 @@ def _only_mine(folder: Path) -> bool:
     if os.name != "posix":  # the folders are in the user's profile, whose access lists Python does not show
         return not folder.is_symlink()
     try:
-        found = os.lstat(folder)
+        status = os.lstat(folder)
     except FileNotFoundError:
         return True
     except OSError:
         return False
-    return stat.S_ISDIR(found.st_mode) and found.st_uid == os.geteuid() and not found.st_mode & 0o022
+    return stat.S_ISDIR(status.st_mode) and status.st_uid == os.geteuid() and not status.st_mode & 0o022
 
 
 def _guarded(folder: Path) -> bool:
     """Whether only the user and root can replace what is in a folder; a sticky bit guards what is theirs."""
     if os.name != "posix" or not folder.exists():
         return True
-    found = folder.stat()
-    if found.st_uid not in (os.geteuid(), 0):
+    status = folder.stat()
+    if status.st_uid not in (os.geteuid(), 0):
         return False
-    others = stat.S_IWOTH if found.st_gid in (os.getegid(), 0) else stat.S_IWOTH | stat.S_IWGRP
-    return bool(found.st_mode & stat.S_ISVTX) or not found.st_mode & others
+    others = stat.S_IWOTH if status.st_gid in (os.getegid(), 0) else stat.S_IWOTH | stat.S_IWGRP
+    return bool(status.st_mode & stat.S_ISVTX) or not status.st_mode & others
 
 
 def _trusted(place: Path) -> Path | None:
@@ -142,9 +142,9 @@ def _forget_unused(place: Path) -> None:
 def _cached_names() -> frozenset[str]:
     """`module.kernel-line` of the kernels that lie in the cache for this version of Python."""
     folder = cache_folder()
-    found = folder.glob("*/*.nbi") if folder is not None else ()
+    indices = folder.glob("*/*.nbi") if folder is not None else ()
     version = f".py{sys.version_info.major}{sys.version_info.minor}"
-    return frozenset(path.name.removesuffix(".nbi").removesuffix(version) for path in found)
+    return frozenset(path.name.removesuffix(".nbi").removesuffix(version) for path in indices)
 
 
 def is_cached(kernel: Callable[..., Any]) -> bool:

@@ -35,9 +35,9 @@ __all__ = [
 
 @cache
 def _indices(n: int) -> Any:
-    found = np.arange(n)
-    found.setflags(write=False)
-    return found
+    indices = np.arange(n)
+    indices.setflags(write=False)
+    return indices
 
 
 @instead(lambda: range)
@@ -61,9 +61,9 @@ def logarithm(x: float) -> float:
 @instead(lambda: complex)
 def complex_number(real: float, imag: float) -> complex:
     """The complex number with these parts, or an array of them."""
-    out: Any = np.empty(np.shape(real), np.complex128)
-    out.real, out.imag = real, imag
-    return out  # type: ignore[no-any-return]
+    number: Any = np.empty(np.shape(real), np.complex128)
+    number.real, number.imag = real, imag
+    return number  # type: ignore[no-any-return]
 
 
 @instead(lambda: int)
@@ -90,10 +90,10 @@ def _nothing(_array: Any, _rows: Any) -> None:
 
 
 @njit(error_model="numpy", forceinline=True, _nrt=False)
-def _dot(one: Any, other: Any) -> float:
+def _dot(first: Any, second: Any) -> float:
     total = 0.0
-    for k in range(len(one)):
-        total += one[k] * other[k]
+    for k in range(len(first)):
+        total += first[k] * second[k]
     return total
 
 
@@ -104,8 +104,8 @@ def _subtract(row: Any, share: float, other: Any) -> None:
 
 
 @njit(error_model="numpy", forceinline=True, _nrt=False)
-def _either(truth: bool, one: float, other: float) -> float:
-    return one if truth else other
+def _either(truth: bool, if_true: float, if_false: float) -> float:
+    return if_true if truth else if_false
 
 
 @instead(_itself)
@@ -121,10 +121,10 @@ def give_back(array: Any, rows: Any) -> None:
 
 
 @instead(lambda: compiled(_dot))
-def dot(one: Any, other: Any) -> float:
+def dot(first: Any, second: Any) -> float:
     """The scalar product of two vectors, added up from the first element on."""
     total = 0.0
-    for x, y in zip(one, other, strict=True):
+    for x, y in zip(first, second, strict=True):
         total += x * y
     return total
 
@@ -136,6 +136,6 @@ def subtract(row: Any, share: float, other: Any) -> None:
 
 
 @instead(lambda: compiled(_either))
-def choose(truth: bool, one: float, other: float) -> float:
+def choose(truth: bool, if_true: float, if_false: float) -> float:
     """One value where something is true, another where it is not; both are computed."""
-    return np.where(truth, one, other)  # type: ignore[return-value]
+    return np.where(truth, if_true, if_false)  # type: ignore[return-value]

@@ -69,19 +69,19 @@ def _forces(x: Any, segments: Any, pull: Any, watched: Any, power: float, slope:
 
 
 @njit(cache=True)
-def symmetrise(x: Any, images: Any, turns: Any, out: Any) -> None:
+def symmetrise(x: Any, images: Any, turns: Any, symmetric: Any) -> None:
     """The mean of the layout over a group: point p goes to images[g, p] as the plane moves by turns[g]."""
     for p in range(len(x)):
-        out[p][0] = out[p][1] = 0.0
+        symmetric[p][0] = symmetric[p][1] = 0.0
     for g in range(len(images)):
         turn = turns[g]
         for p in range(len(x)):
             image = x[images[g][p]]
-            out[p][0] += turn[0][0] * image[0] + turn[1][0] * image[1]
-            out[p][1] += turn[0][1] * image[0] + turn[1][1] * image[1]
+            symmetric[p][0] += turn[0][0] * image[0] + turn[1][0] * image[1]
+            symmetric[p][1] += turn[0][1] * image[0] + turn[1][1] * image[1]
     for p in range(len(x)):
-        out[p][0] /= len(images)
-        out[p][1] /= len(images)
+        symmetric[p][0] /= len(images)
+        symmetric[p][1] /= len(images)
 
 
 @njit(cache=True)
@@ -165,7 +165,7 @@ def _side(x: NDArray[np.float64], a: int, b: int, c: int) -> float:
 @njit(cache=True)
 def crossing_segments(x: NDArray[np.float64], segments: NDArray[np.int64]) -> NDArray[np.int64]:
     """int64[k, 2]: the pairs of segments without common point that cross."""
-    found = np.empty((len(segments) * (len(segments) - 1) // 2, 2), np.int64)
+    pairs = np.empty((len(segments) * (len(segments) - 1) // 2, 2), np.int64)
     number = 0
     for i in range(len(segments)):
         a, b = segments[i, 0], segments[i, 1]
@@ -174,6 +174,6 @@ def crossing_segments(x: NDArray[np.float64], segments: NDArray[np.int64]) -> ND
             if a == c or a == d or b == c or b == d:
                 continue
             if _side(x, a, b, c) * _side(x, a, b, d) < 0.0 and _side(x, c, d, a) * _side(x, c, d, b) < 0.0:
-                found[number, 0], found[number, 1] = j, i
+                pairs[number, 0], pairs[number, 1] = j, i
                 number += 1
-    return found[:number]
+    return pairs[:number]

@@ -85,13 +85,13 @@ def modular_inverse(a: int) -> int:
 
 def transposed(rows: list[Row], columns: int) -> Iterator[Row]:
     """The rows of the transpose, each freed by the iterator as it is handed out."""
-    out: list[Row] = [{} for _ in range(columns)]
+    columns_left: list[Row] = [{} for _ in range(columns)]
     for i, row in enumerate(rows):
         for j, value in row.items():
-            out[j][i] = value
-    out.reverse()
-    while out:
-        yield out.pop()
+            columns_left[j][i] = value
+    columns_left.reverse()
+    while columns_left:
+        yield columns_left.pop()
 
 
 def echelon(rows: Iterable[Row], columns: int, *, large: bool = False) -> Echelon:
@@ -181,24 +181,24 @@ def _dense(rows: list[Row]) -> list[tuple[int, NDArray[np.int64], NDArray[np.int
         if top == len(rows):
             break
         right = min(left + _PANEL, len(columns))
-        found, factors = _panel(matrix, top, left, right)
-        pivots += found
-        done = top + len(found)
-        if not found or right == len(columns):
+        new_pivots, factors = _panel(matrix, top, left, right)
+        pivots += new_pivots
+        done = top + len(new_pivots)
+        if not new_pivots or right == len(columns):
             continue
         # The rows of the panel's pivots, then the rows below: A12 = L11^-1 A12, A22 -= L21 A12.
-        within = _inverse_of_unit_lower(factors[: len(found)])
+        within = _inverse_of_unit_lower(factors[: len(new_pivots)])
         matrix[top:done, right:] = modular_product(within, matrix[top:done, right:])
         for start in range(done, len(rows), _STRIPE):
             stripe = slice(start, start + _STRIPE)
             less = modular_product(factors[start - top : start - top + _STRIPE], matrix[top:done, right:])
             matrix[stripe, right:] = (matrix[stripe, right:] - less) % P
-    out = []
+    reduced = []
     for top, k in enumerate(pivots):
         others = k + 1 + np.flatnonzero(matrix[top, k + 1 :])
         scale = modular_inverse(int(matrix[top, k]))
-        out.append((int(columns[k]), columns[others], matrix[top, others] * scale % P))
-    return out
+        reduced.append((int(columns[k]), columns[others], matrix[top, others] * scale % P))
+    return reduced
 
 
 def _panel(matrix: NDArray[np.int64], top: int, left: int, right: int) -> tuple[list[int], NDArray[np.int64]]:
@@ -211,11 +211,11 @@ def _panel(matrix: NDArray[np.int64], top: int, left: int, right: int) -> tuple[
     pivots: list[int] = []
     for k in range(right - left):
         done = len(pivots)
-        found = np.flatnonzero(work[done:, k])
-        if len(found) == 0:
+        nonzero = np.flatnonzero(work[done:, k])
+        if len(nonzero) == 0:
             continue
-        if found[0]:
-            swap, back = [done, done + found[0]], [done + found[0], done]
+        if nonzero[0]:
+            swap, back = [done, done + nonzero[0]], [done + nonzero[0], done]
             work[swap], factors[swap] = work[back], factors[back]
             matrix[[top + i for i in swap]] = matrix[[top + i for i in back]]
         below = done + 1 + np.flatnonzero(work[done + 1 :, k])
@@ -231,10 +231,10 @@ def _panel(matrix: NDArray[np.int64], top: int, left: int, right: int) -> tuple[
 
 def _inverse_of_unit_lower(factors: NDArray[np.int64]) -> NDArray[np.int64]:
     """The inverse of the lower triangular matrix with ones on the diagonal and these factors below it."""
-    out = np.eye(len(factors), dtype=np.int64)
+    inverse = np.eye(len(factors), dtype=np.int64)
     for i in range(1, len(factors)):
-        out[i, :i] = -modular_product(factors[i : i + 1, :i], out[:i, :i])[0] % P
-    return out
+        inverse[i, :i] = -modular_product(factors[i : i + 1, :i], inverse[:i, :i])[0] % P
+    return inverse
 
 
 def random_solutions(form: Echelon, number: int) -> NDArray[np.int64]:
@@ -268,7 +268,7 @@ def null_space_by_column(form: Echelon) -> dict[int, Support] | None:
     """
     taken = {pivot for pivot, _, _ in form.pivots}
     free = [c for c in range(form.columns) if c not in taken]
-    out = {c: (np.array([k], np.int64), np.ones(1, np.int64)) for k, c in enumerate(free)}
+    entries_by_column = {c: (np.array([k], np.int64), np.ones(1, np.int64)) for k, c in enumerate(free)}
     if len(free) * form.rank <= _DENSE_BASIS:
         basis = np.zeros((form.rank, len(free)), np.int64)
         place = np.zeros(form.columns, np.int64)
@@ -283,8 +283,8 @@ def null_space_by_column(form: Echelon) -> dict[int, Support] | None:
             basis[k] = -basis[k] % P
             members = np.flatnonzero(basis[k])
             if len(members):
-                out[pivot] = members, basis[k, members]
-        return out
+                entries_by_column[pivot] = members, basis[k, members]
+        return entries_by_column
     sparse = {c: {k: 1} for k, c in enumerate(free)}
     left = _SPARSE_STEPS
     for pivot, columns, values in reversed(form.pivots):
@@ -298,8 +298,8 @@ def null_space_by_column(form: Echelon) -> dict[int, Support] | None:
         entries = {k: x for k, x in sorted(entries.items()) if x}
         if entries:
             sparse[pivot] = entries
-            out[pivot] = _arrays(list(entries.items()))
-    return out
+            entries_by_column[pivot] = _arrays(list(entries.items()))
+    return entries_by_column
 
 
 def null_space(form: Echelon) -> NDArray[np.int64]:
@@ -334,11 +334,11 @@ def reduced_echelon(matrix: NDArray[np.int64]) -> NDArray[np.int64]:
     for k in range(work.shape[1]):
         if top == len(work):
             break
-        found = work[top:, k].nonzero()[0]
-        if len(found) == 0:
+        nonzero = work[top:, k].nonzero()[0]
+        if len(nonzero) == 0:
             continue
-        if found[0]:
-            work[[top, top + found[0]]] = work[[top + found[0], top]]
+        if nonzero[0]:
+            work[[top, top + nonzero[0]]] = work[[top + nonzero[0], top]]
         work[top] = work[top] * modular_inverse(int(work[top, k])) % P
         others = work[:, k].nonzero()[0]
         others = others[others != top]
@@ -365,7 +365,7 @@ def left_null_spaces(matrices: list[NDArray[np.int64]]) -> list[NDArray[np.int64
     >>> [len(kernel) for kernel in left_null_spaces([np.array([[1], [2]]), np.array([[0, 0], [0, 0]])])]
     [1, 2]
     """
-    out: list[NDArray[np.int64]] = [np.zeros((0, 0), np.int64)] * len(matrices)
+    bases: list[NDArray[np.int64]] = [np.zeros((0, 0), np.int64)] * len(matrices)
     by_width: dict[int, list[int]] = {}
     for k, matrix in enumerate(matrices):
         # Columns of zeros change no kernel, and so widths that are nearly equal go together.
@@ -375,7 +375,7 @@ def left_null_spaces(matrices: list[NDArray[np.int64]]) -> list[NDArray[np.int64
         chunk = max(1, _CHUNK // (height * (width + height)))
         if min(len(members), chunk) < _FEW:
             for k in members:
-                out[k] = left_null_space(matrices[k])
+                bases[k] = left_null_space(matrices[k])
             continue
         for start in range(0, len(members), chunk):
             some = members[start : start + chunk]
@@ -386,8 +386,8 @@ def left_null_spaces(matrices: list[NDArray[np.int64]]) -> list[NDArray[np.int64
             _reduce_side_by_side(both)
             kernels: NDArray[np.bool_] = ~np.any(both[:, :, :width], axis=2)
             for k, whole, rows in zip(some, both, kernels, strict=True):
-                out[k] = whole[rows, width:]
-    return out
+                bases[k] = whole[rows, width:]
+    return bases
 
 
 def _reduce_side_by_side(stack: NDArray[np.int64]) -> None:
@@ -416,12 +416,12 @@ def _inverses(values: NDArray[np.int64]) -> NDArray[np.int64]:
     """1/a modulo P for each entry, by Fermat's little theorem: P - 2 has ones in all its 31 bits but the second."""
     if len(values) < _FEW_INVERSES:
         return np.array([modular_inverse(value) for value in values.tolist()], np.int64)
-    out = np.ones_like(values)
+    inverses = np.ones_like(values)
     for bit in range(30, -1, -1):
-        out = out * out % P
+        inverses = inverses * inverses % P
         if P - 2 >> bit & 1:
-            out = out * values % P
-    return out
+            inverses = inverses * values % P
+    return inverses
 
 
 def modular_product(a: NDArray[np.int64], b: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -430,15 +430,15 @@ def modular_product(a: NDArray[np.int64], b: NDArray[np.int64]) -> NDArray[np.in
     >>> modular_product(np.array([[P - 1, 2]]), np.array([[3], [5]]))
     array([[7]])
     """
-    out: NDArray[np.int64]
+    product: NDArray[np.int64]
     if a.size * b.shape[1] < _SMALL_PRODUCT:
-        out = (a @ (b >> 16) % P * 65536 + a @ (b & 0xFFFF)) % P
-        return out
+        product = (a @ (b >> 16) % P * 65536 + a @ (b & 0xFFFF)) % P
+        return product
     # Halves of 16 bits: products of doubles are exact below 2^53, whatever the order of their sums.
     a1, a0, b1, b0 = (half.astype(np.float64) for half in (a >> 16, a & 0xFFFF, b >> 16, b & 0xFFFF))
     high, low = a1 @ b1, a0 @ b0
     middle = (a1 + a0) @ (b1 + b0) - high - low
-    out = high.astype(np.int64) % P * 2  # 2^32 = 2 modulo P
-    out += middle.astype(np.int64) % P * 65536
-    out += low.astype(np.int64)
-    return out % P
+    product = high.astype(np.int64) % P * 2  # 2^32 = 2 modulo P
+    product += middle.astype(np.int64) % P * 65536
+    product += low.astype(np.int64)
+    return product % P

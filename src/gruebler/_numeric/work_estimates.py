@@ -8,7 +8,7 @@ an orthonormalisation of n rows 2 n^2 us; a graph of the enumeration about 300 u
 from __future__ import annotations
 
 from gruebler._numeric.motion.program import Program
-from gruebler._numeric.motion.sweep import swept_links
+from gruebler._numeric.motion.sweep import SWEPT_ROWS, swept_links
 
 __all__ = [
     "census",
@@ -30,7 +30,7 @@ __all__ = [
 def walking(program: Program, rows: int, order: int) -> float:
     """`motion.walk` over so many rows, with so many derivatives."""
     operations, conditions = len(program.operations), len(program.kinds)
-    if rows > 8 and swept_links(program):
+    if rows > SWEPT_ROWS and swept_links(program):
         return 1e-3 + 4e-6 * rows * operations
     unknowns = 3 * len(program.roots)
     dearer = 1 + order / 3

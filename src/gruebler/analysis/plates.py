@@ -99,7 +99,7 @@ def plates_of(motion: Motion) -> Plates:
     lower = motion.lower_linkage
     chain = lower.mechanism.chain
     for joint in chain.joints:
-        if joint.pair.name not in ("revolute", "prismatic"):
+        if not joint.pair.is_basic:
             raise LinkageError("plates turn or slide against each other; {joint} cannot join them", joint=joint)
     blocks = _blocks(lower, motion.linkage.mechanism.chain.links)
     links = [link for link in chain.links if link not in blocks]
@@ -120,7 +120,7 @@ def plates_of(motion: Motion) -> Plates:
 
     for number, joint in enumerate(chain.joints):
         elements = {link: lower.elements[number, link] for link in joint.links if link not in blocks}
-        if joint.pair.name == "revolute":
+        if joint.pair.is_revolute:
             slide = next((blocks[link] for link in joint.links if link in blocks), None)
             add({link: complex(pin.x, pin.y) for link, pin in elements.items()}, slide)
         elif number not in blocks.values():
@@ -145,17 +145,17 @@ def _blocks(lower: Linkage, named: Sequence[str]) -> dict[str, int]:
     links on one slide that is the block which is no link of the linkage itself.
     """
     mechanism = lower.mechanism
-    found: dict[str, int] = {}
+    blocks: dict[str, int] = {}
     busy = {mechanism.frame, *(point.link for point in lower.points.values())}
     busy |= {link for drive in mechanism.drives if drive.turning for link in drive.between}
     joints = mechanism.chain.joints
     for link in sorted(mechanism.chain.links, key=lambda link: link in named):
         numbers = [number for number, joint in enumerate(joints) if link in joint.links]
         kinds = {joints[number].pair.name: number for number in numbers}
-        if len(numbers) != 2 or len(kinds) != 2 or link in busy or kinds["prismatic"] in found.values():
+        if len(numbers) != 2 or len(kinds) != 2 or link in busy or kinds["prismatic"] in blocks.values():
             continue
-        found[link] = kinds["prismatic"]
-    return found
+        blocks[link] = kinds["prismatic"]
+    return blocks
 
 
 def _base(lower: Linkage, slide: int, blocks: Mapping[str, int]) -> str:

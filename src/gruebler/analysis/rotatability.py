@@ -75,8 +75,8 @@ def rotatability(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | N
     R(coupler-rocker) False 79.846
     R(frame-rocker) False 79.846
     """
-    made = _circuit(linkage, branch)
-    return tuple(_row(made, *which) for which in _pairs(made.linkage))
+    traced = _circuit(linkage, branch)
+    return tuple(_row(traced, *which) for which in _pairs(traced.linkage))
 
 
 def _circuit(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None) -> Circuit:
@@ -130,20 +130,20 @@ def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None 
     >>> [role.in_language("de") for role in motion_roles(FourBar(40, 25, 40, 60).linkage()).values()]
     ['Gestell', 'Schwinge', 'Koppel', 'Schwinge']
     """
-    made = _circuit(linkage, branch)
-    mechanism = made.linkage.mechanism
-    out = dict.fromkeys(mechanism.chain.links, Role.COUPLER)
-    out[mechanism.frame] = Role.FRAME
-    for number, links, freedom in _pairs(made.linkage):
+    traced = _circuit(linkage, branch)
+    mechanism = traced.linkage.mechanism
+    roles = dict.fromkeys(mechanism.chain.links, Role.COUPLER)
+    roles[mechanism.frame] = Role.FRAME
+    for number, links, freedom in _pairs(traced.linkage):
         kind = mechanism.chain.joints[number].pair.name
         if mechanism.frame not in links or kind == "roll_slide":
             continue
         link = links[1]
         if kind != "revolute":
-            out[link] = Role.SLIDER
-        elif out[link] is not Role.SLIDER:
-            out[link] = Role.CRANK if _row(made, number, links, freedom).full else Role.ROCKER
-    return out
+            roles[link] = Role.SLIDER
+        elif roles[link] is not Role.SLIDER:
+            roles[link] = Role.CRANK if _row(traced, number, links, freedom).full else Role.ROCKER
+    return roles
 
 
 def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, bool]:
@@ -153,12 +153,12 @@ def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str]
     >>> slide_directions(SliderCrank(20, 50).linkage()), slide_directions(InvertedSliderCrank(30, 50).linkage())
     ({'P(frame-slider)': False}, {'P(coupler-block)': True})
     """
-    made = _circuit(linkage, branch)
-    chain = made.linkage.mechanism.chain
+    traced = _circuit(linkage, branch)
+    chain = traced.linkage.mechanism.chain
     return {
-        name: float(np.ptp(made.angle(joint.links[0]))) > _STEADY
+        name: float(np.ptp(traced.angle(joint.links[0]))) > _STEADY
         for name, joint in zip(chain.joint_names(), chain.joints, strict=True)
-        if joint.pair.name == "prismatic"
+        if joint.pair.is_prismatic
     }
 
 
@@ -169,10 +169,10 @@ def drive_range(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | No
     >>> drive_range(FourBar(25, 70, 40, 70).linkage()).full
     True
     """
-    made = _circuit(linkage, branch)
-    if not made.drive_limits:
-        low, high = sorted(made.drive[[0, -1]].tolist())
-        full = made.closed and round((high - low) / (2 * pi)) != 0
+    traced = _circuit(linkage, branch)
+    if not traced.drive_limits:
+        low, high = sorted(traced.drive[[0, -1]].tolist())
+        full = traced.closed and round((high - low) / (2 * pi)) != 0
         return DriveRange(full or high - low >= 2 * pi - _ROUND, low, high)
-    stretch = next(s for s in made.monotone_pieces if s.start <= made.start <= s.end)
-    return DriveRange(False, *sorted(stretch.drives))
+    piece = next(s for s in traced.monotone_pieces if s.start <= traced.start <= s.end)
+    return DriveRange(False, *sorted(piece.drives))

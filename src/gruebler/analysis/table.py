@@ -71,12 +71,12 @@ def motion_table(
     linkage, mechanism = motion.linkage, motion.linkage.mechanism
     asked: Sequence[str | Output | None] = outputs or linkage.outputs or [None]
     seen = [each if isinstance(each, Output) else find_output(linkage, each) for each in asked]
-    out = []
+    columns = []
     for k, (name, drive) in enumerate(
         zip(mechanism.drive_names(Alphabet.of_language(lang)), mechanism.drives, strict=True)
     ):
         turning = drive.turning
-        out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
+        columns.append(_scaled(name, turning, linkage, motion.drives[:, k]))
     turning = mechanism.drives[0].turning
     per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
     orders = range(1, motion.order + 1) if motion.order >= 2 else ()
@@ -101,8 +101,8 @@ def motion_table(
         speed, acceleration = solved
         with np.errstate(divide="ignore", invalid="ignore"):  # a drive that rests says nothing about them
             slope = track(1) / speed
-            found = slope if order == 1 else (track(2) - slope * acceleration) / speed**2
-        return np.where(speed == 0, np.nan, found)
+            derivative = slope if order == 1 else (track(2) - slope * acceleration) / speed**2
+        return np.where(speed == 0, np.nan, derivative)
 
     noise = (1e-12,) * 4
     if any(isinstance(element, CamDisc | GenevaDriver | NonCircular) for element in linkage.elements.values()):
@@ -110,31 +110,31 @@ def motion_table(
     usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
     for output in seen:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
-        out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
+        columns.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
         for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
             name, usually = f"{output.name}{'′' * order}", natural / unit**order
             values = by_drive(order, partial(output.values, motion))
-            out.append(Column(name, _by(own, per, order), values, usually, noise[order]))
+            columns.append(Column(name, _by(own, per, order), values, usually, noise[order]))
         for order in orders if timed else ():
             name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
             values = in_time(order, partial(output.values, motion))
             usually = natural * usual[order - 1] / unit**order
-            out.append(Column(name, f"{own}/{_seconds(order)}", values, usually, noise[order]))
+            columns.append(Column(name, f"{own}/{_seconds(order)}", values, usually, noise[order]))
     if transmission is not None:
         angle = transmission_angle(motion, transmission)
-        out.append(Column(translate("transmission angle", lang), "°", angle * _DEGREES, _DEGREES))
+        columns.append(Column(translate("transmission angle", lang), "°", angle * _DEGREES, _DEGREES))
     for name in points:
         at = motion.point(name)
-        out += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
+        columns += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
         for order in orders:
             values = in_time(order, partial(motion.point, name))
             written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
             natural = linkage.size * usual[order - 1] / unit**order
-            out += [
+            columns += [
                 Column(f"{name} {axis}", written, values[:, k], natural, noise[order])
                 for k, axis in enumerate(_RATES[order - 1])
             ]
-    return Table(tuple(out))
+    return Table(tuple(columns))
 
 
 def _drive_rates(motion: Motion) -> tuple[Reals, Reals] | None:

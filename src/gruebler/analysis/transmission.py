@@ -118,11 +118,11 @@ def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
     outer, inner = ([(n, m) for n, m in joints if m.outer == side] for side in (True, False))
     if len(outer) != 1 or len(inner) != 1:
         return None
-    if any(member.pair.name not in ("revolute", "prismatic") for _, member in joints):
+    if any(not member.pair.is_basic for _, member in joints):
         return None  # a wheel or cam
     links = _bodies(group)
     other = next(k for k in inner[0][1].links if k != body)
-    form = "".join("R" if m.pair.name == "revolute" else "P" for _, m in (outer[0], inner[0]))
+    form = "".join(m.pair.symbol() for _, m in (outer[0], inner[0]))
     pushed = _element(plan, inner[0][0], links[other])[0]
     return PushingLink(
         group.bodies[body],
@@ -141,7 +141,7 @@ def _guide(plan: Plan, group: SolvedGroup, body: int) -> tuple[str, Element] | N
     if len(held) != 1 or len(at_frame) != 1:
         return None
     number, member = at_frame[0]
-    return ("R" if member.pair.name == "revolute" else "P"), _element(plan, number, (frame,))
+    return member.pair.symbol(), _element(plan, number, (frame,))
 
 
 def _element(plan: Plan, joint: int, links: tuple[str, ...]) -> Element:

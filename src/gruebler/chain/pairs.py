@@ -155,6 +155,31 @@ class Pair:
     """Whether relative motions compose to motions of the same kind, so that more than two links can share it."""
 
     @property
+    def is_revolute(self) -> bool:
+        """Whether it is the turning pair."""
+        return self.name == "revolute"
+
+    @property
+    def is_prismatic(self) -> bool:
+        """Whether it is the sliding pair."""
+        return self.name == "prismatic"
+
+    @property
+    def is_basic(self) -> bool:
+        """Whether it turns or slides: the pairs of the linkages that are solved; others are replaced by these."""
+        return self.is_revolute or self.is_prismatic
+
+    @property
+    def is_rolling(self) -> bool:
+        """Whether it rolls without slip."""
+        return self.name == "rolling"
+
+    @property
+    def is_roll_slide(self) -> bool:
+        """Whether it rolls and slides, as a pin in a slot does."""
+        return self.name == "roll_slide"
+
+    @property
     def title(self) -> PairTitle:
         """Its full name, for messages."""
         return PairTitle(self.name)

@@ -12,7 +12,7 @@ from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError
 from gruebler.forces.loads import Wrench
 from gruebler.kinematics import Motion
-from gruebler.linkages import Line
+from gruebler.linkages.elements import direction
 
 __all__ = ["JointConnection", "Reactions", "joint_connections", "reactions"]
 
@@ -47,14 +47,14 @@ def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     chain = motion.lower_linkage.mechanism.chain
     out = []
     for number, joint in enumerate(chain.joints):
-        if joint.pair.name not in ("revolute", "prismatic"):
+        if not joint.pair.is_basic:
             raise LinkageError(
                 "joint forces are those of turning and sliding joints, but {joint} is none",
                 joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:
             one = chain.links.index(joint.links[0])
-            out.append(JointConnection(number, one, chain.links.index(other), joint.pair.name == "prismatic"))
+            out.append(JointConnection(number, one, chain.links.index(other), joint.pair.is_prismatic))
     return tuple(out)
 
 
@@ -148,7 +148,7 @@ def _meeting(motion: Motion, joint: int, one: str, other: str, rows: slice) -> t
     links, near, far = lower.mechanism.chain.links, lower.elements[joint, one], lower.elements[joint, other]
     k, m = links.index(one), links.index(other)
     at = (motion.places[0, rows, m] + motion.turns[rows, m] * complex(far.x, far.y)) / lower.size
-    return at, motion.turns[rows, k] * (rect(1, near.angle) if isinstance(near, Line) else 1)
+    return at, motion.turns[rows, k] * rect(1, direction(near))
 
 
 def _loads(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reals:

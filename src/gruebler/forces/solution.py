@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from gruebler.arrays import Flags, Reals
+from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError, expect
 from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connections, reactions
 from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
@@ -19,7 +20,6 @@ from gruebler.text import Message, joined, message
 
 __all__ = ["Statics", "statics"]
 
-_TWO_IN_PLACE_OF_ONE = ("roll_slide", "double_slide")
 _SINGULAR = message(
     "At the drive values {values} the joint forces are not determined: the links are not held there (a limit of the "
     "drive, or a change point)."
@@ -139,16 +139,18 @@ class Statics(Brief):
         return number, link
 
     def _signs(self, number: int, link: str) -> list[tuple[int, int]]:
-        """The contacts of a joint on a link, with +1 where it is the other link."""
-        joints, first = self.motion.linkage.mechanism.chain.joints, 0
-        for joint in joints[:number]:
-            first += 2 if joint.pair.name in _TWO_IN_PLACE_OF_ONE else 1
-        mine = range(first, first + (2 if joints[number].pair.name in _TWO_IN_PLACE_OF_ONE else 1))
+        """The contacts of a joint on a link, with +1 where it is the other link.
+
+        A joint of two freedoms stands for two lower joints, one after the other, in the linkage that is solved.
+        """
+        freedoms = [joint.pair.f(Space.PLANAR) for joint in self.motion.linkage.mechanism.chain.joints]
+        first = sum(freedoms[:number])
+        lower = range(first, first + freedoms[number])
         k = self.motion.link_index(link)
         return [
             (at, 1 if contact.other == k else -1)
             for at, contact in enumerate(self._contacts)
-            if contact.joint in mine and k in (contact.one, contact.other)
+            if contact.joint in lower and k in (contact.one, contact.other)
         ]
 
     @cached_property

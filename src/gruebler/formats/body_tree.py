@@ -41,7 +41,7 @@ class BodyTree:
             for other in joint.links:
                 if other != centre:
                     first = number in driven and other == driven[number][1]
-                    edges.append((0 if first else 1 if joint.pair.name == "prismatic" else 2, number, centre, other))
+                    edges.append((0 if first else 1 if joint.pair.is_prismatic else 2, number, centre, other))
         sets = DisjointSets(mechanism.chain.links)
         self.tree: dict[str, list[tuple[int, str]]] = {link: [] for link in mechanism.chain.links}
         self.closing: list[tuple[int, str, str]] = []

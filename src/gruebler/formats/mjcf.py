@@ -112,7 +112,7 @@ class _Model(BodyTree):
         if number not in self.signs:
             self.signs[number] = -1 if drive is not None and drive.between[0] == child else 1
         motor = "" if drive is None else f' armature="{self._inertia(drive)!r}"'
-        if joint.pair.name == "revolute":
+        if joint.pair.is_revolute:
             return f'<joint name={name} type="hinge" axis="0 0 1" pos="{self._at(element.x, element.y)}"{motor}/>'
         angle = direction(element)
         return f'<joint name={name} type="slide" axis="{cos(angle)!r} {sin(angle)!r} 0"{motor}/>'

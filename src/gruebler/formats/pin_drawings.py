@@ -357,7 +357,7 @@ def lower_linkage(linkage: Linkage) -> Linkage:
     """The linkage with turning and sliding joints only and a reference pose; `LinkageError` if it has others."""
     lower = with_lower_pairs(_posed(linkage))
     for joint in lower.mechanism.chain.joints:
-        if joint.pair.name not in ("revolute", "prismatic"):
+        if not joint.pair.is_basic:
             raise LinkageError("the format holds turning and sliding joints only, not {joint}", joint=joint)
     return lower
 

@@ -21,11 +21,11 @@ __all__ = ["curvature_columns", "pole_columns", "pole_list"]
 
 def pole_columns(motion: Motion, lang: str = "en") -> list[Column]:
     """The pole of each pair of links (x, y), and its direction if it lies at infinity in some row."""
-    found, unit = poles(motion, motion.linkage.mechanism.chain.links), motion.linkage.unit
+    centres, unit = poles(motion, motion.linkage.mechanism.chain.links), motion.linkage.unit
     columns = []
-    for first, second in combinations(found.links, 2):
+    for first, second in combinations(centres.links, 2):
         name = translate("pole {links}", lang, links=f"{first}/{second}")
-        at, towards = found.of(first, second), found.towards(first, second)
+        at, towards = centres.of(first, second), centres.towards(first, second)
         columns += _place_columns(name, unit, at)
         if np.isfinite(towards).any():
             direction = translate("{name} direction", lang, name=name)
@@ -35,10 +35,10 @@ def pole_columns(motion: Motion, lang: str = "en") -> list[Column]:
 
 def pole_list(motion: Motion, row: int, lang: str = "en") -> tuple[list[str], list[list[str]]]:
     """Headers and rows of a table of all poles at one row."""
-    found, unit = poles(motion, motion.linkage.mechanism.chain.links), motion.linkage.unit
+    centres, unit = poles(motion, motion.linkage.mechanism.chain.links), motion.linkage.unit
     rows = []
-    for first, second in combinations(found.links, 2):
-        at, towards = found.of(first, second)[row], found.towards(first, second)[row]
+    for first, second in combinations(centres.links, 2):
+        at, towards = centres.of(first, second)[row], centres.towards(first, second)[row]
         if np.isfinite(at):
             place = numbers((at.real, at.imag), lang, "z.6f")
         elif np.isfinite(towards):
@@ -101,4 +101,4 @@ def _floating(linkage: Linkage) -> list[str]:
 def _pivoted(linkage: Linkage, link: str) -> bool:
     """Whether a link is the frame, or turns about a point of it."""
     frame, joints = linkage.mechanism.frame, linkage.mechanism.chain.joints
-    return link == frame or any(j.pair.name == "revolute" and {link, frame} <= set(j.links) for j in joints)
+    return link == frame or any(j.pair.is_revolute and {link, frame} <= set(j.links) for j in joints)

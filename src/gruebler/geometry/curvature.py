@@ -140,8 +140,8 @@ def _change(seen: RelativeMotion, arm: complex, speed: Reals, bend: Reals) -> Re
         return None
     velocity, acceleration, jerk = (seen.complex_point(arm, k) for k in (1, 2, 3))
     faster = (np.conj(velocity) * acceleration).real / speed
-    out: Reals = ((np.conj(velocity) * jerk).imag - 3 * bend * faster / speed) / speed**4
-    return out
+    change: Reals = ((np.conj(velocity) * jerk).imag - 3 * bend * faster / speed) / speed**4
+    return change
 
 
 def _moving(motion: Motion, name: str, reference: str | None) -> LinkPoint:

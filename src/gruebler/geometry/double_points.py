@@ -65,21 +65,21 @@ def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tu
     z, w = point_path.at(crossing.one, 1), point_path.at(crossing.other, 1)
     sine = np.abs(_cross(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
     crossed &= (np.abs(z[0] - w[0]) <= _CLOSED * point_path.size) & (sine > _FLAT) & _apart(point_path, crossing)
-    found = _told(point_path, crossing.pick(crossed), touching=False)
+    points = _double_points(point_path, crossing.pick(crossed), touching=False)
     rest = near.pick(~crossed)
     if len(rest.one):
         touch, touched = _newton(point_path, rest, _touching_step)
         gap = np.abs(point_path.at(touch.one, 0)[0] - point_path.at(touch.other, 0)[0])
         touched &= (gap <= _TOUCH * point_path.size) & _apart(point_path, touch)
-        touches = _told(point_path, touch.pick(touched), touching=True)
+        touches = _double_points(point_path, touch.pick(touched), touching=True)
         if len(touches) > _MOST_TOUCHES:
             return None
-        found += [
+        points += [
             double_point
             for double_point in touches
-            if not any(_equal(point_path, double_point.drives, other.drives) for other in found)
+            if not any(_equal(point_path, double_point.drives, other.drives) for other in points)
         ]
-    return tuple(sorted(found))
+    return tuple(sorted(points))
 
 
 # --- sides that come near to one another ---------------------------------------------------------------
@@ -118,10 +118,10 @@ def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Re
     best = np.where(inside, 0.0, np.inf)
     t, u = np.where(inside, t, 0.0), np.where(inside, u, 0.0)
     for end, side, swap in ((p, 0.0, False), (q, 1.0, False), (a, 0.0, True), (b, 1.0, True)):
-        start, way = (p, one) if swap else (a, other)
-        square = np.maximum(np.abs(way) ** 2, 1e-300)
-        foot = np.clip((np.conj(way) * (end - start)).real / square, 0, 1)
-        gap = np.abs(end - start - foot * way)
+        start, segment = (p, one) if swap else (a, other)
+        square = np.maximum(np.abs(segment) ** 2, 1e-300)
+        foot = np.clip((np.conj(segment) * (end - start)).real / square, 0, 1)
+        gap = np.abs(end - start - foot * segment)
         nearer = gap < best
         best = np.where(nearer, gap, best)
         t, u = np.where(nearer, foot if swap else side, t), np.where(nearer, side if swap else foot, u)
@@ -187,7 +187,7 @@ def _apart(point_path: PointPath, pairs: _Pairs) -> Flags:
     return np.asarray(gap > _APART)
 
 
-def _told(point_path: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
+def _double_points(point_path: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
     """Each once."""
     if not len(pairs.one):
         return []
@@ -195,12 +195,12 @@ def _told(point_path: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePo
     angle = np.abs(np.arctan2(_cross(z[1], w[1]), _dot(z[1], w[1])))
     angle = np.minimum(angle, np.pi - angle)
     drives = np.sort(np.stack([point_path.drive(pairs.one), point_path.drive(pairs.other)]), axis=0)
-    out: list[DoublePoint] = []
+    points: list[DoublePoint] = []
     for k in np.lexsort(drives[::-1]):
         both = (float(drives[0, k]), float(drives[1, k]))
-        if not any(_equal(point_path, both, double_point.drives) for double_point in out):
-            out.append(DoublePoint(both, complex(z[0, k]), float(angle[k]), touching))
-    return out
+        if not any(_equal(point_path, both, double_point.drives) for double_point in points):
+            points.append(DoublePoint(both, complex(z[0, k]), float(angle[k]), touching))
+    return points
 
 
 def _equal(point_path: PointPath, one: tuple[float, float], other: tuple[float, float]) -> bool:

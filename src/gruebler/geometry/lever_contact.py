@@ -123,8 +123,8 @@ def _coupler(size: FourBar | InvertedSliderCrank, to_b0: Complexes, side: int, w
     """The unit vector along the coupler, from the vector A to B0."""
     square = _times(to_b0, np.conj(to_b0))
     if isinstance(size, InvertedSliderCrank):
-        way = side * _root(_plus(square, -(size.e**2)), where)
-        return _over(to_b0, _plus(way, 1j * size.e))
+        contact = side * _root(_plus(square, -(size.e**2)), where)
+        return _over(to_b0, _plus(contact, 1j * size.e))
     b, c = size.b, size.c
     area = _root(_times(_plus(-square, (b + c) ** 2), _plus(square, -((b - c) ** 2))), where)
     return _over(_times(to_b0, _plus(square + 1j * side * area, b**2 - c**2)), 2 * b * square)
@@ -134,9 +134,9 @@ def _coupler(size: FourBar | InvertedSliderCrank, to_b0: Complexes, side: int, w
 
 
 def _plus(a: Complexes, constant: complex) -> Complexes:
-    out = a.copy()
-    out[0] += constant
-    return out
+    total = a.copy()
+    total[0] += constant
+    return total
 
 
 def _times(a: Complexes, b: Complexes) -> Complexes:
@@ -144,18 +144,18 @@ def _times(a: Complexes, b: Complexes) -> Complexes:
 
 
 def _over(a: Complexes, b: Complexes) -> Complexes:
-    out = np.zeros_like(a)
+    quotient = np.zeros_like(a)
     for n in range(len(a)):
-        out[n] = (a[n] - out[:n] @ b[n:0:-1]) / b[0]
-    return out
+        quotient[n] = (a[n] - quotient[:n] @ b[n:0:-1]) / b[0]
+    return quotient
 
 
 def _root(a: Complexes, where: Message) -> Complexes:
     """The square root of a real series that begins with a positive number."""
     if not a[0].real > 0:
         raise LinkageError("the output is in a dead centre or out of reach {where}", where=where)
-    out = np.zeros_like(a)
-    out[0] = math.sqrt(a[0].real)
+    root = np.zeros_like(a)
+    root[0] = math.sqrt(a[0].real)
     for n in range(1, len(a)):
-        out[n] = (a[n] - out[1:n] @ out[n - 1 : 0 : -1]) / (2 * out[0])
-    return out
+        root[n] = (a[n] - root[1:n] @ root[n - 1 : 0 : -1]) / (2 * root[0])
+    return root

@@ -71,9 +71,9 @@ class SymmetricRocker:
     def pins(self) -> tuple[complex, complex, complex, complex]:
         """A0, A, B, B0 in the position of symmetry, in coordinates t + in with the pole at 0."""
         ray = complex(-math.cos(self.phi0), math.sin(self.phi0))
-        way = self.ratio * self.diameter / math.sin(self.phi0)
-        from_pole = way - self.savary
-        a0, a = ray * from_pole, ray * way
+        from_contact = self.ratio * self.diameter / math.sin(self.phi0)
+        from_pole = from_contact - self.savary
+        a0, a = ray * from_pole, ray * from_contact
         return a0, a, -a.conjugate(), -a0.conjugate()
 
     @property
@@ -155,21 +155,21 @@ def symmetric_rocker(ratio: float, phi0: float | None = None, diameter: float = 
     return _sound(SymmetricRocker(place, angle, length))
 
 
-def _sound(made: SymmetricRocker) -> SymmetricRocker:
+def _sound(rocker: SymmetricRocker) -> SymmetricRocker:
     """The same, unless its proportions run away."""
-    if abs(made.ratio - math.sin(made.phi0) ** 2) < 1e-9:
+    if abs(rocker.ratio - math.sin(rocker.phi0) ** 2) < 1e-9:
         raise LinkageError("the rockers have no finite length: sin^2 phi0 = lambda")
-    a0, a, b, b0 = made.pins
+    a0, a, b, b0 = rocker.pins
     lengths = abs(a - a0), abs(b - a), abs(b0 - a0)
     if not max(lengths) < _WIDEST * min(lengths):
         raise LinkageError(
             "lambda = {ratio:.9g} and phi0 = {phi0:.9g} degrees make no linkage that can be built: its links "
             "differ more than {widest:g}-fold in length",
-            ratio=made.ratio,
-            phi0=math.degrees(made.phi0),
+            ratio=rocker.ratio,
+            phi0=math.degrees(rocker.phi0),
             widest=_WIDEST,
         )
-    return made
+    return rocker
 
 
 def lambdas_for(kappa: float) -> tuple[float, ...]:
@@ -186,7 +186,7 @@ def lambdas_for(kappa: float) -> tuple[float, ...]:
     """
     angle = as_finite("kappa", kappa)
     both = [0.5 + math.cos((math.pi + side * angle) / 3) for side in (2, -2)]
-    found = tuple(dict.fromkeys(value for value in both if _LEAST <= value <= _MOST))
-    if not 0 <= angle < math.pi / 2 or not found:
+    lambdas = tuple(dict.fromkeys(value for value in both if _LEAST <= value <= _MOST))
+    if not 0 <= angle < math.pi / 2 or not lambdas:
         raise LinkageError("kappa must lie from 0 to 88.78 degrees, not {angle:.9g} degrees", angle=math.degrees(angle))
-    return found
+    return lambdas

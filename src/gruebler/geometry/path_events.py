@@ -102,12 +102,12 @@ def cusps(point_path: PointPath) -> tuple[Cusp, ...]:
 
     usual = _usual(point_path)
     zeros = find_zeros(slowing, point_path.grid, _LEAST * usual**2)
-    out = []
+    cusps = []
     for zero, z in _seen(point_path, zeros):
         if abs(z[1]) <= _STILL * usual:
             sine = abs(_cross(z[2], z[3])) / (abs(z[2]) * max(abs(z[3]), abs(z[2])) or 1.0)
-            out.append(Cusp(_drive(point_path, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
-    return tuple(sorted(out))
+            cusps.append(Cusp(_drive(point_path, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
+    return tuple(sorted(cusps))
 
 
 def goes_back(point_path: PointPath, cusp: Cusp) -> bool:
@@ -217,22 +217,22 @@ def _usual(point_path: PointPath) -> float:
     return max(float(np.median(np.abs(point_path.at(point_path.grid, 1)[1]))), 1e-12 * point_path.size)
 
 
-def _seen(point_path: PointPath, found: tuple[Zero, ...]) -> list[tuple[Zero, list[complex]]]:
+def _seen(point_path: PointPath, zeros: tuple[Zero, ...]) -> list[tuple[Zero, list[complex]]]:
     """Zeros with the point and its derivatives there."""
-    if not found:
+    if not zeros:
         return []
-    z = point_path.at(np.array([zero.at for zero in found]))
-    return [(zero, [complex(value) for value in z[:, k]]) for k, zero in enumerate(found)]
+    z = point_path.at(np.array([zero.at for zero in zeros]))
+    return [(zero, [complex(value) for value in z[:, k]]) for k, zero in enumerate(zeros)]
 
 
-def _away(point_path: PointPath, found: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tuple[Zero, ...]:
+def _away(point_path: PointPath, zeros: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tuple[Zero, ...]:
     period = point_path.end - point_path.start
 
     def near(zero: Zero, cusp: Cusp) -> bool:
         gap = abs(zero.at - cusp.parameter)
         return min(gap, period - gap if point_path.closed else gap) < _NEAR
 
-    return tuple(zero for zero in found if not any(near(zero, cusp) for cusp in known))
+    return tuple(zero for zero in zeros if not any(near(zero, cusp) for cusp in known))
 
 
 def _drive(point_path: PointPath, zero: Zero) -> float:

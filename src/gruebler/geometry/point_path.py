@@ -91,22 +91,22 @@ class PointPath(Brief):
         upto = 3 if beyond.any() else order
         motion = self.cycle.at(self.drive(inside), upto)
         z = [motion.complex_point(self.place, k) for k in range(upto + 1)]
-        out = _by_parameter(z, span.width / 2 * np.sin(inside), span.width / 2 * np.cos(inside))
+        derivatives = _by_parameter(z, span.width / 2 * np.sin(inside), span.width / 2 * np.cos(inside))
         for k in range(order + 1 if beyond.any() else 0):
-            out[k] = sum(out[m] * beyond ** (m - k) / factorial(m - k) for m in range(k, upto + 1))
-        return out[: order + 1]
+            derivatives[k] = sum(derivatives[m] * beyond ** (m - k) / factorial(m - k) for m in range(k, upto + 1))
+        return derivatives[: order + 1]
 
 
 def _by_parameter(z: list[Complexes], first: Reals, second: Reals) -> Complexes:
     """The derivatives by s from those by the drive q; ``first`` is dq/ds, ``second`` its derivative."""
-    out = np.array(z)
+    derivatives = np.array(z)
     if len(z) > 1:
-        out[1] = z[1] * first
+        derivatives[1] = z[1] * first
     if len(z) > 2:
-        out[2] = z[2] * first**2 + z[1] * second
+        derivatives[2] = z[2] * first**2 + z[1] * second
     if len(z) > 3:
-        out[3] = z[3] * first**3 + 3 * z[2] * first * second - z[1] * first
-    return out
+        derivatives[3] = z[3] * first**3 + 3 * z[2] * first * second - z[1] * first
+    return derivatives
 
 
 def point_path(

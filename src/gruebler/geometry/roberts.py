@@ -185,14 +185,14 @@ def cognates(
         (0j, k - a, s * b, c0),
         (b0, b0 + k - b, b0 + (1 - s) * (a - b0), c0),
     )
-    found = cognate_sizes(four_bar.a, four_bar.b, four_bar.c, four_bar.d, u, v)
+    sizes = cognate_sizes(four_bar.a, four_bar.b, four_bar.c, four_bar.d, u, v)
     first, second, third = (
         Cognate(
-            four_bar if n == 0 else FourBar(*(float(length[n]) for length in found[:4])),
-            float(found.u[n]),
-            float(found.v[n]),
+            four_bar if n == 0 else FourBar(*(float(length[n]) for length in sizes[:4])),
+            float(sizes.u[n]),
+            float(sizes.v[n]),
             pins[n],
-            complex(found.turn[n]),
+            complex(sizes.turn[n]),
             _TURNS_WITH[n],
         )
         for n in range(3)

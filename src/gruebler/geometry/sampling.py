@@ -68,15 +68,15 @@ def _bows(left: Complexes, right: Complexes, middle: Complexes, width: Reals) ->
     chord = right[0] - left[0]
     size = np.abs(chord)
     along = np.where(size > 0, chord / np.where(size > 0, size, 1), 0)
-    out = np.zeros(len(width))
+    bows = np.zeros(len(width))
     for part in (0.25, 0.5, 0.75):
         rest = 1 - part
-        way = part * part * (3 - 2 * part) * chord + part * rest * width * (rest * left[1] - part * right[1])
-        away = np.where(size > 0, np.abs((np.conj(along) * way).imag), np.abs(way))
-        out = np.maximum(out, away)
+        offset = part * part * (3 - 2 * part) * chord + part * rest * width * (rest * left[1] - part * right[1])
+        away = np.where(size > 0, np.abs((np.conj(along) * offset).imag), np.abs(offset))
+        bows = np.maximum(bows, away)
         if part == 0.5:
-            miss = np.abs(left[0] + way - middle)
-    return np.asarray(out + miss)
+            miss = np.abs(left[0] + offset - middle)
+    return np.asarray(bows + miss)
 
 
 def path_length(point_path: PointPath, samples: PathPolygon, cusps: Reals) -> tuple[float, float]:

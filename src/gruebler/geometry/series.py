@@ -11,7 +11,8 @@ import numpy as np
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
-from gruebler.linkages import Line, Linkage, LinkPoint
+from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages.elements import direction
 
 __all__ = ["TaylorSeries", "taylor_series"]
 
@@ -109,14 +110,14 @@ def _conditions(lower: Linkage) -> list[_Condition]:
     chain, links = lower.mechanism.chain, lower.mechanism.chain.links
     conditions = []
     for number, joint in enumerate(chain.joints):
-        if joint.pair.name not in ("revolute", "prismatic"):
+        if not joint.pair.is_basic:
             raise LinkageError(
                 "a series is that of turning and sliding joints, but {joint} is none",
                 joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:
             ends = _ends(lower, number, joint.links[0], other)
-            kinds = ("pin",) if joint.pair.name == "revolute" else ("angle", "across")
+            kinds = ("pin",) if joint.pair.is_revolute else ("angle", "across")
             conditions += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
     drive = lower.mechanism.drives[0]
     first, second = lower.reference(0)
@@ -134,7 +135,7 @@ def _solved(jacobian: Reals, right: Reals) -> Reals:
 
 def _ends(lower: Linkage, joint: int, one: str, other: str) -> tuple[complex, complex, complex]:
     near, far = lower.elements[joint, one], lower.elements[joint, other]
-    line = rect(1, near.angle) if isinstance(near, Line) else 1 + 0j
+    line = rect(1, direction(near))
     return complex(near.x, near.y) / lower.size, complex(far.x, far.y) / lower.size, line
 
 

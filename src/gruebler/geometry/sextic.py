@@ -51,12 +51,12 @@ class CouplerSextic:
         >>> found[6, 0], found[4, 2], found[2, 4], found[0, 6]  # (x^2 + y^2)^3
         (np.float64(1.0), np.float64(3.0), np.float64(3.0), np.float64(1.0))
         """
-        out = np.zeros((7, 7), np.complex128)
+        coefficients = np.zeros((7, 7), np.complex128)
         for (i, j), factor in np.ndenumerate(self.hermitian):
             for m in range(i + 1):
                 for n in range(j + 1):
-                    out[i + j - m - n, m + n] += factor * comb(i, m) * comb(j, n) * 1j**m * (-1j) ** n
-        return out.real
+                    coefficients[i + j - m - n, m + n] += factor * comb(i, m) * comb(j, n) * 1j**m * (-1j) ** n
+        return coefficients.real
 
 
 def coupler_sextic(four_bar: FourBar, u: float, v: float) -> CouplerSextic:
@@ -97,10 +97,10 @@ def coupler_sextic(four_bar: FourBar, u: float, v: float) -> CouplerSextic:
 
 def _times(p: Complexes, q: Complexes) -> Complexes:
     """The product of two polynomials in K and its conjugate, as arrays [i, j] of coefficients."""
-    out = np.zeros((p.shape[0] + q.shape[0] - 1, p.shape[1] + q.shape[1] - 1), np.complex128)
+    product = np.zeros((p.shape[0] + q.shape[0] - 1, p.shape[1] + q.shape[1] - 1), np.complex128)
     for (i, j), factor in np.ndenumerate(p):
-        out[i : i + q.shape[0], j : j + q.shape[1]] += factor * q
-    return out
+        product[i : i + q.shape[0], j : j + q.shape[1]] += factor * q
+    return product
 
 
 def _conjugate(p: Complexes) -> Complexes:

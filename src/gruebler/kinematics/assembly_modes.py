@@ -173,21 +173,24 @@ class GroupSolver:
 
     def __init__(self, group: GroupConditions) -> None:
         from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.closure import closing
-        from gruebler._numeric.motion.newton import newton
+        from gruebler._numeric.motion.closure import Conditions, closing
+        from gruebler._numeric.motion.newton import new_newton_scratch, newton
         from gruebler._numeric.work_estimates import closing_work, newton_work
 
         self.size, n = group.size, 3 * group.bodies
         self._group = group
-        self._arguments = (
-            group.kinds,
-            np.zeros((len(group.kinds), 8)),
-            np.zeros((0, 14)),
-            group.owners,
-            group.points.reshape(-1, 1),
-            group.lines,
+        self._conditions = Conditions(
+            kinds=group.kinds,
+            values=np.zeros((len(group.kinds), 8)),
+            pieces=np.zeros((0, 14)),
+            owners=group.owners,
+            points=group.points.reshape(-1, 1),
+            lines=group.lines,
+            spins=np.zeros((0, 3)),
+            size=group.size,
         )
-        self._residual, self._jacobian, self._pivots = np.zeros(n), np.zeros((n, n)), np.zeros(n, np.int64)
+        self._scratch = new_newton_scratch(n)
+        self._residual, self._jacobian = self._scratch.residual, self._scratch.jacobian
         self._closing = partial(for_work, closing, closing_work(n))
         self._newton = partial(for_work, newton, newton_work(n))
         self._widest = max(self.size, float(np.abs(group.points).max()))
@@ -200,8 +203,7 @@ class GroupSolver:
 
     def settle(self, pose: Reals) -> bool:
         """Improve a pose, in place, by Newton's method; whether it then satisfies the conditions."""
-        work = self._residual, self._jacobian
-        self._newton()(*self._arguments, pose, self.size, *work, self._pivots, _STEPS)
+        self._newton()(self._conditions, pose, _STEPS, self._scratch)
         return self._is_closed(pose)
 
     def settle_singular(self, pose: Reals) -> bool:
@@ -212,19 +214,19 @@ class GroupSolver:
         return self._is_closed(pose)
 
     def _is_closed(self, pose: Reals) -> bool:
-        gap = self._closing()(*self._arguments, pose, self.size, self._residual, self._jacobian)
+        gap = self._closing()(self._conditions, pose, self._residual, self._jacobian)
         if not gap <= _CLOSED * max(self._widest, _farthest(pose)):
             return False
         turns = np.exp(1j * np.append(pose[2::3], 0.0))
         first, second = (turns[self._group.owners] * self._group.lines).reshape(-1, 2).T
         return bool(((first.conj() * second).real > 0)[self._group.kinds == SLIDE].all())
 
-    def index_of_known(self, found: Sequence[Reals], pose: Reals) -> int:
+    def index_of_known(self, known_poses: Sequence[Reals], pose: Reals) -> int:
         """The number of the mode among those found that a pose is, -1 if it is new.
 
         Copies of a singular mode are known by the pose half way between them: it is closed, too.
         """
-        for k, known in enumerate(found):
+        for k, known in enumerate(known_poses):
             step = pose - known
             step[2::3] = np.mod(step[2::3] + np.pi, 2 * np.pi) - np.pi
             gap = np.abs(step)
@@ -252,7 +254,7 @@ class GroupSolver:
 
     def _slope(self, pose: Reals) -> tuple[Reals, Reals]:
         """The Jacobian, without unit, and the units of the pose; the residual is left behind."""
-        self._closing()(*self._arguments, pose, self.size, self._residual, self._jacobian)
+        self._closing()(self._conditions, pose, self._residual, self._jacobian)
         reach = max(self.size, _farthest(pose))
         unit = np.tile([reach, reach, 1.0], len(pose) // 3)
         return self._jacobian * (unit / self.size), unit
@@ -275,11 +277,11 @@ def _farthest(pose: Reals) -> float:
     return float(np.abs(pose.reshape(-1, 3)[:, :2]).max())
 
 
-def ordered_modes(found: Sequence[Reals], size: float, bodies: int) -> tuple[Reals, list[int]]:
+def ordered_modes(distinct: Sequence[Reals], size: float, bodies: int) -> tuple[Reals, list[int]]:
     """Poses as (modes, bodies, 3), angles in (-pi, pi], in an order that small errors do not change; and that order."""
-    if not found:
+    if not distinct:
         return np.empty((0, bodies, 3)), []
-    poses = np.array(found).reshape(-1, bodies, 3)
+    poses = np.array(distinct).reshape(-1, bodies, 3)
     top = np.pi + _BEYOND_PI
     poses[:, :, 2] = top - np.mod(top - poses[:, :, 2], 2 * np.pi)
     keys = np.concatenate([poses[:, :, 2], poses[:, :, 0] / size, poses[:, :, 1] / size], axis=1).round(5)
@@ -313,25 +315,25 @@ def search_modes(group: GroupConditions, *, seed: int = 0, patience: int = 30, m
         return flat
 
     degenerate = all(solver.is_singular(start()) for _ in range(3))
-    found: list[Reals] = []
+    distinct: list[Reals] = []
     hits: list[int] = []
     starts = arrivals = idle = 0
-    while starts < most and arrivals < patience * (len(found) + 1) and idle < 50 * patience * (len(found) + 1):
+    while starts < most and arrivals < patience * (len(distinct) + 1) and idle < 50 * patience * (len(distinct) + 1):
         starts, idle = starts + 1, idle + 1
         unknowns = start()
         if not solver.settle(unknowns):
             continue
         arrivals += 1
-        number = solver.index_of_known(found, unknowns)
+        number = solver.index_of_known(distinct, unknowns)
         if number < 0 and solver.is_singular(unknowns) and solver.moves(unknowns):
             degenerate = True
             break
         if number < 0:
-            found.append(unknowns)
+            distinct.append(unknowns)
             hits.append(0)
             arrivals = idle = 0
         hits[number] += 1
-    poses, order = ordered_modes(found, size, bodies)
-    multiplicities = tuple(2 if solver.is_singular(found[k]) else 1 for k in order)
+    poses, order = ordered_modes(distinct, size, bodies)
+    multiplicities = tuple(2 if solver.is_singular(distinct[k]) else 1 for k in order)
     method: Method = "degenerate" if degenerate else "search"
     return AssemblyModes(poses, multiplicities, method, None, starts, tuple(hits[k] for k in order))

@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +24,9 @@ from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.solve import cached_plan, move, starting_configuration
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.notebook import Brief
+
+if TYPE_CHECKING:
+    from gruebler._numeric.motion.batch import DesignPoses
 
 __all__ = ["Designs", "Motions", "designs", "four_bars", "inverted_slider_cranks", "move_many", "slider_cranks"]
 
@@ -255,6 +259,8 @@ def move_many(
     >>> motions.angle("rocker").shape, motions.complete.all()
     ((5, 100), np.True_)
     """
+    from gruebler._numeric.motion.batch import DesignPoses
+
     batch = many if isinstance(many, Designs) else designs(many)
     plan, count = batch.plan, len(batch)
     path = drive_path(plan, drives)
@@ -270,17 +276,15 @@ def move_many(
                 "there is no link {link!r}; the links are {links}", link=link, links=", ".join(chain.links)
             )
     shape = (count, len(kept), len(path))
-    results = (
+    poses = DesignPoses(
         np.empty((upto + 1, *shape), np.complex128),
         np.empty(shape, np.complex128),
         np.empty((upto, *shape)),
         np.empty(count, np.int64),
     )
-    _run(batch, path, speeds, _starts(batch, path, branch), np.array([chain.index(k) for k in kept]), results, threads)
-    places, turns, rates, reached = results  # the kernel writes the rows last
-    return Motions(
-        batch, branch, path, kept, places.swapaxes(2, 3), turns.swapaxes(1, 2), rates.swapaxes(2, 3), reached
-    )
+    _run(batch, path, speeds, _starts(batch, path, branch), np.array([chain.index(k) for k in kept]), poses, threads)
+    places, turns, rates = poses.places.swapaxes(2, 3), poses.turns.swapaxes(1, 2), poses.rates.swapaxes(2, 3)
+    return Motions(batch, branch, path, kept, places, turns, rates, poses.reached)
 
 
 def _starts(designs: Designs, path: Reals, branch: str | None) -> tuple[Reals, Reals]:
@@ -306,22 +310,20 @@ def _run(
     speeds: Reals,
     starts: tuple[Reals, Reals],
     kept: NDArray[np.int64],
-    out: tuple[Complexes, Complexes, Reals, NDArray[np.int64]],
+    poses: DesignPoses,
     threads: int | None,
 ) -> None:
-    from gruebler._numeric.motion.batch import run_designs
+    from gruebler._numeric.motion.batch import DesignInputs, run_designs
 
     program = designs.plan.program
     longest = designs.sizes[:, None] / program.size * program.most
     turning = [d.turning for d in designs.plan.lower.mechanism.drives]
     longest[:, turning] = program.most[turning]
 
-    sizes = designs.points, designs.lines, longest, designs.sizes
+    inputs = DesignInputs(designs.points, designs.lines, longest, designs.sizes, *starts)
     workers = max(1, min(threads or os.cpu_count() or 1, len(designs)))
     cuts = [len(designs) * k // workers for k in range(workers + 1)]
     with ThreadPoolExecutor(workers) as pool:
-        jobs = [
-            pool.submit(run_designs, program, sizes, path, speeds, *starts, kept, out, part) for part in pairwise(cuts)
-        ]
+        jobs = [pool.submit(run_designs, program, inputs, path, speeds, kept, poses, part) for part in pairwise(cuts)]
     for job in jobs:
         job.result()

@@ -83,7 +83,7 @@ def starting_state(
     """
     signs = np.ones(len(plan.dyads))
     unknowns = np.zeros(plan.unknowns)
-    found = 0
+    filled = 0
     for part, label in zip(labelled_groups(plan), labels, strict=False):
         if part == last:
             break
@@ -94,8 +94,8 @@ def starting_state(
         if len(modes) < int(label):
             raise Unassembled(part)
         count = 3 * len(part.roots)
-        unknowns[found : found + count] = modes[int(label) - 1].ravel()
-        found += count
+        unknowns[filled : filled + count] = modes[int(label) - 1].ravel()
+        filled += count
     return signs, unknowns
 
 
@@ -109,18 +109,18 @@ class Unassembled(Exception):
 
 def branch_of(plan: Plan, roots: Reals, unknowns: Reals, drives: Reals) -> tuple[str, ...]:
     """The labels of a pose."""
-    labels, found = [], 0
+    labels, first = [], 0
     signs = np.where(roots < 0, -1.0, 1.0)
     for part in labelled_groups(plan):
         if isinstance(part, Dyad):
             labels.append("-" if roots[part.number] < 0 else "+")
             continue
         count = 3 * len(part.roots)
-        mine = unknowns[found : found + count].reshape(-1, 3)
+        current = unknowns[first : first + count].reshape(-1, 3)
         modes = modes_of_group(plan, part, drives, signs, unknowns)
-        far = [_distance(mode, mine, plan.lower.size) for mode in modes]
+        far = [_distance(mode, current, plan.lower.size) for mode in modes]
         labels.append(str(1 + int(np.argmin(far))) if far and min(far) < _SAME else "0")
-        found += count
+        first += count
     return tuple(labels)
 
 

@@ -79,12 +79,12 @@ def _rows_around(
         k = row + 1 + int(behind[0]) if len(behind) else int(before[-1])
         start = ReferencePose(path[k], np.where(motion.roots[k] < 0, -1.0, 1.0), motion.unknowns[k])
     towards = start.drives - path[row]
-    way = speeds[0, row] if len(speeds) else towards
-    if not way.any():  # at rest: any direction does
-        way = scale
-    length = float(np.abs(way / scale).max())
-    side = -1.0 if float((towards / scale) @ (way / scale)) < 0 else 1.0
-    around = path[row] + side * _OFFSETS[:, None] * _STEP * way / length
+    velocity = speeds[0, row] if len(speeds) else towards
+    if not velocity.any():  # at rest: any direction does
+        velocity = scale
+    length = float(np.abs(velocity / scale).max())
+    side = -1.0 if float((towards / scale) @ (velocity / scale)) < 0 else 1.0
+    around = path[row] + side * _OFFSETS[:, None] * _STEP * velocity / length
     around = np.concatenate([start.drives[None] if towards.any() else around[:1], around])
     still = np.repeat(speeds[:, row : row + 1], len(around), axis=1)
     rows = run_rows(plan.program, plan, around, still, len(speeds), start.signs, start.unknowns)

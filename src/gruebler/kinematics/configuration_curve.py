@@ -25,7 +25,8 @@ from gruebler.linkages.model import NEAR_REFERENCE
 from gruebler.linkages.wheels import carriers, round_joints
 
 if TYPE_CHECKING:
-    from gruebler._numeric.motion.tracing import LoopConditions, SampleBuffer, TraceScratch
+    from gruebler._numeric.motion.closure import Conditions
+    from gruebler._numeric.motion.tracing import SampleBuffer, TraceScratch
 
 __all__ = ["ChangeSample", "ClosureSystem", "TracedCurve", "closure_system", "nearest_on_curve", "trace_circuit"]
 
@@ -57,7 +58,7 @@ class ClosureSystem:
     """The links; the arms are numbered behind them."""
     arms: tuple[tuple[tuple[int, str], tuple[int, str]], ...]
     """For each arm the wheels between which it lies, by joint and link."""
-    conditions: LoopConditions
+    conditions: Conditions
     room: TraceScratch
     equations: int
     meshes: tuple[NDArray[np.int64], NDArray[np.int64]]
@@ -84,10 +85,10 @@ class ClosureSystem:
                 for (_, link), e in zip(ends, elements, strict=True)
             ]
             rows.append(np.array([centres[0].real, centres[0].imag, phase(centres[1] - centres[0])]))
-        out = np.concatenate(rows)
+        pose = np.concatenate(rows)
         self.conditions.values[self.meshes[1], 2] = 0
-        self.conditions.values[self.meshes[1], 2] = self.linearised(out)[0][self.meshes[0]]
-        return out
+        self.conditions.values[self.meshes[1], 2] = self.linearised(pose)[0][self.meshes[0]]
+        return pose
 
     def linearised(self, x: Reals) -> tuple[Reals, Reals]:
         """Residual and Jacobian: (equations,) and (equations, unknowns)."""
@@ -140,8 +141,8 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
 
     `LinkageError` if it has more than one freedom by count.
     """
-    from gruebler._numeric.motion.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL
-    from gruebler._numeric.motion.tracing import LoopConditions, new_trace_scratch
+    from gruebler._numeric.motion.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL, Conditions
+    from gruebler._numeric.motion.tracing import new_trace_scratch
 
     chain, frame, size = lower.mechanism.chain, lower.mechanism.frame, lower.size
     bodies = tuple(link for link in chain.links if link != frame)
@@ -153,7 +154,7 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
         ends = [(number, link) for link in joint.links]
         owners = [-1 if link == frame else bodies.index(link) for link in joint.links]
         if number not in wheels:
-            kind = PIN if joint.pair.name == "revolute" else SLIDE
+            kind = PIN if joint.pair.is_revolute else SLIDE
             rows += [
                 _Row(kind, (owners[0], b), (_at(lower, ends[0]), _at(lower, e)))
                 for b, e in zip(owners[1:], ends[1:], strict=True)
@@ -189,13 +190,15 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
         rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
     ends_of = [end for row in rows for end in row.places]
     laws, pieces = law_tables([row.law for row in rows])
-    conditions = LoopConditions(
-        np.array([row.kind for row in rows], np.int64),
-        np.array([owner for row in rows for owner in row.owners], np.int64),
-        np.array([[point] for point, _ in ends_of], np.complex128),
-        np.array([line for _, line in ends_of], np.complex128),
-        np.array([(*row.values, *law) for row, law in zip(rows, laws, strict=True)]),
-        pieces,
+    conditions = Conditions(
+        kinds=np.array([row.kind for row in rows], np.int64),
+        values=np.array([(*row.values, *law) for row, law in zip(rows, laws, strict=True)]),
+        pieces=pieces,
+        owners=np.array([owner for row in rows for owner in row.owners], np.int64),
+        points=np.array([[point] for point, _ in ends_of], np.complex128),
+        lines=np.array([line for _, line in ends_of], np.complex128),
+        spins=np.zeros((0, 3)),
+        size=1.0,
     )
     first = np.cumsum([0, *(EQUATIONS[row.kind] for row in rows)])
     meshes = np.array([k for k, row in enumerate(rows) if row.kind in (TRAIN, TRAVEL)], np.int64)
@@ -286,20 +289,20 @@ def _follow(system: ClosureSystem, pose: Reals, tangent: Reals, longest: float, 
         if status == FULL:
             curve = _larger(curve)
         elif status == FLIP:
-            way = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
+            chord = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
             ends = curve.poses[count - 1], curve.poses[count]
-            found = _change(system, *ends) if way <= _SHORT else None
+            change_pose = _change(system, *ends) if chord <= _SHORT else None
             several = False
-            if found is None and way <= _SHORT:
-                found, lost = _meeting(system, *ends, curve.tangents[count - 1])
+            if change_pose is None and chord <= _SHORT:
+                change_pose, lost = _meeting(system, *ends, curve.tangents[count - 1])
                 several = lost > 1
-            if found is None:
-                step = way / 2
+            if change_pose is None:
+                step = chord / 2
                 if step < SHORTEST:
                     status = -1
                     break
                 continue
-            changes.append(ChangeSample(found, count - 1, several))
+            changes.append(ChangeSample(change_pose, count - 1, several))
             count += 1
             if _is_start(curve, count - 1):
                 status = CLOSED
@@ -324,10 +327,10 @@ def _room(samples: int, unknowns: int) -> SampleBuffer:
 
 
 def _larger(curve: SampleBuffer) -> SampleBuffer:
-    out = _room(2 * len(curve.arcs), curve.poses.shape[1])
-    for new, old in zip(out, curve, strict=True):
+    larger = _room(2 * len(curve.arcs), curve.poses.shape[1])
+    for new, old in zip(larger, curve, strict=True):
         new[: len(old)] = old
-    return out
+    return larger
 
 
 def _is_start(curve: SampleBuffer, sample: int) -> bool:
@@ -336,21 +339,21 @@ def _is_start(curve: SampleBuffer, sample: int) -> bool:
     return bool(sample > 1 and np.abs(gap).max() < _SAME and curve.tangents[sample] @ curve.tangents[0] > _AHEAD)
 
 
-def _change(made: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
+def _change(closure: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
     """The pose between two neighbouring samples in which the Jacobian loses its rank; None if it does not on the curve.
 
     Newton's method on F(x) + beta psi = 0, J(x)^T psi = 0, |psi| = 1 for x, psi, beta; beta is 0 at a change point.
     """
-    rows = made.independent(one)
-    x, n, p = (one + two) / 2, made.unknowns, len(rows)
+    rows = closure.independent(one)
+    x, n, p = (one + two) / 2, closure.unknowns, len(rows)
     beta = 0.0
-    psi = np.linalg.svd(made.linearised(x)[1][rows])[0][:, -1]
+    psi = np.linalg.svd(closure.linearised(x)[1][rows])[0][:, -1]
     for _ in range(15):
-        residual, matrix = (part[rows] for part in made.linearised(x))
+        residual, matrix = (part[rows] for part in closure.linearised(x))
         equations = np.concatenate([residual + beta * psi, matrix.T @ psi, [(psi @ psi - 1) / 2]])
         system = np.zeros((n + p + 1, n + p + 1))
         system[:p, :n], system[:p, n : n + p], system[:p, -1] = matrix, beta * np.eye(p), psi
-        system[p:-1, :n], system[p:-1, n : n + p] = _curvature(made, x, psi, rows), matrix.T
+        system[p:-1, :n], system[p:-1, n : n + p] = _curvature(closure, x, psi, rows), matrix.T
         system[-1, n : n + p] = psi
         try:
             move = np.linalg.solve(system, equations)
@@ -386,8 +389,8 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
     place = before / max(before + behind, 1e-300)
     for width in _NEARER:
         places = place + width * _BESIDE
-        found = [at(float(part)) for part in places]
-        values = np.array([value for _, value in found])
+        samples = [at(float(part)) for part in places]
+        values = np.array([value for _, value in samples])
         line = np.polynomial.Polynomial.fit(_BESIDE, np.sign(_BESIDE) * values, 3)
         roots = [root.real for root in line.roots() if abs(root.imag) < _REAL and abs(root.real) < 1]
         if not roots:
@@ -395,7 +398,7 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
         shift = float(min(roots, key=abs))
         place += width * shift
     weights = np.array([np.prod([(shift - v) / (u - v) for v in _BESIDE if v != u]) for u in _BESIDE])
-    pose = weights @ np.array([one for one, _ in found])
+    pose = weights @ np.array([one for one, _ in samples])
     singular = np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[: system.unknowns - 1]
     lost = int((singular < _LOST * values.min()).sum())
     return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost
@@ -418,19 +421,19 @@ def _touches(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -> Iter
 
 def _curvature(system: ClosureSystem, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
     """The derivative of J^T psi, by differences; its error slows Newton's method down but does not mislead it."""
-    out, h = np.empty((len(x), len(x))), _DIFFERENCE
+    curvature, h = np.empty((len(x), len(x))), _DIFFERENCE
     for k in range(len(x)):
         for sign in (1, -1):
             moved = x.copy()
             moved[k] += sign * h
             side = system.linearised(moved)[1][rows].T @ psi
-            out[:, k] = side if sign == 1 else (out[:, k] - side) / (2 * h)
-    return out
+            curvature[:, k] = side if sign == 1 else (curvature[:, k] - side) / (2 * h)
+    return curvature
 
 
 def _quiet_changes(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -> tuple[ChangeSample, ...]:
     """Change points of a redundantly constrained linkage: there is no determinant; its shortest row has a minimum 0."""
-    out = []
+    changes = []
     for k in range(1, len(gauges) - 1):
         if gauges[k] < min(_SMALL, gauges[k - 1]) and gauges[k] <= gauges[k + 1]:
             pose = _change(system, samples.poses[k - 1], samples.poses[k + 1])
@@ -441,5 +444,5 @@ def _quiet_changes(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -
             if pose is None or np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2] > _ZERO:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
-            out.append(ChangeSample(pose, k if ahead else k - 1, several))
-    return tuple(out)
+            changes.append(ChangeSample(pose, k if ahead else k - 1, several))
+    return tuple(changes)

@@ -58,23 +58,23 @@ def contact_conditions(
         if isinstance(one, NonCircular):
             _check_phase(lower, keys, condition)
         return [condition]
-    out = []
+    conditions = []
     if isinstance(other, Wheel):
         if isinstance(one, Line):
             raw = Condition(RACK, sides, owners, (other.radius * side_of(lower, keys, sides), 1.0, 0.0))
         else:
             assert isinstance(one, Wheel)
             raw = Condition(MESH, sides, owners, (*rolling_factors(one, other), 0.0))
-        out.append(_phased(lower, keys, raw))
+        conditions.append(_phased(lower, keys, raw))
     if pair == "rolling" or isinstance(other, Circle):
         assert isinstance(other, Wheel | Circle)
         if isinstance(one, Line):
             offset = other.radius * side_of(lower, keys, sides)
-            out.append(Condition(RIDE, sides, owners, (0.0, 0.0, offset)))
+            conditions.append(Condition(RIDE, sides, owners, (0.0, 0.0, offset)))
         else:
             assert isinstance(one, Wheel | Circle)
-            out.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(one.radius + other.radius))))
-    return out
+            conditions.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(one.radius + other.radius))))
+    return conditions
 
 
 def _rank(element: Element) -> int:
@@ -84,18 +84,18 @@ def _rank(element: Element) -> int:
     return next((k for k, kind in enumerate((Line, CamDisc, GenevaDriver)) if isinstance(element, kind)), 3)
 
 
-def _check_phase(lower: Linkage, keys: Keys, found: Condition) -> None:
+def _check_phase(lower: Linkage, keys: Keys, condition: Condition) -> None:
     """Refuse non-circular wheels whose curves do not touch at home; the second may start in any of its equal parts."""
-    one, other = (lower.elements[keys[side]] for side in found.sides)
+    one, other = (lower.elements[keys[side]] for side in condition.sides)
     assert isinstance(one, NonCircular)
     assert isinstance(other, NonCircular)
     part = 2 * pi / transfer_of(one, other).mean.denominator
-    off = found.values[2] / lower.size + pi
+    off = condition.values[2] / lower.size + pi
     off -= part * floor(off / part + 0.5)
     if abs(off) > _MESHES:
         raise LinkageError(
             "the non-circular wheels do not mesh in the reference pose: turn {keys!r}, or its direction, by {off:.9g}°",
-            keys=keys[found.sides[1]][1],
+            keys=keys[condition.sides[1]][1],
             off=degrees(off),
         )
 
@@ -137,11 +137,11 @@ def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float
 def law_tables(laws: Sequence[PiecewiseLaw]) -> tuple[list[tuple[float, float, float]], NDArray[np.float64]]:
     """For each law its first piece, the number of pieces and the advance; and all pieces."""
     rows: list[tuple[float, ...]] = []
-    found = []
+    entries = []
     for law in laws:
-        found.append((float(len(rows)), float(len(law.pieces)), law.advance))
+        entries.append((float(len(rows)), float(len(law.pieces)), law.advance))
         rows += law.pieces
-    return found, np.array(rows).reshape(-1, 2 + COEFFICIENTS)
+    return entries, np.array(rows).reshape(-1, 2 + COEFFICIENTS)
 
 
 def side_of(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> int:

@@ -90,8 +90,8 @@ def cam_law(disc: CamDisc) -> PiecewiseLaw:
     def value(t: Reals, low: float, high: float) -> Reals:
         ends = np.interp([low, high], bounds, breaks[::-1])
         gain = cam.follower.gain(cam.start, cam.lift.at(_turned(cam, t, *ends)))
-        out: Reals = np.log1p(gain / base**2) / 2 if isinstance(cam.follower, Roller) else disc.scale * gain
-        return out
+        logarithm: Reals = np.log1p(gain / base**2) / 2 if isinstance(cam.follower, Roller) else disc.scale * gain
+        return logarithm
 
     return _law(value, bounds, log(length) if isinstance(cam.follower, Roller) else length)
 
@@ -156,7 +156,7 @@ def _law(
     """
     angles = pi * (np.arange(COEFFICIENTS) + 0.5) / COEFFICIENTS
     nodes, cosines = np.cos(angles), np.cos(np.outer(np.arange(COEFFICIENTS), angles))
-    out: list[tuple[float, ...]] = []
+    pieces: list[tuple[float, ...]] = []
 
     def add(low: float, high: float) -> None:
         middle, half = (low + high) / 2, (high - low) / 2
@@ -172,9 +172,9 @@ def _law(
             return
         series[1:][np.abs(series[1:]) <= 4 * _EXACT * size] = 0.0
         coefficients = np.polynomial.chebyshev.cheb2poly(series)
-        out.append((middle, half, *np.pad(coefficients, (0, COEFFICIENTS - len(coefficients))).tolist()))
+        pieces.append((middle, half, *np.pad(coefficients, (0, COEFFICIENTS - len(coefficients))).tolist()))
 
     for low, high in pairwise(bounds):
         if high - low > _NO_TURN:
             add(low, high)
-    return PiecewiseLaw(tuple(out), advance, tuple(bounds))
+    return PiecewiseLaw(tuple(pieces), advance, tuple(bounds))

@@ -28,8 +28,8 @@ def from_degrees(start: float, stop: float, step: float) -> Reals:
     count = int(np.floor((stop - start) / step * (1 + _ROUNDING) + _LAST))
     if count > 10_000_000:
         raise LinkageError("{count:,} rows are more than 10,000,000", count=count + 1)
-    out: Reals = np.radians(start + step * np.arange(count + 1))
-    return out
+    values: Reals = np.radians(start + step * np.arange(count + 1))
+    return values
 
 
 def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
@@ -63,7 +63,7 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
 
 def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals:
     """(order, rows, drives) rates, checked; one value may stand for all rows."""
-    out = np.zeros((order, *path.shape))
+    speeds = np.zeros((order, *path.shape))
     for k, (name, value) in enumerate(zip(("speed", "acceleration", "jerk"), given, strict=True)):
         if k >= order:
             break
@@ -73,7 +73,7 @@ def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals
         if numbers.ndim == 1 and path.shape[1] == 1 and len(numbers) == len(path):
             numbers = numbers.reshape(-1, 1)
         try:
-            out[k] = numbers
+            speeds[k] = numbers
         except ValueError:
             raise LinkageError(
                 "{name}: expected one number, one for each drive, or one for each row and drive, but found an array "
@@ -81,4 +81,4 @@ def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals
                 name=name,
                 shape=numbers.shape,
             ) from None
-    return out
+    return speeds

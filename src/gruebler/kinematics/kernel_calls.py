@@ -185,8 +185,8 @@ def run_rows(
         speeds = np.zeros((order, *path.shape))
     speeds = np.ascontiguousarray(speeds)
     status, count, at, fault = run_path(program, path, speeds, signs, unknowns, poses)
-    found: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
-    return SolvedRows(status, count, at, fault, *found)
+    arrays: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
+    return SolvedRows(status, count, at, fault, *arrays)
 
 
 def _passed(plan: Plan, path: Reals) -> Reals:

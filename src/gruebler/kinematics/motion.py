@@ -205,7 +205,7 @@ def _open_contact(motion: Motion, number: int) -> float:
         return _open_curve(motion, number) / linkage.size
     assert isinstance(other, Wheel | Circle)
     gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
-    touching = chain.joints[number].pair.name == "rolling" or isinstance(other, Circle)
+    touching = chain.joints[number].pair.is_rolling or isinstance(other, Circle)
     if isinstance(one, Line):
         gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, one.angle))
         radius = np.copysign(other.radius, gap.imag)

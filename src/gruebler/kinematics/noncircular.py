@@ -111,18 +111,18 @@ def _read(text: str, mean: Fraction) -> Transfer:
     return Transfer(mean, e / (reach + sqrt((reach - e) * (reach + e))))
 
 
-def _check_ratio(made: Transfer) -> None:
-    if made.lift is None:
-        extremes = [(float(a), float(made.ratio(a))) for a in (0.0, pi)]
+def _check_ratio(transfer: Transfer) -> None:
+    if transfer.lift is None:
+        extremes = [(float(a), float(transfer.ratio(a))) for a in (0.0, pi)]
     else:
-        if jump := next((jump for jump in made.lift.jumps() if jump.order == 1), None):
+        if jump := next((jump for jump in transfer.lift.jumps() if jump.order == 1), None):
             raise LinkageError(
                 "transfer: the ratio jumps by {size:.4g} at {at:.6g}°: no closed curve; take a law that starts "
                 "and ends at rest, such as 3-4-5",
                 size=jump.size,
                 at=degrees(jump.at),
             )
-        extremes = [(a, float(made.mean) + slope) for a, slope in made.lift.extremes(1)]
+        extremes = [(a, float(transfer.mean) + slope) for a, slope in transfer.lift.extremes(1)]
     for at, ratio in (min(extremes, key=lambda one: one[1]), max(extremes, key=lambda one: one[1])):
         if not _RATIOS[0] <= ratio <= _RATIOS[1]:
             raise LinkageError(
@@ -135,16 +135,16 @@ def _check_ratio(made: Transfer) -> None:
             )
 
 
-def _check_closed(made: Transfer) -> None:
+def _check_closed(transfer: Transfer) -> None:
     """The second curve is closed after one turn if the ratio repeats as often as the numerator of the mean says."""
-    times = made.mean.numerator
-    ends = np.array([*made.breaks, tau])
+    times = transfer.mean.numerator
+    ends = np.array([*transfer.breaks, tau])
     places = np.concatenate([np.linspace(0, tau, 721), ends, (ends[1:] + ends[:-1]) / 2])
-    off = made.at(places + tau / times) - made.at(places) - tau / made.mean.denominator
+    off = transfer.at(places + tau / times) - transfer.at(places) - tau / transfer.mean.denominator
     if np.abs(off).max() > _CLOSED:
         raise LinkageError(
             "transfer: the second wheel's curve does not close: with a mean ratio of {mean} the ratio must "
             "repeat every {times:.6g}° of the first wheel",
-            mean=made.mean,
+            mean=transfer.mean,
             times=360 / times,
         )

@@ -24,7 +24,6 @@ from gruebler.notebook import Brief
 __all__ = ["Dyad", "HigherGroup", "Plan", "plan"]
 
 _DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
-_LETTERS = {"revolute": "R", "prismatic": "P"}
 _FORMS = {code: form for form, code in _DYADS.items()}
 _BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
 # Between two checks a drive moves no further: within that a pose is predicted so well that Newton's method stays on its
@@ -169,7 +168,7 @@ class Plan(Brief):
         There a dyad may be impossible for so short a way that steps would pass it unseen.
         """
         program = self.program
-        out: list[tuple[int, float]] = []
+        values: list[tuple[int, float]] = []
         for _, k, near, far, sign in (o for o in self.operations if o[0] == PUSH):
             line = program.lines[near]
             turn = line * np.conj(program.lines[far])
@@ -185,9 +184,11 @@ class Plan(Brief):
                         - program.points[one]
                     )
                     value = float(-sign * (np.conj(line) * gap).real)
-                    if not any(k == number and abs(value - known) <= _ONE * self.lower.size for number, known in out):
-                        out.append((k, value))
-        return tuple(out)
+                    if not any(
+                        k == number and abs(value - known) <= _ONE * self.lower.size for number, known in values
+                    ):
+                        values.append((k, value))
+        return tuple(values)
 
     def element_arrays(self, lower: Linkage) -> tuple[np.ndarray, np.ndarray]:
         """Points and directions (complex) of the elements of a linkage of this structure, with lower pairs."""
@@ -199,10 +200,10 @@ class Plan(Brief):
 
 def _table(rows: Iterable[tuple[int, ...]], width: int) -> np.ndarray:
     rows = list(rows)
-    out = np.full((len(rows), width), -1, np.int64)
+    table = np.full((len(rows), width), -1, np.int64)
     for k, row in enumerate(rows):
-        out[k, : len(row)] = row
-    return out
+        table[k, : len(row)] = row
+    return table
 
 
 def _starts(lengths: Iterable[int]) -> np.ndarray:
@@ -300,7 +301,7 @@ class _Planner:
             count = len(self.conditions)
             self.operations.append((GROUP, count))
             self.conditions.append(self._conditions(group, base, roots))
-            contacts = any(member.pair.name not in _LETTERS for _, member in group.joints)
+            contacts = any(not member.pair.is_basic for _, member in group.joints)
             self.parts.append(HigherGroup(number, roots, count, base, contacts))
         for root in roots:
             for link in [link for link, at in self.against.items() if at == root and link != root]:
@@ -317,16 +318,16 @@ class _Planner:
         if (
             len(group.bodies) != 2
             or len(group.joints) != 3
-            or any(len(m.links) + m.outer != 2 or m.pair.name not in _LETTERS for _, m in group.joints)
+            or any(len(m.links) + m.outer != 2 or not m.pair.is_basic for _, m in group.joints)
         ):
             return None
         outer: dict[int, tuple[int, str]] = {}
         inner = (-1, "")
         for joint, member in group.joints:
             if member.outer:
-                outer[member.links[0]] = joint, _LETTERS[member.pair.name]
+                outer[member.links[0]] = joint, member.pair.symbol()
             else:
-                inner = joint, _LETTERS[member.pair.name]
+                inner = joint, member.pair.symbol()
         one, two = 0, 1
         form = outer[0][1] + inner[1] + outer[1][1]
         if form not in _DYADS:
@@ -343,19 +344,19 @@ class _Planner:
         return _DYADS[form], elements, first, second
 
     def _conditions(self, group: SolvedGroup, base: str, roots: tuple[str, ...]) -> tuple[Condition, ...]:
-        out: list[Condition] = []
+        conditions: list[Condition] = []
         for joint, member in group.joints:
             sides = [(self._element(joint, base), -1)] if member.outer else []
             sides += [(self._element(joint, roots[body]), body) for body in member.links]
             for element, body in sides[1:]:
                 both, owners = (sides[0][0], element), (sides[0][1], body)
-                if member.pair.name in _LETTERS:
-                    out.append(Condition({"revolute": PIN, "prismatic": SLIDE}[member.pair.name], both, owners))
+                if member.pair.is_basic:
+                    conditions.append(Condition(PIN if member.pair.is_revolute else SLIDE, both, owners))
                 else:
                     try:
-                        out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
+                        conditions += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
                             "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error
                         ) from None
-        return tuple(out)
+        return tuple(conditions)

@@ -17,7 +17,7 @@ import numpy as np
 from gruebler.arrays import Reals
 from gruebler.assur import decompose
 from gruebler.chain import Chain, Joint
-from gruebler.chain.pairs import Pair, pair
+from gruebler.chain.pairs import Pair, Space, pair
 from gruebler.errors import LinkageError
 from gruebler.linkages import Element, Line, Linkage, Pin, with_lower_pairs
 from gruebler.linkages.elements import direction
@@ -83,10 +83,10 @@ class _Release(NamedTuple):
 
 
 def independent_part(linkage: Linkage) -> Independent:
-    """The linkage with as many conditions released as are redundant in its home position.
+    """The linkage with as many conditions released as are redundant in its reference pose.
 
-    `LinkageError` says if it has no home, if its joints are not closed there, or if they leave less than its drives
-    need. Cost: singular values of a matrix of (conditions) x (3 links), 10 ms for ten links.
+    `LinkageError` says if it has no reference pose, if its joints are not closed there, or if they leave less than its
+    drives need. Cost: singular values of a matrix of (conditions) x (3 links), 10 ms for ten links.
     """
     mechanism = linkage.mechanism
     if round_joints(mechanism, linkage.elements):
@@ -136,9 +136,7 @@ class ReferenceConditions:
         self.rows: list[_ConditionRow] = []
         for number, joint in enumerate(chain.joints):
             for other in joint.links[1:]:
-                self.rows += [_ConditionRow(number, (joint.links[0], other))] * (
-                    1 if joint.pair.name in ("roll_slide", "double_slide") else 2
-                )
+                self.rows += [_ConditionRow(number, (joint.links[0], other))] * (joint.pair.u(Space.PLANAR))
 
     def of(self, joint: int) -> list[int]:
         """The numbers of a joint's conditions."""
@@ -164,25 +162,26 @@ class ReferenceConditions:
 
     def drives(self, x: Reals) -> Reals:
         """The derivatives of the drive values, (drives, unknowns)."""
-        out = []
+        gradients = []
         for k, drive in enumerate(self.linkage.mechanism.drives):
             first, other = self.linkage.reference(k)
             if drive.turning:
-                out.append(self._turn(first, other))
+                gradients.append(self._turn(first, other))
                 continue
             lined = first if isinstance(self.linkage.elements[drive.joint, first], Line) else other
             if drive.direction == "Ty":
                 lined = self.chain.joints[drive.joint].links[1]
             along = self._line(x, drive.joint, lined) * (1j if drive.direction == "Ty" else 1)
-            out.append(self._way(x, drive.joint, (first, other), along, first)[1])
-        return np.array(out).reshape(-1, len(x))
+            gradients.append(self._way(x, drive.joint, (first, other), along, first)[1])
+        return np.array(gradients).reshape(-1, len(x))
 
     def settled(self) -> Reals:
-        """The closed position at home."""
-        home = self.linkage.reference_pose
-        assert home is not None
+        """The reference pose, closed."""
+        reference = self.linkage.required_pose
         size = self.linkage.size
-        start = np.array([(home[link].x / size, home[link].y / size, home[link].angle) for link in self.bodies]).ravel()
+        start = np.array(
+            [(reference[link].x / size, reference[link].y / size, reference[link].angle) for link in self.bodies]
+        ).ravel()
         x = start
         for _ in range(10):
             residual, matrix = self.linearised(x)
@@ -201,7 +200,7 @@ class ReferenceConditions:
 
     def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:
         first, other = links
-        if joint.pair.name == "revolute":
+        if joint.pair.is_revolute:
             yield self._way(x, number, links, 1 + 0j, "")
             yield self._way(x, number, links, 1j, "")
             return
@@ -209,7 +208,7 @@ class ReferenceConditions:
         along = self._line(x, number, lined)
         if joint.pair.name != "double_slide":
             yield self._way(x, number, links, 1j * along, lined)
-        if joint.pair.name != "roll_slide":
+        if not joint.pair.is_roll_slide:
             turned = self._line(x, number, other) * self._line(x, number, first).conjugate()
             yield phase(turned), self._turn(first, other)
 
@@ -217,15 +216,15 @@ class ReferenceConditions:
         return rect(1, self.place(x, link)[1] + direction(self.linkage.elements[number, link]))
 
     def _turn(self, first: str, other: str) -> Reals:
-        out = np.zeros(3 * len(self.bodies))
+        gradient = np.zeros(3 * len(self.bodies))
         for link, sign in ((first, -1.0), (other, 1.0)):
             if link in self.bodies:
-                out[3 * self.bodies.index(link) + 2] = sign
-        return out
+                gradient[3 * self.bodies.index(link) + 2] = sign
+        return gradient
 
     def _way(self, x: Reals, number: int, links: tuple[str, str], along: complex, carried: str) -> tuple[float, Reals]:
         """The way from the first to the second link's point along a direction that a link carries, or none does."""
-        size, out = self.linkage.size, np.zeros(3 * len(self.bodies))
+        size, gradient = self.linkage.size, np.zeros(3 * len(self.bodies))
         gap = 0j
         for link, sign in zip(links, (-1.0, 1.0), strict=True):
             element = self.linkage.elements[number, link]
@@ -234,28 +233,30 @@ class ReferenceConditions:
             gap += sign * (origin + arm)
             if link in self.bodies:
                 k = 3 * self.bodies.index(link)
-                out[k : k + 3] += (
+                gradient[k : k + 3] += (
                     sign * along.real,
                     sign * along.imag,
                     sign * (along.conjugate() * 1j * arm).real,
                 )
         if carried in self.bodies:
-            out[3 * self.bodies.index(carried) + 2] += (along.conjugate() * gap).imag
-        return (along.conjugate() * gap).real, out
+            gradient[3 * self.bodies.index(carried) + 2] += (along.conjugate() * gap).imag
+        return (along.conjugate() * gap).real, gradient
 
 
 def _stresses(matrix: Reals) -> Reals:
     """The forces of the conditions that hold one another: an orthonormal basis (rows, s) of the left null space."""
     left, values, _ = np.linalg.svd(matrix)
     rank = int((values > _RANK * values[0]).sum()) if len(values) else 0
-    out: Reals = left[:, rank:]
-    return out
+    stresses: Reals = left[:, rank:]
+    return stresses
 
 
 def _stressed(conditions: ReferenceConditions, forces: Reals) -> set[int]:
     """The joints that hold one another."""
     return {
-        row.joint for row, mine in zip(conditions.rows, forces, strict=False) if np.abs(mine).max(initial=0) > _STRESSED
+        row.joint
+        for row, force in zip(conditions.rows, forces, strict=False)
+        if np.abs(force).max(initial=0) > _STRESSED
     }
 
 
@@ -292,20 +293,20 @@ def _releases(conditions: ReferenceConditions, x: Reals) -> Iterator[_Release]:
 
 def _force(conditions: ReferenceConditions, number: int, link: str) -> Reals:
     """What a joint transmits to one of its links, (1 or 2, rows), from the forces of all conditions."""
-    mine = conditions.of(number)
-    each = 1 if conditions.chain.joints[number].pair.name in ("roll_slide", "double_slide") else 2
-    out = np.zeros((each, len(conditions.rows)))
-    for place, k in enumerate(mine):
+    rows = conditions.of(number)
+    each = conditions.chain.joints[number].pair.u(Space.PLANAR)
+    force = np.zeros((each, len(conditions.rows)))
+    for place, k in enumerate(rows):
         first, other = conditions.rows[k].links
-        out[place % each, k] = 1.0 if link == other else -1.0 if link == first else 0.0
-    return out
+        force[place % each, k] = 1.0 if link == other else -1.0 if link == first else 0.0
+    return force
 
 
 def _bar(linkage: Linkage, number: int, link: str) -> float | None:
     """The direction of a link with two pins on it, from the other pin to this one; None if it has other joints."""
     joints = linkage.mechanism.chain.joints
     ends = [n for n, joint in enumerate(joints) if link in joint.links]
-    if len(ends) != 2 or any(joints[n].pair.name != "revolute" for n in ends) or link == linkage.mechanism.frame:
+    if len(ends) != 2 or any(not joints[n].pair.is_revolute for n in ends) or link == linkage.mechanism.frame:
         return None
     here = linkage.elements[number, link]
     there = linkage.elements[next(n for n in ends if n != number), link]
@@ -314,7 +315,7 @@ def _bar(linkage: Linkage, number: int, link: str) -> float | None:
 
 def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> list[_Release]:
     """As many releases as leave the rest independent."""
-    out: list[_Release] = []
+    chosen: list[_Release] = []
     joints: dict[int, set[str]] = {}
     while forces.shape[1]:
         here = [one.directed(forces) for one in releases]
@@ -331,10 +332,10 @@ def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> li
         kind = min(here[k].rank for k, value in share.items() if value >= _WELL * largest)
         best = max(value for k, value in share.items() if here[k].rank == kind)
         k = min(k for k, value in share.items() if here[k].rank == kind and value >= _EQUAL * best)
-        out.append(here[k])
+        chosen.append(here[k])
         joints.setdefault(here[k].joint, set()).add(here[k].link)
         forces = forces @ np.linalg.svd(here[k].functional @ forces)[2][len(here[k].functional) :].T
-    return out
+    return chosen
 
 
 def _simplest(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> list[_Release]:
@@ -379,7 +380,7 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
     mechanism = linkage.mechanism
     names = mechanism.chain.joint_names()
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
-    home = {link: tuple(at) for link, at in (linkage.reference_pose or {}).items()}
+    reference = {link: tuple(at) for link, at in (linkage.reference_pose or {}).items()}
     joints: list[Joint] = []
     number_of: dict[int, int] = {}
     slots: list[tuple[str, str, Line]] = []
@@ -388,13 +389,13 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
         kind = joint.pair
         for _release in (one for one in chosen if one.joint == number):
             here = members.pop(_release.link)
-            if _release.pair is not None and joint.pair.name == "revolute":
+            if _release.pair is not None and joint.pair.is_revolute:
                 block = f"block {names[number]} {_release.link}"
                 members[block] = Pin(0, 0)
                 elements[block] = {}
                 slots.append((_release.link, block, Line(here.x, here.y, _release.along)))
-                home[block] = (
-                    (*linkage.reference_pose[_release.link].put(here.x, here.y), home[_release.link][2])
+                reference[block] = (
+                    (*linkage.reference_pose[_release.link].put(here.x, here.y), reference[_release.link][2])
                     if linkage.reference_pose
                     else ()
                 )
@@ -416,6 +417,6 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
         elements,
         {name: tuple(point) for name, point in linkage.points.items()},  # type: ignore[misc]
         unit=linkage.unit,
-        reference_pose=home,  # type: ignore[arg-type]
+        reference_pose=reference,  # type: ignore[arg-type]
         outputs=linkage.outputs,
     )

@@ -13,7 +13,7 @@ from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import home_angles
 from gruebler.kinematics.plan import Dyad, Plan
-from gruebler.linkages import Line
+from gruebler.linkages.elements import direction
 from gruebler.linkages.model import NEAR_REFERENCE
 
 __all__ = ["ReferencePose", "check_reference", "pose_at_reference"]
@@ -57,7 +57,7 @@ def _put(plan: Plan, element: int) -> complex:
 def _line(plan: Plan, element: int) -> complex:
     number, link = plan.keys[element]
     e = plan.lower.elements[number, link]
-    return rect(1, plan.lower.required_pose[link].angle + (e.angle if isinstance(e, Line) else 0))
+    return rect(1, plan.lower.required_pose[link].angle + direction(e))
 
 
 def _drive(plan: Plan, k: int) -> float:

@@ -76,8 +76,8 @@ def bracketed_root(function: Callable[[Reals], Reals], low: Reals, high: Reals) 
         edge = np.where(width > 0, tight / np.where(width > 0, width, 1), 0.5)
         t = np.where(quadratic & np.isfinite(step), step, 0.5)
         t = np.where(done, 0, np.clip(t, np.minimum(edge, 0.5), 1 - np.minimum(edge, 0.5)))
-    out: Reals = np.where(fa == 0, a, np.where(fb == 0, b, least))
-    return out
+    root: Reals = np.where(fa == 0, a, np.where(fb == 0, b, least))
+    return root
 
 
 class FunctionSamples(NamedTuple):
@@ -282,10 +282,10 @@ def _crossings(jet: Jet, left: Reals, right: Reals, usual: float) -> list[Zero]:
     if not len(left):
         return []
     before, behind = jet(left)[0], jet(right)[0]
-    found, rises = bracketed_root(lambda x: jet(x)[0], left, right), before < 0
+    roots, rises = bracketed_root(lambda x: jet(x)[0], left, right), before < 0
     size = np.maximum(usual, np.maximum(np.abs(before), np.abs(behind)))  # a steep function is large near by
-    near = np.abs(jet(found)[0]) <= _JUMP * size
-    return [Zero(float(x), 1, bool(up)) for x, up in zip(found[near], rises[near], strict=True)]
+    near = np.abs(jet(roots)[0]) <= _JUMP * size
+    return [Zero(float(x), 1, bool(up)) for x, up in zip(roots[near], rises[near], strict=True)]
 
 
 def _dips(jet: Jet, grid: Reals, rows: Reals) -> tuple[Reals, Reals]:

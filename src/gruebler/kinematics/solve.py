@@ -76,26 +76,26 @@ def move(
     >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
     (361, True, True)
     """
-    made = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
-    path = drive_path(made, drives)
+    plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
+    path = drive_path(plan, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
         raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
     speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
     try:
-        signs, unknowns = starting_configuration(made, path[0], branch)
+        signs, unknowns = starting_configuration(plan, path[0], branch)
     except Unassembled as found:
-        return _never(made, path, upto, found)
-    home = branch is None and made.lower.reference_pose is not None
-    rows = follow_path(made, path, speeds, upto, signs, unknowns)
-    if home and (_in_change_point(made, rows) if rows.reached else made.higher_groups):
-        rows = _from_home(made, path, speeds, upto)
-    motion = motion_from_rows(made, path, rows)
+        return _never(plan, path, upto, found)
+    home = branch is None and plan.lower.reference_pose is not None
+    rows = follow_path(plan, path, speeds, upto, signs, unknowns)
+    if home and (_in_change_point(plan, rows) if rows.reached else plan.higher_groups):
+        rows = _from_home(plan, path, speeds, upto)
+    motion = motion_from_rows(plan, path, rows)
     if motion.stop is not None and motion.stop.reason == "open" and home:
         # the start may be a change point of the independent part: the way from home tells the way on
-        motion = motion_from_rows(made, path, _from_home(made, path, speeds, upto))
-    start = pose_at_reference(made, path[0]) if home else ReferencePose(path[0], signs, unknowns)
-    unbounded = set_change_point_rows(made, motion, path, speeds, start)
+        motion = motion_from_rows(plan, path, _from_home(plan, path, speeds, upto))
+    start = pose_at_reference(plan, path[0]) if home else ReferencePose(path[0], signs, unknowns)
+    unbounded = set_change_point_rows(plan, motion, path, speeds, start)
     return replace(motion, unbounded=unbounded, speeds=speeds[:, : len(motion)])
 
 
@@ -117,17 +117,19 @@ def starting_configuration(plan: Plan, first: Reals, branch: str | Iterable[str]
 
 def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
     """The signs of these labels, in a linkage with wheels: they may differ from the home's behind the last wheel."""
-    out = signs.copy()
+    changed = signs.copy()
     for part, label in zip(labelled_groups(plan), labels, strict=True):
         if isinstance(part, HigherGroup):
             raise LinkageError(
                 "branch: a linkage with wheels and a larger group can be assembled as in its reference pose only"
             )
-        out[part.number] = -1.0 if label == "-" else 1.0
+        changed[part.number] = -1.0 if label == "-" else 1.0
         behind = plan.parts[plan.parts.index(part) :]
-        if out[part.number] != signs[part.number] and any(isinstance(p, HigherGroup) and p.contacts for p in behind):
+        if changed[part.number] != signs[part.number] and any(
+            isinstance(p, HigherGroup) and p.contacts for p in behind
+        ):
             raise LinkageError("branch: what wheels depend on is assembled as in the home, where their teeth are known")
-    return out
+    return changed
 
 
 def _in_change_point(plan: Plan, rows: SolvedRows) -> bool:
@@ -189,10 +191,10 @@ def _while_closed(motion: Motion) -> Motion:
 
     Next to a change point of the independent part its poses have lost digits; such rows are not judged.
     """
-    made = motion.plan
-    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    plan = motion.plan
+    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     sure = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _DOUBTFUL
-    opens = {number: sure & (joint_openings(motion, motion.linkage, number) > _OPEN) for number in made.released}
+    opens = {number: sure & (joint_openings(motion, motion.linkage, number) > _OPEN) for number in plan.released}
     first = [(int(np.argmax(rows)), number) for number, rows in opens.items() if rows.any()]
     if not first:
         return motion

@@ -147,8 +147,8 @@ def triad_modes(group: GroupConditions) -> AssemblyModes:
     size = group.size
     legs = _centred(truss.legs, size)
     turns = None if any(map(_is_loose, legs)) else _turns(legs)
-    found, counts, movable = _settled(legs, turns or [])
-    poses, order = ordered_modes([_seen_from_known(pose, truss, size) for pose in found], size, 4)
+    distinct, counts, movable = _settled(legs, turns or [])
+    poses, order = ordered_modes([_seen_from_known(pose, truss, size) for pose in distinct], size, 4)
     method: Method = "degenerate" if turns is None or movable else "exact"
     return AssemblyModes(poses, tuple(counts[k] for k in order), method, BOUNDS[forms])
 
@@ -156,7 +156,7 @@ def triad_modes(group: GroupConditions) -> AssemblyModes:
 def _settled(legs: Sequence[_Leg], turns: Sequence[complex]) -> tuple[list[Reals], list[int], bool]:
     """The isolated poses that belong to turns of the hub, their multiplicities; and whether there are movable ones."""
     solver = GroupSolver(_conditions(legs))
-    found: list[Reals] = []
+    distinct: list[Reals] = []
     for turn in turns:
         for trial in _trials(legs, turn):
             pose = trial.copy()
@@ -164,11 +164,11 @@ def _settled(legs: Sequence[_Leg], turns: Sequence[complex]) -> tuple[list[Reals
                 pose = trial
                 if not solver.settle_singular(pose):
                     continue
-            if solver.index_of_known(found, pose) < 0:
-                found.append(pose)
-    counts = [2 if solver.is_singular(pose) else 1 for pose in found]
-    still = [k for k, pose in enumerate(found) if counts[k] == 1 or not solver.moves(pose)]
-    return [found[k] for k in still], [counts[k] for k in still], len(still) < len(found)
+            if solver.index_of_known(distinct, pose) < 0:
+                distinct.append(pose)
+    counts = [2 if solver.is_singular(pose) else 1 for pose in distinct]
+    still = [k for k, pose in enumerate(distinct) if counts[k] == 1 or not solver.moves(pose)]
+    return [distinct[k] for k in still], [counts[k] for k in still], len(still) < len(distinct)
 
 
 def _truss(group: GroupConditions) -> _Truss | None:
@@ -191,13 +191,13 @@ def _truss(group: GroupConditions) -> _Truss | None:
 
 def _joint(group: GroupConditions, one: int, other: int) -> tuple[str, _End, _End] | None:
     """The only joint between two bodies: its letter and its elements; None if there is not one."""
-    found = []
+    joints = []
     for c, kind in enumerate(group.kinds):
         slots = {int(group.owners[2 * c]): 2 * c, int(group.owners[2 * c + 1]): 2 * c + 1}
         if set(slots) == {one, other}:
             ends = [_End(complex(group.points[slots[b]]), complex(group.lines[slots[b]])) for b in (one, other)]
-            found.append(("R" if kind == PIN else "P", ends[0], ends[1]))
-    return found[0] if len(found) == 1 else None
+            joints.append(("R" if kind == PIN else "P", ends[0], ends[1]))
+    return joints[0] if len(joints) == 1 else None
 
 
 def _origins(legs: Sequence[_Leg]) -> tuple[complex, complex]:
@@ -247,11 +247,11 @@ def _seen_from_known(pose: Reals, truss: _Truss, size: float) -> Reals:
     }
     turns[truss.base], places[truss.base] = 1, 0j
     known, seat = turns[-1], places[-1]
-    out = []
+    seen = []
     for body in range(4):
         z = (places[body] - seat) * known.conjugate()
-        out += [z.real, z.imag, float(np.angle(turns[body] * known.conjugate()))]
-    return np.array(out)
+        seen += [z.real, z.imag, float(np.angle(turns[body] * known.conjugate()))]
+    return np.array(seen)
 
 
 def _is_loose(leg: _Leg) -> bool:
@@ -305,11 +305,11 @@ def _condition(loci: Sequence[_Locus], z: Complexes) -> Reals | None:
 
 def _lines(loci: Sequence[_Locus], z: Z, last: tuple[Z, Any]) -> list[tuple[Z, Any]]:
     """Loci as lines: from circles the last one is subtracted."""
-    out = []
+    lines = []
     for locus in loci:
         g, c = locus.at(z)
-        out.append((g - last[0], c - last[1]) if locus.round else (g, c))
-    return out
+        lines.append((g - last[0], c - last[1]) if locus.round else (g, c))
+    return lines
 
 
 def _cross(a: Any, b: Any) -> Any:
@@ -352,17 +352,17 @@ def _places(loci: Sequence[_Locus], z: complex) -> Iterator[complex]:
 
 def _pose(legs: Sequence[_Leg], turn: complex, place: complex) -> Reals:
     """All bodies, when the hub is known."""
-    out = [place.real, place.imag, np.angle(turn)]
+    pose = [place.real, place.imag, np.angle(turn)]
     for leg in legs:
         a, u = leg.base
-        pin, way = place + turn * leg.hub.point, turn * leg.hub.line
+        pin, slide = place + turn * leg.hub.point, turn * leg.hub.line
         if leg.form == "RR":
             own = (pin - a) / (leg.inner.point - leg.outer.point)
             own = own / abs(own) if own else 1
         else:
-            own = way * leg.inner.line.conjugate() if leg.form == "RP" else u * leg.outer.line.conjugate()
+            own = slide * leg.inner.line.conjugate() if leg.form == "RP" else u * leg.outer.line.conjugate()
         at = pin - own * leg.inner.point if leg.form == "PR" else a - own * leg.outer.point
         if leg.form == "PP":
-            at += u * _cross(way, pin - at - own * leg.inner.point) / _cross(way, u)
-        out += [at.real, at.imag, np.angle(own)]
-    return np.array(out)
+            at += u * _cross(slide, pin - at - own * leg.inner.point) / _cross(slide, u)
+        pose += [at.real, at.imag, np.angle(own)]
+    return np.array(pose)

@@ -214,7 +214,7 @@ def train_of(linkage: Linkage) -> Train:
         one, other = elements[number, a], elements[number, b]
         joint = mechanism.chain.joint_names()[number]
         if isinstance(one, Wheel) and isinstance(other, Wheel) and number in held:
-            rolling = mechanism.chain.joints[number].pair.name == "rolling"
+            rolling = mechanism.chain.joints[number].pair.is_rolling
             kind = {"open": "belt", "crossed": "crossed"}.get(one.belt, "friction" if rolling else "gear")
             meshes.append(Mesh(names[a], names[b], _size(one), _size(other), names[held[number].link], kind))
         elif {type(one), type(other)} == {Wheel, Line}:
@@ -245,7 +245,7 @@ def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
     guides = {
         link: element.angle
         for k, other in enumerate(chain.joints)
-        if other.pair.name == "prismatic" and frame in other.links
+        if other.pair.is_prismatic and frame in other.links
         for link in other.links
         for element in [linkage.elements[k, frame]]
         if link != frame and isinstance(element, Line)
@@ -254,7 +254,7 @@ def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
         (
             link
             for k, other in enumerate(chain.joints)
-            if other.pair.name == "revolute" and a in other.links and _same_place(linkage.elements[k, a], wheel)
+            if other.pair.is_revolute and a in other.links and _same_place(linkage.elements[k, a], wheel)
             for link in other.links
             if link == frame or link in guides
         ),

@@ -91,7 +91,7 @@ def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
     idle = redundant_wheels(mechanism, elements) | {
         n for n in held if all(isinstance(elements[n, link], Circle) for link in wheels[n])
     }
-    eased = {n for n in held if n not in idle and joints[n].pair.name == "rolling"}
+    eased = {n for n in held if n not in idle and joints[n].pair.is_rolling}
     kinds = ("roll_slide", "double_slide")
     return [n for n, joint in enumerate(joints) if joint.pair.name in kinds and n not in wheels], idle, eased
 
@@ -117,7 +117,7 @@ def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element,
     joint = linkage.mechanism.chain.joints[number]
     first, second = joint.links
     one, other = linkage.elements[number, first], linkage.elements[number, second]
-    if joint.pair.name == "roll_slide":
+    if joint.pair.is_roll_slide:
         slotted, pinned = (first, second) if isinstance(one, Line) else (second, first)
         line, pin = (one, other) if isinstance(one, Line) else (other, one)
         assert isinstance(line, Line)

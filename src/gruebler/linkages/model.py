@@ -492,7 +492,7 @@ def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) ->
                     "{joint}: the slot is in one of its links, not in {slot!r}", joint=names[number], slot=slot
                 )
         element = read_element(raw, names[number])
-        if joint.pair.name == "roll_slide" and slot is None:
+        if joint.pair.is_roll_slide and slot is None:
             raise LinkageError(
                 "{joint}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
                 joint=names[number],

@@ -127,7 +127,7 @@ def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tup
 
     for one, e in centres.items():
         for other, f in centres.items():
-            joined = one[0] == other[0] and mechanism.chain.joints[one[0]].pair.name == "revolute"
+            joined = one[0] == other[0] and mechanism.chain.joints[one[0]].pair.is_revolute
             near = hypot(e.x - f.x, e.y - f.y) <= _SAME * max(abs(e.x), abs(e.y), abs(f.x), abs(f.y))
             if joined or (one[1] == other[1] and near):
                 merge(one, other)
@@ -188,9 +188,9 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             continue
         assert isinstance(one, Wheel | Circle)
         assert isinstance(other, Wheel | Circle)
-        _check_pair(name, joint.pair.name == "rolling", one, other)
+        _check_pair(name, joint.pair.is_rolling, one, other)
         apart = abs(one.radius + other.radius)
-        touching = joint.pair.name == "rolling" or isinstance(one, Circle)
+        touching = joint.pair.is_rolling or isinstance(one, Circle)
         if number in held and touching and abs(held[number].distance - apart) > _SAME * apart:
             raise LinkageError(
                 "{name}: the centres are {distance:.12g} apart on {link!r}, but the radii make {apart:.12g}",

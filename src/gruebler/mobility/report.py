@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from html import escape
 from typing import Any
 
+from gruebler import notebook
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet, Space
 from gruebler.errors import expect
@@ -113,6 +115,11 @@ class MobilityReport(Brief):
         names = self.chain.joint_names(Alphabet.of_language(lang))
         lines = [*_structure(self, names, lang), *_numbers(self), *_details(self, names)]
         return "\n".join(line.in_language(lang) for line in lines)
+
+    def _repr_html_(self) -> str:
+        """The structure picture and the report as text, for notebooks."""
+        picture = notebook.svg_of(self.chain) if notebook.svg_of else ""
+        return f"{picture}<pre>{escape(self.explain())}</pre>"
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`; the joints as unique texts."""

@@ -66,7 +66,7 @@ class LayoutProgram:
             tuple(
                 k
                 for k, joint in enumerate(self.mechanism.chain.joints)
-                if link in joint.links and (joint.pair.name == "revolute" or slots.get(k, link) != link)
+                if link in joint.links and (joint.pair.is_revolute or slots.get(k, link) != link)
             )
             for link in self.mechanism.chain.links
         )
@@ -74,14 +74,14 @@ class LayoutProgram:
     @cached_property
     def slides(self) -> tuple[int, ...]:
         """The joints that have a direction."""
-        return tuple(k for k, j in enumerate(self.mechanism.chain.joints) if j.pair.name != "revolute")
+        return tuple(k for k, j in enumerate(self.mechanism.chain.joints) if not j.pair.is_revolute)
 
     @cached_property
     def blocks(self) -> dict[int, tuple[int, ...]]:
         """For each slide the pins (one or two) that its line goes through: those of links with one pin besides it."""
         chain, blocks = self.mechanism.chain, {}
         for k in self.slides:
-            if chain.joints[k].pair.name != "prismatic":
+            if not chain.joints[k].pair.is_prismatic:
                 continue
             pins = []
             for link in chain.joints[k].links:
@@ -186,7 +186,7 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
     """
     chain = mechanism.chain
     check_drawable(chain)
-    slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.name == "roll_slide")
+    slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.is_roll_slide)
     solving_plan = plan(Linkage.from_drawing(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
     split = []
     for number, joint in enumerate(chain.joints):
@@ -223,7 +223,7 @@ def joint_places(
     owner = dict(slots)
     for number, joint in enumerate(mechanism.chain.joints):
         x, y, angle = (float(v) for v in drawing[number])
-        line = () if joint.pair.name == "revolute" else (angle,)
+        line = () if joint.pair.is_revolute else (angle,)
         places[number] = (x, y, *line, *([owner[number]] if number in owner else []))
     return places
 

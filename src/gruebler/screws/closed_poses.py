@@ -10,6 +10,7 @@ import numpy as np
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.linkages import Line, Linkage, Pin
+from gruebler.linkages.elements import direction
 from gruebler.linkages.model import NEAR_REFERENCE
 from gruebler.screws.closing import CLOSED, RANK, Closing, JointFrames
 from gruebler.screws.double_roots import refined_at_double_root
@@ -63,7 +64,7 @@ def _planar(linkage: Linkage) -> Closing:
         for other in joint.links[1:]:
             one, two = linkage.elements[number, first], linkage.elements[number, other]
             radii = (inf if isinstance(one, Line) else 0.0, inf if isinstance(two, Line) else 0.0)
-            place = JointPlace(radii=radii if joint.pair.name == "roll_slide" else None)
+            place = JointPlace(radii=radii if joint.pair.is_roll_slide else None)
             ends = _frame(one, size), _frame(two, size)
             ties.append(JointFrames(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
     return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
@@ -74,7 +75,7 @@ def _frame(element: object, size: float) -> Reals:
         raise LinkageError(
             "mobility with dimensions knows pins and lines, not {element!r}; give the joints' screws", element=element
         )
-    return _matrix(element.x / size, element.y / size, element.angle if isinstance(element, Line) else 0.0)
+    return _matrix(element.x / size, element.y / size, direction(element))
 
 
 def _matrix(x: float, y: float, angle: float) -> Reals:
@@ -157,7 +158,7 @@ def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> 
     _check_count(at, len(mechanism.drives))
     joints, values = [drive.joint for drive in mechanism.drives], []
     for joint, value in zip(joints, at, strict=True):
-        if mechanism.chain.joints[joint].pair.name == "revolute":
+        if mechanism.chain.joints[joint].pair.is_revolute:
             now = joint_value(closing, home, joint)
             values.append(now + (value - now + np.pi) % (2 * np.pi) - np.pi)
         else:

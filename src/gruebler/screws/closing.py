@@ -111,8 +111,8 @@ class Closing:
 
     def seen(self, pose: Reals) -> Reals:
         """For each tie the second link's joint frame as seen from the first link's, (ties, 4, 4)."""
-        out: Reals = inverse_motion(pose[self._first] @ self._on_first) @ (pose[self._second] @ self._on_second)
-        return out
+        relative: Reals = inverse_motion(pose[self._first] @ self._on_first) @ (pose[self._second] @ self._on_second)
+        return relative
 
     def _evaluated(self, pose: Reals) -> tuple[Reals, Reals]:
         e = self.seen(pose)[self._owner]
@@ -136,22 +136,22 @@ class Closing:
         m = np.swapaxes(left, 1, 2) @ weights @ np.swapaxes(right, 1, 2)
         turn = np.stack([m[:, 2, 1] - m[:, 1, 2], m[:, 0, 2] - m[:, 2, 0], m[:, 1, 0] - m[:, 0, 1]], axis=1)
         by_twist = np.concatenate([turn, m[:, :3, 3]], axis=1)[:, self.columns]
-        out = np.zeros((self.equations, len(pose), len(self.columns)))
+        gradients = np.zeros((self.equations, len(pose), len(self.columns)))
         every = np.arange(self.equations)
-        out[every, self._second[self._owner]] = by_twist
-        out[every, self._first[self._owner]] -= by_twist
-        return value, out[:, self.moving].reshape(self.equations, self.unknowns)
+        gradients[every, self._second[self._owner]] = by_twist
+        gradients[every, self._first[self._owner]] -= by_twist
+        return value, gradients[:, self.moving].reshape(self.equations, self.unknowns)
 
     def twists(self, motion: Reals) -> Reals:
         """The twists (n, 6) of all links in a motion (unknowns,)."""
-        out = np.zeros((len(self.home), 6))
-        out[np.ix_(self.moving, self.columns)] = motion.reshape(len(self.moving), len(self.columns))
-        return out
+        twists = np.zeros((len(self.home), 6))
+        twists[np.ix_(self.moving, self.columns)] = motion.reshape(len(self.moving), len(self.columns))
+        return twists
 
     def moved(self, pose: Reals, motion: Reals) -> Reals:
         """The pose after every link has moved along its own twist for a unit of time."""
-        out: Reals = exponential(self.twists(motion)) @ pose
-        return out
+        moved: Reals = exponential(self.twists(motion)) @ pose
+        return moved
 
     def along(self, pose: Reals, motion: Reals) -> tuple[Reals, Reals]:
         """Residual at `moved(pose, motion)`, and its derivative by the motion's numbers: (equations, unknowns)."""

@@ -39,11 +39,11 @@ def joint_rows(pair: Pair, space: Space, place: JointPlace) -> list[Row]:
     if space is Space.SPHERICAL and pair.name in ("rolling", "roll_slide"):
         touch, arcs = _cone_touch(*_radii(place)), _cone_arcs(*_radii(place))
         return [touch, arcs] if pair.name == "rolling" else [touch if place.pressure is None else arcs]
-    out: list[Row] = _turns([d[1] for d in free if d[0] in "RH"], space)
+    rows: list[Row] = _turns([d[1] for d in free if d[0] in "RH"], space)
     for direction in space.directions:
         if direction[0] == "T" and direction not in free:
-            out += _shift(direction, pair, place)
-    return out
+            rows += _shift(direction, pair, place)
+    return rows
 
 
 def _radii(place: JointPlace) -> tuple[float, float]:
@@ -52,9 +52,9 @@ def _radii(place: JointPlace) -> tuple[float, float]:
 
 
 def _entry(i: int, j: int, weight: float = 1.0) -> Reals:
-    out = np.zeros((4, 4))
-    out[i, j] = weight
-    return out
+    gradient = np.zeros((4, 4))
+    gradient[i, j] = weight
+    return gradient
 
 
 def _turns(free: list[str], space: Space) -> list[Row]:
@@ -66,11 +66,11 @@ def _turns(free: list[str], space: Space) -> list[Row]:
         return [_entry(place(axis), place(free[0])) for axis in taken]
     if len(free) == 2:
         return [_entry(place(free[0]), place(free[1]))]
-    out: list[Row] = []
+    rows: list[Row] = []
     for axis in taken:
         i, j = (place(axis) + 1) % 3, (place(axis) + 2) % 3
-        out.append(_entry(j, i, 0.5) - _entry(i, j, 0.5))
-    return out
+        rows.append(_entry(j, i, 0.5) - _entry(i, j, 0.5))
+    return rows
 
 
 def _shift(direction: str, pair: Pair, place: JointPlace) -> list[Row]:
@@ -86,21 +86,21 @@ def _shift(direction: str, pair: Pair, place: JointPlace) -> list[Row]:
 def _screw(pitch: float) -> Bent:
     def row(e: Reals) -> tuple[float, Reals]:
         c, s = e[0, 0], e[1, 0]
-        out = _entry(2, 3)
-        out[1, 0], out[0, 0] = -pitch * c / (c * c + s * s), pitch * s / (c * c + s * s)
+        gradient = _entry(2, 3)
+        gradient[1, 0], gradient[0, 0] = -pitch * c / (c * c + s * s), pitch * s / (c * c + s * s)
         gap = float(e[2, 3] - pitch * np.arctan2(s, c))
         lead = 2 * np.pi * pitch
-        return gap - (lead * round(gap / lead) if lead else 0.0), out  # whole turns more are the same position
+        return gap - (lead * round(gap / lead) if lead else 0.0), gradient  # whole turns more are the same position
 
     return row
 
 
 def _crossed(e: Reals) -> tuple[float, Reals]:
     """The distance of the first link's x axis from the second's y axis: p · (x × R y)."""
-    out = np.zeros((4, 4))
-    out[1, 3], out[2, 3] = -e[2, 1], e[1, 1]
-    out[2, 1], out[1, 1] = -e[1, 3], e[2, 3]
-    return float(e[2, 3] * e[1, 1] - e[1, 3] * e[2, 1]), out
+    gradient = np.zeros((4, 4))
+    gradient[1, 3], gradient[2, 3] = -e[2, 1], e[1, 1]
+    gradient[2, 1], gradient[1, 1] = -e[1, 3], e[2, 3]
+    return float(e[2, 3] * e[1, 1] - e[1, 3] * e[2, 1]), gradient
 
 
 # --- round contacts in a plane: y goes from the first centre (0, -r) to the second (0, s) --------------------------
@@ -118,11 +118,11 @@ def _touch(r: float, s: float) -> Bent:
     centre = np.array([0.0, s, 0.0, 1.0])
 
     def row(e: Reals) -> tuple[float, Reals]:
-        way = (e @ centre)[:2] + np.array([0.0, r])
-        distance = float(np.hypot(*way))
-        out = np.zeros((4, 4))
-        out[:2] = np.outer(way / distance, centre)
-        return distance - abs(r + s), out
+        between = (e @ centre)[:2] + np.array([0.0, r])
+        distance = float(np.hypot(*between))
+        gradient = np.zeros((4, 4))
+        gradient[:2] = np.outer(between / distance, centre)
+        return distance - abs(r + s), gradient
 
     return row
 
@@ -132,10 +132,10 @@ def _touch_flat(r: float, s: float) -> Bent:
         return float(e[1, 1] * s + e[1, 3] - s), _entry(1, 1, s) + _entry(1, 3)
 
     def on_second(e: Reals) -> tuple[float, Reals]:
-        way = np.array([0.0, -r]) - e[:2, 3]
-        out = np.zeros((4, 4))
-        out[:2, 1], out[:2, 3] = way, -e[:2, 1]
-        return float(e[:2, 1] @ way + r), out
+        between = np.array([0.0, -r]) - e[:2, 3]
+        gradient = np.zeros((4, 4))
+        gradient[:2, 1], gradient[:2, 3] = between, -e[:2, 1]
+        return float(e[:2, 1] @ between + r), gradient
 
     return on_first if r == inf else on_second
 
@@ -157,10 +157,10 @@ def _arcs(r: float, s: float, pressure: float) -> Bent:
             angle = np.arccos(min(1.0, base / square**0.5)) * np.sign(pressure)
             value += base * ((tan(angle) - angle) - (tan(pressure) - pressure))
             by_u = by_u + sin(angle) * base / (cos(angle) * square) * u
-        out = np.zeros((4, 4))
-        out[:2] = sign * np.outer(by_u, centre)
-        out[:2, :2] += s * np.outer(u, from_w)
-        return float(value), out
+        gradient = np.zeros((4, 4))
+        gradient[:2] = sign * np.outer(by_u, centre)
+        gradient[:2, :2] += s * np.outer(u, from_w)
+        return float(value), gradient
 
     return row
 
@@ -176,9 +176,9 @@ def _cone_touch(r: float, s: float) -> Bent:
     one, other = _cones(r, s)
 
     def row(e: Reals) -> tuple[float, Reals]:
-        out = np.zeros((4, 4))
-        out[:3, :3] = -np.outer(one, other) / sin(r + s)
-        return float(cos(r + s) - one @ e[:3, :3] @ other) / sin(r + s), out
+        gradient = np.zeros((4, 4))
+        gradient[:3, :3] = -np.outer(one, other) / sin(r + s)
+        return float(cos(r + s) - one @ e[:3, :3] @ other) / sin(r + s), gradient
 
     return row
 
@@ -193,9 +193,9 @@ def _cone_arcs(r: float, s: float) -> Bent:
         turn = e[:3, :3]
         m, n = sign * (turn @ other), sign * (turn.T @ one)
         a, b, c, d = m @ x, m @ ahead, -n @ x, n @ back
-        out = np.zeros((4, 4))
-        out[:3, :3] = sign * sin(r) * np.outer(b * x - a * ahead, other) / (a * a + b * b)
-        out[:3, :3] += sign * sin(s) * np.outer(one, -d * x - c * back) / (c * c + d * d)
-        return float(sin(r) * np.arctan2(a, b) + sin(s) * np.arctan2(c, d)), out
+        gradient = np.zeros((4, 4))
+        gradient[:3, :3] = sign * sin(r) * np.outer(b * x - a * ahead, other) / (a * a + b * b)
+        gradient[:3, :3] += sign * sin(s) * np.outer(one, -d * x - c * back) / (c * c + d * d)
+        return float(sin(r) * np.arctan2(a, b) + sin(s) * np.arctan2(c, d)), gradient
 
     return row

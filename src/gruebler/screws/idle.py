@@ -39,16 +39,16 @@ def idle_parts(instant: InstantMobility, generic: Sequence[IdleFreedom]) -> tupl
         joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
         if link != frame and len(joints) > 1 and all(chain.joints[k].pair.is_group for k in joints):
             alone[link] = _common([screws_of(instant.closing, instant.pose, k) for k in joints])
-    out = []
+    freedoms = []
     for link in chain.links:
         number = max(len(alone.get(link, ())), known[(link,)].freedoms if (link,) in known else 0)
         if number:
-            out.append(IdleFreedom((link,), number, IdleCondition.ALWAYS))
+            freedoms.append(IdleFreedom((link,), number, IdleCondition.ALWAYS))
     for part, balls in between_balls(chain, frame):
         spin = _common([screws_of(instant.closing, instant.pose, k) for k in balls])
         if not all(link in alone and _within(spin, alone[link]) for link in part):  # else it is the sum of their spins
-            out.append(IdleFreedom(part, 1, IdleCondition.ALWAYS))
-    return tuple(sorted(out, key=lambda idle: chain.index(idle.links[0])))
+            freedoms.append(IdleFreedom(part, 1, IdleCondition.ALWAYS))
+    return tuple(sorted(freedoms, key=lambda idle: chain.index(idle.links[0])))
 
 
 def _common(spaces: Sequence[Reals]) -> Reals:

@@ -71,9 +71,9 @@ class JointGeometry:
         if any(k != 2 for k in self.chain.degrees.values()) or self.chain.multiple_joints:
             return None
         link = self.chain.links[0]
-        out: list[int] = []
-        while len(out) < len(self.chain.joints):
-            number = next(k for k, j in enumerate(self.chain.joints) if link in j.links and k not in out)
-            out.append(number)
+        ring: list[int] = []
+        while len(ring) < len(self.chain.joints):
+            number = next(k for k, j in enumerate(self.chain.joints) if link in j.links and k not in ring)
+            ring.append(number)
             link = next(name for name in self.chain.joints[number].links if name != link)
-        return out
+        return ring

@@ -172,12 +172,12 @@ def joint_axes(place: JointPlace, space: Space, where: str = "joint") -> Reals:
     missing = next((k for k in range(3) if k not in given), None)
     if missing is not None:
         given[missing] = np.cross(given[(missing + 1) % 3], given[(missing + 2) % 3])
-    out = np.stack([given[k] for k in range(3)], axis=1)
-    if abs(out.T @ out - np.eye(3)).max() > _SQUARE or np.linalg.det(out) < 0:
+    axes = np.stack([given[k] for k in range(3)], axis=1)
+    if abs(axes.T @ axes - np.eye(3)).max() > _SQUARE or np.linalg.det(axes) < 0:
         raise LinkageError(
             "{where}: the axes x, y, z of a joint are at right angles, in right-handed order", where=where
         )
-    return out
+    return axes
 
 
 def _numbers(raw: object, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
@@ -211,10 +211,10 @@ def _vector(raw: object, space: Space, where: str) -> Vector:
 def _direction(raw: object, space: Space, where: str) -> Vector | None:
     if raw is None:
         return None
-    made = _vector(raw, space, where)
-    if not hypot(*made) > 0:
+    vector = _vector(raw, space, where)
+    if not hypot(*vector) > 0:
         raise LinkageError("{where}: a direction is not zero", where=where)
-    return made
+    return vector
 
 
 def _radii(raw: object, where: str) -> tuple[float, float] | None:

@@ -99,28 +99,28 @@ def _hookes_joints(s: JointGeometry) -> Iterator[Hooke]:
         yield Hooke(s.at(k), frozenset(s.chain.joints[k].links), (k,))
     turning = s.kinds("revolute")
     for link in s.chain.links:
-        mine = [k for k, joint in enumerate(s.chain.joints) if link in joint.links]
-        if len(mine) != 2 or not set(mine) <= set(turning) or any(len(s.chain.joints[k].links) > 2 for k in mine):
+        joints = [k for k, joint in enumerate(s.chain.joints) if link in joint.links]
+        if len(joints) != 2 or not set(joints) <= set(turning) or any(len(s.chain.joints[k].links) > 2 for k in joints):
             continue
-        bar = _bar(s, *mine)
+        bar = _bar(s, *joints)
         if bar is not None and bar[0] < SAME:
-            shafts = {name for k in mine for name in s.chain.joints[k].links} - {link}
+            shafts = {name for k in joints for name in s.chain.joints[k].links} - {link}
             if len(shafts) == 2:
-                yield Hooke(bar[2][0], frozenset(shafts), (mine[0], mine[1]))
+                yield Hooke(bar[2][0], frozenset(shafts), (joints[0], joints[1]))
 
 
 def cardan(s: JointGeometry) -> Iterator[Reason]:
     """Two Hooke's joints, each with its centre on the axis of a bearing of its shaft: both centres stand still."""
     if s.chain.space is not Space.SPATIAL:
         return
-    found = [
+    hookes = [
         (j, hooke)
         for hooke in _hookes_joints(s)
         for j in s.kinds("revolute")
         if j not in hooke.joints and set(s.chain.joints[j].links) & hooke.shafts and s.on_axis(j, hooke.centre)
     ]
     reasons = []
-    for (j, one), (i, other) in itertools.combinations(found, 2):
+    for (j, one), (i, other) in itertools.combinations(hookes, 2):
         shaft = one.shafts & other.shafts
         bearings = set(s.chain.joints[j].links) & set(s.chain.joints[i].links)
         if one.joints != other.joints and j != i and shaft and bearings:

@@ -90,11 +90,11 @@ class SpatialLinkage:
     @cached_property
     def frames(self) -> Reals:
         """Point and axes of each joint at home, (joints, 4, 4)."""
-        out = np.tile(np.eye(4), (len(self.places), 1, 1))
+        frames = np.tile(np.eye(4), (len(self.places), 1, 1))
         for k, place in enumerate(self.places):
-            out[k, :3, :3] = joint_axes(place, self.mechanism.chain.space)
-            out[k, :3, 3] = place.at
-        return out
+            frames[k, :3, :3] = joint_axes(place, self.mechanism.chain.space)
+            frames[k, :3, 3] = place.at
+        return frames
 
     def moved(self, motion: ArrayLike) -> SpatialLinkage:
         """The same linkage elsewhere: every point and axis taken along with a rigid motion (4, 4)."""

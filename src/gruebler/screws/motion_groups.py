@@ -55,15 +55,15 @@ def screws_of(closing: Closing, pose: Reals, joint: int) -> Reals:
     chain = closing.mechanism.chain
     tie = next(tie for tie in closing.ties if tie.joint == joint)
     frame = pose[tie.first] @ tie.on_first
-    out = []
+    screws = []
     for direction in chain.joints[joint].pair.freedoms[chain.space]:
         twist = np.zeros(6)
         k = "xyz".index(direction[1])
         twist[k + 3 * (direction[0] == "T")] = 1.0
         if direction[0] == "H":
             twist[k + 3] = tie.place.pitch
-        out.append(adjoint(frame) @ twist)
-    return np.array(out)
+        screws.append(adjoint(frame) @ twist)
+    return np.array(screws)
 
 
 def smallest_algebra(twists: Reals) -> Reals:
@@ -79,8 +79,8 @@ def smallest_algebra(twists: Reals) -> Reals:
 
 def _basis(twists: Reals) -> Reals:
     _, values, vectors = np.linalg.svd(twists, full_matrices=False)
-    out: Reals = vectors[values > _SAME * max(1.0, values[0])]
-    return out
+    basis: Reals = vectors[values > _SAME * max(1.0, values[0])]
+    return basis
 
 
 def common_group(closing: Closing, pose: Reals) -> MotionGroup:

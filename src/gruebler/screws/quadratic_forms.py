@@ -39,8 +39,8 @@ def is_definite(forms: Reals) -> bool:
 
 
 def _values(forms: Reals, k: Reals) -> Reals:
-    out = np.einsum("sij,i,j->s", forms, k, k)
-    unit: Reals = out / max(np.linalg.norm(out), TINY)
+    values = np.einsum("sij,i,j->s", forms, k, k)
+    unit: Reals = values / max(np.linalg.norm(values), TINY)
     return unit
 
 
@@ -70,6 +70,6 @@ def _zero(forms: Reals, k: Reals) -> Reals | None:
 
 
 def _starts(random: np.random.Generator, size: int, many: int) -> Reals:
-    out = np.vstack([np.eye(size), random.normal(size=(many, size))])
-    unit: Reals = out / np.linalg.norm(out, axis=1)[:, None]
+    vectors = np.vstack([np.eye(size), random.normal(size=(many, size))])
+    unit: Reals = vectors / np.linalg.norm(vectors, axis=1)[:, None]
     return unit

@@ -34,8 +34,8 @@ def reasons(instant: InstantMobility) -> tuple[Reason, ...]:
     if not instant.redundancy:
         return ()
     geometry = JointGeometry(instant)
-    found = tuple(reason for recogniser in _RECOGNISERS for reason in recogniser(geometry))
-    return found or tuple(_coaxial(geometry))
+    recognised = tuple(reason for recogniser in _RECOGNISERS for reason in recogniser(geometry))
+    return recognised or tuple(_coaxial(geometry))
 
 
 def _group(s: JointGeometry) -> Iterator[Reason]:
@@ -59,8 +59,8 @@ def _parts(s: JointGeometry, ends: tuple[str, ...]) -> list[tuple[str, ...]]:
         left = [link for link in joint.links if link in root]
         for other in left[1:]:
             here, there = root[left[0]], root[other]
-            root = {link: here if mine == there else mine for link, mine in root.items()}
-    return [tuple(link for link, mine in root.items() if mine == one) for one in dict.fromkeys(root.values())]
+            root = {link: here if old_root == there else old_root for link, old_root in root.items()}
+    return [tuple(link for link, old_root in root.items() if old_root == one) for one in dict.fromkeys(root.values())]
 
 
 def _copies(s: JointGeometry) -> Iterator[Reason]:
@@ -90,17 +90,19 @@ def _pole(s: JointGeometry) -> Iterator[Reason]:
         if min(np.linalg.norm(b - a) for a, b in pins) < SAME:
             continue
         ways = [(b - a) / np.linalg.norm(b - a) for a, b in pins]
-        lines = np.array([[*way[:2], float(np.cross(a, way)[2])] for way, (a, _) in zip(ways, pins, strict=True)])
+        lines = np.array(
+            [[*direction[:2], float(np.cross(a, direction)[2])] for direction, (a, _) in zip(ways, pins, strict=True)]
+        )
         if np.linalg.svd(lines, compute_uv=False)[2] > SAME or len(_classes(s, [(b,) for b in bars], ends)) == 1:
             continue
-        parallel = all(np.linalg.norm(np.cross(ways[0], way)) < SAME for way in ways)
+        parallel = all(np.linalg.norm(np.cross(ways[0], direction)) < SAME for direction in ways)
         yield Reason("parallel" if parallel else "concurrent", (*ends, *bars), (), len(bars))
 
 
 def _is_bar(s: JointGeometry, link: str, ends: tuple[str, ...]) -> bool:
     """Whether a link has two turning joints of two links, one with each of the ends."""
     joints = [s.chain.joints[k] for k in _joints(s, (link,))]
-    turning = all(j.pair.name == "revolute" and len(j.links) == 2 for j in joints)
+    turning = all(j.pair.is_revolute and len(j.links) == 2 for j in joints)
     return turning and sorted(name for j in joints for name in j.links if name != link) == sorted(ends)
 
 
@@ -126,29 +128,29 @@ def _ties(s: JointGeometry, part: tuple[str, ...]) -> bool:
 
 def _classes(s: JointGeometry, parts: list[tuple[str, ...]], ends: tuple[str, ...]) -> list[list[tuple[str, ...]]]:
     """The parts by congruence: shifted copies of one another."""
-    out: list[list[tuple[str, ...]]] = []
+    classes: list[list[tuple[str, ...]]] = []
     for part in parts:
-        for alike in out:
+        for alike in classes:
             if _congruent(s, alike[0], part, ends):
                 alike.append(part)
                 break
         else:
-            out.append([part])
-    return out
+            classes.append([part])
+    return classes
 
 
 def _congruent(s: JointGeometry, one: tuple[str, ...], other: tuple[str, ...], ends: tuple[str, ...]) -> bool:
     """Whether two parts are alike but for a shift, measured against the first one's own extent."""
     extent = _extent(s, one)
-    mine, yours = _traits(s, one, ends, extent), _traits(s, other, ends, extent)
-    if len(mine) != len(yours):
+    traits, other_traits = _traits(s, one, ends, extent), _traits(s, other, ends, extent)
+    if len(traits) != len(other_traits):
         return False
     same = max(SAME, _ROUNDING / extent)
-    for key, screws in mine:
-        fitting = next((t for t in yours if t[0] == key and abs(t[1] - screws).max() < same), None)
+    for key, screws in traits:
+        fitting = next((t for t in other_traits if t[0] == key and abs(t[1] - screws).max() < same), None)
         if fitting is None:
             return False
-        yours = [t for t in yours if t is not fitting]
+        other_traits = [t for t in other_traits if t is not fitting]
     return True
 
 
@@ -170,13 +172,13 @@ def _traits(s: JointGeometry, part: tuple[str, ...], ends: tuple[str, ...], unit
     shift = np.eye(4)
     shift[:3, 3] = -_pins(s, part).mean(axis=0)
     scale = np.repeat([1.0, 1 / unit], 3)[:, None]
-    out: list[tuple[object, Reals]] = []
+    traits: list[tuple[object, Reals]] = []
     for k in _joints(s, part):
         joint = s.chain.joints[k]
         basis = np.linalg.qr(scale * (adjoint(shift) @ screws_of(s.closing, s.instant.pose, k).T))[0]
         met = tuple(end in joint.links for end in ends)
-        out.append(((joint.pair.name, met, s.places[k].radii), basis @ basis.T))
-    return out
+        traits.append(((joint.pair.name, met, s.places[k].radii), basis @ basis.T))
+    return traits
 
 
 def _planets(s: JointGeometry) -> Iterator[Reason]:
@@ -187,9 +189,9 @@ def _planets(s: JointGeometry) -> Iterator[Reason]:
         if sum(1 for pair, *_ in met if pair in _ROUND) >= 2:
             sorts.setdefault(tuple(met), []).append(link)
     frame = s.closing.mechanism.frame
-    found = [alike for alike in sorts.values() if len(alike) > 1]
-    riding = [alike for alike in found if not any(True for _ in s.between("revolute", frame, alike[0]))]
-    for alike in riding or found:
+    groups = [alike for alike in sorts.values() if len(alike) > 1]
+    riding = [alike for alike in groups if not any(True for _ in s.between("revolute", frame, alike[0]))]
+    for alike in riding or groups:
         joints = [k for link in alike for k in _joints(s, (link,))]
         if any(k in s.instant.redundant for k in joints):
             yield Reason("planets", tuple(alike), tuple(joints), len(alike))
@@ -230,7 +232,7 @@ def _locking(s: JointGeometry) -> Iterator[Reason]:
 def _line(s: JointGeometry) -> Iterator[Reason]:
     """All redundant joints on one line: a stretched or folded position."""
     joints = sorted(s.instant.redundant)
-    if s.chain.space is not Space.PLANAR or any(s.chain.joints[k].pair.name != "revolute" for k in joints):
+    if s.chain.space is not Space.PLANAR or any(not s.chain.joints[k].pair.is_revolute for k in joints):
         return
     points = np.array([s.at(k) for k in joints])
     spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)

@@ -25,11 +25,11 @@ def twist_matrix(twists: ArrayLike) -> Reals:
     [0.0, -1.0, 0.0, 2.0]
     """
     t = np.asarray(twists, float)
-    out = np.zeros((*t.shape[:-1], 4, 4))
-    out[..., 2, 1], out[..., 0, 2], out[..., 1, 0] = t[..., 0], t[..., 1], t[..., 2]
-    out[..., :3, :3] -= np.swapaxes(out[..., :3, :3], -1, -2)
-    out[..., :3, 3] = t[..., 3:]
-    return out
+    matrix = np.zeros((*t.shape[:-1], 4, 4))
+    matrix[..., 2, 1], matrix[..., 0, 2], matrix[..., 1, 0] = t[..., 0], t[..., 1], t[..., 2]
+    matrix[..., :3, :3] -= np.swapaxes(matrix[..., :3, :3], -1, -2)
+    matrix[..., :3, 3] = t[..., 3:]
+    return matrix
 
 
 def exponential(twists: ArrayLike) -> Reals:
@@ -49,48 +49,48 @@ def exponential(twists: ArrayLike) -> Reals:
         small, 1 / 6 - square / 120 + square**2 / 5040 - square**3 / 362880, (safe - np.sin(safe)) / safe**3
     )
     x2 = x @ x
-    out: Reals = np.eye(4) + x + second * x2 + third * (x2 @ x)
-    return out
+    motion: Reals = np.eye(4) + x + second * x2 + third * (x2 @ x)
+    return motion
 
 
 def lie_bracket(twists: ArrayLike) -> Reals:
     """The matrices (..., 6, 6) that take another twist to its Lie bracket with these."""
     t = np.asarray(twists, float)
-    out = np.zeros((*t.shape[:-1], 6, 6))
+    bracket = np.zeros((*t.shape[:-1], 6, 6))
     turn = twist_matrix(t)[..., :3, :3]
     shift = twist_matrix(np.concatenate([t[..., 3:], t[..., :3]], axis=-1))[..., :3, :3]
-    out[..., :3, :3] = out[..., 3:, 3:] = turn
-    out[..., 3:, :3] = shift
-    return out
+    bracket[..., :3, :3] = bracket[..., 3:, 3:] = turn
+    bracket[..., 3:, :3] = shift
+    return bracket
 
 
 def exponential_rate(twists: ArrayLike) -> Reals:
     """The matrices D (..., 6, 6) with d exp(ξ) exp(ξ)⁻¹ = D dξ: the sum of bracket(ξ)^k / (k + 1)!."""
     ad = lie_bracket(twists)
-    out = np.broadcast_to(np.eye(6), ad.shape).copy()
-    power = out.copy()
+    rate = np.broadcast_to(np.eye(6), ad.shape).copy()
+    power = rate.copy()
     for k in range(1, _TERMS + 1):
         power = power @ ad / (k + 1)
-        out += power
-    return out
+        rate += power
+    return rate
 
 
 def adjoint(motion: ArrayLike) -> Reals:
     """The matrices (..., 6, 6) that take twists along with motions (..., 4, 4)."""
     m = np.asarray(motion, float)
     turn = m[..., :3, :3]
-    out = np.zeros((*m.shape[:-2], 6, 6))
-    out[..., :3, :3] = out[..., 3:, 3:] = turn
+    matrix = np.zeros((*m.shape[:-2], 6, 6))
+    matrix[..., :3, :3] = matrix[..., 3:, 3:] = turn
     shift = np.concatenate([m[..., :3, 3], np.zeros_like(m[..., :3, 3])], axis=-1)
-    out[..., 3:, :3] = twist_matrix(shift)[..., :3, :3] @ turn
-    return out
+    matrix[..., 3:, :3] = twist_matrix(shift)[..., :3, :3] @ turn
+    return matrix
 
 
 def inverse_motion(motion: Reals) -> Reals:
     """The inverse motions (..., 4, 4)."""
-    out = np.zeros_like(motion)
+    inverse = np.zeros_like(motion)
     turn = np.swapaxes(motion[..., :3, :3], -1, -2)
-    out[..., :3, :3] = turn
-    out[..., :3, 3] = -(turn @ motion[..., :3, 3, None])[..., 0]
-    out[..., 3, 3] = 1
-    return out
+    inverse[..., :3, :3] = turn
+    inverse[..., :3, 3] = -(turn @ motion[..., :3, 3, None])[..., 0]
+    inverse[..., 3, 3] = 1
+    return inverse

@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
+from gruebler import notebook
 from gruebler.catalog import entry
 from gruebler.catalog.features import AccessFeatures, access_features
 from gruebler.errors import CatalogError
@@ -114,6 +115,10 @@ class Sheet(Brief):
     """
 
     record: SheetRecord
+
+    def _repr_svg_(self) -> str | None:
+        """Its page, for notebooks."""
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     @property
     def id(self) -> str:

@@ -161,13 +161,13 @@ def follow_from_generic(
     from gruebler._numeric.work_estimates import tracking
 
     kernel = for_work(track, tracking(len(starts)))
-    out, status = np.empty_like(starts), np.empty(len(starts), np.int64)
+    ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
     work = np.empty(len(starts), np.int64)
     size = 32
     blocks = [slice(k, k + size) for k in range(0, len(starts), size)]
 
     def run(part: slice) -> None:
-        kernel(starts[part], begin, end, problem.poses, problem.points, loose, out[part], status[part], work[part])
+        kernel(starts[part], begin, end, problem.poses, problem.points, loose, ends[part], status[part], work[part])
 
     workers = max(1, min(threads or os.cpu_count() or 1, len(blocks)))
     done = 0
@@ -176,7 +176,7 @@ def follow_from_generic(
             done = min(part.stop, len(starts))
             if progress is not None:
                 progress(done, len(starts))
-    return out, status
+    return ends, status
 
 
 def solutions(
@@ -333,10 +333,10 @@ def _pairs(problem: Problem, z: Complexes, near: float = _SAME) -> Integers:
 
 
 def _repeated(problem: Problem, z: Complexes, arrived: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    out = np.zeros(len(z), bool)
+    repeated = np.zeros(len(z), bool)
     where = np.flatnonzero(arrived)
-    out[where[_pairs(problem, z[arrived]).ravel()]] = True
-    return out
+    repeated[where[_pairs(problem, z[arrived]).ravel()]] = True
+    return repeated
 
 
 def _distinct(problem: Problem, z: Complexes) -> Complexes:

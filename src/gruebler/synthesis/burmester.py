@@ -98,15 +98,15 @@ def _real_cubic(cubic: Complexes) -> Reals:
 
     from gruebler.synthesis.dyads import _CUBIC
 
-    out = np.zeros((4, 4), np.complex128)
+    cartesian = np.zeros((4, 4), np.complex128)
     for value, (m, n) in zip(cubic, _CUBIC, strict=True):
         for a in range(m + 1):
             for b in range(n + 1):
                 i, j = m + n - a - b, a + b
-                out[i, j] += value * comb(m, a) * comb(n, b) * (1j) ** a * (-1j) ** b
+                cartesian[i, j] += value * comb(m, a) * comb(n, b) * (1j) ** a * (-1j) ** b
     # Real up to a common factor of modulus one.
-    largest = out.ravel()[np.argmax(np.abs(out))]
-    return np.asarray((out / largest).real)
+    largest = cartesian.ravel()[np.argmax(np.abs(cartesian))]
+    return np.asarray((cartesian / largest).real)
 
 
 def _value(cubic: Reals, z: Complexes) -> Reals:
@@ -143,7 +143,7 @@ def _traced(cubic: Reals, start: complex, points: int) -> list[Complexes]:
         return np.asarray(square**2 - 4 * cube * linear)
 
     cuts = _zeros_of_form(discriminant)
-    out: list[Complexes] = []
+    loops: list[Complexes] = []
     spans = [(0.0, np.pi)] if not len(cuts) else list(zip(cuts, [*cuts[1:], cuts[0] + np.pi], strict=True))
     for low, high in spans:
         if discriminant(np.array([(low + high) / 2]))[0] <= 0:
@@ -159,23 +159,25 @@ def _traced(cubic: Reals, start: complex, points: int) -> list[Complexes]:
             first, second = 2 * linear / (-square + root), 2 * linear / (-square - root)
         loop = np.concatenate([start + direction * first, (start + direction * second)[::-1]])
         if not len(cuts):
-            out += [start + direction * first, start + direction * second]
+            loops += [start + direction * first, start + direction * second]
         else:
-            out.append(loop)
-    return [piece for loop in out for piece in _finite(loop)]
+            loops.append(loop)
+    return [piece for loop in loops for piece in _finite(loop)]
 
 
 def _shifted(cubic: Reals, start: complex) -> Reals:
     """The coefficients about another origin."""
     from math import comb
 
-    out = np.zeros((4, 4))
+    shifted = np.zeros((4, 4))
     for i in range(4):
         for j in range(4 - i):
             for a in range(i + 1):
                 for b in range(j + 1):
-                    out[a, b] += cubic[i, j] * comb(i, a) * comb(j, b) * start.real ** (i - a) * start.imag ** (j - b)
-    return out
+                    shifted[a, b] += (
+                        cubic[i, j] * comb(i, a) * comb(j, b) * start.real ** (i - a) * start.imag ** (j - b)
+                    )
+    return shifted
 
 
 def _zeros_of_form(form: object) -> Reals:

@@ -81,7 +81,7 @@ class DesignClosure:
     def __init__(self, linkage: Linkage) -> None:
         lower = with_lower_pairs(linkage)
         chain, frame = lower.mechanism.chain, lower.mechanism.frame
-        wrong = [joint.pair.name for joint in chain.joints if joint.pair.name not in ("revolute", "prismatic")]
+        wrong = [joint.pair.name for joint in chain.joints if not joint.pair.is_basic]
         if wrong:
             raise SynthesisError(
                 "linkages of turning and sliding joints are fitted, not those with {wrong} joints", wrong=wrong[0]
@@ -105,7 +105,7 @@ class DesignClosure:
         ]
         sides = [[joint[side] for joint in joints] for side in (0, 1)]
         self._bodies = [np.array([self.column.get(key[1], self.frame_column) // 3 for key in keys]) for keys in sides]
-        self._slides = np.flatnonzero([chain.joints[number].pair.name == "prismatic" for (number, _), _ in joints])
+        self._slides = np.flatnonzero([chain.joints[number].pair.is_prismatic for (number, _), _ in joints])
         starts = [np.array([self.start[key] for key in keys], np.int64) for keys in sides]
         self._starts = starts
         self._lines = [start[self._slides] + 2 for start in starts]
@@ -148,30 +148,30 @@ class DesignClosure:
 
     def gaps(self, joined: _Joined) -> Reals:
         """(poses, equations) how far the joints are from closed."""
-        out = np.empty((len(joined.gap), self.equations))
+        gaps = np.empty((len(joined.gap), self.equations))
         for k, factor in enumerate(joined.factors):
-            out[:, k::2] = np.real(factor * joined.gap)
-        out[:, 2 * self._slides + 1] = joined.between.imag
-        return out
+            gaps[:, k::2] = np.real(factor * joined.gap)
+        gaps[:, 2 * self._slides + 1] = joined.between.imag
+        return gaps
 
     def by_pose(self, joined: _Joined) -> Reals:
         """(poses, equations, unknowns) the derivatives of the gaps by the pose."""
-        out = np.zeros((len(joined.gap), self.equations, self.unknowns))
+        slopes = np.zeros((len(joined.gap), self.equations, self.unknowns))
         for side, sign in ((0, -1.0), (1, 1.0)):
             moving = np.flatnonzero(self._bodies[side] < len(self.links))
             column = 3 * self._bodies[side][moving]
             for k, factor in enumerate(joined.factors):
                 signed = sign * factor[:, moving]
                 row = 2 * moving + k
-                out[:, row, column] = signed.real
-                out[:, row, column + 1] = -signed.imag
-                out[:, row, column + 2] = np.real(signed * joined.arms[side][:, moving])
+                slopes[:, row, column] = signed.real
+                slopes[:, row, column + 1] = -signed.imag
+                slopes[:, row, column + 2] = np.real(signed * joined.arms[side][:, moving])
             slides = np.flatnonzero(self._bodies[side][self._slides] < len(self.links))
             row, column = 2 * self._slides[slides], 3 * self._bodies[side][self._slides[slides]] + 2
-            out[:, row + 1, column] = sign * joined.between.real[:, slides]
+            slopes[:, row + 1, column] = sign * joined.between.real[:, slides]
             if side == 0:
-                out[:, row, column] -= joined.along[:, slides]
-        return out
+                slopes[:, row, column] -= joined.along[:, slides]
+        return slopes
 
     def weighted_by_sizes(self, joined: _Joined, weights: Reals) -> Reals:
         """(poses, sums, dimensions) the derivatives by the dimensions of weighted sums of gaps.
@@ -232,8 +232,8 @@ class DesignClosure:
             at = self.start[key]
             element: Element = self.linkage.elements[key]
             x, y = float(p[at]), float(p[at + 1])
-            made: Element = Line(x, y, float(p[at + 2])) if isinstance(element, Line) else Pin(x, y)
-            elements[key[1]][key[0]] = made
+            changed: Element = Line(x, y, float(p[at + 2])) if isinstance(element, Line) else Pin(x, y)
+            elements[key[1]][key[0]] = changed
         places = {link: Pose2D(*(float(v) for v in home[c : c + 3])) for link, c in self.column.items()}
         places[self.linkage.mechanism.frame] = Pose2D(0.0, 0.0, 0.0)
         return Linkage(

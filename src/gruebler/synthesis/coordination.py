@@ -45,8 +45,8 @@ class Coordination(NamedTuple):
 
     def linkage(self) -> FourBar | SliderCrank | InvertedSliderCrank:
         """The linkage by its usual lengths."""
-        made = {"four-bar": FourBar, "slider-crank": SliderCrank, "inverted-slider-crank": InvertedSliderCrank}
-        return made[self.kind](*self.lengths)  # type: ignore[no-any-return]
+        shapes = {"four-bar": FourBar, "slider-crank": SliderCrank, "inverted-slider-crank": InvertedSliderCrank}
+        return shapes[self.kind](*self.lengths)  # type: ignore[no-any-return]
 
 
 @dataclass(frozen=True)
@@ -119,20 +119,20 @@ def pair_arrays(task: FunctionTask) -> tuple[Reals, Reals]:
 
 def coordinations_with_fixed_starts(kind: CoordinationKind, task: FunctionTask) -> Coordinations:
     """As many pairs as the kind has unknowns: one solution, if its lengths are real."""
-    phi, out = pair_arrays(task)
-    return Coordinations(tuple(_solved(kind, phi, out)), 1)
+    phi, output = pair_arrays(task)
+    return Coordinations(tuple(_solved(kind, phi, output)), 1)
 
 
 def coordinations_with_one_free_start(kind: CoordinationKind, task: FunctionTask) -> Coordinations:
     """One start is free: the determinant of the conditions is a quadratic in its tangent, or in the travel itself."""
-    phi, out = pair_arrays(task)
+    phi, output = pair_arrays(task)
     travel = kind.output == "travel" and not task.start_output
 
     def shifted(start: float) -> tuple[Reals, Reals]:
-        return (phi, out + start) if task.start_input else (phi + start, out)
+        return (phi, output + start) if task.start_input else (phi + start, output)
 
     if travel:
-        size = float(np.ptp(out)) or 1.0
+        size = float(np.ptp(output)) or 1.0
         at = size * np.array([-1.0, 0.0, 1.0])
 
         def plain(start: float) -> float:
@@ -161,9 +161,9 @@ def coordinations_with_one_free_start(kind: CoordinationKind, task: FunctionTask
     return Coordinations(tuple(real), len(starts))
 
 
-def _solved(kind: CoordinationKind, phi: Reals, out: Reals) -> list[Coordination]:
+def _solved(kind: CoordinationKind, phi: Reals, output: Reals) -> list[Coordination]:
     """The linkage of these pairs, negative lengths turned round; none if a length is zero or not real."""
-    columns = kind.columns(phi, out)
+    columns = kind.columns(phi, output)
     scale = np.abs(columns).max(axis=0).clip(1e-300)
     factors, *_ = np.linalg.lstsq(columns[:, :-1] / scale[:-1], columns[:, -1], rcond=1e-14)
     if np.abs(columns[:, :-1] / scale[:-1] @ factors - columns[:, -1]).max() > 1e-8 * scale[-1]:
@@ -171,23 +171,23 @@ def _solved(kind: CoordinationKind, phi: Reals, out: Reals) -> list[Coordination
     signed = kind.lengths(factors / scale[:-1])
     if signed is None:
         return []
-    return [_coordination(kind.name, signed, float(phi[0]), float(out[0]))]
+    return [_coordination(kind.name, signed, float(phi[0]), float(output[0]))]
 
 
-def _coordination(kind: str, signed: tuple[float, ...], phi: float, out: float) -> Coordination:
+def _coordination(kind: str, signed: tuple[float, ...], phi: float, output: float) -> Coordination:
     a = signed[0]
     crank = phi + (np.pi if a < 0 else 0.0)
     point = a * np.exp(1j * phi)
     if kind == "four-bar":
         b, c, d = signed[1:]
-        rocker = out + (np.pi if c < 0 else 0.0)
-        gap = d + c * np.exp(1j * out) - point
+        rocker = output + (np.pi if c < 0 else 0.0)
+        gap = d + c * np.exp(1j * output) - point
         branch = 1 if np.imag(np.conj(d - point) * gap) >= 0 else -1
         return Coordination(kind, (abs(a), b, abs(c), d), crank, rocker, branch)
     if kind == "slider-crank":
-        branch = 1 if out - point.real >= 0 else -1
-        return Coordination(kind, (abs(a), signed[1], signed[2]), crank, out, branch)
+        branch = 1 if output - point.real >= 0 else -1
+        return Coordination(kind, (abs(a), signed[1], signed[2]), crank, output, branch)
     # The guide has the direction psi; B0 lies on it towards the block for branch +1.
     d, e = signed[1:]
-    way = float(np.real((d - point) * np.exp(-1j * out)))
-    return Coordination(kind, (abs(a), d, e), crank, out, 1 if way >= 0 else -1)
+    displacement = float(np.real((d - point) * np.exp(-1j * output)))
+    return Coordination(kind, (abs(a), d, e), crank, output, 1 if displacement >= 0 else -1)

@@ -69,7 +69,7 @@ def best_matches(book: Complexes, z: Complexes, number: int, *, closed: bool) ->
         closed: whether the target is closed.
     """
     spectrum = np.fft.fft(book, axis=1)
-    out: list[CurveMatch] = []
+    matches: list[CurveMatch] = []
     for mirrored in (False, True):
         wanted = np.conj(z) if mirrored else z
         for length in (PLACES,) if closed else _WINDOWS:
@@ -80,9 +80,9 @@ def best_matches(book: Complexes, z: Complexes, number: int, *, closed: bool) ->
                     rows, along = np.roll(target[::-1], 1), (-parts) % 1.0
                 elif back:
                     rows, along = target[::-1], 1 - parts
-                out += _matched(book, spectrum, rows, along * length, number, mirrored=mirrored)
-    out.sort(key=lambda match: match.gap)
-    return out[:number]
+                matches += _matched(book, spectrum, rows, along * length, number, mirrored=mirrored)
+    matches.sort(key=lambda match: match.gap)
+    return matches[:number]
 
 
 def _matched(
@@ -106,10 +106,10 @@ def _matched(
         likeness = np.abs(inner) ** 2 / (np.maximum(spread, 1e-12) * energy)
     best = np.argmax(likeness, axis=1)
     rows = np.arange(len(best))
-    out = []
+    matches = []
     for n in np.argsort(-likeness[rows, best])[:number]:
         begin = best[n]
         turn = complex(inner[n, begin] / spread[n, begin])
         shift = middle - turn * complex(mean[n, begin])
-        out.append(CurveMatch(1 - float(likeness[n, begin]), int(n), begin + along, turn, shift, mirrored))
-    return out
+        matches.append(CurveMatch(1 - float(likeness[n, begin]), int(n), begin + along, turn, shift, mirrored))
+    return matches

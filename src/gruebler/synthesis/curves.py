@@ -51,12 +51,12 @@ class Atlas(NamedTuple):
 def _halton(count: int, base: int) -> Reals:
     """Van der Corput's numbers: spread evenly, the same everywhere."""
     n = np.arange(1, count + 1)
-    out, part = np.zeros(count), 1.0
+    values, part = np.zeros(count), 1.0
     while n.any():
         part /= base
-        out += part * (n % base)
+        values += part * (n % base)
         n = n // base
-    return out
+    return values
 
 
 @cache
@@ -175,17 +175,17 @@ def fit_curve(
     size = _extent(z)
     middle = z.mean()
     reduced = (z - middle) / size
-    out: list[Fit] = []
+    fits: list[Fit] = []
     for kind in kinds:
         _starts = (
             _neighbours(kind, reduced, closed, starts)
             if timing is None
             else _timed_neighbours(kind, reduced, timing, starts)
         )
-        out += _improved(kind, reduced, _starts, timing, turning=closed)
-    out.sort(key=lambda fit: fit.error)
+        fits += _improved(kind, reduced, _starts, timing, turning=closed)
+    fits.sort(key=lambda fit: fit.error)
     chosen: list[Fit] = []
-    for fit in out:
+    for fit in fits:
         if all(fit.kind is not o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o in chosen):
             chosen.append(fit)
         if len(chosen) == number:
@@ -209,7 +209,7 @@ def _extent(z: Complexes) -> float:
 def _timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: int) -> list[_Start]:
     """Curves of the atlas whose points at these crank angles are similar to the target."""
     book = atlas(kind, 12000)
-    out = []
+    starts = []
     target = z - z.mean()
     energy = float(np.sum(np.abs(target) ** 2))
     for mirrored in (False, True):
@@ -228,37 +228,37 @@ def _timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: in
                 phi, branch = angles + float(np.angle(turn)), float(book.branch[n])
                 if mirrored:
                     row, phi, branch = _mirrored(kind, row), -phi, -branch
-                out.append(_Start(1 - float(likeness[n]), row, branch, phi))
-    out.sort(key=lambda start: start.gap)
-    return out[:number]
+                starts.append(_Start(1 - float(likeness[n]), row, branch, phi))
+    starts.sort(key=lambda start: start.gap)
+    return starts[:number]
 
 
 def _improved(
-    kind: FourBarKind, z: Complexes, found: list[_Start], timing: Reals | None, *, turning: bool
+    kind: FourBarKind, z: Complexes, starts: list[_Start], timing: Reals | None, *, turning: bool
 ) -> list[Fit]:
     """Levenberg and Marquardt's method for all starts at once; free crank angles are eliminated point by point.
 
     With ``turning`` the crank has to stay one that turns fully.
     """
-    if not found:
+    if not starts:
         return []
-    rows = np.array([start.row for start in found]).T  # (unknowns, starts)
-    phi = np.array([start.phi for start in found])
-    branch = np.array([start.branch for start in found])
+    rows = np.array([start.row for start in starts]).T  # (unknowns, starts)
+    phi = np.array([start.phi for start in starts])
+    branch = np.array([start.branch for start in starts])
     if kind is SLIDER_CRANK:
         branch = _slider_branches(rows, phi, branch, z)
-    damping = np.full(len(found), 1e-3)
+    damping = np.full(len(starts), 1e-3)
     cost = _cost(kind, rows, phi, branch, z, turning=turning)
     unknowns = len(kind.unknowns)
     for _ in range(_STEPS):
-        made = curve_points(kind, rows[:, :, None], phi, branch[:, None], slopes=True)
-        rest = made.z - z
+        curve = curve_points(kind, rows[:, :, None], phi, branch[:, None], slopes=True)
+        rest = curve.z - z
         if timing is None:
-            normal = 1j * made.by_crank / np.maximum(np.abs(made.by_crank), 1e-12)
+            normal = 1j * curve.by_crank / np.maximum(np.abs(curve.by_crank), 1e-12)
             value = np.real(np.conj(normal) * rest)
-            matrix = np.real(np.conj(normal) * made.by_sizes).transpose(1, 2, 0)
+            matrix = np.real(np.conj(normal) * curve.by_sizes).transpose(1, 2, 0)
         else:
-            slopes = np.concatenate([made.by_sizes, made.by_crank[None]]).transpose(1, 2, 0)
+            slopes = np.concatenate([curve.by_sizes, curve.by_crank[None]]).transpose(1, 2, 0)
             value = np.concatenate([rest.real, rest.imag], axis=1)
             matrix = np.concatenate([slopes.real, slopes.imag], axis=1)
         value, matrix = np.nan_to_num(value), np.nan_to_num(matrix)
@@ -269,8 +269,8 @@ def _improved(
         step = -np.linalg.solve(gram, right[:, :, None])[:, :, 0]
         trial_rows = rows + step[:, :unknowns].T
         if timing is None:
-            moved = rest + np.einsum("knm,nk->nm", made.by_sizes, step)
-            along = -np.real(np.conj(made.by_crank) * moved) / np.maximum(np.abs(made.by_crank) ** 2, 1e-12)
+            moved = rest + np.einsum("knm,nk->nm", curve.by_sizes, step)
+            along = -np.real(np.conj(curve.by_crank) * moved) / np.maximum(np.abs(curve.by_crank) ** 2, 1e-12)
             trial_phi = phi + np.clip(np.nan_to_num(along), -0.3, 0.3)
         else:
             trial_phi = phi + step[:, -1:]
@@ -373,9 +373,8 @@ def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:
         size = _extent(task.z)
         if not task.crank_angles:
             return Targets((Probe("P"),), task.z[:, None], size)
-        assert linkage.reference_pose is not None
         timing = np.array(task.crank_angles)
-        crank = size * np.exp(1j * (linkage.reference_pose["crank"].angle + timing - timing[0]))
+        crank = size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
         return Targets((Probe("P"), Probe(link="crank", length=size)), np.stack([task.z, crank], axis=1), size)
 
     return [best_of(linkages[:1] if task.crank_angles else linkages, targets, demands, fit.kind.name)]

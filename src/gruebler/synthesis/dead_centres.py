@@ -148,10 +148,10 @@ def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
         if centres is None:
             return None
         if task.swing is None:
-            wanted, found = (1.0, min(task.angle, 2 * pi - task.angle)), (centres.travel, centres.phi_min)
+            target, reached = (1.0, min(task.angle, 2 * pi - task.angle)), (centres.travel, centres.phi_min)
         else:
-            wanted, found = (task.swing, task.angle), (centres.travel, centres.phi_back)
-        if max(abs(x - y) for x, y in zip(wanted, found, strict=True)) > _SAME:
+            target, reached = (task.swing, task.angle), (centres.travel, centres.phi_back)
+        if max(abs(x - y) for x, y in zip(target, reached, strict=True)) > _SAME:
             return None
         if pivot is not None and not _same_sense(pivot, outer, inner):
             return None

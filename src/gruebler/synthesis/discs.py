@@ -145,16 +145,16 @@ def _sharp_residuals(poses: int, points: int, z: Complexes, p: Complexes) -> Com
     from gruebler._numeric.work_estimates import evaluating
 
     kernel = for_work(sharp_residuals, evaluating(len(z)))
-    out = np.empty((len(z), 8), np.complex128)
-    for row, value in zip(z, out, strict=True):
+    residuals = np.empty((len(z), 8), np.complex128)
+    for row, value in zip(z, residuals, strict=True):
         kernel(row, p, poses, points, value)
-    return out
+    return residuals
 
 
 def _apart(z: Complexes, box: Reals) -> NDArray[np.bool_]:
     """Which boxes overlap no other."""
     order = np.argsort(z[:, 0].real)
-    out = np.ones(len(z), bool)
+    apart = np.ones(len(z), bool)
     real, reach = z[order, 0].real, box[order, 0]
     widest = float(reach.max(initial=0.0))
     for k, n in enumerate(order):
@@ -163,5 +163,5 @@ def _apart(z: Complexes, box: Reals) -> NDArray[np.bool_]:
                 break
             m = order[j]
             if (np.abs(z[n] - z[m]) <= box[n] + box[m]).all():
-                out[n] = out[m] = False
-    return out
+                apart[n] = apart[m] = False
+    return apart

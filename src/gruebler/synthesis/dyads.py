@@ -89,11 +89,11 @@ def _rows(given: Displacements) -> Complexes:
     """Conditions of RR dyads, bilinear: (displacements, 3, 3) by (x, x*, 1) and (m, m*, 1)."""
     q, t = given
     qc, tc = np.conj(q), np.conj(t)
-    out = np.zeros((len(q), 3, 3), np.complex128)
-    out[:, 0, 1], out[:, 0, 2] = 1 - q, q * tc
-    out[:, 1, 0], out[:, 1, 2] = 1 - qc, qc * t
-    out[:, 2, 0], out[:, 2, 1], out[:, 2, 2] = -tc, -t, t * tc
-    return out
+    rows = np.zeros((len(q), 3, 3), np.complex128)
+    rows[:, 0, 1], rows[:, 0, 2] = 1 - q, q * tc
+    rows[:, 1, 0], rows[:, 1, 2] = 1 - qc, qc * t
+    rows[:, 2, 0], rows[:, 2, 1], rows[:, 2, 2] = -tc, -t, t * tc
+    return rows
 
 
 def misfit(given: Displacements, dyad: GuidingDyad) -> float:
@@ -145,7 +145,7 @@ def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
     """
     if np.abs(given.q - 1).max() < _FAR:
         raise SynthesisError("the body does not turn: every one of its points moves alike (a translation)")
-    out = []
+    sliding = []
     for form, seen in (("PR", given), ("RP", given.inverse)):
         # The point x stays on a line of normal n: Re(n* (q - 1) x + n* t) = 0, linear in n* x and n.
         q, t = seen.q - 1, seen.t
@@ -160,8 +160,8 @@ def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
         point, direction = complex(x, y) / normal.conjugate(), 1j * normal / abs(normal)
         dyad = GuidingDyad(form, point, point, direction)
         if misfit(given, dyad) <= 1e-9 * (1 + abs(point)):
-            out.append(dyad)
-    return tuple(out)
+            sliding.append(dyad)
+    return tuple(sliding)
 
 
 # Of the ten monomials of a cubic in x, x*, w two are missing, the pure powers of x and x*, since the cubics of four
@@ -189,12 +189,12 @@ def circle_point_cubics(given: Displacements) -> Complexes:
 
 def _collected() -> Reals:
     """(27, 8): to which monomial of `_CUBIC` each product of three coordinates belongs; the pure powers vanish."""
-    out = np.zeros((27, len(_CUBIC)))
+    collected = np.zeros((27, len(_CUBIC)))
     for row, numbers in enumerate(product(range(3), repeat=3)):
         exponents = numbers.count(0), numbers.count(1)
         if exponents in _CUBIC:
-            out[row, _CUBIC.index(exponents)] = 1.0
-    return out
+            collected[row, _CUBIC.index(exponents)] = 1.0
+    return collected
 
 
 _COLLECTED = _collected()
@@ -226,16 +226,16 @@ def all_dyads(given: Displacements) -> Dyads:
     products = np.stack([_times(kernel, shift) for shift in ((1, 0), (0, 1), (0, 0))])
     one, other = np.tensordot(_FORMS, products, axes=1)
     vectors = np.linalg.eig(np.linalg.solve(other, one))[1]
-    found = [_point(products @ vectors[:, k]) for k in range(4)]
+    points = [_point(products @ vectors[:, k]) for k in range(4)]
     slides = [dyad for dyad in sliding_dyads(given) if misfit(given, dyad) <= 1e-8 * (1 + abs(dyad.moving))]
-    turning = [dyad for x in found if (dyad := _turning_dyad(given, x)) is not None]
+    turning = [dyad for x in points if (dyad := _turning_dyad(given, x)) is not None]
     turning.sort(key=lambda dyad: -dyad.length)
     for slide in slides:  # its other pivot lies at infinity, and is found somewhere far away
         claimed = next((dyad for dyad in turning if _approaches(given, dyad, slide)), None)
         if claimed is not None:
             turning.remove(claimed)
     real = [*slides, *(dyad for dyad in turning if _is_exact(given, dyad))]
-    return Dyads(_different(real), len(found))
+    return Dyads(_different(real), len(points))
 
 
 def _times(kernel: Complexes, shift: tuple[int, int]) -> Complexes:
@@ -305,13 +305,13 @@ def _polished(given: Displacements, start: GuidingDyad) -> GuidingDyad:
 
 
 def _different(dyads: Iterable[GuidingDyad]) -> tuple[GuidingDyad, ...]:
-    out: list[GuidingDyad] = []
+    different: list[GuidingDyad] = []
     for dyad in dyads:
         near = [
             abs(dyad.moving - o.moving) + abs(dyad.fixed - o.fixed) < 1e-9 * (1 + abs(o.moving) + abs(o.fixed))
-            for o in out
+            for o in different
             if o.form == dyad.form
         ]
         if not any(near):
-            out.append(dyad)
-    return tuple(sorted(out, key=lambda d: (d.form != "RR", d.length, d.moving.real)))
+            different.append(dyad)
+    return tuple(sorted(different, key=lambda d: (d.form != "RR", d.length, d.moving.real)))

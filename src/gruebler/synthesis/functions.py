@@ -49,7 +49,7 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
     free = (not task.start_input) + (not task.start_output)
     candidates, notes = [], []
     theorem: int | None = 0
-    found = real = 0
+    complex_count = real = 0
     for kind in (kind for kind in KINDS if kind.output == task.output):
         if len(task) > kind.unknowns + free:
             continue
@@ -57,13 +57,13 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
             solve = coordinations_with_one_free_start if free else coordinations_with_fixed_starts
             solutions = solve(kind, task)
             theorem = theorem if theorem is None else theorem + (solutions.complex if free else 1)
-            found, real = found + solutions.complex, real + len(solutions.real)
+            complex_count, real = complex_count + solutions.complex, real + len(solutions.real)
             candidates += [_design(task, wanted, solution) for solution in solutions.real]
     if free == 2:
         dyads = _connecting(task, number)
         real = len(dyads)
         theorem = 3 if len(task) == 5 else None  # four dyads less the frame
-        found = 3 if len(task) == 5 else len(dyads)
+        complex_count = 3 if len(task) == 5 else len(dyads)
         candidates += [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
         if len(task) < 5:
             notes.append(
@@ -85,7 +85,7 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
         notes.append(message("There are infinitely many solutions: give more pairs."))
         theorem = None
     designs, rejected = ranked(candidates)
-    count = SolutionCount(message("linkages"), theorem, found, real)
+    count = SolutionCount(message("linkages"), theorem, complex_count, real)
     return SynthesisResult(task, designs, rejected, count, tuple(notes))
 
 
@@ -111,8 +111,8 @@ def _own_dyads(solution: Coordination) -> tuple[complex, complex, GuidingDyad]:
 
 def _seen_from_crank(task: FunctionTask) -> PositionTask:
     """The positions of the output link as seen from the crank, in its first position; frame 0 and 1, or the travel."""
-    phi, out = pair_arrays(task)
-    turned, moved = np.exp(-1j * (phi - phi[0])), out - out[0]
+    phi, output = pair_arrays(task)
+    turned, moved = np.exp(-1j * (phi - phi[0])), output - output[0]
     if task.output == "angle":
         q, t = turned * np.exp(1j * moved), turned * (1 - np.exp(1j * moved))
     else:
@@ -125,15 +125,15 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
     """The dyads between crank and output, without the frame, which connects them too."""
     seen = _seen_from_crank(task)
     size = 1.0 if task.output == "angle" else seen.size
-    out = []
+    connecting = []
     for dyad in guiding_dyads(seen, number):
         if task.output == "angle" and dyad.form == "RR":
             frame = abs(dyad.moving - 1) + abs(dyad.fixed) < 1e-6
         else:
             frame = task.output == "travel" and dyad.form == "RP" and abs(dyad.fixed) < 1e-6 * size
         if not frame:
-            out.append(dyad)
-    return out
+            connecting.append(dyad)
+    return connecting
 
 
 def _connected(task: FunctionTask, demands: Demands, dyad: GuidingDyad) -> Design | None:
@@ -168,13 +168,12 @@ def _judged_function(
 
 
 def _function_targets(task: FunctionTask, linkage: Linkage, side: str) -> Targets:
-    assert linkage.reference_pose is not None
-    phi, out = pair_arrays(task)
-    phi, out = phi - phi[0], out - out[0]
-    crank = np.exp(1j * (linkage.reference_pose["crank"].angle + phi))
+    phi, output = pair_arrays(task)
+    phi, output = phi - phi[0], output - output[0]
+    crank = np.exp(1j * (linkage.required_pose["crank"].angle + phi))
     if side == "rocker":
-        rocker = np.exp(1j * (linkage.reference_pose["rocker"].angle + out))
+        rocker = np.exp(1j * (linkage.required_pose["rocker"].angle + output))
         return Targets((Probe(link="crank"), Probe(link="rocker")), np.stack([crank, rocker], axis=1), 1.0)
-    size = float(np.ptp(out)) or 1.0
+    size = float(np.ptp(output)) or 1.0
     probes = (Probe(link="crank", length=size), Probe(joint=3))
-    return Targets(probes, np.stack([size * crank, out.astype(np.complex128)], axis=1), size)
+    return Targets(probes, np.stack([size * crank, output.astype(np.complex128)], axis=1), size)

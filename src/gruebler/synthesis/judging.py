@@ -83,8 +83,8 @@ class Probe(NamedTuple):
             return poses.complex_point(self.point, order)
         if self.joint >= 0:
             return poses.displacement(self.joint, order).astype(np.complex128)
-        out: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
-        return out
+        value: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
+        return value
 
     def of_motion(self, motion: Motion) -> Complexes:
         """Its value in each row of a motion."""
@@ -92,8 +92,8 @@ class Probe(NamedTuple):
             return motion.complex_point(self.point)
         if self.joint >= 0:
             return motion.displacement(self.joint).astype(np.complex128)
-        out: Complexes = self.length * np.exp(1j * motion.angle(self.link))
-        return out
+        value: Complexes = self.length * np.exp(1j * motion.angle(self.link))
+        return value
 
 
 class Targets(NamedTuple):
@@ -280,16 +280,16 @@ def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
     if len(at):
         gap, _ = targets.gaps(course.at(at), target)
         ends = np.sqrt(np.sum(np.abs(gap) ** 2, axis=1)) / targets.size
-    found, error = [], 0.0
+    places, error = [], 0.0
     for k in range(count):
-        mine = target == k
+        of_target = target == k
         # Where an open or closed circuit begins exactly at a target, both ends of it are looked at too.
         border = np.sqrt(square[k, [0, -1]]) / targets.size
-        all_arcs = np.concatenate([at[mine], arcs[[0, -1]]])
-        misses = np.concatenate([ends[mine], border])
+        all_arcs = np.concatenate([at[of_target], arcs[[0, -1]]])
+        misses = np.concatenate([ends[of_target], border])
         error = max(error, min(float(misses.min()), float(np.sqrt(square[k].min())) / targets.size))
-        found.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
-    return _Met(found, error)
+        places.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
+    return _Met(places, error)
 
 
 def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes]:
@@ -303,14 +303,14 @@ def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes
 
 def _distinct(arcs: Reals, course: Circuit) -> Reals:
     """Arcs without those that stand for one place: neighbours by rounding, and both ends of a closed circuit."""
-    out: list[float] = []
+    distinct: list[float] = []
     for arc in arcs % course.length if course.closed else arcs:
-        gaps = [abs(arc - other) for other in out]
+        gaps = [abs(arc - other) for other in distinct]
         if course.closed:
             gaps += [course.length - gap for gap in gaps]
         if not gaps or min(gaps) > 1e-6 * course.length:
-            out.append(float(arc))
-    return np.sort(np.array(out))
+            distinct.append(float(arc))
+    return np.sort(np.array(distinct))
 
 
 class _TargetPath(NamedTuple):
@@ -346,18 +346,18 @@ def _path(course: Circuit, met: list[Reals]) -> _TargetPath:
 
 def _forward(course: Circuit, met: list[Reals], start: float, sense: float) -> Reals | None:
     """The next arc of each target in turn, within one lap; None if there is none."""
-    out = [start]
+    passed = [start]
     for arcs in met[1:]:
-        ahead = sense * (arcs - out[-1])
+        ahead = sense * (arcs - passed[-1])
         if course.closed:
             ahead = ahead % course.length
         ahead = ahead[ahead > 0]
         if not len(ahead):
             return None
-        out.append(out[-1] + sense * float(ahead.min()))
-    if course.closed and abs(out[-1] - start) >= course.length * (1 - 1e-9):
+        passed.append(passed[-1] + sense * float(ahead.min()))
+    if course.closed and abs(passed[-1] - start) >= course.length * (1 - 1e-9):
         return None
-    return np.array(out)
+    return np.array(passed)
 
 
 def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> Reals:
@@ -367,14 +367,14 @@ def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> 
     if len(shifted):
         low = max([v for v in shifted if v <= start], default=-np.inf)
         high = min([v for v in shifted if v > start], default=np.inf)
-    out = [start]
+    chosen_arcs = [start]
     for arcs in met[1:]:
         laps = (-1, 0, 1) if course.closed else (0,)
         all_arcs = np.concatenate([arcs + k * course.length for k in laps])
-        mine = all_arcs[(all_arcs >= low) & (all_arcs <= high)]
-        chosen = mine if len(mine) else all_arcs
-        out.append(float(chosen[np.argmin(np.abs(chosen - start))]))
-    return np.array(out)
+        within = all_arcs[(all_arcs >= low) & (all_arcs <= high)]
+        chosen = within if len(within) else all_arcs
+        chosen_arcs.append(float(chosen[np.argmin(np.abs(chosen - start))]))
+    return np.array(chosen_arcs)
 
 
 def _turns_fully(course: Circuit) -> bool:
@@ -414,12 +414,12 @@ def _carried(
 
 def _error(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: int, *, forward: bool) -> float:
     """The largest deviation of the targets that lie on this part of the way, relative to the size."""
-    mine = [k for k in range(len(targets.values)) if (rows[k] >= begin if forward else rows[k] <= begin)]
-    at = [int(rows[k]) - begin if forward else begin - int(rows[k]) for k in mine]
-    if not mine:
+    reached = [k for k in range(len(targets.values)) if (rows[k] >= begin if forward else rows[k] <= begin)]
+    at = [int(rows[k]) - begin if forward else begin - int(rows[k]) for k in reached]
+    if not reached:
         return 0.0
-    found = np.stack([probe.of_motion(motion)[at] for probe in targets.probes], axis=1) - targets.values[mine]
-    return float(np.sqrt(np.nansum(np.abs(found) ** 2, axis=1)).max() / targets.size)
+    misses = np.stack([probe.of_motion(motion)[at] for probe in targets.probes], axis=1) - targets.values[reached]
+    return float(np.sqrt(np.nansum(np.abs(misses) ** 2, axis=1)).max() / targets.size)
 
 
 def _least_transmission(motion: Motion) -> float:

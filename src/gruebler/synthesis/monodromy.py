@@ -61,7 +61,7 @@ def find_generic(
     used = np.abs(p) > 0
     size = 0.7 * np.abs(p[:2][used[:2]]).mean()
     idle = 0
-    for way in range(most):
+    for trial in range(most):
         corners = [np.where(used, size * (rng.normal(size=p.shape) + 1j * rng.normal(size=p.shape)), 0) for _ in "ab"]
         for corner in corners:
             corner[2] /= size
@@ -76,7 +76,7 @@ def find_generic(
         z = z[steps < _SHARP]
         idle = idle + 1 if len(z) == count else 0
         if report is not None:
-            report(way, len(z))
+            report(trial, len(z))
         if idle == _IDLE and len(z) > 1:
             break
     return GenericSolutions(p, z)

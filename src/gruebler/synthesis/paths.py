@@ -112,18 +112,18 @@ def _exact(
     progress: Progress | None,
 ) -> SynthesisResult:
     _check_general(task)
-    reduced, found = _best_reference(task, problem, oriented, threads, progress)
+    reduced, complete = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
-    for pair in _dyad_pairs(problem, found):
+    for pair in _dyad_pairs(problem, complete):
         first, second = (dyad.moved(reduced.size, reduced.origin) for dyad in pair)
         designs += _judged(task, demands, first, second, reduced.first)
     cognate = problem.poses == 0 and not problem.given_pivots
     what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
     count = SolutionCount(
-        what, None if reduced.added else problem.classes, problem.classes - found.missing, len(found.real)
+        what, None if reduced.added else problem.classes, problem.classes - complete.missing, len(complete.real)
     )
-    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, found, reduced.added)))
+    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, complete, reduced.added)))
 
 
 def _check_general(task: PathTask) -> None:
@@ -155,7 +155,7 @@ def _check_general(task: PathTask) -> None:
             )
 
 
-def _notes(problem: Problem, found: Solutions, added: int) -> Iterator[Message]:
+def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Message]:
     if added:
         yield message(
             "There are infinitely many solutions: {count} points on a smooth curve through the given ones were added; "
@@ -163,18 +163,18 @@ def _notes(problem: Problem, found: Solutions, added: int) -> Iterator[Message]:
             count=added,
             theorem=problem.classes,
         )
-    if found.infinite:
-        yield message("{count} solutions lie at infinity: the task is a special one.", count=found.infinite)
-    if found.singular:
+    if complete.infinite:
+        yield message("{count} solutions lie at infinity: the task is a special one.", count=complete.infinite)
+    if complete.singular:
         yield message(
             "{count} solutions are singular, since some coincide or have coinciding pivots: the task is a special one.",
-            count=found.singular,
+            count=complete.singular,
         )
-    if found.missing:
+    if complete.missing:
         yield message(
-            "{count} solutions are not resolved: where their paths end could not be decided.", count=found.missing
+            "{count} solutions are not resolved: where their paths end could not be decided.", count=complete.missing
         )
-    doubtful = int(np.count_nonzero(~found.certified))
+    doubtful = int(np.count_nonzero(~complete.certified))
     if doubtful:
         yield message("{count} solutions are not certified: they are singular or nearly so.", count=doubtful)
 
@@ -189,10 +189,10 @@ def _best_reference(
     best: tuple[_Reduced, Solutions] | None = None
     for first in candidates[:2]:
         reduced = _reduced(task, problem, oriented, first)
-        found = solutions(problem, reduced.parameters, threads=threads, progress=progress)
-        if best is None or found.missing < best[1].missing:
-            best = reduced, found
-        if not found.missing:
+        complete = solutions(problem, reduced.parameters, threads=threads, progress=progress)
+        if best is None or complete.missing < best[1].missing:
+            best = reduced, complete
+        if not complete.missing:
             break
     assert best is not None
     return best
@@ -228,20 +228,20 @@ def _between(z: Complexes, count: int) -> Complexes:
     arc = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
     curve = PchipInterpolator(arc, np.stack([z.real, z.imag], axis=1))
     knots = list(arc)
-    out = []
+    points = []
     for k in range(count):
         gaps = np.diff(knots)
         widest = int(np.argmax(gaps))
         at = knots[widest] + gaps[widest] * (0.5 + 0.03 * np.cos(3.0 * k))
         knots.insert(widest + 1, at)
         x, y = curve(at)
-        out.append(complex(x, y))
-    return np.array(out)
+        points.append(complex(x, y))
+    return np.array(points)
 
 
-def _dyad_pairs(problem: Problem, found: Solutions) -> Iterator[tuple[GuidingDyad, GuidingDyad]]:
+def _dyad_pairs(problem: Problem, complete: Solutions) -> Iterator[tuple[GuidingDyad, GuidingDyad]]:
     """The real linkages of all real classes: with Roberts' cognates where only points are given."""
-    for row in found.real:
+    for row in complete.real:
         x, y, a, b = (complex(row[k] + np.conj(row[k + 1])) / 2 for k in (0, 2, 4, 6))
         yield GuidingDyad("RR", x, a), GuidingDyad("RR", y, b)
         if problem.poses or problem.given_pivots or abs(y - x) < 1e-12:
@@ -264,10 +264,9 @@ def _judged(task: PathTask, demands: Demands, one: GuidingDyad, two: GuidingDyad
 def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
     if not any(angle is not None for angle in task.angles):
         return point_targets("P", task.z, task.size)
-    assert linkage.reference_pose is not None
     start = task.angles[first]
     assert start is not None
-    home = linkage.reference_pose["coupler"].angle
+    home = linkage.required_pose["coupler"].angle
     angles = [None if a is None else home + a - start for a in task.angles]
     return position_targets("P", "coupler", task.z, angles, task.size)
 
@@ -275,9 +274,9 @@ def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
 def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
     """The real pairs of dyads through nine points, or five points with given pivots, without a verdict."""
     problem = PROBLEMS[4 if task.fixed_pivots else 0]
-    reduced, found = _best_reference(task, problem, [], None, None)
+    reduced, complete = _best_reference(task, problem, [], None, None)
     size, origin = reduced.size, reduced.origin
-    return [(first.moved(size, origin), second.moved(size, origin)) for first, second in _dyad_pairs(problem, found)]
+    return [(first.moved(size, origin), second.moved(size, origin)) for first, second in _dyad_pairs(problem, complete)]
 
 
 def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
@@ -322,9 +321,8 @@ def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: Gui
         linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
     except LinkageError:
         return []
-    assert linkage.reference_pose is not None
     timing = np.array(task.crank_angles)
-    crank = task.size * np.exp(1j * (linkage.reference_pose["crank"].angle + timing - timing[0]))
+    crank = task.size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
     probes = (Probe("P"), Probe(link="crank", length=task.size))
     targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
     return [judge_design(linkage, targets, demands, f"RR-{other.form}")]

@@ -85,18 +85,18 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
         side = max(2, round(number**0.5))
         steps = np.linspace(-1, 1, side)
         chosen = [(dyad_of_moving_pivot, complex(centre + reach * complex(a, b))) for a in steps for b in steps]
-    out = []
+    dyads = []
     if count == 2:
         displacements = Displacements(
             np.append(displacements.q, _halfway(displacements.q[0])), np.append(displacements.t, _halved(displacements))
         )
     for construct, pivot in chosen:
         try:
-            out.append(construct(displacements, (pivot - origin) / size).moved(size, origin))
+            dyads.append(construct(displacements, (pivot - origin) / size).moved(size, origin))
         except SynthesisError:
             if task.moving_pivots or task.fixed_pivots:
                 raise
-    return tuple(out)
+    return tuple(dyads)
 
 
 def _halfway(q: complex) -> complex:
@@ -133,17 +133,17 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
         return _approximate(task, wanted, dyads)
     candidates = _judged_pairs(task, wanted, dyads)
     notes: list[Message] = []
-    found = len(dyads)
+    complex_dyads = len(dyads)
     if len(task) == 5:
         displacements, *_ = Displacements.of(task.origins, task.turns)
-        found = all_dyads(displacements).found
+        complex_dyads = all_dyads(displacements).found
     else:
         notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
     return SynthesisResult(
-        task, designs, rejected, SolutionCount(DYADS, THEOREM[len(task)], found, len(dyads)), tuple(notes)
+        task, designs, rejected, SolutionCount(DYADS, THEOREM[len(task)], complex_dyads, len(dyads)), tuple(notes)
     )
 
 
@@ -164,20 +164,19 @@ def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Desi
 
 
 def _judged_pairs(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> list[Design]:
-    out = []
+    designs = []
     for guiding_dyad, two in combinations(dyads, 2):
         form = f"{guiding_dyad.form}-{two.form}"
         try:
             linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
         except LinkageError:
             continue  # two dyads with a common pivot are no linkage
-        out.append(best_of(linkages, partial(_targets, task), demands, form))
-    return out
+        designs.append(best_of(linkages, partial(_targets, task), demands, form))
+    return designs
 
 
 def _targets(task: PositionTask, linkage: Linkage) -> Targets:
-    assert linkage.reference_pose is not None
-    first = linkage.reference_pose["coupler"].angle
+    first = linkage.required_pose["coupler"].angle
     return position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
 
 
@@ -272,13 +271,13 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
             fitted = GuidingDyad(dyad.form, point, point, complex(np.exp(1j * p[2])))
         best.append((misfit(given, fitted), fitted))
     best.sort(key=lambda row: row[0])
-    out: list[GuidingDyad] = []
+    distinct: list[GuidingDyad] = []
     for _, dyad in best:
-        if all(_apart(dyad, other) for other in out):
-            out.append(dyad)
-        if len(out) == 8:
+        if all(_apart(dyad, other) for other in distinct):
+            distinct.append(dyad)
+        if len(distinct) == 8:
             break
-    return out
+    return distinct
 
 
 def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:

@@ -29,7 +29,7 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
     """
     linkage = design.linkage
     chain, home = linkage.mechanism.chain, linkage.reference_pose
-    if home is None or any(joint.pair.name != "revolute" for joint in chain.joints[:3]):
+    if home is None or any(not joint.pair.is_revolute for joint in chain.joints[:3]):
         return None
     places = [
         complex(*home[link].put(*linkage.elements[number, link][:2]))
@@ -63,15 +63,15 @@ def _errors(solution: Coordination, law: FunctionLaw, x: Reals) -> tuple[Reals, 
     phi = solution.input_start + free_law.inputs(x)
     wanted = solution.output_start + free_law.outputs(x)
     motion = solution.linkage().motion(phi, branch=solution.branch)
-    theta, out = np.asarray(motion.coupler.value), np.asarray(motion.output.value)
+    theta, output = np.asarray(motion.coupler.value), np.asarray(motion.output.value)
     a = solution.lengths[0]
     if solution.kind == "four-bar":
-        error = np.angle(np.exp(1j * (out - wanted)))
+        error = np.angle(np.exp(1j * (output - wanted)))
         c = solution.lengths[2]
-        divisor = c * np.sin(out - theta)
-        rows = [-np.cos(phi - theta), -np.ones_like(phi), np.cos(out - theta), a * np.sin(phi - theta)]
+        divisor = c * np.sin(output - theta)
+        rows = [-np.cos(phi - theta), -np.ones_like(phi), np.cos(output - theta), a * np.sin(phi - theta)]
     else:
-        error = out - wanted
+        error = output - wanted
         divisor = np.cos(theta)
         rows = [np.cos(phi - theta), np.ones_like(phi), -np.sin(theta), -a * np.sin(phi - theta)]
     with np.errstate(divide="ignore", invalid="ignore"):

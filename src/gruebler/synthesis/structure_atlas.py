@@ -59,7 +59,7 @@ def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
     chain, frame = mechanism.chain, mechanism.frame
     if len(mechanism.drives) != 1 or frame not in chain.joints[mechanism.drives[0].joint].links:
         return None
-    if any(joint.pair.name != "revolute" or len(joint.links) != 2 for joint in chain.joints):
+    if any(not joint.pair.is_revolute or len(joint.links) != 2 for joint in chain.joints):
         return None
     try:
         order = decompose(mechanism)
@@ -94,11 +94,11 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> d
     places = drawn[..., None]
     one = np.ones(np.broadcast_shapes(places.shape[1:], turned.shape), np.complex128)
     spin = np.exp(1j * turned) * one
-    out = {structure.mechanism.frame: (one, 0 * one), structure.crank: (spin, places[structure.pivot] * (1 - spin))}
+    motions = {structure.mechanism.frame: (one, 0 * one), structure.crank: (spin, places[structure.pivot] * (1 - spin))}
     for dyad in structure.dyads:
         ends = [
             rotation * places[joint] + shift
-            for joint, (rotation, shift) in zip(dyad.outer, (out[base] for base in dyad.base), strict=True)
+            for joint, (rotation, shift) in zip(dyad.outer, (motions[base] for base in dyad.base), strict=True)
         ]
         arms = [places[dyad.inner] - places[joint] for joint in dyad.outer]
         side = np.sign(np.imag(np.conj(places[dyad.outer[1]] - places[dyad.outer[0]]) * arms[0]))
@@ -110,8 +110,8 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> d
             inner = ends[0] + gap / distance * (along + 1j * across)
             for link, end, joint, arm in zip(dyad.links, ends, dyad.outer, arms, strict=True):
                 rotation = (inner - end) / arm
-                out[link] = rotation, end - rotation * places[joint]
-    return out
+                motions[link] = rotation, end - rotation * places[joint]
+    return motions
 
 
 class StructureAtlas(NamedTuple):
@@ -177,21 +177,21 @@ def _evenly_spread(count: int, dimensions: int) -> Reals:
 def _safe(structure: DyadStructure, drawn: Complexes, phi: Reals) -> NDArray[np.bool_]:
     """Which linkages the crank turns fully, with no dyad near its limit."""
     motions = link_motions(structure, drawn, phi[None, :])
-    out = np.ones(drawn.shape[1], bool)
+    safe = np.ones(drawn.shape[1], bool)
     for dyad in structure.dyads:
         arms = [drawn[dyad.inner] - drawn[joint] for joint in dyad.outer]
         turned = [motions[link][0] * (arm / np.abs(arm))[:, None] for link, arm in zip(dyad.links, arms, strict=True)]
         with np.errstate(invalid="ignore"):
-            out &= (np.abs(np.imag(np.conj(turned[0]) * turned[1])) > _SAFE).all(axis=1)
-    return out
+            safe &= (np.abs(np.imag(np.conj(turned[0]) * turned[1])) > _SAFE).all(axis=1)
+    return safe
 
 
 def _curves(
     structure: DyadStructure, drawn: Complexes, owner: NDArray[np.int64], point: Complexes, turned: Reals
 ) -> Complexes:
-    out = np.empty(turned.shape, np.complex128)
+    curves = np.empty(turned.shape, np.complex128)
     for number, link in enumerate(structure.coupler_links):
-        mine = owner == number
-        rotation, shift = link_motions(structure, drawn[:, mine], turned[mine])[link]
-        out[mine] = rotation * point[mine, None] + shift
-    return out
+        of_structure = owner == number
+        rotation, shift = link_motions(structure, drawn[:, of_structure], turned[of_structure])[link]
+        curves[of_structure] = rotation * point[of_structure, None] + shift
+    return curves

@@ -53,8 +53,8 @@ class ParetoRow:
 
     def dominates(self, other: ParetoRow) -> bool:
         """Whether it is nowhere worse and somewhere better."""
-        mine, its = self._costs, other._costs
-        return all(a <= b for a, b in zip(mine, its, strict=True)) and mine != its
+        own, its = self._costs, other._costs
+        return all(a <= b for a, b in zip(own, its, strict=True)) and own != its
 
     @property
     def _costs(self) -> tuple[float, ...]:
@@ -99,8 +99,8 @@ def synthesise_structures(
             )
     jobs = [job for mechanism in mechanisms for job in _jobs(task, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
-    found = list(map(work, jobs) if executor is None else executor.map(work, jobs))
-    candidates = [design for designs in found for design in designs]
+    results = list(map(work, jobs) if executor is None else executor.map(work, jobs))
+    candidates = [design for designs in results for design in designs]
     accepted, rejected = ranked(candidates)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
     note = message(
@@ -168,7 +168,7 @@ def _atlas_starts(task: PathTask, mechanism: Mechanism, number: int, link: str) 
         return []
     book = structure_atlas(structure)
     own = np.arange(len(book.z)) if not link else np.flatnonzero(book.link == structure.coupler_links.index(link))
-    out: list[_AtlasStart] = []
+    starts: list[_AtlasStart] = []
     seen: set[bytes] = set()
     for match in best_matches(book.z[own], task.z, 4 * number, closed=task.closed):
         n = int(own[match.number])
@@ -176,10 +176,10 @@ def _atlas_starts(task: PathTask, mechanism: Mechanism, number: int, link: str) 
         turned = drive_angles(book.turned[n], match.at)
         if match.mirrored:
             places, turned = np.conj(places), -turned
-        if (name := book.drawn[n].tobytes()) not in seen and len(out) < number:
+        if (name := book.drawn[n].tobytes()) not in seen and len(starts) < number:
             seen.add(name)
-            out.append(_AtlasStart(places[:-1], turned, structure.coupler_links[book.link[n]], complex(places[-1])))
-    return out
+            starts.append(_AtlasStart(places[:-1], turned, structure.coupler_links[book.link[n]], complex(places[-1])))
+    return starts
 
 
 def _fitted(task: PathTask, demands: Demands, link: str, job: _Job) -> list[Design]:
@@ -200,9 +200,8 @@ def _fitted_drawing(task: PathTask, mechanism: Mechanism, demands: Demands, star
     closure = DesignClosure(drawing)
     motions = link_motions(structure, start.drawn, start.turned)
     q = np.empty((len(task), closure.unknowns))
-    assert drawing.reference_pose is not None
     for link, c in closure.column.items():
-        pose = drawing.reference_pose[link]
+        pose = drawing.required_pose[link]
         rotation, shift = motions[link]
         z = rotation * complex(pose.x, pose.y) + shift
         q[:, c], q[:, c + 1], q[:, c + 2] = z.real, z.imag, pose.angle + np.unwrap(np.angle(rotation))

@@ -160,13 +160,13 @@ def _length(value: Any, where: str) -> float:
 
 def task_to_json(task: Task) -> dict[str, Any]:
     """Plain data for `json.dumps`; `task_from_json` takes it back exactly."""
-    out: dict[str, Any] = {"unit": task.unit}
+    document: dict[str, Any] = {"unit": task.unit}
     match task:
         case PositionTask():
-            out["positions"] = [[x, y, in_degrees(angle)] for x, y, angle in task.positions]
+            document["positions"] = [[x, y, in_degrees(angle)] for x, y, angle in task.positions]
             more: dict[str, Any] = {name: [list(p) for p in getattr(task, name)] for name in _PIVOTS}
         case PathTask():
-            out["points"] = [list(point) for point in task.points]
+            document["points"] = [list(point) for point in task.points]
             more = {
                 "angles": [None if a is None else in_degrees(a) for a in task.angles],
                 "crank_angles": [in_degrees(a) for a in task.crank_angles],
@@ -190,9 +190,9 @@ def task_to_json(task: Task) -> dict[str, Any]:
             }
         case FunctionTask():
             turning = task.output == "angle"
-            out["inputs"] = [in_degrees(a) for a in task.inputs]
-            out["outputs"] = [in_degrees(a) if turning else a for a in task.outputs]
-            out |= {"output": task.output, "start_input": task.start_input, "start_output": task.start_output}
+            document["inputs"] = [in_degrees(a) for a in task.inputs]
+            document["outputs"] = [in_degrees(a) if turning else a for a in task.outputs]
+            document |= {"output": task.output, "start_input": task.start_input, "start_output": task.start_output}
             more = {}
         case DeadCentreTask():
             more = {
@@ -201,7 +201,9 @@ def task_to_json(task: Task) -> dict[str, Any]:
                 "crank_angle": None if task.crank_angle is None else in_degrees(task.crank_angle),
                 "time_ratio": task.time_ratio,
             }
-    return out | {key: value for key, value in more.items() if value is not None and value is not False and value != []}
+    return document | {
+        key: value for key, value in more.items() if value is not None and value is not False and value != []
+    }
 
 
 _PIVOTS = ("moving_pivots", "fixed_pivots")
@@ -256,15 +258,15 @@ def _from_csv(text: str) -> Task:
     columns = {name: [row[c].strip() for row in lines[1:]] for c, name in enumerate(header)}
 
     def numbers(name: str) -> list[float]:
-        out = []
+        values = []
         for k, cell in enumerate(columns[name]):
             try:
-                out.append(float(cell))
+                values.append(float(cell))
             except ValueError:
                 raise SynthesisError(
                     "line {line}, {name}: expected a number, but found {cell!r}", line=k + 2, name=name, cell=cell[:40]
                 ) from None
-        return out
+        return values
 
     def angles(name: str) -> list[Any]:
         return [_angle(cell) for cell in columns[name]]
@@ -362,8 +364,8 @@ def _to_csv(document: Mapping[str, Any]) -> str:
             )
     if document["unit"] != "mm":
         raise SynthesisError("a CSV file does not name the unit {unit!r}: write .toml or .json", unit=document["unit"])
-    out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows(
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(
         [header, *([f"{v}°" if isinstance(v, str) and v else v for v in row] for row in rows)]
     )
-    return out.getvalue()
+    return text.getvalue()

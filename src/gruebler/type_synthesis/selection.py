@@ -36,7 +36,7 @@ def typed_chains(requirements: Requirements) -> Iterator[Chain]:
     )
     for chain in base:
         for touching in with_contacts(chain, requirements.roll_slide):
-            if sum(kinds.values()) > sum(j.pair.name == "revolute" and j.count == 1 for j in touching.joints):
+            if sum(kinds.values()) > sum(j.pair.is_revolute and j.count == 1 for j in touching.joints):
                 continue
             for typed in assignments(touching, {k: number for k, number in kinds.items() if number}):
                 if requirements.assortment in (None, typed.assortment) and (

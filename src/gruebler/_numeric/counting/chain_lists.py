@@ -147,10 +147,7 @@ def list_chains(graphs: Int64, mobility: int, desk: ListMemory, out: UInt8) -> i
         values = desk.pair_values if n == 2 else desk.values
         more = words >= 0
         while more and written < out.shape[0]:
-            more = next_strings(
-                depth, bundles, words, 3 * n - 3 - mobility, mobility, frame.number, values.table, values.size,
-                walk.inner, walk.outer, walk.budget, walk.state,
-            )  # fmt: skip
+            more = next_strings(depth, bundles, words, 3 * n - 3 - mobility, mobility, frame.number, values, walk)
             depth = bundles
             if more and _is_first(bundles, group, desk.images, value):
                 _write(n, bundles, frame, values.weights, value, out[written])

@@ -52,6 +52,18 @@ class BlockTables(NamedTuple):
     pattern: Int64  # (sum, assignment): c in unary, two bits a bundle
 
 
+class BlockPlan(NamedTuple):
+    """How many of the bundles are searched, and how many blocks the others fill."""
+
+    bundles: int
+    variables: int
+    """orbits of searched bundles"""
+    searched: int
+    """lanes of searched bundles"""
+    levels: int
+    """blocks"""
+
+
 class CounterMemory(NamedTuple):
     """Memory of `count_strings`. A lane is a place for a bundle: searched ones first, then those in blocks."""
 
@@ -136,10 +148,8 @@ def order_nodes(n: int, near: Int64, place: Int64) -> None:
 
 
 @njit(cache=True)
-def arrange_blocks(
-    bundles: int, mobility: int, image: Int64, frame: PreparedGraph, memory: CounterMemory
-) -> tuple[int, int, int]:
-    """Give lanes to the bundles; returns the numbers of variables, searched lanes and levels.
+def arrange_blocks(bundles: int, mobility: int, image: Int64, frame: PreparedGraph, memory: CounterMemory) -> BlockPlan:
+    """Give lanes to the bundles.
 
     Searched: orbits of two and more bundles, bundles turned around, and bundles of several strings unless
     F = 1, where such a bundle differs from a single string only in counting twice for c = 2; these stand in
@@ -197,7 +207,7 @@ def arrange_blocks(
         lane += memory.width[level]
     memory.begin[before] = lane
     memory.width[before] = last
-    return variables, searched, before + 1
+    return BlockPlan(bundles, variables, searched, before + 1)
 
 
 @njit(cache=True)
@@ -247,12 +257,12 @@ def _demand_of_search(
 
 
 @njit(cache=True)
-def _clear_tests(mobility: int, variables: int, levels: int, tables: BlockTables, memory: CounterMemory) -> None:
+def _clear_tests(mobility: int, plan: BlockPlan, tables: BlockTables, memory: CounterMemory) -> None:
     """No tests yet; only the lanes that a block lacks are 0, and with F = 0 no other ones."""
-    for v in range(variables):
+    for v in range(plan.variables):
         memory.search_due[0, v] = 0
         memory.search_due[1, v] = 0
-    for level in range(levels):
+    for level in range(plan.levels):
         memory.due[2 * level] = 0
         memory.due[2 * level + 1] = 0
         missing = BLOCK - memory.width[level]
@@ -266,11 +276,8 @@ def _clear_tests(mobility: int, variables: int, levels: int, tables: BlockTables
 
 @njit(cache=True)
 def place_tests(
-    bundles: int,
+    plan: BlockPlan,
     sets: int,
-    variables: int,
-    searched: int,
-    levels: int,
     target: int,
     mobility: int,
     frame: PreparedGraph,
@@ -283,9 +290,9 @@ def place_tests(
     c(rest) >= target - b. If F <= 1 the two are the same, and whichever of S and the rest is complete first
     decides; until then both must still be possible.
     """
-    _clear_tests(mobility, variables, levels, tables, memory)
-    exact = mobility <= 1
-    search_lanes = (1 << (2 * searched)) - 1
+    _clear_tests(mobility, plan, tables, memory)
+    bundles, exact = plan.bundles, mobility <= 1
+    search_lanes = (1 << (2 * plan.searched)) - 1
     for i in range(sets):
         s, bound = frame.sets[0, i], frame.sets[1, i]
         mask = 0
@@ -302,9 +309,9 @@ def place_tests(
             limit = popcount(part) - (target - bound - 2 * open_rest) if lower else bound
             if part and popcount(part) > limit:
                 _demand_of_search(
-                    variables, lower, part, limit, memory.variable, memory.search_tests, memory.search_due
+                    plan.variables, lower, part, limit, memory.variable, memory.search_tests, memory.search_due
                 )
-        for level in range(levels):
+        for level in range(plan.levels):
             if open_mask == 0 or (exact and open_rest == 0):
                 break
             begin, width = memory.begin[level], memory.width[level]

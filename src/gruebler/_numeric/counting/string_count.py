@@ -24,6 +24,7 @@ from gruebler._numeric.counting.string_blocks import (
     SUMS,
     TURNED,
     WORDS,
+    BlockPlan,
     BlockTables,
     CounterMemory,
     arrange_blocks,
@@ -100,9 +101,7 @@ def _add_orbits(
 @njit(cache=True)
 def _count_blocks(
     depth: int,
-    bundles: int,
-    searched: int,
-    levels: int,
+    plan: BlockPlan,
     target: int,
     spare: int,
     orbits: bool,
@@ -117,13 +116,14 @@ def _count_blocks(
     `spare` is the excess that single strings may still have: x of it falls on the z strings with c = 0 in
     C(z + x - 1, x) ways.
     """
+    bundles, searched = plan.bundles, plan.searched
     allowed, pattern, zeros, ways = tables.allowed, tables.pattern, tables.zeros, values.ways
     tests, due, left, start = memory.tests, memory.due, memory.left, memory.start
     begin, size = memory.begin, memory.width
     block_sum, current, chosen, total = memory.state[0], memory.state[1], memory.state[2], memory.state[3]
     several = 0
     lane = searched
-    last = levels - 1
+    last = plan.levels - 1
     while lane < begin[last] and frame.number[memory.order[lane]] > 1:
         several |= 2 << (2 * lane)
         lane += 1
@@ -217,9 +217,9 @@ def _count_blocks(
                     here += popcount(m6 & zeros[s, z, 6])
                     many += here * ways[empty + z, x]
         if many:
-            found = (many * memory.search[4, depth]) << popcount(word & several)
-            totals[FOUND] += found
-            memory.bulk[0] += found
+            count = (many * memory.search[4, depth]) << popcount(word & several)
+            totals[FOUND] += count
+            memory.bulk[0] += count
             if orbits:
                 _add_orbits(many, x, s, depth, searched, last, word, frame, values, memory, totals)
 
@@ -260,8 +260,9 @@ def count_strings(
     target = 3 * n - 3 - mobility
     spare = max(mobility - 1, 0)
     order_nodes(n, frame.near, memory.place)
-    variables, searched, levels = arrange_blocks(bundles, mobility, image, frame, memory)
-    place_tests(bundles, sets, variables, searched, levels, target, mobility, frame, tables, memory)
+    plan = arrange_blocks(bundles, mobility, image, frame, memory)
+    place_tests(plan, sets, target, mobility, frame, tables, memory)
+    variables = plan.variables
     variable, search, due, tests = memory.variable, memory.search, memory.search_due, memory.search_tests
     classes, size = values.classes, values.class_size
     search[0, 0] = -1
@@ -270,10 +271,7 @@ def count_strings(
     d = 0
     while d >= 0:
         if d == variables:
-            _count_blocks(
-                variables, bundles, searched, levels, target, spare - search[3, d], orbits, frame, values, tables,
-                memory, totals,
-            )  # fmt: skip
+            _count_blocks(variables, plan, target, spare - search[3, d], orbits, frame, values, tables, memory, totals)
             d -= 1
             continue
         k, length = variable[2, d], variable[1, d]

@@ -250,33 +250,26 @@ def next_strings(
     target: int,
     mobility: int,
     number: Int64,
-    table: Int64,
-    size: Int64,
-    inner: Int64,
-    outer: Int64,
-    budget: Int64,
-    state: Int64,
+    values: Values,
+    walk: WalkMemory,
 ) -> bool:
     """Go on to the next assignment of values to bundles, symmetry ignored, in lexicographic order.
 
     Args:
-        depth: `bundles` to go on from the last assignment, 0 to begin, the rows of `state` then being 0, 0, -1.
+        depth: `bundles` to go on from the last assignment, 0 to begin, the rows of `walk.state` then being 0, 0, -1.
         bundles: number of bundles in the frame.
         words: what `set_budgets` returned, at least 0.
         target: 3V - 3 - F, which the sum of c - excess must reach.
         mobility: F.
         number: strings of the bundles.
-        table: `Values.table`.
-        size: `Values.size`.
-        inner: `WalkMemory.inner`.
-        outer: `WalkMemory.outer`.
-        budget: `WalkMemory.budget`.
-        state: `WalkMemory.state`; row 2 holds the numbers of the values.
+        values: from `make_values`.
+        walk: from `make_walk_memory`; row 2 of its state holds the numbers of the values.
 
     Returns:
         Whether there is one. Cost: about 100 ns.
     """
-    total, excess, value = state[0], state[1], state[2]
+    table, size, inner, outer, budget = values.table, values.size, walk.inner, walk.outer, walk.budget
+    total, excess, value = walk.state[0], walk.state[1], walk.state[2]
     spare = max(mobility - 1, 0)
     d = depth
     if d == bundles:

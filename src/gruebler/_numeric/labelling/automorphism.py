@@ -178,14 +178,14 @@ def find_automorphism(
             rows[INVERSE, v] = w
             rows[SUPPORT, moved] = w
             moved += 1
-    found = moved > 0 and _respects(moved, vertex_colour, indptr, neighbour, edge_colour, ws)
-    if found:
+    respected = moved > 0 and _respects(moved, vertex_colour, indptr, neighbour, edge_colour, ws)
+    if respected:
         _keep(moved, ws)
     for i in range(moved):
         v = rows[SUPPORT, i]
         rows[IMAGE, v] = v
         rows[INVERSE, v] = v
-    return found
+    return respected
 
 
 @njit(cache=True)

@@ -264,21 +264,21 @@ def _explore(
             words[BEST_TRACE, level] = trace
         back = level
         if follow or stand <= 0:
-            found = False
+            matched = False
             for leaf in (FIRST_LAB, BEST_LAB):
                 common = base if leaf == FIRST_LAB else parting
                 alike = follow if leaf == FIRST_LAB else stand == 0 and state[BEST_IS_FIRST] == 0
                 if alike and find_automorphism(
                     leaf, rows[MARK, common], vertex_colour, indptr, neighbour, edge_colour, ws
                 ):
-                    found = True
+                    matched = True
                     start = rows[PATH, base]
                     known = (
                         orbit_root(rows, ORBIT, start) != start or orbit_root(rows, ORBIT, rows[ELDEST, base]) == start
                     )
                     back = base if known else common
                     break
-            if not found and state[CELLS] < n:
+            if not matched and state[CELLS] < n:
                 level += 1
                 rows[FOLLOWS, level] = follow
                 rows[STANDING, level] = stand
@@ -287,7 +287,7 @@ def _explore(
                 child = _eldest_child(level, stand < 0 and state[THOROUGH] == 1, n, indptr, neighbour, ws)
                 rows[ELDEST, level] = child
                 continue
-            if not found:
+            if not matched:
                 state[LEAVES] += 1
                 if stand < 0 or (stand == 0 and leaf_is_better(n, indptr, neighbour, edge_colour, ws)):
                     for i in range(n):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,91 +20,113 @@ from gruebler._numeric.motion.program import (
 from gruebler._numeric.motion.registers import REGISTERS
 from gruebler._numeric.work_estimates import walking
 
-__all__ = ["run_designs"]
+__all__ = ["DesignInputs", "DesignPoses", "run_designs"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
 
 
+class DesignInputs(NamedTuple):
+    """In what designs of one program differ."""
+
+    points: Complexes
+    """(designs, elements)"""
+    lines: Complexes
+    """(designs, elements)"""
+    most: Reals
+    """(designs, drives) longest steps."""
+    sizes: Reals
+    """(designs,)"""
+    signs: Reals
+    """(designs, dyads); NaN for a design that is not to be moved."""
+    starts: Reals
+    """(designs, 3 bodies of larger groups)"""
+
+
+class DesignPoses(NamedTuple):
+    """What is written of each design, NaN in rows that were not reached."""
+
+    places: Complexes
+    """(order + 1, designs, kept, rows)"""
+    turns: Complexes
+    """(designs, kept, rows)"""
+    rates: Reals
+    """(order, designs, kept, rows)"""
+    reached: Ints
+    """(designs,) how many rows."""
+
+
 def run_designs(
     program: Program,
-    sizes: tuple[Complexes, Complexes, Reals, Reals],
+    designs: DesignInputs,
     path: Reals,
     speeds: Reals,
-    signs: Reals,
-    starts: Reals,
     kept: Ints,
-    out: tuple[Complexes, Complexes, Reals, Ints],
+    out: DesignPoses,
     part: tuple[int, int],
 ) -> None:
     """Move designs one after another; the interpreter is free meanwhile, so that threads may share the work.
 
     Args:
         program: one of the designs.
-        sizes: points and lines (designs, elements), longest steps (designs, drives), sizes (designs,).
+        designs: the sizes and starts of all of them.
         path: (rows, drives) drive values, the same for all.
         speeds: (order, rows, drives).
-        signs: (designs, dyads); NaN for a design that is not to be moved.
-        starts: (designs, 3 bodies of larger groups).
         kept: (kept,) the links that are written.
-        out: places (order + 1, designs, kept, rows), turns (designs, kept, rows), rates (order, designs, kept, rows),
-            rows reached (designs,); written, NaN in rows that were not reached.
+        out: written.
         part: the first design of this call, and the one behind its last.
     """
     order, rows = len(speeds), len(path)
     links = 1 + max(int(program.links.max()), int(program.roots.max(initial=0)))
+    dyads, unknowns = designs.signs.shape[1], designs.starts.shape[1]
     poses = PoseBuffer(
         np.empty((order + 1, links, rows), np.complex128),
         np.empty((links, rows), np.complex128),
         np.empty((order, links, rows)),
         np.zeros((links, rows), np.int32),
-        np.empty((signs.shape[1], rows)),
-        np.empty((starts.shape[1], rows)),
+        np.empty((dyads, rows)),
+        np.empty((unknowns, rows)),
     )
-    memory = new_pose_memory(signs.shape[1], starts.shape[1], len(program.conditions) - 1)
+    memory = new_pose_memory(dyads, unknowns, len(program.conditions) - 1)
     scratch = new_motion_scratch(links, len(program.kinds), len(program.roots), path.shape[1])
     move = for_work(_designs, (part[1] - part[0]) * walking(program, rows, order))
-    move(program, sizes, path, speeds, signs, starts, kept, out, part, poses, memory, scratch, np.zeros(REGISTERS))
+    move(program, designs, path, speeds, kept, out, part, poses, memory, scratch, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
 def _designs(
     program: Program,
-    sizes: tuple[Complexes, Complexes, Reals, Reals],
+    designs: DesignInputs,
     path: Reals,
     speeds: Reals,
-    signs: Reals,
-    starts: Reals,
     kept: Ints,
-    out: tuple[Complexes, Complexes, Reals, Ints],
+    out: DesignPoses,
     part: tuple[int, int],
     poses: PoseBuffer,
     memory: PoseMemory,
     scratch: MotionScratch,
     registers: Reals,
 ) -> None:
-    points, lines, longest, lengths = sizes
-    places, turns, rates, reached = out
     p = program
     for n in range(part[0], part[1]):
-        mine = Program(
-            p.operations, p.links, points[n], lines[n], p.conditions, p.kinds, p.sides, p.owners, p.bodies, p.roots,
-            longest[n], lengths[n], p.values, p.windings, p.pieces,
+        design = Program(
+            p.operations, p.links, designs.points[n], designs.lines[n], p.conditions, p.kinds, p.sides, p.owners,
+            p.bodies, p.roots, designs.most[n], designs.sizes[n], p.values, p.windings, p.pieces,
         )  # fmt: skip
-        end = 0
-        if not np.isnan(signs[n].sum()):
+        end, signs, start = 0, designs.signs[n], designs.starts[n]
+        if not np.isnan(signs.sum()):
             poses.whole[:] = 0
-            end = walk_path(mine, path, speeds, signs[n], starts[n], poses, memory, scratch, registers)[1]
-        reached[n] = end
+            end = walk_path(design, path, speeds, signs, start, poses, memory, scratch, registers)[1]
+        out.reached[n] = end
         for m in range(len(kept)):
             link = kept[m]
-            _copy(poses.turns[link], turns[n, m], end)
-            for k in range(len(places)):
-                _copy(poses.places[k, link], places[k, n, m], end)
-            for k in range(len(rates)):
+            _copy(poses.turns[link], out.turns[n, m], end)
+            for k in range(len(out.places)):
+                _copy(poses.places[k, link], out.places[k, n, m], end)
+            for k in range(len(out.rates)):
                 for row in range(len(path)):
-                    rates[k, n, m, row] = poses.rates[k, link, row] if row < end else np.nan
+                    out.rates[k, n, m, row] = poses.rates[k, link, row] if row < end else np.nan
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)

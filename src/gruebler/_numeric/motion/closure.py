@@ -1,7 +1,7 @@
 """Closing conditions of joints between bodies: residual and Jacobian.
 
-A body has the unknowns x, y and angle. A condition joins slot 2c (first element) and slot 2c + 1 (second) of the
-scratch arrays; ``owners`` names the body of each slot, -1 for what is known; ``values[c]`` holds its eight numbers.
+A body has the unknowns x, y and angle. Condition c joins the elements in slots 2c (the first) and 2c + 1 (the second);
+it has eight numbers, `Conditions.values`.
 
 - PIN: the points meet, two equations.
 - SLIDE: the lines point the same way and lie on one another, two equations.
@@ -22,12 +22,13 @@ scratch arrays; ``owners`` names the body of each slot, -1 for what is known; ``
   first angle plus value 4 is replaced by its function.
 - TRAVEL: RACK with the angles as they stand in the unknowns.
 
-Lengths of the equations are in the unit of the points, angles of a SLIDE are multiplied by `size`.
+Lengths of the equations are in the unit of the points, angles of a SLIDE are multiplied by `Conditions.size`.
 """
 
 from __future__ import annotations
 
 from math import atan2, cos, floor, pi, sin
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +48,7 @@ __all__ = [
     "SLIDE",
     "TRAIN",
     "TRAVEL",
+    "Conditions",
     "closing",
     "evaluate_law",
     "unwound_angle",
@@ -58,6 +60,27 @@ Ints = NDArray[np.int64]
 
 PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE, TRAIN, TRAVEL = range(10)
 EQUATIONS = (2, 2, 1, 1, 1, 1, 1, 1, 1, 1)
+
+
+class Conditions(NamedTuple):
+    """Closing conditions of joints between bodies."""
+
+    kinds: Ints
+    """(conditions,)"""
+    values: Reals
+    """(conditions, 8) their numbers."""
+    pieces: Reals
+    """(pieces, 2 + coefficients) of the laws, see `evaluate_law`."""
+    owners: Ints
+    """(2 conditions,) the body that carries the element, -1 for what is known."""
+    points: Complexes
+    """(2 conditions, 4) the jet of each element's point: against its body or, of what is known, where it is."""
+    lines: Complexes
+    """(2 conditions,) the element's direction."""
+    spins: Reals
+    """(2 conditions, 3) the rates of that direction; none where nothing is derived."""
+    size: float
+    """A length of the order of the linkage."""
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -98,34 +121,25 @@ def evaluate_law(pieces: Reals, values: Reals, angle: float) -> tuple[float, flo
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def closing(
-    kinds: Ints,
-    values: Reals,
-    pieces: Reals,
-    owners: Ints,
-    points: Complexes,
-    lines: Complexes,
-    unknowns: Reals,
-    size: float,
-    residual: Reals,
-    jacobian: Reals,
-) -> float:
+def closing(conditions: Conditions, unknowns: Reals, residual: Reals, jacobian: Reals) -> float:
     """Write residual and Jacobian at the unknowns (x, y, angle of each body); returns the largest residual."""
+    kinds, values, pieces, owners = conditions.kinds, conditions.values, conditions.pieces, conditions.owners
+    points, lines, size = conditions.points, conditions.lines, conditions.size
     row = 0
     for c in range(len(kinds)):
         a, b = owners[2 * c], owners[2 * c + 1]
-        here, there = points[2 * c, 0], points[2 * c + 1, 0]
-        line, other = lines[2 * c], lines[2 * c + 1]
+        point_a, point_b = points[2 * c, 0], points[2 * c + 1, 0]
+        line_a, line_b = lines[2 * c], lines[2 * c + 1]
         arm_a = arm_b = 0j
         if a >= 0:
             turn = complex(cos(unknowns[3 * a + 2]), sin(unknowns[3 * a + 2]))
-            arm_a, line = turn * here, turn * line
-            here = arm_a + complex(unknowns[3 * a], unknowns[3 * a + 1])
+            arm_a, line_a = turn * point_a, turn * line_a
+            point_a = arm_a + complex(unknowns[3 * a], unknowns[3 * a + 1])
         if b >= 0:
             turn = complex(cos(unknowns[3 * b + 2]), sin(unknowns[3 * b + 2]))
-            arm_b, other = turn * there, turn * other
-            there = arm_b + complex(unknowns[3 * b], unknowns[3 * b + 1])
-        gap = there - here
+            arm_b, line_b = turn * point_b, turn * line_b
+            point_b = arm_b + complex(unknowns[3 * b], unknowns[3 * b + 1])
+        gap = point_b - point_a
         kind = kinds[c]
         for k in range(row, row + (2 if kind in (PIN, SLIDE) else 1)):
             for m in range(len(unknowns)):
@@ -140,9 +154,9 @@ def closing(
                 jacobian[row, 3 * b + 2], jacobian[row + 1, 3 * b + 2] = -arm_b.imag, arm_b.real
             row += 2
             continue
-        one, two, value = values[c, 0], values[c, 1], values[c, 2]
+        factor_a, factor_b, value = values[c, 0], values[c, 1], values[c, 2]
         if kind == SLIDE:
-            turn = line.conjugate() * other
+            turn = line_a.conjugate() * line_b
             residual[row] = turn.imag * size
             if a >= 0:
                 jacobian[row, 3 * a + 2] -= turn.real * size
@@ -152,7 +166,7 @@ def closing(
         # what turns with the bodies counts so much, what the gap moves along `measure` so much
         turn_a, turn_b, measure = 0.0, 0.0, 0j
         if kind in (SLIDE, RIDE):
-            measure = 1j * line
+            measure = 1j * line_a
             residual[row] = (measure.conjugate() * gap).real - value
             turn_a = (measure.conjugate() * gap).imag
         elif kind == REACH:
@@ -160,22 +174,22 @@ def closing(
             residual[row] = ((gap * gap.conjugate()).real / value - value) / 2
         elif kind == MESH:
             first, second = (
-                unwound_angle(line * gap.conjugate(), values[c, 3]),
-                unwound_angle(other * gap.conjugate(), values[c, 4]),
+                unwound_angle(line_a * gap.conjugate(), values[c, 3]),
+                unwound_angle(line_b * gap.conjugate(), values[c, 4]),
             )
             first, slope, _, _ = evaluate_law(pieces, values[c], first)
-            residual[row] = one * first + two * second - value
-            turn_a, turn_b = one * slope, two
-            measure = -(turn_a + two) * 1j * gap / (gap * gap.conjugate()).real
+            residual[row] = factor_a * first + factor_b * second - value
+            turn_a, turn_b = factor_a * slope, factor_b
+            measure = -(turn_a + factor_b) * 1j * gap / (gap * gap.conjugate()).real
         elif kind == POLAR:
-            seen = line.conjugate() * gap
+            seen = line_a.conjugate() * gap
             radius, slope, _, _ = evaluate_law(pieces, values[c], unwound_angle(seen, 0.0))
-            residual[row] = one * (logarithm(abs(seen)) - radius)
-            measure = one * (1 - 1j * slope) * gap / (gap * gap.conjugate()).real
-            turn_a = one * slope
+            residual[row] = factor_a * (logarithm(abs(seen)) - radius)
+            measure = factor_a * (1 - 1j * slope) * gap / (gap * gap.conjugate()).real
+            turn_a = factor_a * slope
         elif kind == FACE:
-            measure = two * 1j * line
-            height, slope, _, _ = evaluate_law(pieces, values[c], unwound_angle(-measure * other.conjugate(), 0.0))
+            measure = factor_b * 1j * line_a
+            height, slope, _, _ = evaluate_law(pieces, values[c], unwound_angle(-measure * line_b.conjugate(), 0.0))
             residual[row] = (measure.conjugate() * gap).real - height
             turn_a, turn_b = (measure.conjugate() * gap).imag - slope, slope
         elif kind == TRAIN:
@@ -184,18 +198,18 @@ def closing(
             first = (unknowns[3 * a + 2] if a >= 0 else 0.0) - line_of_centres
             second = (unknowns[3 * b + 2] if b >= 0 else 0.0) - line_of_centres
             first, slope, _, _ = evaluate_law(pieces, values[c], first + values[c, 4])
-            residual[row] = one * first + two * second - value
-            turn_a, turn_b = one * slope, two
+            residual[row] = factor_a * first + factor_b * second - value
+            turn_a, turn_b = factor_a * slope, factor_b
             if arm >= 0:
-                jacobian[row, 3 * arm + 2] -= turn_a + two
+                jacobian[row, 3 * arm + 2] -= turn_a + factor_b
         else:
-            measure = two * line
+            measure = factor_b * line_a
             if kind == RACK:
-                angle = unwound_angle(line.conjugate() * other, values[c, 3])
+                angle = unwound_angle(line_a.conjugate() * line_b, values[c, 3])
             else:
                 angle = (unknowns[3 * b + 2] if b >= 0 else 0.0) - (unknowns[3 * a + 2] if a >= 0 else 0.0)
-            residual[row] = one * angle + (measure.conjugate() * gap).real - value
-            turn_a, turn_b = (measure.conjugate() * gap).imag - one, one
+            residual[row] = factor_a * angle + (measure.conjugate() * gap).real - value
+            turn_a, turn_b = (measure.conjugate() * gap).imag - factor_a, factor_a
         if a >= 0:
             jacobian[row, 3 * a] -= measure.real
             jacobian[row, 3 * a + 1] -= measure.imag

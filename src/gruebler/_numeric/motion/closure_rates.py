@@ -2,53 +2,62 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.motion.closure import FACE, MESH, PIN, POLAR, RACK, REACH, SLIDE, evaluate_law, unwound_angle
-from gruebler._numeric.motion.planar_jets import rotated_derivative
+from gruebler._numeric.motion.closure import (
+    FACE,
+    MESH,
+    PIN,
+    POLAR,
+    RACK,
+    REACH,
+    SLIDE,
+    Conditions,
+    evaluate_law,
+    unwound_angle,
+)
+from gruebler._numeric.motion.planar_jets import BodyJets, rotated_derivative
 
-__all__ = ["closing_rates"]
+__all__ = ["RateScratch", "closing_rates"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
+
+
+class RateScratch(NamedTuple):
+    """What `closing_rates` works in, for one condition after another."""
+
+    gap: Complexes
+    """(4,) the jet of the vector from the first point to the second."""
+    spins: Reals
+    """(2, 3) the rates of both directions, the bodies' own rates included."""
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def closing_rates(
-    order: int,
-    kinds: Ints,
-    values: Reals,
-    pieces: Reals,
-    owners: Ints,
-    points: Complexes,
-    lines: Complexes,
-    spins: Reals,
-    turns: Complexes,
-    rates: Reals,
-    places: Complexes,
-    size: float,
-    gap: Complexes,
-    spun: Reals,
-    target: Reals,
-) -> None:
+def closing_rates(order: int, conditions: Conditions, bodies: BodyJets, scratch: RateScratch, target: Reals) -> None:
     """Write the right-hand side of ``jacobian @ unknown = target`` for the derivatives of that order.
 
-    ``turns``, ``places`` (derivatives of origins) and ``rates`` are those of the bodies up to order - 1; their entries
-    of this order and above are zero. ``gap`` (4,) and ``spun`` (2, 3) are scratch. Not for TRAIN and TRAVEL.
+    The jets of the bodies are known up to order - 1; their entries of this order and above are zero. Not for TRAIN and
+    TRAVEL.
     """
+    kinds, values, pieces, owners = conditions.kinds, conditions.values, conditions.pieces, conditions.owners
+    points, lines, spins = conditions.points, conditions.lines, conditions.spins
+    turns, rates, places, size = bodies.turns, bodies.rates, bodies.places, conditions.size
+    gap, spins_of_sides = scratch.gap, scratch.spins
     row = 0
     for c in range(len(kinds)):
         for k in range(4):
             gap[k] = 0j
-        line, other = lines[2 * c], lines[2 * c + 1]
+        line_a, line_b = lines[2 * c], lines[2 * c + 1]
         for side in range(2):
             slot, sign = 2 * c + side, 2 * side - 1
             body = owners[slot]
             for k in range(3):
-                spun[side, k] = spins[slot, k]
+                spins_of_sides[side, k] = spins[slot, k]
             if body < 0:
                 for k in range(order + 1):
                     gap[k] += sign * points[slot, k]
@@ -67,13 +76,13 @@ def closing_rates(
                     points[slot, 3],
                 )
             for k in range(3):
-                spun[side, k] += rates[body, k]
+                spins_of_sides[side, k] += rates[body, k]
             if side == 0:
-                line = turns[body] * line
+                line_a = turns[body] * line_a
             else:
-                other = turns[body] * other
-        w, a, j = spun[0, 0], spun[0, 1], spun[0, 2]
-        difference = spun[1, order - 1] - spun[0, order - 1]
+                line_b = turns[body] * line_b
+        w, a, j = spins_of_sides[0, 0], spins_of_sides[0, 1], spins_of_sides[0, 2]
+        difference = spins_of_sides[1, order - 1] - spins_of_sides[0, order - 1]
         kind = kinds[c]
         if kind == PIN:
             target[row], target[row + 1] = -gap[order].real, -gap[order].imag
@@ -82,7 +91,7 @@ def closing_rates(
         if kind == SLIDE:
             target[row] = -difference * size
             row += 1
-        one, two = values[c, 0], values[c, 1]
+        factor_a, factor_b = values[c, 0], values[c, 1]
         first, second = 1.0, 0.0  # the angle on which a law depends: its rates are those of a logarithm less a spin
         if kind == REACH:
             target[row] = -_square_rate(order, gap) / (2 * values[c, 2])
@@ -92,16 +101,16 @@ def closing_rates(
             first, second = _log_rate(1, gap).imag, _log_rate(2, gap).imag if order > 2 else 0.0
             first, second = first - w, second - a
         elif kind == FACE:
-            first, second = w - spun[1, 0], a - spun[1, 1]
+            first, second = w - spins_of_sides[1, 0], a - spins_of_sides[1, 1]
         bent, slope = 0.0, 1.0
         if values[c, 6] > 0 or kind == MESH:
             angle = 0.0
             if kind == MESH:
-                angle, first, second = unwound_angle(line * gap[0].conjugate(), values[c, 3]), -first, -second
+                angle, first, second = unwound_angle(line_a * gap[0].conjugate(), values[c, 3]), -first, -second
             elif kind == POLAR:
-                angle = unwound_angle(line.conjugate() * gap[0], 0.0)
+                angle = unwound_angle(line_a.conjugate() * gap[0], 0.0)
             else:
-                angle = unwound_angle(-values[c, 1] * 1j * line * other.conjugate(), 0.0)
+                angle = unwound_angle(-values[c, 1] * 1j * line_a * line_b.conjugate(), 0.0)
             _, slope, curve, third = evaluate_law(pieces, values[c], angle)
             if order == 2:
                 bent = curve * first * first
@@ -109,16 +118,18 @@ def closing_rates(
                 bent = third * first * first * first + 3 * curve * first * second
         if kind == MESH:
             turning = _log_rate(order, gap).imag
-            target[row] = -one * (slope * (spun[0, order - 1] - turning) + bent) - two * (spun[1, order - 1] - turning)
+            target[row] = -factor_a * (slope * (spins_of_sides[0, order - 1] - turning) + bent) - factor_b * (
+                spins_of_sides[1, order - 1] - turning
+            )
         elif kind == POLAR:
-            found = _log_rate(order, gap)
-            target[row] = one * (slope * (found.imag - spun[0, order - 1]) + bent - found.real)
+            log_rate = _log_rate(order, gap)
+            target[row] = factor_a * (slope * (log_rate.imag - spins_of_sides[0, order - 1]) + bent - log_rate.real)
         else:
-            seen = rotated_derivative(order, line.conjugate(), -w, -a, -j, gap[0], gap[1], gap[2], gap[3])
+            seen = rotated_derivative(order, line_a.conjugate(), -w, -a, -j, gap[0], gap[1], gap[2], gap[3])
             if kind == RACK:
-                target[row] = -(one * difference + two * seen.real)
+                target[row] = -(factor_a * difference + factor_b * seen.real)
             elif kind == FACE:
-                target[row] = bent - slope * difference - two * seen.imag
+                target[row] = bent - slope * difference - factor_b * seen.imag
             else:
                 target[row] = -seen.imag
         row += 1
@@ -139,9 +150,9 @@ def _log_rate(order: int, gap: Complexes) -> complex:
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _square_rate(order: int, gap: Complexes) -> float:
     """The derivative of that order of the squared length of a vector."""
-    out = 2 * (gap[0].conjugate() * gap[order]).real
+    rate = 2 * (gap[0].conjugate() * gap[order]).real
     if order == 2:
-        out += 2 * (gap[1].conjugate() * gap[1]).real
+        rate += 2 * (gap[1].conjugate() * gap[1]).real
     if order == 3:
-        out += 6 * (gap[1].conjugate() * gap[2]).real
-    return float(out)
+        rate += 6 * (gap[1].conjugate() * gap[2]).real
+    return float(rate)

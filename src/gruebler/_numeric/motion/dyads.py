@@ -1,8 +1,8 @@
 """The five dyads in closed form, with velocity, acceleration and jerk.
 
 Each has two bodies and two unknowns at every order: the value by a square root (the assembly mode is its sign), the
-derivatives by one system of two linear equations whose matrix is the same for all orders. Slots of the scratch arrays
-hold the six joint elements: 0 and 5 the outer ones on what is known, 1 and 2 those of the first body (outer, inner),
+derivatives by one system of two linear equations whose matrix is the same for all orders. Six slots hold the joint
+elements: 0 and 5 the outer ones on what is known, 1 and 2 those of the first body (outer, inner),
 3 and 4 those of the second (inner, outer); the latter four against their body. docs/theory/kinematics.md has the
 derivations.
 """
@@ -16,13 +16,17 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.lanes import square_root
-from gruebler._numeric.motion.planar_jets import rotated_derivative
+from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets, rotated_derivative
 from gruebler._numeric.motion.program import PRP, RPP, RPR, RRP, RRR
 
 __all__ = ["dyad_place", "dyad_rates", "dyad_square", "meeting"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
+
+_HERON_NOISE = 4e-16  # two roundings of each of the four factors of Heron's formula
+_SAME_POINT = 1e-13  # of the size: points nearer than some hundred roundings are one
+_SAME_POINT_NEAR_CHANGE = 1e-7  # the same where other dyads are in a change point too: known to some 1e-8 only
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -36,18 +40,19 @@ def _dot(a: complex, b: complex) -> float:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def dyad_square(kind: int, points: Complexes, lines: Complexes, size: float) -> float:
+def dyad_square(kind: int, elements: ElementJets, size: float) -> float:
     """The square of the number whose sign is the assembly mode, without unit: negative if nothing can be assembled.
 
     For RRR and RRP it is sin^2 of the transmission angle, for RPR the way along the slide in units of `size`. PRP and
     RPP have one mode only: for them it is the sine of the angle between the lines, 0 where they are parallel.
     """
+    points, lines = elements.points, elements.lines
     if kind == RRR:
-        way = points[5, 0] - points[0, 0]
+        gap = points[5, 0] - points[0, 0]
         first, second = points[2, 0] - points[1, 0], points[3, 0] - points[4, 0]
-        d, r, s = sqrt(_dot(way, way)), square_root(_dot(first, first)), square_root(_dot(second, second))
+        d, r, s = sqrt(_dot(gap, gap)), square_root(_dot(first, first)), square_root(_dot(second, second))
         square = (r + s - d) * (s + d - r) * (d + r - s) * (d + r + s) / (2 * r * s) ** 2  # Heron: no digits are lost
-        noise = 4e-16 * (d + r + s) ** 2 / (r * s)
+        noise = _HERON_NOISE * (d + r + s) ** 2 / (r * s)
         return 0.0 if -noise < square < 0 else square
     if kind == RRP:
         first = points[2, 0] - points[1, 0]
@@ -55,16 +60,17 @@ def dyad_square(kind: int, points: Complexes, lines: Complexes, size: float) -> 
         across = _cross(lines[5], reach)
         return 1 - across * across / _dot(first, first)
     if kind == RPR:
-        way = points[5, 0] - points[0, 0]
-        off = _offset(points, lines)
-        return (_dot(way, way) - off * off) / (size * size)
+        gap = points[5, 0] - points[0, 0]
+        off = _offset(elements)
+        return (_dot(gap, gap) - off * off) / (size * size)
     sine: float = _cross(lines[0] if kind == PRP else lines[5] * lines[4].conjugate() * lines[3], lines[5])
     return sine
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _offset(points: Complexes, lines: Complexes) -> float:
+def _offset(elements: ElementJets) -> float:
     """RPR: how far the second outer joint lies left of the first, seen along the slide."""
+    points, lines = elements.points, elements.lines
     first = lines[2].conjugate() * (points[1, 0] - points[2, 0])
     second = lines[3].conjugate() * (points[4, 0] - points[3, 0])
     offset: float = second.imag - first.imag
@@ -72,84 +78,86 @@ def _offset(points: Complexes, lines: Complexes) -> float:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def meeting(kind: int, points: Complexes, lines: Complexes, size: float) -> bool:
+def meeting(kind: int, elements: ElementJets, size: float) -> bool:
     """Whether the outer joints of RRR or RPR meet, so that their line has no direction.
 
-    RPR has its slide in that line. Where other dyads are in a change point too, the joints are known to some 1e-8 of
-    the size only, so nearer than 1e-7 their line is not asked; with the slide through both any direction closes.
+    RPR has its slide in that line; with the slide through both joints any direction closes, so their line is not asked
+    even where they are only nearly one.
     """
-    way = points[5, 0] - points[0, 0]
-    near = 1e-13
+    gap = elements.points[5, 0] - elements.points[0, 0]
+    near = _SAME_POINT
     if kind == RPR:
-        off = _offset(points, lines)
-        if off * off > 1e-26 * size * size:
+        off = _offset(elements)
+        if off * off > _SAME_POINT * _SAME_POINT * size * size:
             return False
-        near = 1e-7
-    met: bool = _dot(way, way) <= near * near * size * size
+        near = _SAME_POINT_NEAR_CHANGE
+    met: bool = _dot(gap, gap) <= near * near * size * size
     return met
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def dyad_place(
-    kind: int,
-    root: float,
-    points: Complexes,
-    lines: Complexes,
-    one: int,
-    two: int,
-    places: Complexes,
-    turns: Complexes,
-    size: float,
+    kind: int, root: float, elements: ElementJets, body_a: int, body_b: int, links: BodyJets, size: float
 ) -> None:
     """Place both bodies; `root` is the signed root of `dyad_square`."""
+    points, lines, places, turns = elements.points, elements.lines, links.places, links.turns
     if kind == RRR:
-        way = points[5, 0] - points[0, 0]
+        gap = points[5, 0] - points[0, 0]
         first, second = points[2, 0] - points[1, 0], points[3, 0] - points[4, 0]
-        d, l1, l2 = _dot(way, way), _dot(first, first), _dot(second, second)
-        if not meeting(kind, points, lines, size):
-            arm = way * complex((d + l1 - l2) / (2 * d), root * sqrt(l1 * l2) / d)
-            turns[one] = arm * complex(first.real / l1, -first.imag / l1)
+        d, l1, l2 = _dot(gap, gap), _dot(first, first), _dot(second, second)
+        if not meeting(kind, elements, size):
+            arm = gap * complex((d + l1 - l2) / (2 * d), root * sqrt(l1 * l2) / d)
+            turns[body_a] = arm * complex(first.real / l1, -first.imag / l1)
         else:  # any direction closes: the one that the body has already
-            arm = turns[one] * first
-        turns[two] = (arm - way) * complex(second.real / l2, -second.imag / l2)
+            arm = turns[body_a] * first
+        turns[body_b] = (arm - gap) * complex(second.real / l2, -second.imag / l2)
     elif kind == RRP:
         first = points[2, 0] - points[1, 0]
         l1 = _dot(first, first)
-        turns[two] = lines[5] * lines[4].conjugate()
-        reach = points[5, 0] + turns[two] * (points[3, 0] - points[4, 0]) - points[0, 0]
-        way = root * sqrt(l1) - _dot(lines[5], reach)
-        turns[one] = (reach + way * lines[5]) * complex(first.real / l1, -first.imag / l1)
-        places[two, 0] = points[5, 0] + way * lines[5] - turns[two] * points[4, 0]
+        turns[body_b] = lines[5] * lines[4].conjugate()
+        reach = points[5, 0] + turns[body_b] * (points[3, 0] - points[4, 0]) - points[0, 0]
+        travel = root * sqrt(l1) - _dot(lines[5], reach)
+        turns[body_a] = (reach + travel * lines[5]) * complex(first.real / l1, -first.imag / l1)
+        places[body_b, 0] = points[5, 0] + travel * lines[5] - turns[body_b] * points[4, 0]
     elif kind == RPR:
-        if meeting(kind, points, lines, size):  # any direction closes: the one that the body has already
-            line = turns[one] * lines[2]
+        if meeting(kind, elements, size):  # any direction closes: the one that the body has already
+            line = turns[body_a] * lines[2]
         else:
-            way = points[5, 0] - points[0, 0]
-            line = way * complex(root * size, -_offset(points, lines))
+            gap = points[5, 0] - points[0, 0]
+            line = gap * complex(root * size, -_offset(elements))
             length = sqrt(_dot(line, line))
             line = complex(line.real / length, line.imag / length)
-        turns[one] = line * lines[2].conjugate()
-        turns[two] = line * lines[3].conjugate()
+        turns[body_a] = line * lines[2].conjugate()
+        turns[body_b] = line * lines[3].conjugate()
     elif kind == PRP:
-        turns[one] = lines[0] * lines[1].conjugate()
-        turns[two] = lines[5] * lines[4].conjugate()
-        start = points[0, 0] + turns[one] * (points[2, 0] - points[1, 0])
-        end = points[5, 0] + turns[two] * (points[3, 0] - points[4, 0])
+        turns[body_a] = lines[0] * lines[1].conjugate()
+        turns[body_b] = lines[5] * lines[4].conjugate()
+        start = points[0, 0] + turns[body_a] * (points[2, 0] - points[1, 0])
+        end = points[5, 0] + turns[body_b] * (points[3, 0] - points[4, 0])
         sine = _cross(lines[0], lines[5])
-        places[one, 0] = points[0, 0] + lines[0] * _cross(end - start, lines[5]) / sine - turns[one] * points[1, 0]
-        places[two, 0] = points[5, 0] + lines[5] * _cross(end - start, lines[0]) / sine - turns[two] * points[4, 0]
+        places[body_a, 0] = (
+            points[0, 0] + lines[0] * _cross(end - start, lines[5]) / sine - turns[body_a] * points[1, 0]
+        )
+        places[body_b, 0] = (
+            points[5, 0] + lines[5] * _cross(end - start, lines[0]) / sine - turns[body_b] * points[4, 0]
+        )
     else:
-        turns[two] = lines[5] * lines[4].conjugate()
-        slide = turns[two] * lines[3]
-        turns[one] = slide * lines[2].conjugate()
-        places[one, 0] = points[0, 0] - turns[one] * points[1, 0]
-        miss = points[5, 0] + turns[two] * (points[3, 0] - points[4, 0]) - places[one, 0] - turns[one] * points[2, 0]
-        way = -_cross(slide, miss) / _cross(slide, lines[5])
-        places[two, 0] = points[5, 0] + way * lines[5] - turns[two] * points[4, 0]
+        turns[body_b] = lines[5] * lines[4].conjugate()
+        slide = turns[body_b] * lines[3]
+        turns[body_a] = slide * lines[2].conjugate()
+        places[body_a, 0] = points[0, 0] - turns[body_a] * points[1, 0]
+        miss = (
+            points[5, 0]
+            + turns[body_b] * (points[3, 0] - points[4, 0])
+            - places[body_a, 0]
+            - turns[body_a] * points[2, 0]
+        )
+        travel = -_cross(slide, miss) / _cross(slide, lines[5])
+        places[body_b, 0] = points[5, 0] + travel * lines[5] - turns[body_b] * points[4, 0]
     if kind in (RRR, RRP, RPR):
-        places[one, 0] = points[0, 0] - turns[one] * points[1, 0]
+        places[body_a, 0] = points[0, 0] - turns[body_a] * points[1, 0]
     if kind in (RRR, RPR):
-        places[two, 0] = points[5, 0] - turns[two] * points[4, 0]
+        places[body_b, 0] = points[5, 0] - turns[body_b] * points[4, 0]
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -160,7 +168,7 @@ def _solved(left: complex, right: complex, target: complex) -> tuple[float, floa
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _arm(k: int, body: int, one: int, two: int, points: Complexes, turns: Complexes, rates: Reals) -> complex:
+def _arm(k: int, body: int, start: int, end: int, points: Complexes, turns: Complexes, rates: Reals) -> complex:
     """The k-th derivative of the vector from slot `one` to slot `two` of a body whose rates up to k are written."""
     return rotated_derivative(
         k,
@@ -168,10 +176,10 @@ def _arm(k: int, body: int, one: int, two: int, points: Complexes, turns: Comple
         rates[body, 0],
         rates[body, 1],
         rates[body, 2],
-        points[two, 0] - points[one, 0],
-        points[two, 1] - points[one, 1],
-        points[two, 2] - points[one, 2],
-        points[two, 3] - points[one, 3],
+        points[end, 0] - points[start, 0],
+        points[end, 1] - points[start, 1],
+        points[end, 2] - points[start, 2],
+        points[end, 3] - points[start, 3],
     )
 
 
@@ -200,111 +208,104 @@ def _along(k: int, line: complex, spins: Reals, slot: int, w0: float, w1: float,
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def dyad_rates(
-    kind: int,
-    order: int,
-    points: Complexes,
-    lines: Complexes,
-    spins: Reals,
-    one: int,
-    two: int,
-    places: Complexes,
-    turns: Complexes,
-    rates: Reals,
-) -> None:
+def dyad_rates(kind: int, order: int, elements: ElementJets, body_a: int, body_b: int, links: BodyJets) -> None:
     """Write velocity, acceleration and jerk of both bodies up to the order; they are placed already.
 
-    Unused orders of `points` and `spins` are zero.
+    Unused orders of the elements are zero.
     """
+    points, lines, spins = elements.points, elements.lines, elements.spins
+    places, turns, rates = links.places, links.turns, links.rates
     for k in range(3):
-        rates[one, k] = rates[two, k] = 0
-    first = turns[one] * (points[2, 0] - points[1, 0])
-    second = turns[two] * (points[3, 0] - points[4, 0])
-    way0 = way1 = way2 = way = other0 = other1 = other2 = other = 0.0
+        rates[body_a, k] = rates[body_b, k] = 0
+    first = turns[body_a] * (points[2, 0] - points[1, 0])
+    second = turns[body_b] * (points[3, 0] - points[4, 0])
+    slide0 = slide1 = slide2 = slide_rate = second0 = second1 = second2 = second_rate = 0.0
     if kind == RRP:
-        way0 = _dot(lines[5], places[one, 0] + turns[one] * points[2, 0] - points[5, 0] - second)
+        slide0 = _dot(lines[5], places[body_a, 0] + turns[body_a] * points[2, 0] - points[5, 0] - second)
     elif kind == PRP:
-        meet = places[one, 0] + turns[one] * points[2, 0]
-        way0 = _dot(lines[0], meet - points[0, 0] - first)
-        other0 = _dot(lines[5], meet - points[5, 0] - second)
+        meet = places[body_a, 0] + turns[body_a] * points[2, 0]
+        slide0 = _dot(lines[0], meet - points[0, 0] - first)
+        second0 = _dot(lines[5], meet - points[5, 0] - second)
     elif kind == RPR:
-        slide = turns[one] * lines[2]
-        way0 = _dot(slide, second + points[5, 0] - points[0, 0] - first)
+        line = turns[body_a] * lines[2]
+        slide0 = _dot(line, second + points[5, 0] - points[0, 0] - first)
     elif kind == RPP:
-        slide = turns[one] * lines[2]
-        way0 = _dot(lines[5], places[two, 0] + turns[two] * points[4, 0] - points[5, 0])
-        other0 = _dot(slide, places[two, 0] + turns[two] * points[3, 0] - places[one, 0] - turns[one] * points[2, 0])
+        line = turns[body_a] * lines[2]
+        slide0 = _dot(lines[5], places[body_b, 0] + turns[body_b] * points[4, 0] - points[5, 0])
+        second0 = _dot(
+            line, places[body_b, 0] + turns[body_b] * points[3, 0] - places[body_a, 0] - turns[body_a] * points[2, 0]
+        )
     for k in range(1, order + 1):
         if kind == RRR:
-            target = points[5, k] + _arm(k, two, 4, 3, points, turns, rates)
-            target -= points[0, k] + _arm(k, one, 1, 2, points, turns, rates)
-            rates[one, k - 1], rates[two, k - 1] = _solved(1j * first, -1j * second, target)
+            target = points[5, k] + _arm(k, body_b, 4, 3, points, turns, rates)
+            target -= points[0, k] + _arm(k, body_a, 1, 2, points, turns, rates)
+            rates[body_a, k - 1], rates[body_b, k - 1] = _solved(1j * first, -1j * second, target)
         elif kind == RRP:
-            rates[two, k - 1] = spins[5, k - 1] - spins[4, k - 1]
-            target = points[5, k] + _arm(k, two, 4, 3, points, turns, rates)
-            target += _along(k, lines[5], spins, 5, way0, way1, way2, 0.0)
-            target -= points[0, k] + _arm(k, one, 1, 2, points, turns, rates)
-            rates[one, k - 1], way = _solved(1j * first, -lines[5], target)
+            rates[body_b, k - 1] = spins[5, k - 1] - spins[4, k - 1]
+            target = points[5, k] + _arm(k, body_b, 4, 3, points, turns, rates)
+            target += _along(k, lines[5], spins, 5, slide0, slide1, slide2, 0.0)
+            target -= points[0, k] + _arm(k, body_a, 1, 2, points, turns, rates)
+            rates[body_a, k - 1], slide_rate = _solved(1j * first, -lines[5], target)
         elif kind == RPR:
             # the slide turns as one; what turns in a body of several links is taken off again
             spin1, spin2 = spins[2, k - 1], spins[3, k - 1]
-            rates[one, k - 1], rates[two, k - 1] = -spin1, -spin2
-            target = points[5, k] + _arm(k, two, 4, 3, points, turns, rates)
-            target -= points[0, k] + _arm(k, one, 1, 2, points, turns, rates)
-            w = rates[one, 0] + spins[2, 0] if k > 1 else 0.0
-            a = rates[one, 1] + spins[2, 1] if k > 2 else 0.0
-            target -= rotated_derivative(k, slide, w, a, 0.0, way0 + 0j, way1 + 0j, way2 + 0j, 0j)
-            turn, way = _solved(1j * (first - second + way0 * slide), slide, target)
-            rates[one, k - 1] += turn
-            rates[two, k - 1] += turn
+            rates[body_a, k - 1], rates[body_b, k - 1] = -spin1, -spin2
+            target = points[5, k] + _arm(k, body_b, 4, 3, points, turns, rates)
+            target -= points[0, k] + _arm(k, body_a, 1, 2, points, turns, rates)
+            w = rates[body_a, 0] + spins[2, 0] if k > 1 else 0.0
+            a = rates[body_a, 1] + spins[2, 1] if k > 2 else 0.0
+            target -= rotated_derivative(k, line, w, a, 0.0, slide0 + 0j, slide1 + 0j, slide2 + 0j, 0j)
+            turn, slide_rate = _solved(1j * (first - second + slide0 * line), line, target)
+            rates[body_a, k - 1] += turn
+            rates[body_b, k - 1] += turn
         elif kind == PRP:
-            rates[one, k - 1] = spins[0, k - 1] - spins[1, k - 1]
-            rates[two, k - 1] = spins[5, k - 1] - spins[4, k - 1]
-            target = points[5, k] + _arm(k, two, 4, 3, points, turns, rates)
-            target += _along(k, lines[5], spins, 5, other0, other1, other2, 0.0)
-            target -= points[0, k] + _arm(k, one, 1, 2, points, turns, rates)
-            target -= _along(k, lines[0], spins, 0, way0, way1, way2, 0.0)
-            way, other = _solved(lines[0], -lines[5], target)
+            rates[body_a, k - 1] = spins[0, k - 1] - spins[1, k - 1]
+            rates[body_b, k - 1] = spins[5, k - 1] - spins[4, k - 1]
+            target = points[5, k] + _arm(k, body_b, 4, 3, points, turns, rates)
+            target += _along(k, lines[5], spins, 5, second0, second1, second2, 0.0)
+            target -= points[0, k] + _arm(k, body_a, 1, 2, points, turns, rates)
+            target -= _along(k, lines[0], spins, 0, slide0, slide1, slide2, 0.0)
+            slide_rate, second_rate = _solved(lines[0], -lines[5], target)
         else:
-            rates[two, k - 1] = spins[5, k - 1] - spins[4, k - 1]
-            rates[one, k - 1] = rates[two, k - 1] + spins[3, k - 1] - spins[2, k - 1]
-            w = rates[one, 0] + spins[2, 0]
-            a = rates[one, 1] + spins[2, 1] if k > 1 else 0.0
-            j = rates[one, 2] + spins[2, 2] if k > 2 else 0.0
-            target = points[0, k] + _arm(k, one, 1, 2, points, turns, rates)
-            target += rotated_derivative(k, slide, w, a, j, other0 + 0j, other1 + 0j, other2 + 0j, 0j)
-            target -= points[5, k] + _arm(k, two, 4, 3, points, turns, rates)
-            target -= _along(k, lines[5], spins, 5, way0, way1, way2, 0.0)
-            way, other = _solved(lines[5], -slide, target)
+            rates[body_b, k - 1] = spins[5, k - 1] - spins[4, k - 1]
+            rates[body_a, k - 1] = rates[body_b, k - 1] + spins[3, k - 1] - spins[2, k - 1]
+            w = rates[body_a, 0] + spins[2, 0]
+            a = rates[body_a, 1] + spins[2, 1] if k > 1 else 0.0
+            j = rates[body_a, 2] + spins[2, 2] if k > 2 else 0.0
+            target = points[0, k] + _arm(k, body_a, 1, 2, points, turns, rates)
+            target += rotated_derivative(k, line, w, a, j, second0 + 0j, second1 + 0j, second2 + 0j, 0j)
+            target -= points[5, k] + _arm(k, body_b, 4, 3, points, turns, rates)
+            target -= _along(k, lines[5], spins, 5, slide0, slide1, slide2, 0.0)
+            slide_rate, second_rate = _solved(lines[5], -line, target)
         if kind == PRP:
-            moved = points[0, k] - _reference(k, one, 1, points, turns, rates)
+            moved = points[0, k] - _reference(k, body_a, 1, points, turns, rates)
             if k == 1:
-                moved += _along(k, lines[0], spins, 0, way0, way, 0.0, 0.0)
+                moved += _along(k, lines[0], spins, 0, slide0, slide_rate, 0.0, 0.0)
             elif k == 2:
-                moved += _along(k, lines[0], spins, 0, way0, way1, way, 0.0)
+                moved += _along(k, lines[0], spins, 0, slide0, slide1, slide_rate, 0.0)
             else:
-                moved += _along(k, lines[0], spins, 0, way0, way1, way2, way)
-            places[one, k] = moved
+                moved += _along(k, lines[0], spins, 0, slide0, slide1, slide2, slide_rate)
+            places[body_a, k] = moved
         else:
-            places[one, k] = points[0, k] - _reference(k, one, 1, points, turns, rates)
-        moved = points[5, k] - _reference(k, two, 4, points, turns, rates)
+            places[body_a, k] = points[0, k] - _reference(k, body_a, 1, points, turns, rates)
+        moved = points[5, k] - _reference(k, body_b, 4, points, turns, rates)
         if kind in (RRP, RPP, PRP):
-            along = other if kind == PRP else way
-            w0, w1, w2 = (other0, other1, other2) if kind == PRP else (way0, way1, way2)
+            along = second_rate if kind == PRP else slide_rate
+            w0, w1, w2 = (second0, second1, second2) if kind == PRP else (slide0, slide1, slide2)
             if k == 1:
                 moved += _along(k, lines[5], spins, 5, w0, along, 0.0, 0.0)
             elif k == 2:
                 moved += _along(k, lines[5], spins, 5, w0, w1, along, 0.0)
             else:
                 moved += _along(k, lines[5], spins, 5, w0, w1, w2, along)
-        places[two, k] = moved
+        places[body_b, k] = moved
         if kind != RRR:
             if k == 1:
-                way1 = way
+                slide1 = slide_rate
             elif k == 2:
-                way2 = way
+                slide2 = slide_rate
             if kind in (PRP, RPP):
                 if k == 1:
-                    other1 = other
+                    second1 = second_rate
                 elif k == 2:
-                    other2 = other
+                    second2 = second_rate

@@ -2,17 +2,43 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.motion.closure import closing
+from gruebler._numeric.motion.closure import Conditions, closing
 
-__all__ = ["close_near_singular", "factor", "newton", "solve_factored"]
+__all__ = ["NewtonScratch", "close_near_singular", "factor", "new_newton_scratch", "newton", "solve_factored"]
 
 Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
+
+_ARRIVED = 1e-9  # of the size: the step behind one so small is below rounding, since each squares the error
+_CLOSED = 1e-14  # of the size: an equation that misses by less, some ten roundings, is satisfied
+_ASTRAY = 10.0  # sizes: a step that long leads away from every position
+_FINITE = 1e300  # a residual that is larger, or NaN, comes of an overflow
+_DAMPING = 1e-12  # of the sum of squares of the Jacobian: holds directions with a singular value below its root, 1e-6
+_DAMPED_STEPS = 4  # each squares the error, from that of an extrapolation (some 1e-2) down to rounding
+
+
+class NewtonScratch(NamedTuple):
+    """The linear equations of a step, for n unknowns."""
+
+    residual: Reals
+    """(n,)"""
+    jacobian: Reals
+    """(n, n)"""
+    normal: Reals
+    """(n, n) the matrix of the damped normal equations."""
+    pivots: Ints
+    """(n,) the row exchanges of `factor`."""
+
+
+def new_newton_scratch(unknowns: int) -> NewtonScratch:
+    n = unknowns
+    return NewtonScratch(np.zeros(n), np.zeros((n, n)), np.zeros((n, n)), np.zeros(n, np.int64))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -59,70 +85,46 @@ def solve_factored(matrix: Reals, n: int, pivots: Ints, target: Reals) -> None:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def newton(
-    kinds: Ints,
-    values: Reals,
-    pieces: Reals,
-    owners: Ints,
-    points: Complexes,
-    lines: Complexes,
-    unknowns: Reals,
-    size: float,
-    residual: Reals,
-    jacobian: Reals,
-    pivots: Ints,
-    most: int,
-) -> tuple[int, float]:
+def newton(conditions: Conditions, unknowns: Reals, steps: int, scratch: NewtonScratch) -> tuple[int, float]:
     """Newton's method; the unknowns are changed in place. Returns how often it stepped (-1: no convergence) and det.
 
-    It stops when a step is below 1e-9 of `size`: the next would be below rounding (at a singular position, where steps
-    only halve, the residual is). The Jacobian is left factored as it was before the last step.
+    It stops when a step is so small that the next would be below rounding (at a singular position, where steps only
+    halve, the residual is). The Jacobian is left factored as it was before the last step.
     """
-    n = len(unknowns)
-    for step in range(most):
-        miss = closing(kinds, values, pieces, owners, points, lines, unknowns, size, residual, jacobian)
-        if not miss < 1e300:
+    residual, jacobian, pivots = scratch.residual, scratch.jacobian, scratch.pivots
+    n, size = len(unknowns), conditions.size
+    for step in range(steps):
+        miss = closing(conditions, unknowns, residual, jacobian)
+        if not miss < _FINITE:
             return -1, 0.0
         determinant = factor(jacobian, n, pivots)
         if determinant == 0:
-            return (step, 0.0) if miss < 1e-14 * size else (-1, 0.0)
+            return (step, 0.0) if miss < _CLOSED * size else (-1, 0.0)
         solve_factored(jacobian, n, pivots, residual)
         moved = 0.0
         for k in range(n):
             scaled = abs(residual[k]) * (size if k % 3 == 2 else 1.0)
             if not scaled <= moved:
                 moved = scaled
-        if not moved < 10 * size:
+        if not moved < _ASTRAY * size:
             return -1, 0.0
         for k in range(n):
             unknowns[k] -= residual[k]
-        if moved < 1e-9 * size:
+        if moved < _ARRIVED * size:
             return step + 1, determinant
     return -1, 0.0
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def close_near_singular(
-    kinds: Ints,
-    values: Reals,
-    pieces: Reals,
-    owners: Ints,
-    points: Complexes,
-    lines: Complexes,
-    unknowns: Reals,
-    size: float,
-    residual: Reals,
-    jacobian: Reals,
-    normal: Reals,
-    pivots: Ints,
-) -> None:
+def close_near_singular(conditions: Conditions, unknowns: Reals, scratch: NewtonScratch) -> None:
     """Close a group near a singular position and leave what its Jacobian does not hold as it is.
 
     Damped Gauss-Newton steps: directions with a singular value below 1e-6 of the largest hardly change.
     """
-    n = len(unknowns)
-    for _ in range(4):
-        closing(kinds, values, pieces, owners, points, lines, unknowns, size, residual, jacobian)
+    residual, jacobian, normal, pivots = scratch.residual, scratch.jacobian, scratch.normal, scratch.pivots
+    n, size = len(unknowns), conditions.size
+    for _ in range(_DAMPED_STEPS):
+        closing(conditions, unknowns, residual, jacobian)
         trace = 0.0
         for i in range(n):
             if i % 3 == 2:
@@ -132,7 +134,7 @@ def close_near_singular(
                 trace += jacobian[k, i] ** 2
         for i in range(n):
             for m in range(n):
-                normal[i, m] = 1e-12 * trace if i == m else 0.0
+                normal[i, m] = _DAMPING * trace if i == m else 0.0
                 for k in range(n):
                     normal[i, m] += jacobian[k, i] * jacobian[k, m]
         for i in range(n):

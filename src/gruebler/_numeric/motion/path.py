@@ -1,9 +1,9 @@
 """A linkage moved along a path of its drives: every group after the other, every step checked for continuity.
 
 `run_path` takes a `Program` (what to place in which order) and rows of drive values, and walks from row to row.
-Between rows the drives move on straight lines; a step is halved until what is found is near what was foretold, so that
-nothing jumps. Where rows are close and nothing special happens, `sweep` takes many of them at once. The theorems
-behind the checks are in docs/theory/kinematics.md.
+Between rows the drives move on straight lines; a step is halved until the pose is near the one that the last poses let
+expect, so that nothing jumps. Where rows are close and nothing special happens, `sweep` takes many of them at once. The
+theorems behind the checks are in docs/theory/kinematics.md.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.motion.dyads import dyad_square
 from gruebler._numeric.motion.placing import accept_pose, forget_poses, set_drives, try_pose, zero_ahead
+from gruebler._numeric.motion.planar_jets import ElementJets
 from gruebler._numeric.motion.program import (
     APART,
     APPROACH,
@@ -41,7 +42,7 @@ from gruebler._numeric.motion.program import (
     new_pose_memory,
 )
 from gruebler._numeric.motion.registers import REGISTERS
-from gruebler._numeric.motion.sweep import steady, sweep, swept_links
+from gruebler._numeric.motion.sweep import SWEPT_ROWS, steady, sweep, swept_links
 from gruebler._numeric.work_estimates import walking
 
 __all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "PoseBuffer", "Program", "run_path"]
@@ -49,21 +50,50 @@ __all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN
 Reals = NDArray[np.float64]
 _NOISE = 1e-14  # of squared roots: a hundred roundings
 _PAUSE = 16  # rows to walk after a sweep was stopped
+_GOLDEN = 0.6180339887498949  # of an interval: the golden section
+_SECTIONS = 200  # more than the golden section takes from any interval down to neighbouring numbers
+_NARROW = 1e-9  # of the way searched: the place of a least square is not known better, since squares are flat there
+_ROUNDING = 1e-15  # of a place on the path: shorter intervals have no number inside
+_RISEN = 1.5  # times the least square: an end above it lies behind the least place
+_FALLING = 0.9  # of the way on which a square falls to its end: nothing is decided yet, no step leads farther
+_FIRST_STEP = 0.01  # of the longest step, where no poses let expect the next one
+_REACHED = 1e-9  # of what is left of the way: a step that misses the row by less goes to it
+_CROSSED = 1 / 64  # of the longest step: the step behind a change point
+_IN_LINE = 1e-9  # of the longest drive: directions of two rows that differ by less are one line
+_LONGEST_STEP = 1e6  # rows, where the drives rest
+_BEFORE_MEETING = 1e-3  # of the longest step: poses so far from the place where outer joints meet show their direction
+_BEFORE_MEETING_ROWS = 0.3  # rows at most: three such poses lie within one row
+_EXTRAPOLATION = (3.0, -3.0, 1.0)  # weights of a parabola through three poses at equal steps, one step ahead
+_SINGULAR_FROM = 10 * NEAREST  # of the longest step: nearer to a singular place rates have too few digits to judge by
+_SINGULAR_TO = 1e-3  # of the longest step: farther from it the determinant does not fall on a line yet
+_GROWTH = 0.05  # of a determinant: how much it has to fall over three poses, for rates to be compared with it
+_STEADY_RATES = 0.1  # of that fall: rates that change by less stay, and the place is a change point
+_AROUND = 6.0  # times the way to a change point: a row nearer than that is placed between both sides
+_BOTH_SIDES = 3e-5  # of the longest step: before a row is placed so, the near side is as near as that
+_FAR_SIDE = 1e-2  # of the longest step: the far side then, where rounding no longer matters
+_FAR_SIDE_ROWS = 0.5  # rows at most: not up to the next row
+_BEYOND = (
+    8.0  # times the expected way to a change point, which is an r-th of the way where r ranks are lost: twice for 4
+)
+_SEARCHED = 4.0  # times the way to the expected zero of a root: as far its least square is looked for
+_SEARCHED_LEAST = 1e-13  # of a place on the path: the least way to search, some hundred roundings
+_ACROSS = 2.0  # times the way to the zero of a root: a step that leads to the other side
+_ACROSS_LEAST = 1e-12  # rows: the same, where the zero is as near as rounding
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _square_at(
-    program: Program, path: Reals, speeds: Reals, at: float, wanted: int, memory: PoseMemory, s: MotionScratch
+    program: Program, path: Reals, speeds: Reals, at: float, number: int, memory: PoseMemory, s: MotionScratch
 ) -> float:
     """The squared root of one dyad somewhere near the last pose; NaN where something before it cannot be placed."""
     set_drives(path, speeds, at, s)
     verdict = try_pose(program, 0, at, memory, s)
-    if verdict in (APPROACH, APART) and memory.which[0] == wanted:
+    if verdict in (APPROACH, APART) and memory.which[0] == number:
         for operation in program.operations:
-            if 2 <= operation[0] < GROUP and operation[9] == wanted:
-                return dyad_square(operation[0], s.points, s.lines, program.size)
-    if verdict == GOOD or (verdict == MEET and memory.which[0] == wanted):
-        return float(memory.roots[3, wanted] ** 2)
+            if 2 <= operation[0] < GROUP and operation[9] == number:
+                return dyad_square(operation[0], ElementJets(s.points, s.lines, s.spins), program.size)
+    if verdict == GOOD or (verdict == MEET and memory.which[0] == number):
+        return float(memory.roots[3, number] ** 2)
     return np.nan
 
 
@@ -84,12 +114,11 @@ def _look_for_change(
     zero the linkage only passes near one. If it is below zero, there is a limit: returns where the square is negative.
     """
     low, high = memory.at[0], reach
-    ratio = 0.6180339887498949
-    inner, outer = high - ratio * (high - low), low + ratio * (high - low)
+    inner, outer = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     at_inner = _square_at(program, path, speeds, inner, number, memory, s)
     at_outer = _square_at(program, path, speeds, outer, number, memory, s)
     at, least = reach, np.inf  # the best so far: next to the zero dyads before this one may not be placed at all
-    for _ in range(200):
+    for _ in range(_SECTIONS):
         if at_inner < least:
             at, least = inner, at_inner
         if at_outer < least:
@@ -98,19 +127,19 @@ def _look_for_change(
             return inner, True
         if at_outer < -FLAT:
             return outer, True
-        if high - low < 1e-9 * (reach - memory.at[0]) or high - low < 1e-15 * (1 + abs(high)):
+        if high - low < _NARROW * (reach - memory.at[0]) or high - low < _ROUNDING * (1 + abs(high)):
             break
         if at_inner <= at_outer or np.isnan(at_inner):
             high, outer, at_outer = outer, inner, at_inner
-            inner = high - ratio * (high - low)
+            inner = high - _GOLDEN * (high - low)
             at_inner = _square_at(program, path, speeds, inner, number, memory, s)
         else:
             low, inner, at_inner = inner, outer, at_outer
-            outer = low + ratio * (high - low)
+            outer = low + _GOLDEN * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
     end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
-    if least == np.inf or end <= 1.5 * least + _NOISE:  # still falling up to there: nothing is decided yet
-        return reach if reach == turn else memory.at[0] + 0.9 * (reach - memory.at[0]), False
+    if least == np.inf or end <= _RISEN * least + _NOISE:  # still falling up to there: nothing is decided yet
+        return reach if reach == turn else memory.at[0] + _FALLING * (reach - memory.at[0]), False
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
     return at, False
@@ -121,14 +150,14 @@ def _record(row: int, poses: PoseBuffer, memory: PoseMemory, s: MotionScratch) -
     """Count whole turns, and write a row if it is one."""
     order = len(poses.rates)
     for link in range(len(s.turns)):
-        turn, last = s.turns[link], s.before[link]
+        turn, last = s.turns[link], s.last_turns[link]
         if (turn.imag < 0) != (last.imag < 0) and last.real * abs(turn.imag) + turn.real * abs(last.imag) < 0:
-            s.turned[link] += 1 if turn.imag < 0 else -1
-        s.before[link] = turn
+            s.whole_turns[link] += 1 if turn.imag < 0 else -1
+        s.last_turns[link] = turn
         if row < 0:
             continue
         poses.turns[link, row] = turn
-        poses.whole[link, row] = s.turned[link]
+        poses.whole[link, row] = s.whole_turns[link]
         for k in range(order + 1):
             poses.places[k, link, row] = s.places[link, k]
         for k in range(order):
@@ -148,9 +177,9 @@ def _recall(row: int, poses: PoseBuffer, memory: PoseMemory, s: MotionScratch) -
         memory.at[k] = row - k
         for m in range(len(poses.roots)):
             memory.roots[k, m] = poses.roots[m, row - k]
-    for link in range(len(s.turns)):
-        s.before[link] = poses.turns[link, row]
-        s.turned[link] = poses.whole[link, row]
+    for link in range(len(s.last_turns)):
+        s.last_turns[link] = poses.turns[link, row]
+        s.whole_turns[link] = poses.whole[link, row]
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -237,12 +266,12 @@ def walk_path(
         verdict = try_pose(program, order, 0.0, memory, s)
     if verdict != GOOD:
         return START, 0, 0.0, memory.which[0] if verdict == APART else -1 - memory.which[0]
-    for link in range(len(s.turns)):
-        s.before[link] = s.turns[link]
-        s.turned[link] = 0
+    for link in range(len(s.last_turns)):
+        s.last_turns[link] = s.turns[link]
+        s.whole_turns[link] = 0
     accept_pose(0.0, memory)
     _record(0, poses, memory, s)
-    placed = swept_links(program) if len(path) > 8 else 0
+    placed = swept_links(program) if len(path) > SWEPT_ROWS else 0
     if placed:
         _fill_fixed(placed, poses)
     row, pause = 1, 2
@@ -282,10 +311,10 @@ def _walk_to(
     at, longest = memory.at[0], min(1.0, unit)
     if not _remembered(path, row, memory):
         memory.filled[0] = 1
-        step = min(step, 0.01 * unit * _least_root(memory))
+        step = min(step, _FIRST_STEP * unit * _least_root(memory))
     while at < row:
         left = row - at
-        full = step >= left * (1 - 1e-9)
+        full = step >= left * (1 - _REACHED)
         trial = float(row) if full else at + step
         set_drives(path, speeds, trial, s)
         verdict = try_pose(program, len(poses.rates) if full else 0, trial, memory, s)
@@ -317,7 +346,7 @@ def _walk_to(
         step = min(step, left) / 2
         if verdict == LOST and _straight(number, program, memory):
             if _cross(program, path, speeds, row, number, poses, memory, s):
-                at, step = memory.at[0], max(memory.at[0] - at, longest / 64)
+                at, step = memory.at[0], max(memory.at[0] - at, longest * _CROSSED)
                 continue
         if step < LEAST * (1 + abs(at)):
             if verdict == LOST:
@@ -338,7 +367,7 @@ def _reversed(program: Program, memory: PoseMemory, s: MotionScratch) -> int:
             number, body = operation[9], operation[7]
             if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
                 continue  # it has only passed near a change point, and may turn fast
-            turn, last = s.turns[body], s.before[body]
+            turn, last = s.turns[body], s.last_turns[body]
             if abs(memory.roots[3, number]) < NEAR and turn.real * last.real + turn.imag * last.imag < 0:
                 return int(number)
     return -1
@@ -346,18 +375,18 @@ def _reversed(program: Program, memory: PoseMemory, s: MotionScratch) -> int:
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _remembered(path: Reals, row: int, memory: PoseMemory) -> bool:
-    """Measure the past in the way to this row, on one straight line with it or back; false if it foretells nothing."""
+    """Measure the past in the step to this row, on one straight line with it or back; false if it predicts nothing."""
     if row < 2:
         return False
-    most, ratio, off = 0.0, 0.0, 0.0
+    longest, ratio, off = 0.0, 0.0, 0.0
     for d in range(path.shape[1]):
         past = path[row - 1, d] - path[row - 2, d]
-        if abs(past) > most:
-            most, ratio = abs(past), (path[row, d] - path[row - 1, d]) / past
+        if abs(past) > longest:
+            longest, ratio = abs(past), (path[row, d] - path[row - 1, d]) / past
     for d in range(path.shape[1]):
-        way, past = path[row, d] - path[row - 1, d], path[row - 1, d] - path[row - 2, d]
-        off = max(off, abs(way - ratio * past))
-    if ratio == 0 or off > 1e-9 * most:
+        change, past = path[row, d] - path[row - 1, d], path[row - 1, d] - path[row - 2, d]
+        off = max(off, abs(change - ratio * past))
+    if ratio == 0 or off > _IN_LINE * longest:
         return steady(path, row)
     for k in range(memory.filled[0]):
         memory.at[k] = row - 1 + (memory.at[k] - (row - 1)) / ratio
@@ -369,12 +398,12 @@ def _remembered(path: Reals, row: int, memory: PoseMemory) -> bool:
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _unit(program: Program, path: Reals, row: int) -> float:
     """The longest step of the drives, in rows, on the way to a row."""
-    out = 1e6
+    longest = _LONGEST_STEP
     for d in range(path.shape[1]):
-        way = abs(path[row, d] - path[row - 1, d])
-        if way * out > program.most[d]:
-            out = program.most[d] / way
-    return out
+        change = abs(path[row, d] - path[row - 1, d])
+        if change * longest > program.most[d]:
+            longest = program.most[d] / change
+    return longest
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -384,17 +413,17 @@ def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: PoseM
     for operation in program.operations:
         if 2 <= operation[0] < GROUP and operation[9] == number:
             body = operation[7]
-    turn, weights = 0j, (3.0, -3.0, 1.0)
+    turn = 0j
     for k in range(3):
         if len(path) > 1:
             row = max(1, int(np.ceil(at)))
-            step = min(0.3, 1e-3 * _unit(program, path, row)) * (k + 1)
+            step = min(_BEFORE_MEETING_ROWS, _BEFORE_MEETING * _unit(program, path, row)) * (k + 1)
             place = at + step if at < 1 and at - step < 0 else at - step
             set_drives(path, speeds, place, s)
             if try_pose(program, 0, place, memory, s) == GOOD:
-                turn += weights[k] * s.turns[body]
+                turn += _EXTRAPOLATION[k] * s.turns[body]
                 continue
-        turn = s.before[body] if at > 0 else 1 + 0j
+        turn = s.last_turns[body] if at > 0 else 1 + 0j
         break
     memory.direction[number] = turn / abs(turn)
     memory.met[number] = at
@@ -406,7 +435,7 @@ def _straight(number: int, program: Program, memory: PoseMemory) -> bool:
 
     At a limit the rates of the unknowns grow as the determinant falls, one over the other; at a change point they stay.
     """
-    if memory.filled[0] < 3 or not 10 * NEAREST < zero_ahead(number, memory) / memory.unit[0] < 1e-3:
+    if memory.filled[0] < 3 or not _SINGULAR_FROM < zero_ahead(number, memory) / memory.unit[0] < _SINGULAR_TO:
         return False
     t, y, d = memory.at, memory.unknowns, memory.determinants
     growth = (d[2, number] - d[0, number]) / (d[0, number] + d[1, number])
@@ -415,7 +444,7 @@ def _straight(number: int, program: Program, memory: PoseMemory) -> bool:
         scale = program.size if k % 3 == 2 else 1.0
         late, early = (y[0, k] - y[1, k]) / (t[0] - t[1]), (y[1, k] - y[2, k]) / (t[1] - t[2])
         bend, slope = max(bend, scale * abs(late - early)), max(slope, scale * abs(early))
-    straight: bool = growth > 0.05 and bend < 0.1 * growth * slope
+    straight: bool = growth > _GROWTH and bend < _STEADY_RATES * growth * slope
     return straight
 
 
@@ -433,12 +462,10 @@ def _cross(
     """Go straight through a change point of a larger group; a row that lies in it is placed between both sides."""
     at, unit, order = memory.at[0], memory.unit[0], len(poses.rates)
     ahead, left = zero_ahead(number, memory), row - at
-    inside = left < 6 * ahead
-    if inside and ahead > 3e-5 * unit:
+    inside = left < _AROUND * ahead
+    if inside and ahead > _BOTH_SIDES * unit:
         return False
-    beyond = (
-        row + min(1e-2 * unit, 0.5) if inside else min(at + 8 * ahead, float(row))
-    )  # behind it even if four ranks are lost
+    beyond = row + min(_FAR_SIDE * unit, _FAR_SIDE_ROWS) if inside else min(at + _BEYOND * ahead, float(row))
     full = beyond == row
     memory.singular[0] = 1 + number
     if inside:
@@ -493,16 +520,16 @@ def _approach(
     slope = (now - past) / (at - memory.at[1])
     ahead = abs(now / slope) if slope != 0 else step
     memory.change[number] = np.nan
-    turn = _turn_ahead(path, at, at + 4 * ahead)
+    turn = _turn_ahead(path, at, at + _SEARCHED * ahead)
     if now * now < _NOISE and at + ahead < turn:  # an exact change point: squares do not tell its place
         memory.change[number], memory.after[number] = at + ahead, -memory.signs[number]
-        return max(2 * ahead, 1e-12), np.inf
-    reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), turn)
+        return max(_ACROSS * ahead, _ACROSS_LEAST), np.inf
+    reach = min(at + max(_SEARCHED * ahead, _SEARCHED_LEAST * (1 + at)), turn)
     place, negative = _look_for_change(program, path, speeds, reach, turn, number, memory, s)
     if negative:
         return place - at, place
     if not np.isnan(memory.change[number]):
-        return max(2 * (place - at), 1e-12), np.inf
+        return max(_ACROSS * (place - at), _ACROSS_LEAST), np.inf
     memory.change[number] = place  # falling all the way: as it was, up to there and no further
     memory.after[number] = 0
     return place - at, np.inf

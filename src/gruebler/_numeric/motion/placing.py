@@ -8,17 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.motion.closure import MESH, closing, unwound_angle
-from gruebler._numeric.motion.closure_rates import closing_rates
+from gruebler._numeric.motion.closure import MESH, Conditions, closing, unwound_angle
+from gruebler._numeric.motion.closure_rates import RateScratch, closing_rates
 from gruebler._numeric.motion.dyads import dyad_place, dyad_rates, dyad_square, meeting
-from gruebler._numeric.motion.newton import close_near_singular, factor, newton, solve_factored
-from gruebler._numeric.motion.planar_jets import carry, rotated_derivative, set_element_jet
+from gruebler._numeric.motion.newton import NewtonScratch, close_near_singular, factor, newton, solve_factored
+from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets, carry, rotated_derivative, set_element_jet
 from gruebler._numeric.motion.program import (
     APART,
     APPROACH,
+    EXPECTED,
     FARTHEST,
     GOOD,
     GROUP,
+    KEPT,
     LOST,
     MEET,
     NEAREST,
@@ -35,46 +37,56 @@ from gruebler._numeric.motion.program import (
 __all__ = ["accept_pose", "forget_poses", "set_drives", "try_pose", "zero_ahead"]
 
 Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
+
+_ROUNDED = 1e-13  # a squared root that is negative by less is zero but for some hundred roundings of lengths
+_PARALLEL = 1e-12  # the sine of lines that are parallel but for rounding: a dyad of one mode does not close there
+_NEWTON_STEPS = 8  # from so good a prediction it arrives in 3 to 5
+_SAME_PLACE = 1e-6  # of the last step: a pose so near an older one says nothing of the bend between them
+_DEVIATION = 0.25  # of the way moved: poses farther from the prediction may be another assembly mode
+_FIRST_DEVIATION = 0.01  # of the size: the same for the second pose, which the first alone lets expect
+_STRAIGHT_DEVIATION = 0.02  # of the way moved: the same behind a change point, crossed on a straight line
+_NO_DEVIATION = 1e-7  # of the size: nearer to the prediction nothing has jumped, however short the way
+_AHEAD = 0.5  # of the way to the expected zero of a determinant: no step leads farther
+_DETERMINANT_KEPT = 0.1  # of its last value: a determinant that keeps less may have come through zero
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _drive(kind: int, operation: Ints, program: Program, order: int, s: MotionScratch) -> None:
     """Place a driven link against the link that its drive holds on to."""
-    near, far = program.links[operation[2]], program.links[operation[3]]
-    one, other = operation[2], operation[3]
+    on_near, on_far = operation[2], operation[3]
+    near, far = program.links[on_near], program.links[on_far]
     sign, d = operation[4], operation[1]
-    set_element_jet(
-        order, near, program.points[one], program.lines[one], s.places, s.turns, s.rates, 0, s.points, s.lines, s.spins
-    )
-    point = program.points[other]
+    drives, places, turns, rates, points = s.drives, s.places, s.turns, s.rates, s.points
+    links, elements = BodyJets(places, turns, rates), ElementJets(points, s.lines, s.spins)
+    set_element_jet(order, near, program.points[on_near], program.lines[on_near], links, 0, elements)
+    point = program.points[on_far]
     if kind == TURN:
-        angle = sign * s.drives[0, d]
-        turn = s.turns[near] * complex(cos(angle), sin(angle))
-        s.turns[far] = turn
-        s.places[far, 0] = s.points[0, 0] - turn * point
+        angle = sign * drives[0, d]
+        turn = turns[near] * complex(cos(angle), sin(angle))
+        turns[far] = turn
+        places[far, 0] = points[0, 0] - turn * point
         if order == 0:
             return
         for k in range(order):
-            s.rates[far, k] = s.rates[near, k] + sign * s.drives[k + 1, d]
-        w, a, j = s.rates[far, 0], s.rates[far, 1], s.rates[far, 2]
+            rates[far, k] = rates[near, k] + sign * drives[k + 1, d]
+        w, a, j = rates[far, 0], rates[far, 1], rates[far, 2]
         for k in range(1, order + 1):
-            s.places[far, k] = s.points[0, k] - rotated_derivative(k, turn, w, a, j, point, 0j, 0j, 0j)
+            places[far, k] = points[0, k] - rotated_derivative(k, turn, w, a, j, point, 0j, 0j, 0j)
         return
     line = s.lines[0]
-    turn = line * program.lines[other].conjugate()
-    s.turns[far] = turn
-    way0, way1, way2, way3 = s.drives[0, d] + 0j, s.drives[1, d] + 0j, s.drives[2, d] + 0j, s.drives[3, d] + 0j
-    if sign < 0:  # the way is measured along the far link's line, to the near link's point
-        way0, way1, way2, way3 = -way0, -way1, -way2, -way3
+    turn = line * program.lines[on_far].conjugate()
+    turns[far] = turn
+    slide0, slide1, slide2, slide3 = drives[0, d] + 0j, drives[1, d] + 0j, drives[2, d] + 0j, drives[3, d] + 0j
+    if sign < 0:  # the drive is measured along the far link's line, to the near link's point
+        slide0, slide1, slide2, slide3 = -slide0, -slide1, -slide2, -slide3
     for k in range(order):
-        s.rates[far, k] = s.rates[near, k]
-    w, a, j = s.rates[near, 0], s.rates[near, 1], s.rates[near, 2]
+        rates[far, k] = rates[near, k]
+    w, a, j = rates[near, 0], rates[near, 1], rates[near, 2]
     for k in range(order + 1):
-        s.places[far, k] = (
-            s.points[0, k]
-            + rotated_derivative(k, line, w, a, j, way0, way1, way2, way3)
+        places[far, k] = (
+            points[0, k]
+            + rotated_derivative(k, line, w, a, j, slide0, slide1, slide2, slide3)
             - rotated_derivative(k, turn, w, a, j, point, 0j, 0j, 0j)
         )
 
@@ -82,7 +94,7 @@ def _drive(kind: int, operation: Ints, program: Program, order: int, s: MotionSc
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _root(square: float, number: int, at: float, memory: PoseMemory) -> tuple[int, float]:
     """The signed root of a dyad at a place on the path, and whether it may be trusted."""
-    if not square >= -1e-13:
+    if not square >= -_ROUNDED:
         return APART, 0.0
     root = sqrt(square) if square > 0 else 0.0
     sign = memory.signs[number]
@@ -96,10 +108,10 @@ def _root(square: float, number: int, at: float, memory: PoseMemory) -> tuple[in
     now = memory.roots[0, number]
     if count > 1:
         slope = (now - memory.roots[1, number]) / (memory.at[0] - memory.at[1])
-        foretold = now + slope * (at - memory.at[0])
-        if sign * foretold < 0.5 * sign * now:
+        predicted = now + slope * (at - memory.at[0])
+        if sign * predicted < EXPECTED * sign * now:
             return APPROACH, root * sign
-    if root < 0.25 * abs(now):
+    if root < KEPT * abs(now):
         return APPROACH, root * sign
     return GOOD, root * sign
 
@@ -107,17 +119,17 @@ def _root(square: float, number: int, at: float, memory: PoseMemory) -> tuple[in
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _sine(sine: float, number: int, memory: PoseMemory) -> tuple[int, float]:
     """The same for a dyad of one mode: its lines may not become parallel."""
-    if not abs(sine) > 1e-12 or (memory.filled[0] > 0 and sine * memory.roots[0, number] < 0):
+    if not abs(sine) > _PARALLEL or (memory.filled[0] > 0 and sine * memory.roots[0, number] < 0):
         return APART, sine
     return GOOD, sine
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _foretell(at: float, first: int, last: int, memory: PoseMemory) -> None:
+def _predict(at: float, first: int, last: int, memory: PoseMemory) -> None:
     """Extrapolate the unknowns of a larger group from the last poses into the trial."""
     t = memory.at
     count = memory.filled[0]
-    if count > 2 and abs(t[0] - t[2]) < 1e-6 * abs(t[0] - t[1]):  # there and back by equal steps
+    if count > 2 and abs(t[0] - t[2]) < _SAME_PLACE * abs(t[0] - t[1]):  # there and back by equal steps
         count = 2
     for k in range(first, last):
         y = memory.unknowns[0, k]
@@ -143,32 +155,33 @@ def zero_ahead(number: int, memory: PoseMemory) -> float:
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _expected(number: int, first: int, last: int, size: float, at: float, memory: PoseMemory, s: MotionScratch) -> bool:
-    """Whether the trial of a larger group is near what was foretold, and on the same side of singular positions."""
+    """Whether the trial of a larger group is near its prediction, and on the same side of singular positions."""
     missed = moved = 0.0
     for k in range(first, last):
         scale = size if k % 3 == 2 else 1.0
-        missed = max(missed, scale * abs(memory.unknowns[3, k] - s.foretold[k - first]))
+        missed = max(missed, scale * abs(memory.unknowns[3, k] - s.predicted[k - first]))
         moved = max(moved, scale * abs(memory.unknowns[3, k] - memory.unknowns[0, k]))
     if memory.singular[0] == 1 + number:
-        return missed <= 0.02 * moved
-    if missed > 1e-7 * size and missed > (0.25 * moved if memory.filled[0] > 1 else 0.01 * size):
-        return False
+        return missed <= _STRAIGHT_DEVIATION * moved
+    if missed > _NO_DEVIATION * size:
+        if missed > (_DEVIATION * moved if memory.filled[0] > 1 else _FIRST_DEVIATION * size):
+            return False
     ahead = zero_ahead(number, memory) if memory.filled[0] > 1 else np.inf
-    if at - memory.at[0] > 0.5 * ahead and ahead > NEAREST * memory.unit[0]:
+    if at - memory.at[0] > _AHEAD * ahead and ahead > NEAREST * memory.unit[0]:
         return False
-    far: bool = memory.determinants[3, number] / memory.determinants[0, number] > 0.1
-    return far
+    kept: bool = memory.determinants[3, number] / memory.determinants[0, number] > _DETERMINANT_KEPT
+    return kept
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _values(start: int, end: int, program: Program, memory: PoseMemory, s: MotionScratch) -> None:
-    """The numbers of the closing conditions; angles that count whole turns as they were in the last pose."""
+def _set_values(start: int, end: int, program: Program, memory: PoseMemory, values: Reals) -> None:
+    """Write the numbers of the closing conditions; angles that count whole turns as they were in the last pose."""
     for c in range(start, end):
         for k in range(3):
-            s.values[c - start, k], s.values[c - start, 5 + k] = program.values[c, k], program.values[c, 3 + k]
+            values[c - start, k], values[c - start, 5 + k] = program.values[c, k], program.values[c, 3 + k]
         first = program.windings[c]
         if first >= 0:
-            s.values[c - start, 3], s.values[c - start, 4] = memory.unknowns[0, first], memory.unknowns[0, first + 1]
+            values[c - start, 3], values[c - start, 4] = memory.unknowns[0, first], memory.unknowns[0, first + 1]
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -204,102 +217,81 @@ def _wind(start: int, end: int, root: int, program: Program, memory: PoseMemory,
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _group(number: int, program: Program, order: int, at: float, memory: PoseMemory, s: MotionScratch) -> bool:
-    """Place the bodies of a larger group by Newton's method from what is foretold."""
+    """Place the bodies of a larger group by Newton's method from what the last poses let expect."""
     start, end = program.conditions[number], program.conditions[number + 1]
     first, last = program.bodies[number], program.bodies[number + 1]
-    kinds, owners = program.kinds[start:end], program.owners[2 * start : 2 * end]
-    points, lines, spins = s.group_points, s.group_lines, s.group_spins
+    links = BodyJets(s.places, s.turns, s.rates)
+    elements = ElementJets(s.group_points, s.group_lines, s.group_spins)
+    bodies = BodyJets(s.body_places, s.body_turns, s.body_rates)
+    work = NewtonScratch(s.residual, s.jacobian, s.normal, s.pivots)
     for slot in range(2 * (end - start)):
         e = program.sides[2 * start + slot]
         link = program.links[e]
-        set_element_jet(
-            order, link, program.points[e], program.lines[e], s.places, s.turns, s.rates, slot, points, lines, spins
-        )
-    _foretell(at, 3 * first, 3 * last, memory)
+        set_element_jet(order, link, program.points[e], program.lines[e], links, slot, elements)
+    _predict(at, 3 * first, 3 * last, memory)
     unknowns = memory.unknowns[3, 3 * first : 3 * last]
-    foretold = s.foretold
     for k in range(len(unknowns)):
-        foretold[k] = unknowns[k]
-    size = program.size
-    _values(start, end, program, memory, s)
-    values, at_it = s.values, memory.singular[0] == -1 - number
-    if at_it:
-        close_near_singular(
-            kinds,
-            values,
-            program.pieces,
-            owners,
-            points,
-            lines,
-            unknowns,
-            size,
-            s.residual,
-            s.jacobian,
-            s.normal,
-            s.pivots,
-        )
+        s.predicted[k] = unknowns[k]
+    _set_values(start, end, program, memory, s.values)
+    conditions = Conditions(
+        program.kinds[start:end],
+        s.values,
+        program.pieces,
+        program.owners[2 * start : 2 * end],
+        s.group_points,
+        s.group_lines,
+        s.group_spins,
+        program.size,
+    )
+    singular = memory.singular[0] == -1 - number
+    if singular:
+        close_near_singular(conditions, unknowns, work)
     else:
-        steps, determinant = newton(
-            kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.pivots, 8
-        )
+        steps, determinant = newton(conditions, unknowns, _NEWTON_STEPS, work)
         memory.determinants[3, number] = determinant
-        if steps < 0 or (memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, size, at, memory, s)):
+        if steps < 0:
+            return False
+        if memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, program.size, at, memory, s):
             return False
     if not _wind(start, end, first, program, memory, s):
         return False
-    n = 3 * (last - first)
     for k in range(last - first):
-        turn = complex(cos(unknowns[3 * k + 2]), sin(unknowns[3 * k + 2]))
-        s.body_turns[k] = turn
+        bodies.turns[k] = complex(cos(unknowns[3 * k + 2]), sin(unknowns[3 * k + 2]))
         for m in range(4):
-            s.body_places[k, m] = 0
+            bodies.places[k, m] = 0
         for m in range(3):
-            s.body_rates[k, m] = 0
-        s.body_places[k, 0] = complex(unknowns[3 * k], unknowns[3 * k + 1])
+            bodies.rates[k, m] = 0
+        bodies.places[k, 0] = complex(unknowns[3 * k], unknowns[3 * k + 1])
     if order > 0:
-        closing(kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian)
-        factor(s.jacobian, n, s.pivots)
+        n, jacobian, pivots, target = 3 * (last - first), s.jacobian, s.pivots, s.residual
+        closing(conditions, unknowns, target, jacobian)
+        factor(jacobian, n, pivots)
         for k in range(1, order + 1):
-            closing_rates(
-                k,
-                kinds,
-                values,
-                program.pieces,
-                owners,
-                points,
-                lines,
-                spins,
-                s.body_turns,
-                s.body_rates,
-                s.body_places,
-                size,
-                s.gap,
-                s.spun,
-                s.residual,
-            )
-            solve_factored(s.jacobian, n, s.pivots, s.residual)
+            closing_rates(k, conditions, bodies, RateScratch(s.gap, s.gap_spins), target)
+            solve_factored(jacobian, n, pivots, target)
             for b in range(last - first):
-                s.body_places[b, k] = complex(s.residual[3 * b], s.residual[3 * b + 1])
-                s.body_rates[b, k - 1] = np.nan if at_it else s.residual[3 * b + 2]
+                bodies.places[b, k] = complex(target[3 * b], target[3 * b + 1])
+                bodies.rates[b, k - 1] = np.nan if singular else target[3 * b + 2]
     for k in range(last - first):
         link = program.roots[first + k]
-        s.turns[link] = s.body_turns[k]
+        links.turns[link] = bodies.turns[k]
         for m in range(order + 1):
-            s.places[link, m] = s.body_places[k, m]
+            links.places[link, m] = bodies.places[k, m]
         for m in range(order):
-            s.rates[link, m] = s.body_rates[k, m]
+            links.rates[link, m] = bodies.rates[k, m]
     return True
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: MotionScratch) -> int:
     """Place everything at a place on the path; the drives stand in the scratch. Returns whether to trust it."""
-    for link in range(len(s.turns)):
-        s.turns[link] = 1
-        s.places[link, 0] = 0
+    links, elements = BodyJets(s.places, s.turns, s.rates), ElementJets(s.points, s.lines, s.spins)
+    for link in range(len(links.turns)):
+        links.turns[link] = 1
+        links.places[link, 0] = 0
         for k in range(order):
-            s.places[link, k + 1] = 0
-            s.rates[link, k] = 0
+            links.places[link, k + 1] = 0
+            links.rates[link, k] = 0
     for o in range(len(program.operations)):
         operation = program.operations[o]
         kind = operation[0]
@@ -309,21 +301,9 @@ def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: Mot
             for slot in range(6):
                 e = operation[1 + slot]
                 link = program.links[e]
-                set_element_jet(
-                    order,
-                    link,
-                    program.points[e],
-                    program.lines[e],
-                    s.places,
-                    s.turns,
-                    s.rates,
-                    slot,
-                    s.points,
-                    s.lines,
-                    s.spins,
-                )
+                set_element_jet(order, link, program.points[e], program.lines[e], links, slot, elements)
             number = operation[9]
-            square = dyad_square(kind, s.points, s.lines, program.size)
+            square = dyad_square(kind, elements, program.size)
             if kind in (PRP, RPP):
                 verdict, root = _sine(square, number, memory)
             else:
@@ -332,21 +312,21 @@ def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: Mot
             if verdict != GOOD:
                 memory.which[0] = number
                 return verdict
-            one, two = operation[7], operation[8]
-            if kind in (RRR, RPR) and meeting(kind, s.points, s.lines, program.size):
+            first, second = operation[7], operation[8]
+            if kind in (RRR, RPR) and meeting(kind, elements, program.size):
                 if memory.met[number] != at:
                     memory.which[0] = number
                     return MEET
-                s.turns[one] = memory.direction[number]
-            dyad_place(kind, root, s.points, s.lines, one, two, s.places, s.turns, program.size)
+                links.turns[first] = memory.direction[number]
+            dyad_place(kind, root, elements, first, second, links, program.size)
             if order > 0:
-                dyad_rates(kind, order, s.points, s.lines, s.spins, one, two, s.places, s.turns, s.rates)
+                dyad_rates(kind, order, elements, first, second, links)
         elif kind == GROUP:
             if not _group(operation[1], program, order, at, memory, s):
                 memory.which[0] = operation[1]
                 return LOST
         else:
-            carry(order, operation[1], operation[2], s.places, s.turns, s.rates)
+            carry(order, operation[1], operation[2], links)
     return GOOD
 
 

@@ -1,20 +1,43 @@
 """Derivatives of planar motions, written with complex numbers: a point is x + iy, a turn is a factor of modulus 1.
 
-A *jet* is a quantity with its first three time derivatives. A body has the jet `places[body]` of its origin, the turn
-`turns[body]` and the angular velocity, acceleration and jerk `rates[body]`.
+A *jet* is a quantity with its first three time derivatives.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 
-__all__ = ["carry", "rotated_derivative", "set_element_jet"]
+__all__ = ["BodyJets", "ElementJets", "carry", "rotated_derivative", "set_element_jet"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
+
+
+class BodyJets(NamedTuple):
+    """Where bodies are and how they move."""
+
+    places: Complexes
+    """(bodies, 4) the jet of the origin."""
+    turns: Complexes
+    """(bodies,) the turn, a factor of modulus 1."""
+    rates: Reals
+    """(bodies, 3) angular velocity, acceleration, jerk."""
+
+
+class ElementJets(NamedTuple):
+    """The same for elements of joints, a slot for each."""
+
+    points: Complexes
+    """(slots, 4) the jet of the point; (slots, 1) where nothing is derived."""
+    lines: Complexes
+    """(slots,) the direction, a factor of modulus 1."""
+    spins: Reals
+    """(slots, 3) the rates of the direction's angle; none where nothing is derived."""
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -33,19 +56,11 @@ def rotated_derivative(
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def set_element_jet(
-    order: int,
-    link: int,
-    point: complex,
-    line: complex,
-    places: Complexes,
-    turns: Complexes,
-    rates: Reals,
-    slot: int,
-    points: Complexes,
-    lines: Complexes,
-    spins: Reals,
+    order: int, link: int, point: complex, line: complex, links: BodyJets, slot: int, elements: ElementJets
 ) -> None:
     """Put the jet of a link's point, the direction of its line and the rates of that direction into a slot."""
+    places, turns, rates = links.places, links.turns, links.rates
+    points, lines, spins = elements.points, elements.lines, elements.spins
     turn = turns[link]
     arm = turn * point
     points[slot, 0] = places[link, 0] + arm
@@ -65,8 +80,9 @@ def set_element_jet(
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def carry(order: int, link: int, body: int, places: Complexes, turns: Complexes, rates: Reals) -> None:
+def carry(order: int, link: int, body: int, links: BodyJets) -> None:
     """Motion of a link known against a body, the body's motion known: the link's motion against what the body's is."""
+    places, turns, rates = links.places, links.turns, links.rates
     w = a = j = 0.0
     b0, b1, b2, b3 = places[link, 0], 0j, 0j, 0j
     if order >= 1:

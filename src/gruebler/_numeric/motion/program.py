@@ -7,15 +7,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.newton import new_newton_scratch
+from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets
+
 __all__ = [
     "APART",
     "APPROACH",
     "CARRY",
     "DONE",
+    "EXPECTED",
     "FARTHEST",
     "FLAT",
     "GOOD",
     "GROUP",
+    "KEPT",
     "LEAST",
     "LIMIT",
     "LOST",
@@ -53,12 +58,13 @@ or at its first row already."""
 GOOD, APPROACH, APART, LOST, MEET = range(5)
 """What a trial pose is: to be trusted; near a zero of a dyad's root; without a dyad that closes; with a larger group
 that is not where it should be; with outer joints of a dyad that meet, its direction still unknown."""
+
 FLAT = 1e-12  # a squared root below this is zero: an exact change point
 NEAR = 1e-3  # below this root a change point is looked for
+KEPT = 0.25  # of its last value: a root that keeps less may have come through zero, the step is halved
+EXPECTED = 0.5  # of its last value: a root that is expected to keep less falls to a zero, which is looked for
 LEAST = 1e-14  # the smallest step, in rows
 NEAREST = 1e-8  # of the longest step: nearer to a singular position of a larger group it is taken for a limit
-
-
 FARTHEST = 1.0  # radians: a step that turns a wheel further is not taken, so that no whole turn is missed
 
 
@@ -94,7 +100,7 @@ class Program(NamedTuple):
     windings: Ints
     """(conditions,) where the angles of a condition that counts whole turns stand among the unknowns, else -1."""
     pieces: Reals
-    """(pieces, 2 + coefficients) of the laws, see `closure.law`."""
+    """(pieces, 2 + coefficients) of the laws, see `closure.evaluate_law`."""
 
 
 class PoseBuffer(NamedTuple):
@@ -133,31 +139,51 @@ class PoseMemory(NamedTuple):
 
 
 class MotionScratch(NamedTuple):
+    """What one pose is placed in: arrays by what they serve; kernels put them together as the tuples named here."""
+
+    drives: Reals
+    """(4, drives) values and their three derivatives."""
+
+    # the links, as `BodyJets`
     places: Complexes
     turns: Complexes
     rates: Reals
+    last_turns: Complexes
+    """(links,) the turns of the pose accepted last."""
+    whole_turns: Ints
+    """(links,) whole turns since the first row."""
+
+    # the six elements of a dyad, as `ElementJets`; a drive uses the first
     points: Complexes
     lines: Complexes
     spins: Reals
+
+    # the conditions of a larger group, as `Conditions`, with room for those of the largest group
     group_points: Complexes
     group_lines: Complexes
     group_spins: Reals
+    values: Reals
+    predicted: Reals
+    """(unknowns,) of its bodies, from the last poses."""
+    ends: Complexes
+    """(2,) where the points of one condition lie."""
+    directions: Complexes
+    """(2,) the directions there."""
+
+    # the bodies of a larger group, as `BodyJets`
+    body_places: Complexes
+    body_turns: Complexes
+    body_rates: Reals
+
+    # its linear equations, as `NewtonScratch`
     residual: Reals
     jacobian: Reals
     normal: Reals
     pivots: Ints
-    values: Reals
-    body_places: Complexes
-    body_turns: Complexes
-    body_rates: Reals
-    drives: Reals
+
+    # one condition after another, as `RateScratch`
     gap: Complexes
-    foretold: Reals
-    before: Complexes
-    turned: Ints
-    ends: Complexes
-    directions: Complexes
-    spun: Reals
+    gap_spins: Reals
 
 
 def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
@@ -180,30 +206,31 @@ def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
 
 def new_motion_scratch(links: int, conditions: int, bodies: int, drives: int) -> MotionScratch:
     c, b = max(conditions, 1), max(bodies, 1)
+    dyad, group, newton = _element_jets(6), _element_jets(2 * c), new_newton_scratch(3 * b)
     return MotionScratch(
-        np.zeros((links, 4), np.complex128),
-        np.ones(links, np.complex128),
-        np.zeros((links, 3)),
-        np.zeros((6, 4), np.complex128),
-        np.zeros(6, np.complex128),
-        np.zeros((6, 3)),
-        np.zeros((2 * c, 4), np.complex128),
-        np.zeros(2 * c, np.complex128),
-        np.zeros((2 * c, 3)),
-        np.zeros(3 * b + 2),
-        np.zeros((3 * b + 2, 3 * b)),
-        np.zeros((3 * b, 3 * b)),
-        np.zeros(3 * b + 2, np.int64),
-        np.zeros((c, 8)),
-        np.zeros((b, 4), np.complex128),
-        np.ones(b, np.complex128),
-        np.zeros((b, 3)),
         np.zeros((4, drives)),
-        np.zeros(4, np.complex128),
-        np.zeros(3 * b),
+        *_body_jets(links),
         np.ones(links, np.complex128),
         np.zeros(links, np.int64),
+        *dyad,
+        *group,
+        np.zeros((c, 8)),
+        np.zeros(3 * b),
         np.zeros(2, np.complex128),
         np.ones(2, np.complex128),
+        *_body_jets(b),
+        newton.residual,
+        newton.jacobian,
+        newton.normal,
+        newton.pivots,
+        np.zeros(4, np.complex128),
         np.zeros((2, 3)),
     )
+
+
+def _body_jets(bodies: int) -> BodyJets:
+    return BodyJets(np.zeros((bodies, 4), np.complex128), np.ones(bodies, np.complex128), np.zeros((bodies, 3)))
+
+
+def _element_jets(slots: int) -> ElementJets:
+    return ElementJets(np.zeros((slots, 4), np.complex128), np.ones(slots, np.complex128), np.zeros((slots, 3)))

@@ -147,6 +147,7 @@ def put(order: int, link: int, point: complex, first: bool, poses: PoseBuffer, r
 
 
 _HALF_PI = (1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21)
+_REDUCED = 1e5  # radians: up to here three parts of pi / 2 leave an error below an ulp
 _SHIFT = 6755399441055744.0  # adding it and taking it off again rounds to a whole number
 
 
@@ -155,7 +156,7 @@ def circle(x: Reals) -> None:
     """Cosine and sine of register E into the pair A, to an ulp: quarter turns off, then the polynomials of fdlibm."""
     near = 0
     for i in lanes(LANES):
-        near += tally(abs(x[E + i]) < 1e5)
+        near += tally(abs(x[E + i]) < _REDUCED)
     if near < LANES:
         for i in range(LANES):
             x[A + i], x[A + LANES + i] = cos(x[E + i]), sin(x[E + i])

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.lanes import lanes, square_root, tally
-from gruebler._numeric.motion.program import NEAR, RPR, RRP, RRR, TURN, PoseBuffer, Program
+from gruebler._numeric.motion.program import EXPECTED, KEPT, NEAR, RPR, RRP, RRR, TURN, PoseBuffer, Program
 from gruebler._numeric.motion.registers import (
     LANES,
     PAIR,
@@ -37,11 +37,14 @@ from gruebler._numeric.motion.registers import (
     rotate,
 )
 
-__all__ = ["steady", "sweep", "swept_links"]
+__all__ = ["SWEPT_ROWS", "steady", "sweep", "swept_links"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
+
+SWEPT_ROWS = 8  # for fewer rows a sweep does not pay
+_FASTER = 1.5  # times the last change of a drive: after a larger one the past predicts nothing
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -63,13 +66,13 @@ def swept_links(program: Program) -> int:
             continue
         if kind not in (RRR, RRP, RPR):
             return 0
-        one, two = operation[7], operation[8]
+        body_a, body_b = operation[7], operation[8]
         for slot in range(4):
-            if program.links[operation[2 + slot]] != (one if slot < 2 else two):
+            if program.links[operation[2 + slot]] != (body_a if slot < 2 else body_b):
                 return 0
         if kind == RRP and placed & (1 << program.links[operation[6]]):
             return 0
-        placed |= (1 << one) | (1 << two)
+        placed |= (1 << body_a) | (1 << body_b)
     return placed
 
 
@@ -155,9 +158,9 @@ def _rpr(order: int, sign: float, lines: tuple[complex, complex], off: float, si
     for i in lanes(LANES):
         dx, dy = x[Q + i] - x[P + i], x[Q + LANES + i] - x[P + LANES + i]
         d = dx * dx + dy * dy
-        way = sign * square_root(d - off * off)
-        x[ROOT + i], x[D + i] = way / size, 1 / way
-        x[A + i], x[A + LANES + i] = (dx * way + dy * off) / d, (dy * way - dx * off) / d
+        travel = sign * square_root(d - off * off)
+        x[ROOT + i], x[D + i] = travel / size, 1 / travel
+        x[A + i], x[A + LANES + i] = (dx * travel + dy * off) / d, (dy * travel - dx * off) / d
     rotate(x, A, lines[0].conjugate(), T)
     rotate(x, A, lines[1].conjugate(), U)
     for k in range(order):
@@ -172,12 +175,12 @@ def _rpr(order: int, sign: float, lines: tuple[complex, complex], off: float, si
                 w = across * d
                 x[V + i], x[B + i] = w, along + w * off
             elif k == 1:
-                w, way1 = x[V + i], x[B + i]
-                a = (across + w * w * off - 2 * w * way1) * d
+                w, travel1 = x[V + i], x[B + i]
+                a = (across + w * w * off - 2 * w * travel1) * d
                 x[V + LANES + i], x[B + LANES + i] = a, along + a * off + w * w / d
             else:
-                w, a, way1, way2 = x[V + i], x[V + LANES + i], x[B + i], x[B + LANES + i]
-                x[V + 2 * LANES + i] = (across + 3 * (w * a * off - a * way1 - w * way2)) * d + w**3
+                w, a, travel1, travel2 = x[V + i], x[V + LANES + i], x[B + i], x[B + LANES + i]
+                x[V + 2 * LANES + i] = (across + 3 * (w * a * off - a * travel1 - w * travel2)) * d + w**3
         for i in lanes(LANES):
             x[W + k * LANES + i] = x[V + k * LANES + i]
 
@@ -191,11 +194,11 @@ def _rrp(order: int, sign: float, line: complex, first: complex, second: complex
         rx, ry = x[Q + i] + second.real - x[P + i], x[Q + LANES + i] + second.imag - x[P + LANES + i]
         across = (u * ry - v * rx) / length
         root = sign * square_root(1 - across * across)
-        way = root * length - u * rx - v * ry
+        travel = root * length - u * rx - v * ry
         x[ROOT + i], x[D + i] = root, 1 / (root * length)
-        x[A + i], x[A + LANES + i] = rx + way * u, ry + way * v
-        x[Q + i] += way * u
-        x[Q + LANES + i] += way * v
+        x[A + i], x[A + LANES + i] = rx + travel * u, ry + travel * v
+        x[Q + i] += travel * u
+        x[Q + LANES + i] += travel * v
         x[U + i], x[U + LANES + i] = turn.real, turn.imag
     rotate(x, A, first.conjugate() / (length * length), T)
     for k in range(order):
@@ -228,9 +231,9 @@ def _dyad(order: int, operation: Ints, program: Program, sign: float, x: Reals) 
     if operation[0] == RRR:
         _rrr(order, sign, q2 - q1, q3 - q4, x)
     elif operation[0] == RPR:
-        one, two = lines[operation[3]], lines[operation[4]]
-        off = (two.conjugate() * (q4 - q3)).imag - (one.conjugate() * (q1 - q2)).imag
-        _rpr(order, sign, (one, two), off, program.size, x)
+        line1, line2 = lines[operation[3]], lines[operation[4]]
+        off = (line2.conjugate() * (q4 - q3)).imag - (line1.conjugate() * (q1 - q2)).imag
+        _rpr(order, sign, (line1, line2), off, program.size, x)
     else:
         line = lines[operation[6]]
         turn = line * lines[operation[5]].conjugate()
@@ -241,7 +244,7 @@ def _dyad(order: int, operation: Ints, program: Program, sign: float, x: Reals) 
 def _goes_on(root: float, last: float, before: float) -> bool:
     """Whether a root is not small, and does not change too much."""
     now, past = abs(root), abs(last)
-    return (now > NEAR) & (4 * now > past) & (1.5 * past >= abs(before))
+    return (now > NEAR) & (now > KEPT * past) & ((2 - EXPECTED) * past >= abs(before))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -261,15 +264,15 @@ def _trusted(roots: Reals, row: int, end: int) -> int:
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def steady(path: Reals, row: int) -> bool:
-    """Whether the drives go on to a row as they came, not back and not much faster: then the past foretells."""
+    """Whether the drives go on to a row as they came, not back and not much faster: then the past predicts."""
     if row < 2:
         return False
     moved = False
     for d in range(path.shape[1]):
-        way, past = path[row, d] - path[row - 1, d], path[row - 1, d] - path[row - 2, d]
-        if way * past < 0 or abs(way) > 1.5 * abs(past):
+        change, past = path[row, d] - path[row - 1, d], path[row - 1, d] - path[row - 2, d]
+        if change * past < 0 or abs(change) > _FASTER * abs(past):
             return False
-        moved |= way != 0
+        moved |= change != 0
     return moved
 
 
@@ -283,9 +286,9 @@ def _near(path: Reals, most: Reals, row: int, end: int) -> int:
     for d in range(len(most)):
         moved = 0
         for i in lanes(len(now)):
-            way, past = now[i, d] - last[i, d], last[i, d] - before[i, d]
-            near += tally((way * past >= 0) & (abs(way) <= 1.5 * abs(past)) & (abs(way) <= most[d]))
-            moved += tally(way != 0)
+            change, past = now[i, d] - last[i, d], last[i, d] - before[i, d]
+            near += tally((change * past >= 0) & (abs(change) <= _FASTER * abs(past)) & (abs(change) <= most[d]))
+            moved += tally(change != 0)
         moving = max(moving, moved)
     if near == len(now) * len(most) and moving == len(now):
         return end
@@ -301,21 +304,21 @@ def _near(path: Reals, most: Reals, row: int, end: int) -> int:
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _count_turns(turns: Complexes, whole: NDArray[np.int32], row: int, end: int) -> None:
     """Whole turns: the negative x axis is crossed upwards or downwards. They are 0 already."""
-    now, last, mine = turns[row:end], turns[row - 1 : end - 1], whole[row:end]
+    now, last, counts = turns[row:end], turns[row - 1 : end - 1], whole[row:end]
     crossed = 0
     for i in lanes(len(now)):
         crossed += tally(((now[i].imag < 0) != (last[i].imag < 0)) & (now[i].real + last[i].real < 0))
     count = whole[row - 1]
     if crossed == 0:
         if count != 0:
-            for i in range(len(mine)):
-                mine[i] = count
+            for i in range(len(counts)):
+                counts[i] = count
         return
     for i in range(len(now)):
         a, b = now[i], last[i]
         if (a.imag < 0) != (b.imag < 0) and b.real * abs(a.imag) + a.real * abs(b.imag) < 0:
             count += 1 if a.imag < 0 else -1
-        mine[i] = count
+        counts[i] = count
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.lanes import dot, give_back, subtract, taken
-from gruebler._numeric.motion.closure import EQUATIONS, closing
+from gruebler._numeric.motion.closure import EQUATIONS, Conditions, closing
 from gruebler._numeric.motion.newton import factor
 
 __all__ = [
@@ -27,7 +27,6 @@ __all__ = [
     "LONG",
     "LOST",
     "SHORTEST",
-    "LoopConditions",
     "SampleBuffer",
     "evaluate_pose",
     "jacobian",
@@ -51,19 +50,16 @@ _OPEN = 1e-11  # a sample is open by less
 _BEND = 0.98  # the least cosine between the tangents of neighbouring samples
 _SKEW = 0.02  # chord and mean tangent of a step differ by less
 _SAME = 1e-8  # the curve is closed when it comes back as near as that
-
-
-class LoopConditions(NamedTuple):
-    """The closing conditions of all joints, as `closing` takes them, lengths in units of the linkage's size."""
-
-    kinds: Ints
-    owners: Ints
-    points: Complexes
-    """(2 conditions, 1)"""
-    lines: Complexes
-    values: Reals
-    """(conditions, 8)"""
-    pieces: Reals
+_CORRECTIONS = 12  # Newton's method arrives in 3 to 5; a row that is nearly dependent takes some more
+_TORN = 1e3  # sizes: a residual that large comes of a pose that is lost
+_ASTRAY = 1.0  # squared length of a step, in sizes and radians: it leads away from the curve
+_ARRIVED = 1e-16  # squared length of a step: the next would be below rounding
+_NO_TANGENT = 1e-6  # a direction of length 1 that keeps less in the null space has no part of it but rounding
+_START_AHEAD = 1.2  # steps: the start is looked for a little farther than one step ahead
+_START_ASIDE = 0.04  # squared, of the way to the start: how far it may lie aside of the tangent, 0.2
+_BEFORE_START = 0.999  # of the way to the start: from there Newton's method has to arrive at it
+_STRAIGHT = 1e-6  # half the difference of tangents: asin(x) = x below
+_SHORTER, _LONGER = 0.6, 1.5  # the next step after one that failed, and after one that did not
 
 
 class SampleBuffer(NamedTuple):
@@ -80,21 +76,31 @@ class SampleBuffer(NamedTuple):
 
 
 class TraceScratch(NamedTuple):
-    """Room to work in."""
+    """Room to work in, for so many rows (equations, and one more) and n unknowns."""
 
     residual: Reals
+    """(rows,)"""
     rows: Reals
+    """(rows, n) the Jacobian, and the normal of a plane."""
     work: Reals
+    """(rows, n) what is left of the rows after the basis is taken off."""
     shares: Reals
+    """(rows, n) of the basis in each row."""
     basis: Reals
+    """(n, n) orthonormal rows."""
     order: Ints
+    """(rows,) from which row each of the basis was made."""
     free: Ints
+    """(rows,) 1 for rows that have none in the basis yet."""
     trial: Reals
+    """(n,) a pose."""
     normal: Reals
+    """(n,) the normal of a plane, or the start as it is seen from a pose."""
     lengths: Reals
+    """(rows,) squared, of what is left of the rows."""
 
 
-def new_trace_scratch(c: LoopConditions) -> TraceScratch:
+def new_trace_scratch(c: Conditions) -> TraceScratch:
     """Room for m equations (and one more) and n unknowns."""
     m, n = sum(EQUATIONS[kind] for kind in c.kinds), 3 * (int(c.owners.max()) + 1)
     rows = max(m + 1, n)
@@ -165,12 +171,12 @@ def _reduce(count: int, n: int, first: int, s: TraceScratch) -> int:
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _correct(c: LoopConditions, x: Reals, normal: Reals, level: float, in_plane: bool, s: TraceScratch) -> bool:
+def _correct(c: Conditions, x: Reals, normal: Reals, level: float, in_plane: bool, s: TraceScratch) -> bool:
     """Newton's method in place: onto the curve by shortest steps, or in the plane ``normal @ x = level``."""
     m, n = _equations(c.kinds), len(x)
-    for _ in range(12):
-        miss = closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
-        if not miss < 1e3:
+    for _ in range(_CORRECTIONS):
+        miss = closing(c, x, s.residual, s.rows)
+        if not miss < _TORN:
             return False
         count = m
         if in_plane:
@@ -191,21 +197,21 @@ def _correct(c: LoopConditions, x: Reals, normal: Reals, level: float, in_plane:
             moved += share * share
             for k in range(n):
                 x[k] -= share * s.basis[j, k]
-        if not moved < 1:
+        if not moved < _ASTRAY:
             return False
-        if moved < 1e-16:
+        if moved < _ARRIVED:
             return True
     return False
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _lean(c: LoopConditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple[float, float, int]:
+def _set_tangent(c: Conditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple[float, float, int]:
     """Turn a direction into the tangent: its part in the null space of the Jacobian, of length 1.
 
     Returns how far the joints are open, the gauge (`SampleBuffer`) and the rank.
     """
     m, n = _equations(c.kinds), len(x)
-    miss = closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
+    miss = closing(c, x, s.residual, s.rows)
     rank = _reduce(m, n, -1, s)
     for _ in range(2):
         for j in range(rank):
@@ -218,7 +224,7 @@ def _lean(c: LoopConditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple
     for k in range(n):
         length += tangent[k] * tangent[k]
     length = sqrt(length)
-    if not length > 1e-6 or rank == 0:
+    if not length > _NO_TANGENT or rank == 0:
         return np.inf, 0.0, rank
     for k in range(n):
         tangent[k] /= length
@@ -232,25 +238,25 @@ def _lean(c: LoopConditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def settle_on_curve(c: LoopConditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple[bool, float, float, int]:
+def settle_on_curve(c: Conditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple[bool, float, float, int]:
     """Put a pose on the curve, by the nearest way, and a direction along it; both are changed in place.
 
     Returns whether it arrived, how far the joints are open, the gauge and the rank of the Jacobian there.
     """
     arrived = _correct(c, x, tangent, 0.0, False, s)
-    miss, gauge, rank = _lean(c, x, tangent, s)
+    miss, gauge, rank = _set_tangent(c, x, tangent, s)
     return arrived, miss, gauge, rank
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def jacobian(c: LoopConditions, x: Reals, s: TraceScratch) -> int:
+def jacobian(c: Conditions, x: Reals, s: TraceScratch) -> int:
     """Write residual and Jacobian into the scratch; returns how many equations there are."""
-    closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
+    closing(c, x, s.residual, s.rows)
     return _equations(c.kinds)
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _homecoming(curve: SampleBuffer, k: int, step: float, s: TraceScratch) -> bool:
+def _start_ahead(curve: SampleBuffer, k: int, step: float, s: TraceScratch) -> bool:
     """Whether the start lies one step ahead of sample k; writes it, turned on by whole turns, into ``s.normal``."""
     here, tangent, n = curve.poses[k], curve.tangents[k], len(s.trial)
     along = same = 0.0
@@ -261,18 +267,18 @@ def _homecoming(curve: SampleBuffer, k: int, step: float, s: TraceScratch) -> bo
         s.normal[i] = gap
         along += gap * tangent[i]
         same += curve.tangents[0, i] * tangent[i]
-    if not (0 < along <= 1.2 * step and same > _BEND):
+    if not (0 < along <= _START_AHEAD * step and same > _BEND):
         return False
     aside = 0.0
     for i in range(n):
         off = s.normal[i] - along * tangent[i]
         aside += off * off
         s.normal[i] += here[i]
-    return aside < 0.04 * along * along
+    return aside < _START_ASIDE * along * along
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _attempt(c: LoopConditions, curve: SampleBuffer, k: int, step: float, s: TraceScratch) -> tuple[bool, bool]:
+def _attempt(c: Conditions, curve: SampleBuffer, k: int, step: float, s: TraceScratch) -> tuple[bool, bool]:
     """Write sample k + 1, one step on or at the start; returns whether it is good, and whether it is the start."""
     n = len(s.trial)
     before, here, after = curve.poses[max(k - 1, 0)], curve.poses[k], curve.poses[k + 1]
@@ -284,13 +290,13 @@ def _attempt(c: LoopConditions, curve: SampleBuffer, k: int, step: float, s: Tra
     for i in range(n):
         s.trial[i] = here[i] + step * tangent[i] + bend * (tangent[i] - old[i])
         level += tangent[i] * s.trial[i]
-    back = _homecoming(curve, k, step, s)
+    back = _start_ahead(curve, k, step, s)
     if back:
         level = 0.0
         for i in range(n):
             after[i] = s.normal[i]
             level += curve.tangents[0, i] * after[i]
-            s.trial[i] = here[i] + (after[i] - here[i]) * 0.999
+            s.trial[i] = here[i] + (after[i] - here[i]) * _BEFORE_START
         back = _correct(c, s.trial, curve.tangents[0], level, True, s)
         for i in range(n):
             back = back and abs(s.trial[i] - after[i]) < _SAME
@@ -300,7 +306,7 @@ def _attempt(c: LoopConditions, curve: SampleBuffer, k: int, step: float, s: Tra
         if not back:
             after[i] = s.trial[i]
         new[i] = curve.tangents[0, i] if back else tangent[i]
-    miss, gauge, rank = _lean(c, after, new, s)
+    miss, gauge, rank = _set_tangent(c, after, new, s)
     curve.gauges[k + 1] = gauge
     if not (miss < _OPEN and rank == n - 1 and abs(gauge) > _AWAY):
         return False, False
@@ -316,13 +322,13 @@ def _attempt(c: LoopConditions, curve: SampleBuffer, k: int, step: float, s: Tra
     if not (cosine > _BEND and skew < _SKEW * _SKEW and chord < 2 * step):
         return False, False
     half = sqrt(turned) / 2
-    curve.arcs[k + 1] = curve.arcs[k] + chord * (asin(half) / half if half > 1e-6 else 1.0)
+    curve.arcs[k + 1] = curve.arcs[k] + chord * (asin(half) / half if half > _STRAIGHT else 1.0)
     return True, back
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
 def trace_curve(
-    c: LoopConditions, curve: SampleBuffer, count: int, step: float, longest: float, most: float, s: TraceScratch
+    c: Conditions, curve: SampleBuffer, count: int, step: float, longest: float, most: float, s: TraceScratch
 ) -> tuple[int, int, float]:
     """Follow the curve from the last of ``count`` samples until something happens.
 
@@ -345,7 +351,7 @@ def trace_curve(
             return LONG, count, step
         good, back = _attempt(c, curve, k, step, s)
         if not good:
-            step *= 0.6
+            step *= _SHORTER
             if step < SHORTEST:
                 return LOST, count, step
             continue
@@ -354,16 +360,16 @@ def trace_curve(
         count += 1
         if back:
             return CLOSED, count, step
-        step = min(1.5 * step, longest)
+        step = min(_LONGER * step, longest)
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
 def evaluate_pose(
-    c: LoopConditions, curve: SampleBuffer, at: Reals, segments: Ints, poses: Reals, tangents: Reals, s: TraceScratch
+    c: Conditions, curve: SampleBuffer, at: Reals, segments: Ints, poses: Reals, tangents: Reals, s: TraceScratch
 ) -> int:
     """Poses and tangents at given lengths, each between samples k and k + 1; returns how many were found.
 
-    A cubic through both samples foretells the pose; Newton's method puts it on the curve in the plane across the chord.
+    A cubic through both samples predicts the pose; Newton's method puts it on the curve in the plane across the chord.
     """
     n = poses.shape[1]
     for row in range(len(at)):
@@ -374,19 +380,19 @@ def evaluate_pose(
         for i in range(n):
             start, end = curve.poses[k, i], curve.poses[k + 1, i]
             leave, arrive = long * curve.tangents[k, i], long * curve.tangents[k + 1, i]
-            way = end - start
-            bent, skewed = 3 * way - 2 * leave - arrive, leave + arrive - 2 * way
+            change = end - start
+            bent, skewed = 3 * change - 2 * leave - arrive, leave + arrive - 2 * change
             poses[row, i] = start + u * (leave + u * (bent + u * skewed))
             tangents[row, i] = (leave + u * (2 * bent + 3 * u * skewed)) / long
-            s.normal[i] = way
-            chord += way * way
+            s.normal[i] = change
+            chord += change * change
         chord = sqrt(chord)
         for i in range(n):
             s.normal[i] /= chord
             level += s.normal[i] * poses[row, i]
         if not _correct(c, poses[row], s.normal, level, True, s):
             return row
-        miss, _, _ = _lean(c, poses[row], tangents[row], s)
+        miss, _, _ = _set_tangent(c, poses[row], tangents[row], s)
         if not miss < _OPEN:
             return row
     return len(at)

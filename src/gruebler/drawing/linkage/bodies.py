@@ -77,7 +77,7 @@ class Slide(NamedTuple):
 def slides(posed: PosedLinkage) -> tuple[Slide, ...]:
     """The sliding joints, with the travel of their blocks on the path of the linkage."""
     chain = posed.lower.mechanism.chain
-    return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.name == "prismatic")
+    return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.is_prismatic)
 
 
 def _slide(posed: PosedLinkage, number: int) -> Slide:
@@ -359,7 +359,7 @@ def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
     lower = posed.lower
     parts, marked = [], set()
     for number, joint in enumerate(lower.mechanism.chain.joints):
-        if joint.pair.name != "revolute":
+        if not joint.pair.is_revolute:
             continue
         link = min(joint.links, key=lambda member: member != lower.mechanism.frame)
         marked |= {(member, *lower.elements[number, member][:2]) for member in joint.links}
