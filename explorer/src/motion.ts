@@ -10,6 +10,7 @@ import { Plot, type Series } from "./plots";
 import { Stage, type Shown } from "./stage";
 import { Track } from "./track";
 import { exportPanel } from "./export";
+import { Cancelled } from "./host";
 
 const TURN = 2 * Math.PI;
 const GOOD = (40 / 180) * Math.PI;
@@ -21,7 +22,7 @@ export class MotionView {
   playing = false;
   speed = 12; // turns a minute; of a slide, strokes
   readonly shown: Shown = {
-    curves: true, velocities: false, accelerations: false, poles: false, inflection: false, labels: true, grid: true, link: 0,
+    curves: true, velocities: false, accelerations: false, hodographs: false, poles: false, inflection: false, labels: true, grid: true, link: 0,
   };
   private way = 1;
   private last = 0;
@@ -183,12 +184,39 @@ export class MotionView {
       }, `${text}  ${machine.state.signs[group.number]! < 0 ? "−" : "+"}`);
     });
     if (!rows.length) return h("p", { class: "note" }, t("There is one assembly mode only."));
-    return h("div", { class: "chips" }, ...rows);
+    const larger = machine.model.groups.some((group) => group.modes && !group.dyad);
+    if (!larger || !this.app.backend.present) return h("div", { class: "chips" }, ...rows);
+    const all = h("div", { class: "chips" }, h("button", { class: "plain", "data-act": "modes", onclick: () => void this.listModes(all) }, t("All assembly modes at this position")));
+    return h("div", {}, h("div", { class: "chips" }, ...rows), all);
+  }
+
+  /** The assembly modes of larger groups, which the library finds; a click takes one. */
+  private async listModes(place: HTMLElement): Promise<void> {
+    const { machine } = this;
+    const drives = [...machine.drives].slice(0, machine.model.drives.length);
+    const request = this.app.ask<{ label: string; document: LinkageDocument }[]>("modes", { document: machine.document(), drives });
+    place.replaceChildren(h("progress", {}), h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel")));
+    try {
+      const found = await request;
+      if (machine !== this.machine) return;
+      place.replaceChildren(...found.map(({ label, document }) => h("button", {
+        class: "plain", "data-mode": label,
+        onclick: () => {
+          const here = machine.drives[machine.active]!;
+          this.begin();
+          this.tryTo(() => machine.apply({ ...document, elements: machine.document().elements! }, drives[machine.active] ?? here));
+          this.end();
+          this.stage.show(machine, this.shown);
+        },
+      }, label)));
+    } catch (error) {
+      place.replaceChildren(h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message));
+    }
   }
 
   private optionsPanel(): HTMLElement {
     const { machine, shown } = this;
-    const option = (key: "curves" | "velocities" | "accelerations" | "poles" | "inflection" | "labels" | "grid", text: string) => {
+    const option = (key: "curves" | "velocities" | "accelerations" | "hodographs" | "poles" | "inflection" | "labels" | "grid", text: string) => {
       const box = h("input", { type: "checkbox", checked: shown[key], onchange: () => {
         shown[key] = box.checked;
         this.stage.show(machine, shown);
@@ -202,6 +230,7 @@ export class MotionView {
       k === machine.model.frame ? [] : [h("option", { value: k, selected: k === shown.link }, name)]));
     return h("div", { class: "options" },
       option("curves", t("Coupler curves")), option("velocities", t("Velocities")), option("accelerations", t("Accelerations")),
+      option("hodographs", t("Hodographs of the points")),
       option("poles", t("Pole and centrodes")), option("inflection", t("Inflection circle")),
       h("label", {}, t("of the link"), link), option("labels", t("Names")), option("grid", t("Grid")));
   }

@@ -8,6 +8,7 @@ export interface Shown {
   curves: boolean;
   velocities: boolean;
   accelerations: boolean;
+  hodographs: boolean;
   poles: boolean;
   inflection: boolean;
   labels: boolean;
@@ -448,6 +449,7 @@ export class Stage {
         trace((row) => this.screen(...machine.place(rows, row, point.link, ...point.at)));
       });
     }
+    if (this.shown.hodographs && rows.order >= 1) this.paintHodographs(pen, trace, colour);
     if (this.shown.poles && rows.order >= 1) {
       const link = this.shown.link;
       pen.lineWidth = 1.4;
@@ -468,6 +470,30 @@ export class Stage {
       });
       pen.setLineDash([]);
     }
+  }
+
+  /** The velocities of all named points, drawn from one place in the corner: their ends trace the hodographs. */
+  private paintHodographs(pen: CanvasRenderingContext2D, trace: (at: (row: number) => [number, number] | null) => void, colour: (name: string) => string): void {
+    const machine = this.machine!, { rows, values } = machine.cycle;
+    const velocity = (point: (typeof machine.points)[number], row: number) => machine.place(rows, row, point.link, ...point.at, 1);
+    const reach = 0.16 * Math.min(this.width, this.height);
+    const [x, y] = [reach + 16, this.height - reach - 16];
+    const fastest = machine.points.map((point) => Math.max(0, ...Array.from(values, (_, row) => Math.hypot(...velocity(point, row))).filter(Number.isFinite)));
+    const most = Math.max(...fastest, 1e-12 * machine.size);
+    machine.points.forEach((point, number) => {
+      const end = ([u, v]: [number, number]): [number, number] => [x + (reach * u) / most, y - (reach * v) / most];
+      pen.strokeStyle = colour(PALETTE[number % PALETTE.length]!);
+      pen.lineWidth = 1.4;
+      trace((row) => end(velocity(point, row)));
+      pen.beginPath();
+      pen.moveTo(x, y);
+      pen.lineTo(...end(machine.place(machine.pose, 0, point.link, ...point.at, 1)));
+      pen.stroke();
+    });
+    pen.fillStyle = colour("--ink");
+    pen.beginPath();
+    pen.arc(x, y, 2.5, 0, 7);
+    pen.fill();
   }
 
   private paintGrid(pen: CanvasRenderingContext2D, colour: string): void {
