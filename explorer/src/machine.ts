@@ -4,6 +4,7 @@ import { Kernel, Status, type Rows, type State } from "./kernel";
 import type { Leg, LinkageDocument, Model, Place, PointRecord } from "./model";
 import { Code, Kind, programOf, type Program } from "./program";
 import { unwoundAngle } from "./closure";
+import { currentLanguage } from "./language";
 
 const TURN = 2 * Math.PI;
 const MOST_TURNS = 8;
@@ -116,6 +117,16 @@ export class Machine {
     if (mine.some((k) => this.model.elements[k]!.kind === "round")) return true;
     return mine.some((k) => this.elementsOn(this.model.elements[k]!.link).some((other) =>
       this.model.elements[other]!.kind === "round" && this.gap(k, other) <= 1e-9 * this.size));
+  }
+
+  /** What a link is called in the reader's language. */
+  linkName(link: number): string {
+    return this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!;
+  }
+
+  /** Links by their names in the linkage, as the reader calls them. */
+  linkList(links: readonly string[]): string {
+    return links.map((name) => this.linkName(this.model.links.indexOf(name)) ?? name).join(", ");
   }
 
   draggable(joint: number): boolean {

@@ -201,10 +201,10 @@ export class Stage {
         front.append(element);
         this.labels.push({ element, at });
       };
-      model.links.slice(0, model.own).forEach((name, link) => {
+      model.links.slice(0, model.own).forEach((_, link) => {
         if (link === model.frame) return;
         const mine = machine.elementsOn(link);
-        text(name, "name", () => {
+        text(machine.linkName(link), "name", () => {
           const places = mine.map((k) => machine.elementAt(k));
           return [places.reduce((sum, p) => sum + p[0], 0) / places.length, places.reduce((sum, p) => sum + p[1], 0) / places.length];
         });
@@ -430,15 +430,18 @@ export class Stage {
     const trace = (at: (row: number) => [number, number] | null) => {
       pen.beginPath();
       let on = false;
+      let last: [number, number] = [0, 0];
       for (let row = 0; row < values.length; row++) {
         const place = at(row);
         if (!place || !Number.isFinite(place[0] + place[1]) || Math.abs(place[0]) + Math.abs(place[1]) > 1e5) {
           on = false;
           continue;
         }
-        if (on) pen.lineTo(...place);
+        // a step far beyond the picture leads through infinity, to the other end of an asymptote
+        if (on && Math.hypot(place[0] - last[0], place[1] - last[1]) < 2 * (this.width + this.height)) pen.lineTo(...place);
         else pen.moveTo(...place);
         on = true;
+        last = place;
       }
       pen.stroke();
     };

@@ -172,9 +172,9 @@ export class StructureView implements View {
           h("pre", {}, found.lines.join("\n") + (found.drives ? `\n${found.drives}` : "")),
           h("div", { class: "form" }, h("button", { class: "key", "data-act": "realise", onclick: () => void this.realise() }, t("Find dimensions and move it")))),
       ),
-      ...choices(t("Frames that make a difference"), found.inversions, (choice) => t("frame {frame}", { frame: choice.frame }), "inversions"),
+      ...choices(t("Frames that make a difference"), found.inversions, (choice) => t("frame: {frame}", { frame: choice.frame }), "inversions"),
       ...choices(this.atFrame ? t("Drives at the frame that make a difference") : t("Drives that make a difference"), found.driven,
-        (choice) => (this.atFrame ? "" : `${t("frame {frame}", { frame: choice.frame })}, `) + choice.drives.join(", "), "driven"),
+        (choice) => (this.atFrame ? "" : `${t("frame: {frame}", { frame: choice.frame })}, `) + choice.drives.join(", "), "driven"),
       h("div", { class: "form" }, h("label", {}, elsewhere, t("also drives that are not at the frame"))));
   }
 

@@ -5,13 +5,15 @@ from itertools import combinations
 
 import igraph
 import networkx as nx
+import pyarrow as pa
+import pyarrow.compute as pc
 import pytest
 
 import gruebler as gr
 from gruebler.assur import decompose
 from gruebler.atlas import columns_of
 from gruebler.atlas.chain_table import arrays_of_chains, chain_table
-from gruebler.atlas.mechanism_tables import driven_table, mechanism_table
+from gruebler.atlas.mechanism_tables import bulk_tables, driven_table, mechanism_table
 from gruebler.atlas.parts import AtlasTask, PartWriter, parts
 from gruebler.chain import Chain
 from gruebler.enumeration import contracted_graphs, fractionation
@@ -232,6 +234,23 @@ def test_mechanisms_and_driven_mechanisms(tmp_path):
         assert row["dyads_only"] == (row["highest_class"] == 2)
         assert row["at_frame"]
         assert row["family"] == family(mechanism)
+
+
+@pytest.mark.parametrize("links", [8, pytest.param(10, marks=pytest.mark.slow)])
+def test_mechanisms_in_bulk_are_those_made_one_by_one(tmp_path, links):
+    task = AtlasTask(str(links), inversions=True, drives="frame")
+    table = PartWriter(tmp_path, task, "test")._chains(next(iter(parts(task))))
+    bulk = bulk_tables(table, driven=True)
+    assert bulk["driven"].num_rows == sum(table["drives"].to_pylist())
+    assert bulk["mechanisms"].num_rows == sum(table["inversions"].to_pylist())
+    some = [k for k in range(table.num_rows) if links == 8 or k % 20 == 0]
+    codes = table["code"].take(some).to_pylist()
+    for name, one_by_one in (
+        ("mechanisms", mechanism_table(codes, 1)),
+        ("driven", driven_table(codes, 1, at_frame=True)),
+    ):
+        chosen = bulk[name].filter(pc.is_in(bulk[name]["chain"], pa.array(codes)))
+        assert chosen.equals(one_by_one)
 
 
 def test_every_column_is_defined_and_filled(tmp_path):

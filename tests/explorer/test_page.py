@@ -336,3 +336,30 @@ def test_drives_that_are_not_at_the_frame(tab, server):
     page.until(f"{root}.querySelector('textarea').value.includes('drive=R(crank-coupler)')")
     page.page.click('[data-act="realise"]')
     page.until("gruebler.motion.machine.drive?.name === 'R(crank-coupler)'", 60)
+
+
+def test_links_have_the_names_of_the_language(tab, server):
+    """In the picture, the sizes, what the library says and in messages; the document keeps its own."""
+    page = tab(locale="de-DE").open(server.address)
+    root = "document.querySelector('.gruebler-explorer').shadowRoot"
+    page.until(f"{root}.querySelector('.side').textContent.includes('Der Abtrieb Schwinge schwingt')")
+    names = page.page.locator(".stage text.name").all_text_contents()
+    assert sorted(names) == ["Koppel", "Kurbel", "Schwinge"]
+    assert "Schwinge Koppel – Gestell" in page.page.locator('[data-panel="sizes"]').inner_text()
+    assert "rocker" in page.page.evaluate("JSON.stringify(gruebler.motion.machine.document())")
+    page.page.locator("header select").select_option("en")
+    page.until(f"{root}.querySelector('.side').textContent.includes('The output rocker swings')")
+    assert sorted(page.page.locator(".stage text.name").all_text_contents()) == ["coupler", "crank", "rocker"]
+
+
+def test_the_commands_that_the_page_shows_run(tab, single_file, tmp_path, monkeypatch):
+    page = tab().open(single_file.as_uri())
+    page.page.locator('[data-panel="export"] summary').click()
+    commands = page.page.locator('[data-panel="export"] pre').nth(1).inner_text().splitlines()
+    assert len(commands) == 2
+    monkeypatch.chdir(tmp_path)
+    for command in commands:
+        program, *words = command.split()
+        assert program == "gruebler"
+        assert main(words) == 0
+    assert list(tmp_path.glob("*.svg"))

@@ -26,7 +26,7 @@ Int32 = NDArray[np.int32]
 Int64 = NDArray[np.int64]
 
 _PLACE = {pair.name: k for k, pair in enumerate(PAIRS)}
-_INTERPRETED = 4e-3  # seconds for a chain, if the kernel is interpreted
+_INTERPRETED = 2.5e-4  # seconds for each link of a chain, if the kernel is interpreted
 
 
 class ChainArrays(NamedTuple):
@@ -116,7 +116,7 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
     certificates = np.zeros((count, widest), np.uint8)
     letters = np.array([ord(p.symbols.get(Alphabet.INTERNATIONAL, "?")[0]) for p in PAIRS], np.uint8)
     most = n + int(chains.hubs.max(initial=0))
-    describe = for_work(kernels.describe_chains, count * _INTERPRETED)
+    describe = for_work(kernels.describe_chains, count * n * _INTERPRETED)
     described = describe(
         n, chains.mobility, loops, chains.hubs, chains.sizes, chains.edges, chains.pairs, letters,
         kernels.make_chain_memory(most, widest), numbers, ends, text, graph6, certificates,

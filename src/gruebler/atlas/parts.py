@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gruebler.atlas.chain_table import ChainArrays, Contracted, arrays_of_chains, chain_table
-from gruebler.atlas.mechanism_tables import driven_table, mechanism_table
+from gruebler.atlas.mechanism_tables import bulk_tables, driven_table, mechanism_table
 from gruebler.atlas.schema import SCHEMA, arrow, arrow_schema
 from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_table"]
 
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
-_AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 4}  # pieces in a part
+_AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part
 _CHECKED = ("inversions", "joint_orbits", "drives")  # columns whose sums the enumeration counts as well
 
 
@@ -185,17 +185,27 @@ class PartWriter:
         if existing is not None:
             return existing
         tables = {"chains": self._chains(part)}
-        codes = tables["chains"].column("code").to_pylist() if len(self.task.tables) > 1 else []
-        mobility = part.request.mobility
-        if self.task.inversions:
-            tables["mechanisms"] = mechanism_table(codes, mobility)
-        if self.task.drives != "none":
-            tables["driven"] = driven_table(codes, mobility, at_frame=self.task.drives == "frame")
-        for name, table in tables.items():
+        if len(self.task.tables) > 1:
+            tables |= self._mechanisms(part.request, tables["chains"])
+        for name in self.task.tables:
+            table = tables[name]
             path = self.directory / part.path(name)
             path.parent.mkdir(parents=True, exist_ok=True)
             write_table(table, path, {"atlas": self.identity, "part": part.path(name)})
         return [self._described(part, name) for name in self.task.tables]
+
+    def _mechanisms(self, request: Request, chains: pa.Table) -> dict[str, pa.Table]:
+        """The tables of mechanisms and driven mechanisms, as far as they are wanted."""
+        plain = request.only_simple and request.mobility == 1 and self.task.sliding == range(1)
+        if plain and self.task.drives != "any" and (tables := bulk_tables(chains, driven=self.task.drives == "frame")):
+            return tables
+        codes = chains.column("code").to_pylist()
+        found = {}
+        if self.task.inversions:
+            found["mechanisms"] = mechanism_table(codes, request.mobility)
+        if self.task.drives != "none":
+            found["driven"] = driven_table(codes, request.mobility, at_frame=self.task.drives == "frame")
+        return found
 
     def existing(self, part: Part) -> list[PartFile] | None:
         """The files of a part if all of them are there and undamaged, else None.

@@ -24,6 +24,7 @@ __all__ = ["add", "run"]
 
 _CHAIN = 1e-4  # seconds to describe a chain of simple joints, its files included
 _COMPOSED = 1e-2  # one with multiple or sliding joints, or a fractionated one
+_BULK = 2e-5  # for each link of a chain with F = 1, and each drive at it
 _MECHANISM = 2e-3  # for each link of a chain
 _DRIVEN = 1e-2  # for each joint and frame
 
@@ -109,7 +110,7 @@ def _build(arguments: argparse.Namespace) -> int:
         arguments.drives,
     )
     chains, seconds = _expected(task)
-    ask_before(seconds / max(arguments.jobs, 1) / 10, arguments.yes)
+    ask_before(seconds / max(arguments.jobs, 1), arguments.yes)
     with run_progress(arguments.lang) as draw:
         manifest = build(task, arguments.directory, executor=executor_of(arguments), progress=draw, expected=chains)
     rows = manifest["tables"]["chains"]["rows"]
@@ -130,8 +131,12 @@ def _expected(task: Any) -> tuple[int, float]:
         chains += number * sliding
         plain = request.only_simple and request.fractionated == "none" and sliding == 1
         each = _CHAIN if plain else _COMPOSED
-        each += _MECHANISM * request.links * task.inversions
-        each += _DRIVEN * request.links * {"none": 0, "frame": 2, "any": request.links}[task.drives] ** request.mobility
+        if plain and request.mobility == 1 and task.drives != "any":
+            each += _BULK * request.links * (1 + 2 * (task.drives == "frame"))
+        else:
+            each += _MECHANISM * request.links * task.inversions
+            drives = {"none": 0, "frame": 2, "any": request.links}[task.drives]
+            each += _DRIVEN * request.links * drives**request.mobility
         seconds += number * sliding * each
     return chains, seconds
 

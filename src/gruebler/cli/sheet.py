@@ -6,7 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING, Any
 
-from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.linkage_inputs import linkage_of, size_of
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
@@ -128,7 +128,9 @@ def _draw_machine(arguments: argparse.Namespace) -> None:
         document = machine_document(Mechanism.parse(word), lang=lang)
     else:
         linkage, between = linkage_of(word, lang)
-        document = machine_document(linkage, between=between, lang=lang)
+        size = size_of(word)
+        name = "" if size is None else size.type.name(lang)
+        document = machine_document(linkage, between=between, lang=lang, name=name)
     _write(document, arguments)
 
 

@@ -313,9 +313,12 @@ def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[st
 
 def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.analysis.measures import measures
+    from gruebler.explorer.model import link_names
     from gruebler.formats import linkage_from_json
 
-    return {"lines": measures(linkage_from_json(asked.document)).explain(lang).splitlines()}
+    linkage = linkage_from_json(asked.document)
+    named = linkage.renamed(link_names(linkage, asked.source, lang))
+    return {"lines": measures(named).explain(lang).splitlines()}
 
 
 def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
