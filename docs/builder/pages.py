@@ -127,11 +127,27 @@ def further_theory(lang: str, _: str) -> str:
     return "\n".join(["```{toctree}", ":maxdepth: 1", f":caption: {title}", "", *further, "```"]) if further else ""
 
 
+def further_pages(lang: str, _: str) -> str:
+    """A list of the pages of docs that neither the index nor that of the project names."""
+    del lang
+    docs = Path(__file__).parents[1]
+    listed = set((docs / "index.md").read_text(encoding="utf-8").split())
+    listed |= {word.removeprefix("../") for word in (docs / "project" / "index.md").read_text(encoding="utf-8").split()}
+    pages = {
+        path.relative_to(docs).with_suffix("").as_posix() for path in [*docs.glob("*.md"), *docs.glob("*/README.md")]
+    }
+    further = sorted(pages - listed - {"index"})
+    return (
+        "\n".join(["```{toctree}", ":maxdepth: 1", "", *(f"../{page}" for page in further), "```"]) if further else ""
+    )
+
+
 _INSERTS: dict[str, Callable[[str, str], str]] = {
     "bibtex": bibtex,
     "commands": command_reference,
     "formats": format_table,
     "front-door": front_door_table,
+    "further-pages": further_pages,
     "further-theory": further_theory,
     "room": room_page,
     "schema": schema,
