@@ -6,16 +6,22 @@ A line `<!-- insert: KIND ARGUMENT -->` of a page is replaced before the page is
 from __future__ import annotations
 
 import argparse
+import json
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from builder.names import documented_rooms, front_door_table, room_page
 from gruebler.cli.commands import GROUPS, Command
 from gruebler.files import FORMATS
+from gruebler.formats.catalog_records import Entry, Exercise
+from gruebler.formats.linkages import LinkageRecord
 from gruebler.text import translate
 
+_RECORDS = {"linkage": LinkageRecord, "entry": Entry, "exercise": Exercise}
 _PLACE = re.compile(r"^<!-- insert: ([a-z-]+) ?(.*) -->$", re.MULTILINE)
 
 
@@ -105,6 +111,13 @@ def bibtex(lang: str, _: str) -> str:
 ```"""
 
 
+def schema(lang: str, kind: str) -> str:
+    """The JSON schema of a kind of file, from the record that reads it."""
+    del lang
+    document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(_RECORDS[kind])}
+    return f"```json\n{json.dumps(document, indent=2, ensure_ascii=False)}\n```"
+
+
 def further_theory(lang: str, _: str) -> str:
     """A list of the theory pages that no list of the index names."""
     folder = Path(__file__).parents[1] / "theory"
@@ -114,13 +127,30 @@ def further_theory(lang: str, _: str) -> str:
     return "\n".join(["```{toctree}", ":maxdepth: 1", f":caption: {title}", "", *further, "```"]) if further else ""
 
 
+def further_pages(lang: str, _: str) -> str:
+    """A list of the pages of docs that neither the index nor that of the project names."""
+    del lang
+    docs = Path(__file__).parents[1]
+    listed = set((docs / "index.md").read_text(encoding="utf-8").split())
+    listed |= {word.removeprefix("../") for word in (docs / "project" / "index.md").read_text(encoding="utf-8").split()}
+    pages = {
+        path.relative_to(docs).with_suffix("").as_posix() for path in [*docs.glob("*.md"), *docs.glob("*/README.md")]
+    }
+    further = sorted(pages - listed - {"index"})
+    return (
+        "\n".join(["```{toctree}", ":maxdepth: 1", "", *(f"../{page}" for page in further), "```"]) if further else ""
+    )
+
+
 _INSERTS: dict[str, Callable[[str, str], str]] = {
     "bibtex": bibtex,
     "commands": command_reference,
     "formats": format_table,
     "front-door": front_door_table,
+    "further-pages": further_pages,
     "further-theory": further_theory,
     "room": room_page,
+    "schema": schema,
 }
 
 
