@@ -72,4 +72,4 @@ def test_several_drives(capsys, tmp_path):
     write_linkage(tmp_path / "five.toml", Linkage.from_drawing(mechanism, places))
     status, _, err = run(capsys, str(tmp_path / "five.toml"), "--at", "90,90", "--poles")
     assert status == 2
-    assert "--poles and --curvature need a linkage with one drive" in err
+    assert "--poles, --curvature and --planes need a linkage with one drive" in err

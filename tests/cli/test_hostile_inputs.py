@@ -134,9 +134,7 @@ def test_assortments_are_listed_as_they_come():
             "109,437,677,344,010,375,993,271 assortments",
         ),
         (("enumerate", "--assortments", "--links", "10000000", "--count"), "more than a minute"),
-        (("variants", "--links", "10", "--prismatic", "5", "--count"), "this takes about"),
         (("catalog", "search", "--enumerate", "--links", "14"), "this takes about"),
-        (("assur", "--list", "12", "--count"), "this takes about"),
     ],
 )
 def test_long_lists_are_refused_with_their_size(words, said):

@@ -41,8 +41,7 @@ def add(parser: Parser) -> None:
     parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
     parser.add_argument(
         "--prismatic",
-        type=_number_or_any,
-        default=0,
+        default="0",
         metavar="K|any",
         help="number of sliding joints (default: 0); any, with --count: the numbers for every K",
     )
@@ -77,6 +76,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """List or count the variants."""
+    arguments.prismatic = _number_or_any(arguments.prismatic)
     wanted = Requirements(
         links=arguments.links,
         mobility=arguments.mobility,
@@ -126,7 +126,7 @@ def _number_or_any(text: str) -> int | str:
     try:
         return int(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"expected a whole number or any, but found {text!r}") from None
+        raise GrueblerError("--prismatic: expected a whole number or any, but found {value!r}", value=text) from None
 
 
 def _only_sliding(wanted: Requirements) -> bool:
