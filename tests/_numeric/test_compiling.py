@@ -231,7 +231,7 @@ def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:
     assert said == ["False 0 1\n", "True 1 0\n"]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="owners and modes")
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere files have no owners and modes of POSIX")
 @pytest.mark.usefixtures("home")
 class TestTrust:
     """Loading a kernel runs code: only what nobody else can have written is loaded."""

@@ -147,7 +147,7 @@ def test_what_is_missing_is_named(whole, tmp_path):
         gr.atlas.open().files("chain")
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no limits")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limit for the size of files")
 def test_a_full_disc_loses_nothing(whole, tmp_path):
     script = (
         "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (8000, 8000)); "

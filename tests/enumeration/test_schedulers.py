@@ -26,7 +26,7 @@ def test_no_scheduler_there(monkeypatch, capsys):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no signals")
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="Windows has no SIGKILL")
 def test_lost_workers_lose_nothing(tmp_path, capsys):
     from gruebler.atlas import AtlasTask, build
 

@@ -97,7 +97,7 @@ def test_positions_of_a_linkage_give_its_dyads_back(case):
     gaps = [abs(d.fixed - pivots[0]) + abs(d.moving - pivots[1]) for d in dyads if d.form == "RR"]
     assert min(gaps, default=np.inf) < 1e-5
     if "slider" in linkage.mechanism.chain.links:
-        assert any(d.form == "PR" for d in dyads) or min(abs(d.length) for d in dyads) > 0
+        assert any(d.form == "PR" for d in dyads)
     for dyad in dyads:
         reduced = dyad.moved(1 / size, -origin / size)
         assert misfit(given_, reduced) < 1e-9 * (1 + abs(reduced.moving) + abs(reduced.fixed))
@@ -259,3 +259,22 @@ def test_a_region_without_solutions():
     found = synthesise_positions(task, Demands(region=(10, 10, 20, 20)))
     assert not found.designs
     assert list(map(str, found.rejected[0].verdict.reasons)) == ["a fixed pivot lies outside the region"]
+
+
+@pytest.mark.parametrize("number", [16, 24, 40])
+def test_dyads_of_four_positions_are_different(number):
+    """A closed piece of Burmester's curve holds its first point twice."""
+    rng = np.random.default_rng(5)
+    for _ in range(6):
+        rows = np.column_stack([rng.normal(size=(4, 2)), np.linspace(0, 1.2, 4) + 0.1 * rng.normal(size=4)])
+        dyads = guiding_dyads(PositionTask(rows.tolist()), number)
+        gaps = [
+            abs(one.moving - two.moving) for k, one in enumerate(dyads) for two in dyads[:k] if one.form == two.form
+        ]
+        assert min(gaps) > 1e-6
+
+
+@pytest.mark.parametrize("demands", [{"region": (float("nan"), 0, 1, 1)}, {"transmission": float("nan")}])
+def test_demands_are_numbers(demands):
+    with pytest.raises(SynthesisError, match="expected numbers"):
+        Demands(**demands)

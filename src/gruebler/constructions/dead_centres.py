@@ -28,13 +28,8 @@ __all__ = [
 ]
 
 
-def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d: float = 55) -> Construction:
-    """Both dead centres: the circles b - a and b + a about A0 meet the circle of the rocker."""
-    if FourBar(a, b, c, d).dead_centres is None:
-        raise LinkageError(
-            "the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is no crank-rocker", a=a, b=b, c=c, d=d
-        )
-    board = Board(message("Dead centres of a crank-rocker"))
+def _crank_rocker_given(board: Board, a: float, b: float, c: float, d: float) -> tuple[complex, complex]:
+    """The step with the given lengths, the frame and the circle of the crank; returns A0 and B0."""
     a0, b0 = 0j, complex(d)
     board.step(
         message(
@@ -49,6 +44,17 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
         Segment(a0, b0, "given"),
         Circle(a0, a, "curve-rest"),
     )
+    return a0, b0
+
+
+def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d: float = 55) -> Construction:
+    """Both dead centres: the circles b - a and b + a about A0 meet the circle of the rocker."""
+    if FourBar(a, b, c, d).dead_centres is None:
+        raise LinkageError(
+            "the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is no crank-rocker", a=a, b=b, c=c, d=d
+        )
+    board = Board(message("Dead centres of a crank-rocker"))
+    a0, b0 = _crank_rocker_given(board, a, b, c, d)
     board.step(
         message("The pin B of the rocker moves on the circle about B₀ with the radius c = {c:g}.", c=c), Circle(b0, c)
     )
@@ -190,20 +196,7 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
             "the crank of the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} does not turn", a=a, b=b, c=c, d=d
         )
     board = Board(message("Extremes of the transmission angle of a crank-rocker"))
-    a0, b0 = 0j, complex(d)
-    board.step(
-        message(
-            "Given: the frame A₀B₀ = {d:g}, the crank a = {a:g}, the coupler b = {b:g}, the rocker c = {c:g}.",
-            a=a,
-            b=b,
-            c=c,
-            d=d,
-        ),
-        Dot(a0, "A₀"),
-        Dot(b0, "B₀"),
-        Segment(a0, b0, "given"),
-        Circle(a0, a, "curve-rest"),
-    )
+    a0, b0 = _crank_rocker_given(board, a, b, c, d)
     places, folded = [], []
     for k, (pin, name) in enumerate(((complex(a), "I"), (complex(-a), "II"))):
         board.step(

@@ -75,7 +75,9 @@ class DaskExecutor(Executor):
                     result.set_exception(lost)
                 else:
                     result.set_exception(problem)
-            except Exception:  # the result was lost on its way
+            except Exception as error:
+                # Whatever was lost on its way, somebody waits for this result: the run is repeated and names the cause.
+                lost.__cause__ = error
                 result.set_exception(lost)
 
         sent.add_done_callback(arrived)

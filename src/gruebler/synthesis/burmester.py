@@ -54,7 +54,8 @@ class BurmesterCurves:
         apart = np.abs(moving - fixed) > 1e-6 * size
         chosen = np.flatnonzero(near & apart)
         chosen = chosen[np.unique(np.linspace(0, len(chosen) - 1, min(number, len(chosen))).astype(int))]
-        return (*(self.nearest(complex(moving[k])) for k in chosen), *self.sliding)
+        # A closed piece ends in its first point.
+        return (*dict.fromkeys(self.nearest(complex(moving[k])) for k in chosen), *self.sliding)
 
     def nearest(self, pivot: complex) -> GuidingDyad:
         """The dyad whose pivot on the body is nearest to a place, exact."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gruebler.analysis import transmission_angle
 from gruebler.arrays import Complexes, Reals
-from gruebler.errors import LinkageError
+from gruebler.errors import LinkageError, SynthesisError
 from gruebler.kinematics import Circuit, Poses, circuit, move
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage, Pin
@@ -65,6 +65,13 @@ class Demands:
     """The drive never turns back on the way."""
     in_order: bool = True
     """The targets are met in the order of the task."""
+
+    def __post_init__(self) -> None:
+        """Refuse what is no number: every comparison with it would fail without a word."""
+        for name in ("transmission", "size_ratio", "region", "tolerance"):
+            value = getattr(self, name)
+            if value is not None and np.isnan(value).any():
+                raise SynthesisError("{name}: expected numbers, but found nan", name=name)
 
 
 class Probe(NamedTuple):
@@ -171,7 +178,9 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         reasons.append(message("the targets are met in another order"))
     if not path.one_branch and demands.one_branch:
         reasons.append(message("the drive has to turn back between the targets (two branches)"))
-    if path.one_branch and not missed_by <= limit:
+    if path.one_branch and not np.isfinite(missed_by):
+        reasons.append(message("`move` does not lead through all targets"))
+    elif path.one_branch and not missed_by <= limit:
         reasons.append(message("a target is missed by {error:.3g} of the size", error=missed_by))
     if demands.crank and not full:
         reasons.append(message("the drive does not turn fully"))
