@@ -57,14 +57,13 @@ def _square_at(
 ) -> float:
     """The squared root of one dyad somewhere near the last pose; NaN where something before it cannot be placed."""
     set_drives(path, speeds, at, s)
+    memory.roots[3, wanted] = np.nan
     verdict = try_pose(program, 0, at, memory, s)
     if verdict in (APPROACH, APART) and memory.which[0] == wanted:
         for operation in program.operations:
             if 2 <= operation[0] < GROUP and operation[9] == wanted:
                 return dyad_square(operation[0], s.points, s.lines, program.size)
-    if verdict == GOOD or (verdict == MEET and memory.which[0] == wanted):
-        return float(memory.roots[3, wanted] ** 2)
-    return np.nan
+    return float(memory.roots[3, wanted] ** 2)  # it is known if only something behind it cannot be placed
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -89,18 +88,23 @@ def _look_for_change(
     at_inner = _square_at(program, path, speeds, inner, number, memory, s)
     at_outer = _square_at(program, path, speeds, outer, number, memory, s)
     at, least = reach, np.inf  # the best so far: next to the zero dyads before this one may not be placed at all
+    far, beyond = low, -np.inf  # the farthest place at which they are, and the square there
     for _ in range(200):
         if at_inner < least:
             at, least = inner, at_inner
         if at_outer < least:
             at, least = outer, at_outer
+        if inner > far and not np.isnan(at_inner):
+            far, beyond = inner, at_inner
+        if outer > far and not np.isnan(at_outer):
+            far, beyond = outer, at_outer
         if at_inner < -FLAT:
             return inner, True
         if at_outer < -FLAT:
             return outer, True
         if high - low < 1e-9 * (reach - memory.at[0]) or high - low < 1e-15 * (1 + abs(high)):
             break
-        if at_inner <= at_outer or np.isnan(at_inner):
+        if not at_inner > at_outer:  # or one of them is NaN: what cannot be placed lies farther on
             high, outer, at_outer = outer, inner, at_inner
             inner = high - ratio * (high - low)
             at_inner = _square_at(program, path, speeds, inner, number, memory, s)
@@ -108,8 +112,11 @@ def _look_for_change(
             low, inner, at_inner = inner, outer, at_outer
             outer = low + ratio * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
-    end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
-    if least == np.inf or end <= 1.5 * least + _NOISE:  # still falling up to there: nothing is decided yet
+    end = _square_at(program, path, speeds, reach, number, memory, s)
+    if np.isnan(end):
+        if beyond <= 1.5 * least + _NOISE:  # nothing is decided as far as anything is known
+            return max(far, memory.at[0] + 1e-3 * (reach - memory.at[0])), False
+    elif end <= 1.5 * least + _NOISE:  # still falling up to there: nothing is decided yet
         return reach if reach == turn else memory.at[0] + 0.9 * (reach - memory.at[0]), False
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
@@ -280,6 +287,7 @@ def _walk_to(
     """
     unit = memory.unit[0] = _unit(program, path, row)
     at, longest = memory.at[0], min(1.0, unit)
+    step = min(step, longest)  # it is measured in rows, and this row may be longer than the last one
     if not _remembered(path, row, memory):
         memory.filled[0] = 1
         step = min(step, 0.01 * unit * _least_root(memory))
