@@ -4,11 +4,12 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test slow wheel-test test-blas test-kernels test-lowest test-newest torture bench clean
+.PHONY: help demo test docs slow wheel-test test-blas test-kernels test-lowest test-newest torture bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
 	@echo "make test        ruff, mypy --strict, all fast tests and doctests"
+	@echo "make docs        the site in English and German in build/docs/html; about two minutes"
 	@echo "make slow        the long tests, and the fast ones with new random examples"
 	@echo "make torture     5,000 damaged inputs and 300 kills, see docs/reliability.md; about an hour"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
@@ -24,6 +25,12 @@ $(READY): pyproject.toml
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[test]"
 	@touch $@
 
+# The same for what builds the site.
+$(VENV)/.docs: pyproject.toml
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[docs]"
+	@touch $@
+
 demo: $(READY)
 	@$(BIN)/gruebler demo
 
@@ -32,6 +39,14 @@ test: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -q -n 2
+
+# Any warning stops it. English lies at the root, German in the folder de.
+SPHINX := -m sphinx -q -W --keep-going -b html
+docs: $(VENV)/.docs
+	rm -rf build/docs docs/_pictures docs/reference/api
+	$(BIN)/python $(SPHINX) -d build/docs/doctrees/en docs build/docs/html
+	$(BIN)/python $(SPHINX) -d build/docs/doctrees/de -D language=de docs build/docs/html/de
+	$(BIN)/python docs/builder/links.py build/docs/html
 
 slow: $(READY)
 	$(BIN)/python -m pytest -q -m slow

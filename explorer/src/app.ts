@@ -9,6 +9,7 @@ import { MotionView } from "./motion";
 import { CatalogView } from "./catalog";
 import { ExercisesView } from "./exercises";
 import { StructureView } from "./structure";
+import { SynthesisView } from "./synthesis";
 import styles from "./style.css";
 
 export interface View {
@@ -56,7 +57,8 @@ export class App {
     this.views = { motion: this.motion };
     if (this.backend.present) {
       this.views = {
-        structure: new StructureView(this), motion: this.motion, catalog: new CatalogView(this), exercises: new ExercisesView(this),
+        structure: new StructureView(this), motion: this.motion, synthesis: new SynthesisView(this), catalog: new CatalogView(this),
+        exercises: new ExercisesView(this),
       };
     }
     for (const view of Object.values(this.views)) if (view !== this.motion) view.arrange();
@@ -98,6 +100,8 @@ export class App {
 
   setTheme(theme: "light" | "dark"): void {
     this.host.dataset.theme = theme;
+    // a page that is longer than the window is of one colour down to its end
+    if (this.linkable) document.documentElement.style.background = getComputedStyle(this.host).getPropertyValue("--paper");
   }
 
   // --- views ---------------------------------------------------------------------------------------------------------
@@ -118,7 +122,7 @@ export class App {
 
   private arrangeHeader(): void {
     this.host.lang = currentLanguage();
-    const names: Record<string, string> = { structure: t("Structure"), motion: t("Motion"), catalog: t("Catalog"), exercises: t("Exercises") };
+    const names: Record<string, string> = { structure: t("Structure"), motion: t("Motion"), synthesis: t("Synthesis"), catalog: t("Catalog"), exercises: t("Exercises") };
     const keys = Object.keys(this.views);
     const tabs = keys.length < 2 ? null : h("nav", { role: "tablist" }, ...keys.map((key) => h("button", {
       role: "tab", "data-view": key, "aria-selected": String(key === this.view), onclick: () => this.show(key),

@@ -19,7 +19,9 @@ export class CatalogView implements View {
   readonly element = h("div", { class: "view", "data-page": "catalog" });
   private words = "";
   private pairs = "";
-  private links = "";
+  private joints = "";
+  private features: Record<string, string> = {};
+  private refining = false;
   private readonly cards = h("div", { class: "cards", "data-list": "catalog" });
   private readonly note = h("p", { class: "note", role: "status" });
   private typing = 0;
@@ -48,21 +50,29 @@ export class CatalogView implements View {
       } });
       return h("label", {}, label, input);
     };
+    const feature = (key: string, label: string) => field(label, this.features[key] ?? "", (text) => (this.features[key] = text), "", key);
+    const more = h("details", { open: this.refining, "data-panel": "features", ontoggle: () => (this.refining = more.open) },
+      h("summary", {}, t("Access features")),
+      h("div", { class: "form numbers" },
+        feature("mobility", t("Mobility by the count")), feature("drive_joints", t("Drive joints")),
+        feature("drive_joints_at_frame", t("of them at the frame")), feature("output_links", t("Output links")),
+        feature("output_links_at_frame", t("of them jointed to the frame")), feature("binary", t("Binary links")),
+        feature("ternary", t("Ternary links")), feature("multiple_joints", t("Multiple joints")),
+        field(t("Joints by type"), this.joints, (text) => (this.joints = text), t("R:4,P:0"), "joints")));
     this.element.replaceChildren(h("div", { class: "page" },
       h("h2", {}, t("Catalog")),
       h("div", { class: "form" },
         field(t("Words"), this.words, (text) => (this.words = text), t("crank, Kurbel, …"), "words"),
-        field(t("Joint types"), this.pairs, (text) => (this.pairs = text), "P G", "pairs"),
-        field(t("Links"), this.links, (text) => (this.links = text), "", "links")),
-      this.note, this.cards));
+        field(t("Joint types"), this.pairs, (text) => (this.pairs = text), "P G", "pairs"), feature("links", t("Links"))),
+      more, this.note, this.cards));
     if (this.filled) void this.search();
   }
 
   private async search(): Promise<void> {
     const number = ++this.asked;
-    const links = /^\d+$/.test(this.links) ? Number(this.links) : null;
+    const features = Object.fromEntries(Object.entries(this.features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])));
     try {
-      const found = await this.app.ask<Entry[]>("catalog", { words: this.words, pairs: this.pairs, links });
+      const found = await this.app.ask<Entry[]>("catalog", { words: this.words, pairs: this.pairs, joints: this.joints, ...features });
       if (number !== this.asked) return;
       this.filled = true;
       this.note.textContent = t("{count} machines", { count: found.length });

@@ -59,6 +59,7 @@ export interface GroupScratch {
   jacobian: Float64Array; // rows of `width`
   normal: Float64Array;
   pivots: Int32Array;
+  turns: Float64Array; // [2 * body + part]
   width: number;
 }
 
@@ -67,6 +68,11 @@ export function closing(p: Program, from: number, to: number, y: Float64Array, b
   const J = s.jacobian;
   const W = s.width;
   const R = s.residual;
+  const T = s.turns;
+  for (let k = 0; 3 * k < n; k++) {
+    T[2 * k] = Math.cos(y[base + 3 * k + 2]!);
+    T[2 * k + 1] = Math.sin(y[base + 3 * k + 2]!);
+  }
   let row = 0;
   for (let c = from; c < to; c++) {
     const slot = 2 * (c - from);
@@ -79,19 +85,23 @@ export function closing(p: Program, from: number, to: number, y: Float64Array, b
     let armAx = 0, armAy = 0, armBx = 0, armBy = 0;
     if (a >= 0) {
       const k = base + 3 * a;
-      const cos = Math.cos(y[k + 2]!), sin = Math.sin(y[k + 2]!);
+      const cos = T[2 * a]!, sin = T[2 * a + 1]!;
       armAx = cos * hx - sin * hy;
       armAy = sin * hx + cos * hy;
-      [lx, ly] = [cos * lx - sin * ly, sin * lx + cos * ly];
+      const x = lx;
+      lx = cos * x - sin * ly;
+      ly = sin * x + cos * ly;
       hx = armAx + y[k]!;
       hy = armAy + y[k + 1]!;
     }
     if (b >= 0) {
       const k = base + 3 * b;
-      const cos = Math.cos(y[k + 2]!), sin = Math.sin(y[k + 2]!);
+      const cos = T[2 * b]!, sin = T[2 * b + 1]!;
       armBx = cos * tx - sin * ty;
       armBy = sin * tx + cos * ty;
-      [ox, oy] = [cos * ox - sin * oy, sin * ox + cos * oy];
+      const x = ox;
+      ox = cos * x - sin * oy;
+      oy = sin * x + cos * oy;
       tx = armBx + y[k]!;
       ty = armBy + y[k + 1]!;
     }
@@ -203,12 +213,13 @@ export function factor(matrix: Float64Array, W: number, n: number, pivots: Int32
     const pivot = matrix[k * W + k]!;
     determinant *= pivot;
     if (pivot === 0) return 0;
+    const from = k * W + k + 1, count = n - k - 1;
     for (let i = k + 1; i < n; i++) {
-      if (matrix[i * W + k] !== 0) {
-        const share = matrix[i * W + k]! / pivot;
-        matrix[i * W + k] = share;
-        for (let m = k + 1; m < n; m++) matrix[i * W + m]! -= share * matrix[k * W + m]!;
-      }
+      const to = i * W + k + 1;
+      if (matrix[to - 1] === 0) continue;
+      const share = matrix[to - 1]! / pivot;
+      matrix[to - 1] = share;
+      for (let m = 0; m < count; m++) matrix[to + m]! -= share * matrix[from + m]!;
     }
   }
   return determinant;
@@ -238,6 +249,7 @@ export const newtonResult = { determinant: 0 };
 export function newton(p: Program, from: number, to: number, y: Float64Array, base: number, n: number, s: GroupScratch): boolean {
   const size = p.size;
   newtonResult.determinant = 0;
+  let last = Infinity;
   for (let step = 0; step < 8; step++) {
     const miss = closing(p, from, to, y, base, n, s);
     if (!(miss < 1e300)) return false;
@@ -249,7 +261,9 @@ export function newton(p: Program, from: number, to: number, y: Float64Array, ba
       const scaled = Math.abs(s.residual[k]!) * (k % 3 === 2 ? size : 1);
       if (!(scaled <= moved)) moved = scaled;
     }
-    if (!(moved < 10 * size)) return false;
+    // steps that grow lead nowhere near: the walk then takes a shorter one of its own
+    if (!(moved < 10 * size) || moved > last) return false;
+    last = moved;
     for (let k = 0; k < n; k++) y[base + k]! -= s.residual[k]!;
     if (moved < 1e-9 * size) {
       newtonResult.determinant = determinant;
@@ -290,6 +304,9 @@ export function closeNearSingular(p: Program, from: number, to: number, y: Float
   }
 }
 
+/** Numbers of one condition in `closingRates`; made once, since it runs for every pose. */
+const rateScratch = { gap: new Float64Array(6), spun: new Float64Array(4), line: new Float64Array(4) };
+
 /** What is known of the derivatives of that order (1 or 2), beside the Jacobian times the unknown rates.
  * `turns` (2 numbers a body), `places` (6 numbers a body) and `rates` (2 a body) hold what lower orders gave. */
 export function closingRates(
@@ -297,12 +314,11 @@ export function closingRates(
   turns: Float64Array, rates: Float64Array, places: Float64Array,
 ): void {
   let row = 0;
-  const g = [0, 0, 0, 0, 0, 0];
-  const spun = [0, 0, 0, 0];
+  const { gap: g, spun, line } = rateScratch;
   for (let c = from; c < to; c++) {
     g.fill(0);
     const slot0 = 2 * (c - from);
-    const line = [s.lines[2 * slot0]!, s.lines[2 * slot0 + 1]!, s.lines[2 * slot0 + 2]!, s.lines[2 * slot0 + 3]!];
+    for (let k = 0; k < 4; k++) line[k] = s.lines[2 * slot0 + k]!;
     for (let side = 0; side < 2; side++) {
       const slot = slot0 + side;
       const sign = 2 * side - 1;

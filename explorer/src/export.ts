@@ -35,7 +35,7 @@ export function exportPanel(app: App): HTMLElement {
   return h("div", {},
     h("div", { class: "chips" }, ...own, ...served, button(t("Copy the link"), () => void app.share())),
     h("p", { class: "note" }, t("The chain as text")), h("pre", { "data-text": "chain" }, chain),
-    h("p", { class: "note" }, t("The same on the command line")), h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} --pose -o ${stem()}.svg`),
+    h("p", { class: "note" }, t("The same on the command line")), h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem()}.svg`),
     h("p", { class: "note" }, t("The same in Python")),
     h("pre", {}, model.source && !model.source.includes(":")
       ? `import gruebler as gr\n\nlinkage = gr.catalog.entry("${model.source}").linkage()\nprint(gr.measures(linkage).explain())`

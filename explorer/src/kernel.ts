@@ -114,7 +114,7 @@ export class Kernel {
     this.s = {
       points: new Float64Array(12 * c), lines: new Float64Array(4 * c), spins: new Float64Array(4 * c),
       values: new Float64Array(8 * c), residual: new Float64Array(W + 2), jacobian: new Float64Array((W + 2) * W),
-      normal: new Float64Array(W * W), pivots: new Int32Array(W + 2), width: W,
+      normal: new Float64Array(W * W), pivots: new Int32Array(W + 2), turns: new Float64Array(2 * b), width: W,
     };
     const four = (size: number) => [0, 1, 2, 3].map(() => new Float64Array(size));
     this.roots = four(this.dyads);

@@ -4,6 +4,7 @@ import { Kernel, Status, type Rows, type State } from "./kernel";
 import type { Leg, LinkageDocument, Model, Place, PointRecord } from "./model";
 import { Code, Kind, programOf, type Program } from "./program";
 import { unwoundAngle } from "./closure";
+import { currentLanguage } from "./language";
 
 const TURN = 2 * Math.PI;
 const MOST_TURNS = 8;
@@ -116,6 +117,16 @@ export class Machine {
     if (mine.some((k) => this.model.elements[k]!.kind === "round")) return true;
     return mine.some((k) => this.elementsOn(this.model.elements[k]!.link).some((other) =>
       this.model.elements[other]!.kind === "round" && this.gap(k, other) <= 1e-9 * this.size));
+  }
+
+  /** What a link is called in the reader's language. */
+  linkName(link: number): string {
+    return this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!;
+  }
+
+  /** Links by their names in the linkage, as the reader calls them. */
+  linkList(links: readonly string[]): string {
+    return links.map((name) => this.linkName(this.model.links.indexOf(name)) ?? name).join(", ");
   }
 
   draggable(joint: number): boolean {
@@ -268,6 +279,15 @@ export class Machine {
       stops: [null, null],
     });
     if (!this.drive) return only();
+    let beyond: [number, Stop | null] | null = null; // the upper end, if the first turn came to it
+    const endOf = (values: Float64Array, rows: Rows, way: number): [number, Stop | null] | null => {
+      const open = this.firstOpen(rows);
+      if (open) return [values[Math.max(0, open.row - 1)]!, { value: values[open.row]!, status: "open", form: open.name, links: [] }];
+      if (rows.status === Status.DONE) return null;
+      const row = Math.min(Math.floor(rows.at), values.length - 2);
+      const value = values[row]! + (rows.at - row) * way;
+      return [value, this.stopOf(rows, value)];
+    };
     if (this.drive.turning) {
       const most = this.wheels ? MOST_WITH_WHEELS : MOST_TURNS;
       let turns = 1;
@@ -276,9 +296,11 @@ export class Machine {
         steps = turns === 1 ? 360 : turns <= MOST_TURNS ? 120 : 60;
         const values = Float64Array.from({ length: turns * steps + 1 }, (_, k) => start + (k * TURN) / steps);
         const rows = this.runAlong(values, this.state, turns === 1 ? order : Math.min(order, 2));
-        if (rows.status !== Status.DONE) break;
-        const open = this.firstOpen(rows);
-        if (open) break;
+        const end = endOf(values, rows, TURN / steps);
+        if (end) {
+          if (turns === 1) beyond = end;
+          break;
+        }
         if (this.same(rows, turns * steps)) {
           return { drive, values, rows, full: true, turns, low: start, high: start + turns * TURN, stops: [null, null] };
         }
@@ -294,19 +316,14 @@ export class Machine {
       while (Math.abs(from - start) < far - 1e-9) {
         const values = Float64Array.from({ length: 31 }, (_, k) => from + way * k * step);
         const rows = this.runAlong(values, state, 0);
-        const open = this.firstOpen(rows);
-        if (open) return [values[Math.max(0, open.row - 1)]!, { value: values[open.row]!, status: "open", form: open.name, links: [] }];
-        if (rows.status !== Status.DONE) {
-          const row = Math.min(Math.floor(rows.at), 29);
-          const value = values[row]! + (rows.at - row) * way * step;
-          return [value, this.stopOf(rows, value)];
-        }
+        const end = endOf(values, rows, way * step);
+        if (end) return end;
         from = values[30]!;
         state = this.stateAt(rows, 30);
       }
       return [from, null];
     };
-    let [high, above] = search(1);
+    let [high, above] = beyond ?? search(1);
     let [low, below] = search(-1);
     if (!this.drive.turning) {
       if (!above) high = Math.min(high, start + ENDLESS * this.size);
@@ -728,8 +745,10 @@ export class Machine {
     const { model } = this;
     const degrees = Math.PI / 180;
     const numbers = (raw: unknown, count: number): number[] => {
-      if (!Array.isArray(raw) || raw.length !== count || !raw.every((v) => typeof v === "number" && Number.isFinite(v))) throw new Refused(null);
-      return raw as number[];
+      if (!Array.isArray(raw) || raw.length !== count) throw new Refused(null);
+      const found = raw.map((v) => (typeof v === "string" ? parseFloat(v) : v) as number); // angles may have more digits than a number
+      if (!found.every((v) => Number.isFinite(v))) throw new Refused(null);
+      return found;
     };
     const poses = oneRow(this.pose, 0);
     if (drive !== undefined && Number.isFinite(drive)) this.drives[this.active] = drive;

@@ -65,6 +65,8 @@ export interface Model {
   source: string;
   document: LinkageDocument;
   links: string[];
+  /** The names of the links of the linkage by languages. */
+  linkNames: Record<string, string[]>;
   own: number;
   frame: number;
   unit: string;

@@ -10,6 +10,7 @@ import { Plot, type Series } from "./plots";
 import { Stage, type Shown } from "./stage";
 import { Track } from "./track";
 import { exportPanel } from "./export";
+import { Cancelled } from "./host";
 
 const TURN = 2 * Math.PI;
 const GOOD = (40 / 180) * Math.PI;
@@ -21,7 +22,7 @@ export class MotionView {
   playing = false;
   speed = 12; // turns a minute; of a slide, strokes
   readonly shown: Shown = {
-    curves: true, velocities: false, accelerations: false, poles: false, inflection: false, labels: true, grid: true, link: 0,
+    curves: true, velocities: false, accelerations: false, hodographs: false, poles: false, inflection: false, labels: true, grid: true, link: 0,
   };
   private way = 1;
   private last = 0;
@@ -159,7 +160,7 @@ export class MotionView {
     const { machine } = this;
     const colours = ["--motion", "--accent", "--green", "--purple"];
     const chips = machine.points.map((point, k) => {
-      const chip = h("span", { class: "chip" }, h("i", {}), `${point.name} · ${machine.model.links[point.link]}`,
+      const chip = h("span", { class: "chip" }, h("i", {}), `${point.name} · ${machine.linkName(point.link)}`,
         h("button", { "aria-label": t("Remove {name}", { name: point.name }), onclick: () => this.edit(() => machine.points.splice(k, 1)) }, "×"));
       chip.style.setProperty("--own", `var(${colours[k % colours.length]!})`);
       return chip;
@@ -171,7 +172,7 @@ export class MotionView {
   private modesPanel(): HTMLElement {
     const { machine } = this;
     const rows = machine.model.groups.filter((group) => group.modes).map((group) => {
-      const text = `${group.form} {${group.links.join(", ")}}`;
+      const text = `${group.form} {${machine.linkList(group.links)}}`;
       if (!group.dyad) return h("div", { class: "chip" }, text);
       return h("button", {
         class: "plain", "data-mode": group.number,
@@ -183,12 +184,39 @@ export class MotionView {
       }, `${text}  ${machine.state.signs[group.number]! < 0 ? "−" : "+"}`);
     });
     if (!rows.length) return h("p", { class: "note" }, t("There is one assembly mode only."));
-    return h("div", { class: "chips" }, ...rows);
+    const larger = machine.model.groups.some((group) => group.modes && !group.dyad);
+    if (!larger || !this.app.backend.present) return h("div", { class: "chips" }, ...rows);
+    const all = h("div", { class: "chips" }, h("button", { class: "plain", "data-act": "modes", onclick: () => void this.listModes(all) }, t("All assembly modes at this position")));
+    return h("div", {}, h("div", { class: "chips" }, ...rows), all);
+  }
+
+  /** The assembly modes of larger groups, which the library finds; a click takes one. */
+  private async listModes(place: HTMLElement): Promise<void> {
+    const { machine } = this;
+    const drives = [...machine.drives].slice(0, machine.model.drives.length);
+    const request = this.app.ask<{ label: string; document: LinkageDocument }[]>("modes", { document: machine.document(), drives });
+    place.replaceChildren(h("progress", {}), h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel")));
+    try {
+      const found = await request;
+      if (machine !== this.machine) return;
+      place.replaceChildren(...found.map(({ label, document }) => h("button", {
+        class: "plain", "data-mode": label,
+        onclick: () => {
+          const here = machine.drives[machine.active]!;
+          this.begin();
+          this.tryTo(() => machine.apply({ ...document, elements: machine.document().elements! }, drives[machine.active] ?? here));
+          this.end();
+          this.stage.show(machine, this.shown);
+        },
+      }, label)));
+    } catch (error) {
+      place.replaceChildren(h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message));
+    }
   }
 
   private optionsPanel(): HTMLElement {
     const { machine, shown } = this;
-    const option = (key: "curves" | "velocities" | "accelerations" | "poles" | "inflection" | "labels" | "grid", text: string) => {
+    const option = (key: "curves" | "velocities" | "accelerations" | "hodographs" | "poles" | "inflection" | "labels" | "grid", text: string) => {
       const box = h("input", { type: "checkbox", checked: shown[key], onchange: () => {
         shown[key] = box.checked;
         this.stage.show(machine, shown);
@@ -198,10 +226,11 @@ export class MotionView {
     const link = h("select", { "aria-label": t("Link"), onchange: () => {
       shown.link = Number(link.value);
       this.stage.draw();
-    } }, ...machine.model.links.slice(0, machine.model.own).flatMap((name, k) =>
-      k === machine.model.frame ? [] : [h("option", { value: k, selected: k === shown.link }, name)]));
+    } }, ...machine.model.links.slice(0, machine.model.own).flatMap((_, k) =>
+      k === machine.model.frame ? [] : [h("option", { value: k, selected: k === shown.link }, machine.linkName(k))]));
     return h("div", { class: "options" },
       option("curves", t("Coupler curves")), option("velocities", t("Velocities")), option("accelerations", t("Accelerations")),
+      option("hodographs", t("Hodographs of the points")),
       option("poles", t("Pole and centrodes")), option("inflection", t("Inflection circle")),
       h("label", {}, t("of the link"), link), option("labels", t("Names")), option("grid", t("Grid")));
   }
@@ -412,7 +441,7 @@ export class MotionView {
     clearTimeout(this.measuring);
     const { machine } = this;
     this.measuring = window.setTimeout(() => {
-      this.app.ask<{ lines: string[] }>("measures", { document: machine.document() }).then(
+      this.app.ask<{ lines: string[] }>("measures", { document: machine.document(), source: machine.model.source }).then(
         ({ lines }) => machine === this.machine && (this.checked.textContent = lines.join(" ")),
         (error: Error) => machine === this.machine && (this.checked.textContent = error.message),
       );
@@ -438,7 +467,7 @@ export class MotionView {
   stopText(stop: Stop): string {
     const { model, active } = this.machine;
     const drives = `${model.drives[active]?.name ?? ""} = ${this.shownDrive(stop.value, 9)}`;
-    const links = stop.links.join(", ");
+    const links = this.machine.linkList(stop.links);
     if (stop.status === "open") return t("The motion ends at {drives}: there {form} is open.", { drives, form: stop.form });
     if (stop.status === Status.START) return t("With these sizes {form} {{links}} cannot be assembled at {drives}; nothing was changed.", { drives, form: stop.form, links });
     if (stop.status === Status.SINGULAR) return t("The motion ends at {drives}: there two assembly modes of {form} {{links}} meet.", { drives, form: stop.form, links });
@@ -456,7 +485,7 @@ export class MotionView {
     if (output) {
       const [value, rate] = machine.output(machine.pose, 0);
       const turning = output.joint === null;
-      facts.push([t("Output {name}", { name: machine.model.links[output.link]! }), turning ? angle(value, 5) : `${number(value, 5)} ${machine.model.unit}`]);
+      facts.push([t("Output {name}", { name: machine.linkName(output.link) }), turning ? angle(value, 5) : `${number(value, 5)} ${machine.model.unit}`]);
       facts.push([t("Velocity by the drive"), number(rate, 4)]);
     }
     if (Number.isFinite(mu)) {
@@ -475,7 +504,7 @@ export class MotionView {
     const { model } = machine;
     const letters = (k: number) => {
       const joint = model.joints[model.elements[k]!.joint]!;
-      return joint.links.filter((link) => link !== model.elements[k]!.link).map((link) => model.links[link]).join(", ");
+      return joint.links.filter((link) => link !== model.elements[k]!.link).map((link) => machine.linkName(link)).join(", ");
     };
     const rows = machine.lengths().slice(0, 60).flatMap(({ link, first, second, value }) => {
       const id = `size-${first}-${second}`;
@@ -487,7 +516,7 @@ export class MotionView {
         this.tryTo(() => machine.setLength(first, second, wanted));
         this.end();
       }, onkeydown: (event: KeyboardEvent) => event.stopPropagation() });
-      return [h("label", { for: id, title: `${model.links[link]}: ${letters(first)} – ${letters(second)}` }, h("b", {}, model.links[link]!), ` ${letters(first)} – ${letters(second)}`),
+      return [h("label", { for: id, title: `${machine.linkName(link)}: ${letters(first)} – ${letters(second)}` }, h("b", {}, machine.linkName(link)), ` ${letters(first)} – ${letters(second)}`),
         input, h("span", { class: "unit" }, model.unit)];
     });
     this.sizes.replaceChildren(...rows);
@@ -517,7 +546,7 @@ export class MotionView {
     const along = (rows: number[], f: (row: number) => number) => Float64Array.from(rows, f);
     if (output) {
       const turning = output.joint === null;
-      const name = machine.model.links[output.link]!;
+      const name = machine.linkName(output.link);
       add((rows) => ({ title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${machine.model.unit}]`), colour: "--motion", values: unwound(along(rows, (row) => machine.output(machine.cycle.rows, row)[0]), turning) }));
       add((rows) => ({ title: t("Its velocity by the drive"), colour: "--green", values: along(rows, (row) => machine.output(machine.cycle.rows, row)[1]) }));
       add((rows) => ({ title: t("Its acceleration by the drive"), colour: "--purple", values: along(rows, (row) => machine.output(machine.cycle.rows, row)[2]) }));

@@ -8,6 +8,7 @@ export interface Shown {
   curves: boolean;
   velocities: boolean;
   accelerations: boolean;
+  hodographs: boolean;
   poles: boolean;
   inflection: boolean;
   labels: boolean;
@@ -200,10 +201,10 @@ export class Stage {
         front.append(element);
         this.labels.push({ element, at });
       };
-      model.links.slice(0, model.own).forEach((name, link) => {
+      model.links.slice(0, model.own).forEach((_, link) => {
         if (link === model.frame) return;
         const mine = machine.elementsOn(link);
-        text(name, "name", () => {
+        text(machine.linkName(link), "name", () => {
           const places = mine.map((k) => machine.elementAt(k));
           return [places.reduce((sum, p) => sum + p[0], 0) / places.length, places.reduce((sum, p) => sum + p[1], 0) / places.length];
         });
@@ -429,15 +430,18 @@ export class Stage {
     const trace = (at: (row: number) => [number, number] | null) => {
       pen.beginPath();
       let on = false;
+      let last: [number, number] = [0, 0];
       for (let row = 0; row < values.length; row++) {
         const place = at(row);
         if (!place || !Number.isFinite(place[0] + place[1]) || Math.abs(place[0]) + Math.abs(place[1]) > 1e5) {
           on = false;
           continue;
         }
-        if (on) pen.lineTo(...place);
+        // a step far beyond the picture leads through infinity, to the other end of an asymptote
+        if (on && Math.hypot(place[0] - last[0], place[1] - last[1]) < 2 * (this.width + this.height)) pen.lineTo(...place);
         else pen.moveTo(...place);
         on = true;
+        last = place;
       }
       pen.stroke();
     };
@@ -448,6 +452,7 @@ export class Stage {
         trace((row) => this.screen(...machine.place(rows, row, point.link, ...point.at)));
       });
     }
+    if (this.shown.hodographs && rows.order >= 1) this.paintHodographs(pen, trace, colour);
     if (this.shown.poles && rows.order >= 1) {
       const link = this.shown.link;
       pen.lineWidth = 1.4;
@@ -468,6 +473,30 @@ export class Stage {
       });
       pen.setLineDash([]);
     }
+  }
+
+  /** The velocities of all named points, drawn from one place in the corner: their ends trace the hodographs. */
+  private paintHodographs(pen: CanvasRenderingContext2D, trace: (at: (row: number) => [number, number] | null) => void, colour: (name: string) => string): void {
+    const machine = this.machine!, { rows, values } = machine.cycle;
+    const velocity = (point: (typeof machine.points)[number], row: number) => machine.place(rows, row, point.link, ...point.at, 1);
+    const reach = 0.16 * Math.min(this.width, this.height);
+    const [x, y] = [reach + 16, this.height - reach - 16];
+    const fastest = machine.points.map((point) => Math.max(0, ...Array.from(values, (_, row) => Math.hypot(...velocity(point, row))).filter(Number.isFinite)));
+    const most = Math.max(...fastest, 1e-12 * machine.size);
+    machine.points.forEach((point, number) => {
+      const end = ([u, v]: [number, number]): [number, number] => [x + (reach * u) / most, y - (reach * v) / most];
+      pen.strokeStyle = colour(PALETTE[number % PALETTE.length]!);
+      pen.lineWidth = 1.4;
+      trace((row) => end(velocity(point, row)));
+      pen.beginPath();
+      pen.moveTo(x, y);
+      pen.lineTo(...end(machine.place(machine.pose, 0, point.link, ...point.at, 1)));
+      pen.stroke();
+    });
+    pen.fillStyle = colour("--ink");
+    pen.beginPath();
+    pen.arc(x, y, 2.5, 0, 7);
+    pen.fill();
   }
 
   private paintGrid(pen: CanvasRenderingContext2D, colour: string): void {

@@ -43,6 +43,7 @@ export class StructureView implements View {
   private chains: Chains | null = null;
   private structure: Structure | null = null;
   private joint = -1;
+  private atFrame = true;
   private readonly list = h("div", {});
   private readonly detail = h("div", {});
   private readonly status = h("div", { class: "form" });
@@ -111,7 +112,7 @@ export class StructureView implements View {
     const number = ++this.asked;
     if (this.field.value !== text) this.field.value = text;
     try {
-      const found = await this.app.ask<Structure>("structure", { text });
+      const found = await this.app.ask<Structure>("structure", { text, at_frame: this.atFrame });
       if (number !== this.asked) return;
       this.text = text;
       this.structure = found;
@@ -156,6 +157,10 @@ export class StructureView implements View {
       ? [h("h2", {}, title), h("div", { class: "cards", "data-list": key }, ...list.map((choice) => h("button", {
         class: "card", "data-text": choice.text, "aria-pressed": String(choice.text === found.text), onclick: () => void this.describe(choice.text, true),
       }, thumbnail(choice.picture, choice.text), h("b", {}, label(choice)), choice.family ? h("span", {}, choice.family) : null)))] : [];
+    const elsewhere = h("input", { type: "checkbox", checked: !this.atFrame, "data-field": "elsewhere", onchange: () => {
+      this.atFrame = !elsewhere.checked;
+      void this.describe(this.text);
+    } });
     this.detail.replaceChildren(
       h("div", { class: "two" },
         h("div", {}, h("div", { class: "chain-picture" }, drawn), types,
@@ -167,8 +172,10 @@ export class StructureView implements View {
           h("pre", {}, found.lines.join("\n") + (found.drives ? `\n${found.drives}` : "")),
           h("div", { class: "form" }, h("button", { class: "key", "data-act": "realise", onclick: () => void this.realise() }, t("Find dimensions and move it")))),
       ),
-      ...choices(t("Frames that make a difference"), found.inversions, (choice) => t("frame {frame}", { frame: choice.frame }), "inversions"),
-      ...choices(t("Drives at the frame that make a difference"), found.driven, (choice) => choice.drives.join(", "), "driven"));
+      ...choices(t("Frames that make a difference"), found.inversions, (choice) => t("frame: {frame}", { frame: choice.frame }), "inversions"),
+      ...choices(this.atFrame ? t("Drives at the frame that make a difference") : t("Drives that make a difference"), found.driven,
+        (choice) => (this.atFrame ? "" : `${t("frame: {frame}", { frame: choice.frame })}, `) + choice.drives.join(", "), "driven"),
+      h("div", { class: "form" }, h("label", {}, elsewhere, t("also drives that are not at the frame"))));
   }
 
   private pick(joint: number): void {

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from gruebler.columns import Table
     from gruebler.kinematics.motion import Motion
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
 
 

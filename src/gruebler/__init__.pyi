@@ -3,6 +3,7 @@
 
 from . import (
     assur,
+    atlas,
     cams,
     catalog,
     chain,
@@ -84,6 +85,7 @@ __all__ = [
     "assembly_modes",
     "assur",
     "assur_groups",
+    "atlas",
     "cams",
     "catalog",
     "chain",

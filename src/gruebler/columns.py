@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError, nearest
+from gruebler.notebook import ROWS_SHOWN, html_table
 from gruebler.text import number
 
 __all__ = ["Column", "Table", "as_csv", "shown"]
@@ -142,6 +143,11 @@ class Table:
                 header = f"{column.header} ({k})"
             headers.append(header)
         return headers
+
+    def _repr_html_(self) -> str:
+        """The first rows, for notebooks."""
+        rows = shown(Column(c.name, c.unit, c.values[:ROWS_SHOWN], c.natural, c.noise) for c in self.columns)
+        return html_table([column.header for column in self.columns], rows, len(self))
 
 
 def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:

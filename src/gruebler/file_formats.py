@@ -291,6 +291,12 @@ def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
     _write_text(path, mjcf_from_linkage(_as_linkage(value), left_out))
 
 
+def _write_urdf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.formats.urdf import urdf_from_linkage
+
+    _write_text(path, urdf_from_linkage(_as_linkage(value), left_out))
+
+
 def _write_dxf(value: Any, path: Path, left_out: list[Message]) -> None:
     from gruebler.formats.dxf import dxf_from_linkage
 
@@ -463,6 +469,14 @@ FORMATS: tuple[Format, ...] = (
         message("a linkage of pins, slides and slots as a model that runs, points, drives"),
         None,
         _write_mjcf,
+    ),
+    Format(
+        "urdf",
+        (".urdf",),
+        message("robots (URDF)"),
+        message("a linkage of pins, slides and slots as a tree: its loops are cut"),
+        None,
+        _write_urdf,
     ),
     Format(
         "spreadsheet",

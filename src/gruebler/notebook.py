@@ -5,11 +5,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
+from html import escape
+from itertools import islice
 from typing import Any
 
-__all__ = ["Brief", "svg_of", "table_of"]
+__all__ = ["ROWS_SHOWN", "Brief", "html_table", "svg_of", "table_of"]
 
 svg_of: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
@@ -47,3 +49,19 @@ def _in_brief(value: object) -> str:
         return f"{type(value).__name__} of {len(value)}"
     text = " ".join(repr(value).split())
     return text if len(text) <= _WIDE else f"{text[: _WIDE - 1]}…"
+
+
+ROWS_SHOWN = 20
+"""So many rows of a table are shown in a notebook."""
+
+
+def html_table(headers: Sequence[str], rows: Iterable[Sequence[str]], size: int) -> str:
+    """A table for a notebook: its first rows, and how many there are.
+
+    >>> html_table(["x"], [["1 < 2"]], 1)
+    '<table><tr><th>x</th></tr><tr><td>1 &lt; 2</td></tr></table>'
+    """
+    lines = ["".join(f"<th>{escape(each)}</th>" for each in headers)]
+    lines += ["".join(f"<td>{escape(each)}</td>" for each in row) for row in islice(rows, ROWS_SHOWN)]
+    more = f"<p>{ROWS_SHOWN} of {size} rows</p>" if size > ROWS_SHOWN else ""
+    return f"<table>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>{more}"

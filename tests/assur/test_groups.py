@@ -1,15 +1,18 @@
 """Assur groups as values: which there are, their forms and classes, and what is none."""
 
+import random
 from collections import Counter
 
 import networkx as nx
 import pytest
 
 from gruebler import Chain, code
-from gruebler.assur import DYADS, AssurError, AssurGroup, assur_groups, group_of_truss
+from gruebler.assur import DYADS, AssurError, AssurGroup, assur_groups, count_assur_groups, group_of_truss
 from gruebler.assur.forms import roman
+from gruebler.assur.listing import group_rows
 from gruebler.enumeration import chains
 from gruebler.errors import ChainError
+from gruebler.isomorphism import symmetry
 from tests.assur.oracles import closed_chains
 
 TETRAD = "R(a-1) R(1-2) R(2-3) R(3-4) R(4-1) R(3-b)"
@@ -24,6 +27,30 @@ def test_numbers_of_groups(links, number):
     assert len(found) == number
     assert len({group.code for group in found}) == number
     assert all(len(group.links) == links for group in found)
+
+
+@pytest.mark.parametrize("links", [2, 4, 6, pytest.param(8, marks=pytest.mark.slow)])
+def test_rows_against_one_truss_after_another(links):
+    """Text, class and order of every group from the chain of its truss, in the same order."""
+    one_by_one = [
+        group_of_truss(truss, orbit[0]).canonical()
+        for truss in chains(links + 1, 0)
+        for orbit in symmetry(truss).link_orbits
+    ]
+    rows = list(group_rows(links))
+    assert [row.text() for row in rows] == [str(group) for group in one_by_one]
+    assert [(row.class_number, row.order) for row in rows] == [(g.class_number, g.order) for g in one_by_one]
+    assert [row.group() for row in rows] == one_by_one
+    assert count_assur_groups(links) == len(rows)
+
+
+def test_counts_and_lists_of_ten_links():
+    rows = list(group_rows(10))
+    assert len(rows) == len({row.joints for row in rows}) == count_assur_groups(10) == 5438
+    for row in random.Random(1).sample(rows, 40):
+        group = AssurGroup(row.group().chain)
+        assert group.canonical() == row.group()
+        assert (group.class_number, group.order) == (row.class_number, row.order)
 
 
 @pytest.mark.parametrize("links", [3, 5, 7, 9])

@@ -107,7 +107,7 @@ def test_files(capsys, tmp_path):
     assert [one["counted"] for one in json.loads(out)] == [1, -3, 0]
 
 
-@pytest.mark.parametrize("arguments", [[], ["--help"], ["help"], ["-h"]])
+@pytest.mark.parametrize("arguments", [["--help"], ["help"], ["-h"], ["--lang", "en", "--help"]])
 def test_the_overview_names_every_command_in_a_group(capsys, arguments):
     status, out, _ = run(capsys, *arguments)
     assert status == 0
@@ -288,5 +288,5 @@ def test_a_table_is_not_written_under_the_name_of_a_picture(capsys, tmp_path):
     for command in (("analyse", "lambda"), ("statics", "slider-crank:20,60", "--load", "R(coupler-slider)=-1,0")):
         status, _, err = run(capsys, *command, "-o", str(tmp_path / "x.svg"))
         assert status == 2
-        assert "expected a name that ends with .txt, .json or .csv" in err
+        assert "expected a name that ends with .txt, .json, .csv or .parquet" in err
     assert list(tmp_path.iterdir()) == []

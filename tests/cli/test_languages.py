@@ -21,6 +21,7 @@ JSON = {
         ["excavator", "--at", "1000,900,700", "--speed", "1", "--speed", "2", "--speed", "0"],
         ["four-bar:25,70,40,150"],
     ],
+    "atlas": [["query", "select * from chains where links = 6"], ["columns"]],
     "assur": [["lambda"], [QUAD], ["--list", "2"]],
     "cam": [["rise 20 90; fall 20 90; dwell", "--base", "40", "--roller", "10"], ["--laws"]],
     "catalog": [
@@ -39,6 +40,7 @@ JSON = {
         ["--guidance"],
     ],
     "enumerate": [["--links", "6"], ["--links", "6", "--assortments"], ["--links", "6", "--count"]],
+    "construct": [[], ["geneva"], ["dead-centres", "slider-crank:17,60,15"]],
     "exercise": [["list"], ["show", "exercise-1"], ["solve", "example-3.5.4-lambda"]],
     "extend": [["lambda", "--dyad"], ["quad_strut", "--derivation"]],
     "gears": [["sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; load arm=-50"]],

@@ -71,7 +71,8 @@ def test_draw_to_standard_output(capsys):
     ("arguments", "status", "words"),
     [
         (("sheet", "show", "mzk"), 2, "did you mean 'mzc'"),
-        (("sheet", "draw", "mzc", "-o", "x.gif"), 2, ".svg, .html, .pdf or .png"),
+        (("sheet", "draw", "mzc", "-o", "x.gif"), 2, ".svg, .html, .pdf, .png"),
+        (("sheet", "draw", "mzc", "-o", "x.md"), 2, "a page of its own"),
         (("sheet", "draw", "mzc", "-o", "/nowhere/x.svg"), 2, "cannot be written"),
         (("sheet", "size", "mzc", "--length", "15 parsec", "--ratio", "0.1"), 2, "a positive length such as 15cm"),
         (("sheet", "size", "mzc", "--length", "0", "--ratio", "0.1"), 2, "a positive length"),

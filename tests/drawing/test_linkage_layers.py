@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from gruebler.analysis import drive_cycle
 from gruebler.catalog import entry
-from gruebler.drawing.canvas.shapes import CircleShape, Point, TextShape
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, TextShape
 from gruebler.drawing.linkage.curve_plots import coupler_plot, hodograph
 from gruebler.drawing.linkage.motion_picture import draw_motion
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
@@ -282,3 +282,18 @@ if __name__ == "__main__":  # writes the golden file anew
         + "\n",
         "utf-8",
     )
+
+
+def test_the_inflection_circle_is_whole_with_tangent_and_normal():
+    figure = draw_linkage(CRANK_ROCKER.linkage(), np.radians(200), show=["inflection"])
+    motion = move(CRANK_ROCKER.linkage(), np.radians([200]), speed=1.0, order=2)
+    circle = inflection_circle(motion, "coupler")
+    texts = {shape.text for shape in figure.shapes if isinstance(shape, TextShape)}
+    assert {"P", "W", "t", "n"} <= texts
+    drawn = points(figure, "inflection")
+    assert np.ptp(drawn.real) == pytest.approx(np.ptp(drawn.imag), rel=1e-3)  # closed, not clipped
+    tangent, normal = [s.parts[0] for s in figure.shapes if isinstance(s, Polylines) and s.style == "dead"]
+    way = complex(tangent[-1].x - tangent[0].x, tangent[0].y - tangent[-1].y)
+    assert abs((way / abs(way) * np.conj(circle.tangent[0])).imag) < 1e-3
+    way = complex(normal[-1].x - normal[0].x, normal[0].y - normal[-1].y)
+    assert abs((way / abs(way) * np.conj(circle.tangent[0])).real) < 1e-3

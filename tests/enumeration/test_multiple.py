@@ -5,11 +5,13 @@ from itertools import combinations, permutations
 
 import pytest
 
+import gruebler as gr
 from gruebler import Chain, code, mobility_report
-from gruebler.enumeration.condition import fractionation, is_constrained
+from gruebler.enumeration.condition import fractionation, is_constrained, joint_masks
 from gruebler.enumeration.listing import chains
-from gruebler.enumeration.multiple import merge_joints, split_multiple_joints, with_multiple_joints
+from gruebler.enumeration.multiple import grown_joints, with_multiple_joints
 from gruebler.enumeration.multiple_assortment import joint_assortments
+from tests.enumeration.growth_oracle import grown_one_by_one, merge_joints, split_multiple_joints
 
 
 def simple(links, mobility=1):
@@ -29,6 +31,24 @@ def test_known_numbers(links, numbers):
     found = grown(links)
     assert len({code(chain) for chain in found}) == len(found) == sum(numbers)
     assert Counter(len(chain.multiple_joints) for chain in found) == dict(enumerate(numbers))
+
+
+@pytest.mark.parametrize(("links", "mobility"), [(6, 1), (8, 1), (7, 2), (7, 0), (8, 3), (7, 4), (9, 0)])
+def test_the_kernel_against_codes_of_all_chains_and_splits(links, mobility):
+    kernel = [code(chain) for chain in grown(links, mobility)]
+    assert sorted(kernel) == sorted(code(chain) for chain in grown_one_by_one(simple(links, mobility)))
+    for fewest, most, largest in ((1, 2, None), (0, None, 3), (2, 2, 4)):
+        limits = {"fewest": fewest, "most": most, "largest": largest}
+        some = {code(chain) for chain in with_multiple_joints(simple(links, mobility), **limits)}
+        assert some == {code(chain) for chain in grown_one_by_one(simple(links, mobility), **limits)}
+
+
+def test_numbers_of_larger_chains():
+    for links, mobility, number in ((10, 1, 2645), (9, 2, 219), (11, 2, 13450)):
+        masks = [joint_masks(chain) for chain in simple(links, mobility)]
+        assert sum(len(block) for block in grown_joints(links, masks)) == number
+    assert gr.count_chains(10, 1, multiple_joints="any").chains == 2645
+    assert gr.count_chains(10, 1, multiple_joints="2-3").chains == 1009 + 511
 
 
 @pytest.mark.parametrize(("links", "mobility"), [(6, 1), (8, 1), (7, 2), (7, 0)])

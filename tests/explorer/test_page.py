@@ -241,3 +241,125 @@ def test_a_server_that_goes_and_comes_back(tab, server):
     page.until("gruebler.message.hidden")
     assert page.page.evaluate("gruebler.motion.machine.lengths().map((one) => one.value)") == sizes
     page.errors[:] = [e for e in page.errors if "WebSocket" not in e]
+
+
+def test_the_catalog_is_searched_by_access_features(tab, server):
+    from gruebler.explorer.requests import answer
+
+    page = tab(locale="de-DE").open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-list="catalog"] .card').nth(60).wait_for()
+    page.page.locator('[data-panel="features"] summary').click()
+    page.page.locator('[data-field="ternary"]').fill("2")
+    page.page.locator('[data-field="joints"]').fill("D:7")
+    wanted = [one["id"] for one in answer("catalog", {"ternary": 2, "joints": "R:7"}, "en", print)]
+    assert len(wanted) > 1
+    root = "document.querySelector('.gruebler-explorer').shadowRoot"
+    page.until(f"{root}.querySelectorAll('[data-id]').length === {len(wanted)}")
+    assert page.page.locator("[data-id]").evaluate_all("all => all.map((e) => e.dataset.id)") == wanted
+    page.page.locator('[data-field="joints"]').fill("D7")
+    page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('D7')")
+
+
+def test_a_four_bar_through_points_that_are_clicked(tab, server):
+    """Points of a curve that a known four-bar traces; a design is opened and traces them too."""
+    known = FourBar(25, 70, 40, 70).linkage({"K": (45, 40)})
+    from gruebler.kinematics import move
+
+    traced = move(known, np.linspace(0, 2 * np.pi, 12, endpoint=False)).point("K") - (45, 55)
+    page = tab().open(server.address)
+    page.page.click('[data-view="synthesis"]')
+    page.page.click('[data-act="synthesise"]')
+    page.page.locator('[data-page="synthesis"] .error').wait_for()
+    box = page.page.locator(".plane").bounding_box()
+    for x, y in traced:
+        page.page.mouse.click(box["x"] + box["width"] * (0.5 + x / 240), box["y"] + box["height"] * (0.5 - y / 150))
+    assert page.page.locator("[data-point]").count() == 12
+    field = page.page.locator('[aria-label="Point 1 x"]')
+    assert float(field.input_value()) == pytest.approx(traced[0, 0], abs=0.5)
+    field.fill(f"{traced[0, 0]:.3f}")
+    field.press("Enter")
+    page.page.locator('[data-field="closed"]').check()
+    page.page.locator('[data-field="least"]').fill("10")
+    page.page.click('[data-act="synthesise"]')
+    page.page.locator('[data-act="cancel"]').click()
+    page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('Cancelled.')")
+    page.page.click('[data-act="synthesise"]')
+    page.page.locator('[data-list="designs"] .card').first.wait_for(timeout=100_000)
+    page.page.locator('[data-list="designs"] .card').first.click()
+    page.until("gruebler.motion.machine.model.name.startsWith('A design')")
+    document = json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.machine.document())"))
+    design = linkage_from_json(document)
+    (name,) = design.points
+    path = move(design, np.linspace(0, 2 * np.pi, 721)).point(name)
+    gaps = np.hypot(*(traced[:, None] - path[None]).transpose(2, 0, 1)).min(axis=1)
+    assert gaps.max() < 2.0
+
+
+def test_all_assembly_modes_of_a_larger_group(tab, server, tmp_path):
+    """A six-bar of class III has six; each is taken by a click and is the library's."""
+    from benchmarks.explorer import samples
+
+    linkage = samples()["six-bar of class III"][0]
+    page = tab().open(server.address)
+    page.page.evaluate("(model) => gruebler.open(model)", model_of(linkage))
+    page.page.locator('[data-panel="modes"] summary').click()
+    page.page.click('[data-act="modes"]')
+    page.page.locator('[data-panel="modes"] [data-mode="1"]').wait_for()
+    drive = page.page.evaluate("gruebler.motion.machine.drives[0]")
+    from gruebler.kinematics import move
+    from gruebler.kinematics.solve import assembly_modes
+
+    labels = assembly_modes(linkage, drive)
+    shown = page.page.locator('[data-panel="modes"] [data-mode]')
+    assert shown.evaluate_all("all => all.map((e) => e.dataset.mode)") == labels
+    places = "gruebler.motion.machine.model.joints.map((_, k) => gruebler.motion.machine.jointAt(k))"
+    for k, label in enumerate(labels):
+        if k:
+            page.page.click('[data-act="modes"]')
+        page.page.locator(f'[data-panel="modes"] [data-mode="{label}"]').click()
+        page.page.wait_for_timeout(200)
+        motion = move(linkage, [drive], branch=label)
+        wanted = [motion.point(name)[0] for name in linkage.mechanism.chain.joint_names()]
+        np.testing.assert_allclose(page.page.evaluate(places), wanted, atol=1e-6 * linkage.size)
+
+
+def test_drives_that_are_not_at_the_frame(tab, server):
+    page = tab().open(server.address)
+    page.page.click('[data-view="structure"]')
+    page.page.locator('[data-list="driven"] .card').first.wait_for()
+    assert page.page.locator('[data-list="driven"] .card').count() == 1
+    page.page.locator('[data-field="elsewhere"]').check()
+    page.page.locator('[data-list="driven"] .card').nth(1).wait_for()
+    page.page.locator('[data-list="driven"] .card').nth(1).click()
+    root = "document.querySelector('.gruebler-explorer').shadowRoot"
+    page.until(f"{root}.querySelector('textarea').value.includes('drive=R(crank-coupler)')")
+    page.page.click('[data-act="realise"]')
+    page.until("gruebler.motion.machine.drive?.name === 'R(crank-coupler)'", 60)
+
+
+def test_links_have_the_names_of_the_language(tab, server):
+    """In the picture, the sizes, what the library says and in messages; the document keeps its own."""
+    page = tab(locale="de-DE").open(server.address)
+    root = "document.querySelector('.gruebler-explorer').shadowRoot"
+    page.until(f"{root}.querySelector('.side').textContent.includes('Der Abtrieb Schwinge schwingt')")
+    names = page.page.locator(".stage text.name").all_text_contents()
+    assert sorted(names) == ["Koppel", "Kurbel", "Schwinge"]
+    assert "Schwinge Koppel – Gestell" in page.page.locator('[data-panel="sizes"]').inner_text()
+    assert "rocker" in page.page.evaluate("JSON.stringify(gruebler.motion.machine.document())")
+    page.page.locator("header select").select_option("en")
+    page.until(f"{root}.querySelector('.side').textContent.includes('The output rocker swings')")
+    assert sorted(page.page.locator(".stage text.name").all_text_contents()) == ["coupler", "crank", "rocker"]
+
+
+def test_the_commands_that_the_page_shows_run(tab, single_file, tmp_path, monkeypatch):
+    page = tab().open(single_file.as_uri())
+    page.page.locator('[data-panel="export"] summary').click()
+    commands = page.page.locator('[data-panel="export"] pre').nth(1).inner_text().splitlines()
+    assert len(commands) == 2
+    monkeypatch.chdir(tmp_path)
+    for command in commands:
+        program, *words = command.split()
+        assert program == "gruebler"
+        assert main(words) == 0
+    assert list(tmp_path.glob("*.svg"))

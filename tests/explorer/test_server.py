@@ -1,6 +1,7 @@
 """The server of the page: who may talk to it, what it refuses, in which order it answers."""
 
 import json
+import re
 import threading
 from pathlib import Path
 from urllib.error import HTTPError
@@ -119,6 +120,31 @@ def test_two_pages_and_a_hundred_drags_each(server):
     assert failures == []
     if Path(f"/proc/{server.process.pid}").is_dir():
         assert len(workers(server)) <= 2
+
+
+def memory(server) -> float:
+    """Megabytes that the server and its workers hold."""
+    status = [Path(f"/proc/{pid}/status").read_text() for pid in (server.process.pid, *workers(server))]
+    return sum(int(re.search(r"VmRSS:\s*(\d+)", text)[1]) for text in status) / 1024
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not say how much memory was used")
+def test_memory_does_not_grow_with_what_was_asked(server):
+    """Twice as many drags again take no more than what rounding of heaps does; the whole stays below a bound."""
+
+    def drags(count: int) -> None:
+        with connected(server) as socket:
+            for k in range(count):
+                document = linkage_to_json(FourBar(20 + 0.05 * (k % 100), 70, 40, 70).linkage({"K": (45, 40)}))
+                method = ("open_document", "measures")[k % 2]
+                socket.send(json.dumps({"id": k, "method": method, "params": {"document": document}}))
+                assert json.loads(socket.recv(timeout=120))["id"] == k
+
+    drags(40)
+    first = memory(server)
+    drags(80)
+    assert memory(server) < first + 40
+    assert memory(server) < 1500
 
 
 def workers(server) -> list[int]:

@@ -146,8 +146,11 @@ def test_packed_files_that_are_none_and_lines_without_end(tmp_path):
     with pytest.raises(GrueblerError, match="cannot be read"):
         files.read(path)
     path.write_bytes(gzip.compress(b"a" * 50_000_000))  # small when packed
-    with pytest.raises(GrueblerError, match="line 1: longer than"):
+    with pytest.raises(GrueblerError, match="unpacks to more than 100 times its size"):
         files.read(path)
+    path.write_bytes(gzip.compress(b"R(0-1) R(1-2) R(2-0)\n" * 1_000_000))  # chains, but all the same
+    with pytest.raises(GrueblerError, match="unpacks to more than 100 times its size"):
+        files.read(path.rename(tmp_path / "a.txt.gz"))
     path.write_bytes(gzip.compress(b"Cr\n" * 1000)[:-20])
     with pytest.raises(GrueblerError, match="cannot be read"):
         files.read(path)
@@ -179,3 +182,17 @@ def test_damaged_texts_are_a_chain_or_one_sentence(form, damages):
     except GrueblerError:
         return
     assert chain.n >= 3
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.adj", "\n".join(" ".join("0" if i == j else "999" for j in range(12)) for i in range(12))),
+        ("a.edgelist", "".join(f"{k} {k + 1}\n{k} {k + 1}\n" for k in range(30_000))),
+    ],
+)
+def test_more_joints_than_a_chain_has_are_refused(name, text, tmp_path):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(GrueblerError, match=r"joints is more than 50,000"):
+        files.read(path)

@@ -8,7 +8,7 @@ from gruebler.assur.choices import drive_choices
 from gruebler.assur.decomposition import Decomposition, JointShare, SolvedGroup, decompose
 from gruebler.assur.forms import DYADS
 from gruebler.assur.groups import AssurGroup
-from gruebler.assur.listing import assur_groups, group_of_truss
+from gruebler.assur.listing import assur_groups, count_assur_groups, group_of_truss
 from gruebler.assur.locking import AssurError
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "JointShare",
     "SolvedGroup",
     "assur_groups",
+    "count_assur_groups",
     "decompose",
     "drive_choices",
     "group_of_truss",

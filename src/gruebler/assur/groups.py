@@ -14,7 +14,7 @@ from gruebler.chain.pairs import Alphabet, Space
 from gruebler.isomorphism import canonical_order, code, decode
 from gruebler.mobility.placement import random_placement
 
-__all__ = ["AssurGroup"]
+__all__ = ["AssurGroup", "place_name"]
 
 _SEEDS = (1, 2, 3)
 
@@ -124,7 +124,7 @@ class AssurGroup:
             if place not in number
         }
         names = {link: str(k) for link, k in number.items()}
-        names |= {place: _letter(k) for k, place in enumerate(sorted(carriers, key=carriers.__getitem__))}
+        names |= {place: place_name(k) for k, place in enumerate(sorted(carriers, key=carriers.__getitem__))}
         joints = sorted(
             (Joint(j.pair, tuple(sorted((names[link] for link in j.links), key=_name_key))) for j in self.chain.joints),
             key=lambda j: [_name_key(link) for link in j.links],
@@ -135,7 +135,8 @@ class AssurGroup:
         return self.chain.text()
 
 
-def _letter(number: int) -> str:
+def place_name(number: int) -> str:
+    """The name of the place of this number in a canonical group: a, b, ..."""
     return chr(ord("a") + number % 26) + (str(number // 26) if number >= 26 else "")
 
 

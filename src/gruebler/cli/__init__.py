@@ -12,7 +12,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from gruebler.cli.commands import command, command_names, overview
+from gruebler.cli.commands import command, command_names, overview, welcome
 from gruebler.cli.parser import argparse_in_language, wanted_language
 from gruebler.errors import GrueblerError, shortened
 from gruebler.text import LANGUAGES, error_in_language, reason_of, translate
@@ -48,6 +48,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(words: list[str], lang: str) -> int:
     if not words:
+        print(welcome(lang))
+        return 0
+    if words == ["--help"]:
         print(overview(lang))
         return 0
     if words[0] == "--version":
@@ -84,8 +87,8 @@ def _with_command_first(words: list[str]) -> list[str]:
         size = 1 if "=" in words[0] else 2
         before, words = before + words[:size], words[size:]
     if words[:1] in (["help"], ["-h"], ["--help"]):
-        words = [*words[1:], "--help"] if words[1:] and not words[1].startswith("-") else []
-    return [words[0], *before, *words[1:]] if words else []
+        words = [*words[1:], "--help"] if words[1:] and not words[1].startswith("-") else ["--help"]
+    return words if words in ([], ["--help"]) else [words[0], *before, *words[1:]]
 
 
 def _complain(words: list[str], text: str) -> int:

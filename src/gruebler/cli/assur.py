@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from gruebler.assur import AssurGroup, Decomposition, SolvedGroup, assur_groups, decompose, drive_choices
+from gruebler.assur import AssurGroup, Decomposition, SolvedGroup, decompose, drive_choices
 from gruebler.assur.forms import roman
-from gruebler.assur.listing import expected_seconds_of_groups
-from gruebler.chain.pairs import Alphabet
+from gruebler.assur.listing import GroupRow, count_assur_groups, expected_seconds_of_groups, group_rows
+from gruebler.chain.pairs import Alphabet, pair
 from gruebler.cli.inputs import mechanism_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.long_work import ask_before, progress
@@ -21,6 +21,7 @@ from gruebler.text import message, translate
 
 __all__ = ["add", "run"]
 
+_NAMED = 4  # groups of more links have no names
 _PROGRESS = message("{n} groups, {seconds:.0f} s")
 
 
@@ -53,10 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
     if (arguments.list is None) == (arguments.mechanism is None):
         raise GrueblerError("give either a mechanism or --list N for all groups with N links")
     if arguments.list is not None:
-        ask_before(expected_seconds_of_groups(arguments.list), arguments.yes)
-        groups = list(progress(assur_groups(arguments.list), _PROGRESS.in_language(arguments.lang)))
-        _print([_group_item(group) for group in groups], arguments, lambda: _list(groups, arguments.lang))
-        return 0
+        return _list_groups(arguments)
     mechanism = mechanism_of(arguments.mechanism, arguments.frame, arguments.drive, language_of_names(arguments))
     if not mechanism.drives:
         choices = list(drive_choices(mechanism.chain, mechanism.frame, anywhere=arguments.anywhere))
@@ -125,13 +123,32 @@ def _code(mechanism: Mechanism) -> str | None:
         return None  # codes have no place for drives of single freedoms or within multiple joints
 
 
-def _list(groups: list[AssurGroup], lang: str) -> None:
+def _list_groups(arguments: argparse.Namespace) -> int:
+    """All groups of a size: counted without a list, listed without an object for each."""
+    if arguments.count:
+        count = count_assur_groups(arguments.list)
+        if arguments.json:
+            print_json({"count": count})
+        else:
+            print(count)
+        return 0
+    ask_before(expected_seconds_of_groups(arguments.list), arguments.yes)
+    rows = list(progress(group_rows(arguments.list), _PROGRESS.in_language(arguments.lang)))
+    if arguments.json:
+        _print([_group_item(row.group()) for row in rows], arguments, None)
+    else:
+        _list(rows, arguments.list, arguments.lang)
+    return 0
+
+
+def _list(groups: list[GroupRow], links: int, lang: str) -> None:
     alphabet = Alphabet.of_language(lang)
+    symbol = pair("revolute").symbol(alphabet)
     rows = []
     for group in groups:
-        form = group.named(alphabet)
-        named = "" if form == group.code else form
-        rows.append((named, roman(group.class_number), str(group.order), group.chain.text(alphabet)))
+        form = group.group() if links <= _NAMED else None
+        named = "" if form is None or form.form == form.code else form.named(alphabet)
+        rows.append((named, roman(group.class_number), str(group.order), group.text(symbol)))
     headers = [translate("form", lang), translate("class", lang), translate("order", lang), translate("group", lang)]
     first = 0 if any(form for form, *_ in rows) else 1  # groups of more than four links have no names
     print_table(headers[first:], [row[first:] for row in rows], numbers=(2 - first,))

@@ -13,7 +13,7 @@ from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError, nearest
 from gruebler.text import Message, message, translate
 
-__all__ = ["GROUPS", "Command", "command", "command_names", "overview"]
+__all__ = ["GROUPS", "Command", "command", "command_names", "overview", "welcome"]
 
 
 class Command(NamedTuple):
@@ -44,6 +44,7 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
                 message("the mechanisms of a chain: each frame, drive and output link that makes a difference"),
             ),
             Command("variants", message("all chains and mechanisms with given kinds of joints, drives and outputs")),
+            Command("atlas", message("all chains and mechanisms with their properties in files: build, query")),
             Command("assur", message("decompose a mechanism into Assur groups, or list all groups")),
             Command("extend", message("add a dyad or coupler to a chain, or show how the chain is built from dyads")),
         ),
@@ -82,6 +83,10 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
     (
         message("Teaching"),
         (
+            Command(
+                "construct",
+                message("constructions with compass and ruler, step by step: dead centres, polygons, curvature, cams"),
+            ),
             Command("exercise", message("exercises and generated tasks: list, solve step by step, mark answers")),
             Command("sheet", message("data sheets of a collection: a mechanism on one page")),
             Command("table", message("teaching tables: joints, links, inversions, Grashof types")),
@@ -101,7 +106,23 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
         message("Files"),
         (Command("convert", message("convert files: formats of other programs, chains as graphs")),),
     ),
+    (
+        message("Shell"),
+        (
+            Command("completion", message("print the completion script of bash, zsh or fish")),
+            Command("man", message("print the manual page")),
+        ),
+    ),
 )
+
+FIRST_STEPS = (
+    (message("Check a chain"), 'gruebler check "R(0-1) R(1-2) R(2-3) R(3-0)" --explain'),
+    (message("List all chains of a size"), "gruebler enumerate --links 8"),
+    (message("Analyse a motion"), "gruebler analyse four-bar:25,70,40,70"),
+    (message("See it move"), "gruebler animate wiper -o wiper.html"),
+    (message("Design a linkage"), "gruebler synthesise dead-centres --swing 60 --time-ratio 1.2"),
+)
+"""What `gruebler` alone shows: what one can do, with a command that does it."""
 
 FORMER = {
     "freedoms": "check {words}",
@@ -141,6 +162,23 @@ def command(name: str, words: Sequence[str] = ()) -> Command:
         "there is no command {name!r}{suggestion}; see gruebler --help",
         name=name,
         suggestion=nearest(name, command_names()),
+    )
+
+
+def welcome(lang: str = "en") -> str:
+    """Five things to begin with, and where the rest is."""
+    titles = [title.in_language(lang) for title, _ in FIRST_STEPS]
+    indent = max(map(len, titles)) + 2
+    lines = [f"  {title:{indent}}{example}" for title, (_, example) in zip(titles, FIRST_STEPS, strict=True)]
+    return "\n".join(
+        [
+            translate("gruebler: structural synthesis of mechanisms. Five things to begin with:", lang),
+            "",
+            *lines,
+            "",
+            translate("gruebler --help lists all commands, gruebler help COMMAND explains one.", lang),
+            translate("--lang de or GRUEBLER_LANG=de switches to German.", lang),
+        ]
     )
 
 

@@ -177,7 +177,18 @@ def _figure(arguments: argparse.Namespace) -> Figure:
         thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive, arguments.lang)
     if view is not None:
         return view(thing, lang=arguments.lang, name=name)
-    return draw(thing, labels=arguments.labels, lang=arguments.lang, name=name, names=german(record, arguments.lang))
+    names = german(record, arguments.lang)
+    contacts = _contacts(record) if isinstance(thing, Mechanism) else None
+    return draw(thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names)
+
+
+def _contacts(record: Entry | None) -> Mapping[tuple[int, str], str] | None:
+    """What the bodies of the higher pairs of a catalog entry are; None without dimensions."""
+    if record is None or record.dimensions is None:
+        return None
+    from gruebler.drawing.linkage.contact_shapes import contact_shapes
+
+    return contact_shapes(record.linkage())
 
 
 def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figure:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from contextlib import closing, contextmanager
+from contextlib import closing
 from pathlib import Path
 from typing import BinaryIO
 
 from gruebler.atomic_files import atomic_file
 from gruebler.cli.assortments import assortments
+from gruebler.cli.executors import add_executor, executor_of
 from gruebler.cli.inputs import assortment_of
-from gruebler.cli.long_work import time_text
+from gruebler.cli.long_work import run_progress, time_text
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import printed_to_file
@@ -25,7 +25,6 @@ from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.run_request import run_count, run_list
 from gruebler.enumeration.work_units import PieceListing
-from gruebler.enumeration.worker_pool import ProcessPools, Progress
 from gruebler.errors import GrueblerError, RunError
 from gruebler.text import joined, message, plural, translate
 
@@ -87,7 +86,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument("--format", choices=("text", "graph6", "json"), help="format of the list (default: text)")
     parser.add_out(help="write into a file instead: .txt, .g6 or .json")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="number of processes (default: 1)")
+    add_executor(parser)
     parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="folder for finished parts of the work")
     parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
     parser.add_argument("--json", action="store_true", help="print JSON")
@@ -123,7 +122,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise RunError("-o {path!r} names no file", path=str(arguments.out))
     if arguments.out is not None and not arguments.out.parent.is_dir():
         raise RunError("-o {path}: there is no directory {parent}", path=arguments.out, parent=arguments.out.parent)
-    executor = None if arguments.jobs == 1 else ProcessPools(min(arguments.jobs, 4 * (os.cpu_count() or 1)))
+    executor = executor_of(arguments)
     size = estimate(request, form)
     _check_size(size, arguments)
     if form is None:
@@ -193,7 +192,7 @@ def _count(
     executor: Callable[[], Executor] | None,
     size: Estimate,
 ) -> int:
-    with _drawn(arguments.lang) as draw:
+    with run_progress(arguments.lang) as draw:
         count = run_count(
             request,
             orbits=arguments.orbits,
@@ -236,7 +235,7 @@ def _list(
     size: Estimate,
 ) -> int:
     with (
-        _drawn(arguments.lang) as draw,
+        run_progress(arguments.lang) as draw,
         closing(
             run_list(
                 request,
@@ -290,37 +289,3 @@ def _write(listings: Iterator[PieceListing], form: str, request: Request, file: 
     if form == "json":
         file.write(b"\n]\n" if number else b"[]\n")
     return number
-
-
-@contextmanager
-def _drawn(lang: str) -> Iterator[Callable[[Progress], None] | None]:
-    """Something that draws the progress on a terminal; None elsewhere."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.live import Live
-    from rich.text import Text
-
-    # Without a thread of its own, so that worker processes can be forked.
-    with Live(console=Console(stderr=True), auto_refresh=False, transient=True) as live:
-        shown = 0.0
-
-        def draw(progress: Progress) -> None:
-            nonlocal shown
-            if progress.seconds - shown < 0.2:
-                return
-            shown = progress.seconds
-            seconds = progress.seconds_left
-            left = "" if seconds is None else message("about {time} left", time=time_text(seconds))
-            line = translate(
-                "{parts} parts  {chains:,} chains  {rate:,.0f}/s  {left}",
-                lang,
-                parts=progress.pieces,
-                chains=progress.chains,
-                rate=progress.rate,
-                left=left,
-            )
-            live.update(Text(line), refresh=True)
-
-        yield draw

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
-from gruebler.cli.output import print_json
+from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
@@ -41,6 +41,7 @@ _MARKS = {
 _MOST = 1000
 
 
+_DOCUMENTS = (".pdf", ".html", ".tex", ".md")
 _KINDS = ("mobility", "grashof", "dead-centre", "transmission-angle", "dyad", "velocity")
 
 
@@ -55,7 +56,10 @@ def add(parser: Parser) -> None:
     )
     listing = parser.add_command("list", help="list all exercises and worked examples")
     show = parser.add_command("show", help="show a task without its solution")
-    solve = parser.add_command("solve", help="solve a task step by step and check the result by a second method")
+    solve = parser.add_command(
+        "solve",
+        help="solve a task step by step, checked by a second method; -o also .pdf, .html, .tex, .md with figures",
+    )
     for action in (show, solve):
         action.add_argument(
             "ids", nargs="+", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)"
@@ -78,8 +82,24 @@ def add(parser: Parser) -> None:
     check = parser.add_command("check", help="mark answers, with hints at likely mistakes")
     check.add_argument("id", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)")
     check.add_argument("answers", nargs="+", metavar="KEY=ANSWER", help="such as H=40 phi_max=189.4 turns=yes")
+    sheet = parser.add_command(
+        "sheet",
+        help="write a sheet of generated tasks with figures, and a second file with solutions and marking key",
+        description="Generated tasks with figures and space for answers; beside FILE a second one, FILE-solutions, "
+        "with the solutions, constructions and a marking key.",
+        epilog="Example: gruebler exercise sheet --kind mobility,grashof,dead-centre --count 6 --level 2 --seed 7 "
+        "--lang de -o sheet.pdf. PDF needs matplotlib: pip install 'gruebler[plot]'.",
+    )
+    sheet.add_argument(
+        "--kind", required=True, metavar="KIND,...", help="topics that take turns, as those of `exercise new`"
+    )
+    sheet.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="from 1 (easy) to 3 (default: 1)")
+    sheet.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the first task (default: 0)")
+    sheet.add_argument("--count", type=int, default=6, metavar="K", help="number of tasks (default: 6)")
+    sheet.add_out(help="the sheet: .pdf, .html, .tex or .md", required=True, endings=("pdf", "html", "tex", "md"))
     for action in (listing, show, solve, new, check):
         action.add_printed(help="print JSON, with texts in both languages")
+    solve.set_defaults(written=_DOCUMENTS)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -90,7 +110,7 @@ def run(arguments: argparse.Namespace) -> int:
         case "show":
             _print([_task(id, arguments) for id in arguments.ids], arguments, solved=False)
         case "solve":
-            _print([_task(id, arguments) for id in arguments.ids], arguments, solved=True)
+            _solve([_task(id, arguments) for id in arguments.ids], arguments)
         case "new":
             if not 1 <= arguments.count <= _MOST:
                 raise GrueblerError(
@@ -99,6 +119,8 @@ def run(arguments: argparse.Namespace) -> int:
             seeds = range(arguments.seed, arguments.seed + arguments.count)
             exercises = [generate(arguments.kind, seed, arguments.level) for seed in seeds]
             _print(exercises, arguments, solved=arguments.solutions)
+        case "sheet":
+            _sheet(arguments)
         case "check":
             return _mark(exercise(arguments.id), arguments)
     return 0
@@ -121,6 +143,31 @@ def _pairs(words: Sequence[str], problem: Message) -> dict[str, str]:
             raise GrueblerError("{key} is given twice; give one value for each key", key=key)
         values[key] = value
     return values
+
+
+def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> None:
+    """Print the solutions, or write them with figures and constructions."""
+    suffix = "" if arguments.out is None else arguments.out.suffix.lower()
+    if suffix in _DOCUMENTS:
+        from gruebler.worksheets import document_bytes, solution_document
+
+        content = document_bytes(solution_document(tasks, lang=arguments.lang), suffix.removeprefix("."))
+        write_file(arguments.out, content, arguments.lang)
+    else:
+        _print(tasks, arguments, solved=True)
+
+
+def _sheet(arguments: argparse.Namespace) -> None:
+    """Write the sheet and its solutions."""
+    from gruebler.worksheets import document_bytes, task_sheet
+
+    kinds = [word.strip() for word in arguments.kind.split(",") if word.strip()]
+    made = task_sheet(kinds, arguments.count, level=arguments.level, seed=arguments.seed, lang=arguments.lang)
+    path = arguments.out
+    suffix = path.suffix.lower().removeprefix(".")
+    beside = path.with_name(f"{path.stem}-{translate('solutions', arguments.lang)}{path.suffix}")
+    write_file(path, document_bytes(made.tasks, suffix), arguments.lang)
+    write_file(beside, document_bytes(made.solutions, suffix), arguments.lang)
 
 
 def _list(arguments: argparse.Namespace) -> None:

@@ -36,7 +36,8 @@ def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="Draw all chains or mechanisms with given numbers, or the given ones, on one page.",
-        epilog="Examples: gruebler gallery --links 8 -o eight.html; gruebler variants --links 6 --prismatic 1 | "
+        epilog="Examples: gruebler gallery --links 8 -o eight.html; gruebler gallery --poster joints -o joints.pdf; "
+        "gruebler variants --links 6 --prismatic 1 | "
         "gruebler gallery - -o sliders.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
     )
     parser.add_argument(
@@ -45,6 +46,12 @@ def add(parser: Parser) -> None:
         metavar="ID|CHAIN|FILE|-",
         help="instead of --links: catalog entries, texts of chains and mechanisms, files with one per line, or - for "
         "lines on standard input",
+    )
+    parser.add_argument(
+        "--poster",
+        choices=("chains", "inversions", "assur", "joints"),
+        help="a poster instead: all chains by assortment, all inversions or all Assur groups up to --links, or the "
+        "kinds of joints",
     )
     parser.add_argument("--links", type=int, metavar="N", help="number of links")
     parser.add_argument("--mobility", type=int, metavar="F", help="mobility (default: 1)")
@@ -62,7 +69,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
     suffix = suffix_of(arguments.out, ("html", "pdf"))
     lang = arguments.lang
-    if arguments.ids:
+    if arguments.poster is not None:
+        title, note, sections = _poster(arguments)
+    elif arguments.ids:
         _check(arguments)
         named = [line for word in arguments.ids for line in _lines(word)]
         _fits(len(named))
@@ -82,6 +91,16 @@ def run(arguments: argparse.Namespace) -> int:
         content = gallery_pdf(title, sections, note=note)
     write_file(arguments.out, content, lang)
     return 0
+
+
+def _poster(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
+    from gruebler.worksheets import poster
+
+    if arguments.ids:
+        raise GrueblerError("--poster draws no chains, mechanisms or entries given beside it")
+    title, sections = poster(arguments.poster, arguments.links, arguments.lang)
+    pictures = sum(len(section.items) for section in sections)
+    return title, plural("{count} picture.", "{count} pictures.", pictures, arguments.lang), list(sections)
 
 
 _OF_REQUESTS = ("links", "mobility", "fractionated", "assortment", "multiple_joints", "inversions")

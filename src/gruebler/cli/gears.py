@@ -7,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from gruebler.cli.machine_pictures import add_picture_options, is_few, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table, print_text
@@ -22,14 +22,17 @@ from gruebler.gears import (
     explain_train,
     read_toml,
     read_train,
+    search_ratio,
     speeds,
 )
 from gruebler.gears.assembly import axes
 from gruebler.gears.messages import fraction_text, writable
-from gruebler.text import message, reason_of
+from gruebler.gears.train import exact_number
+from gruebler.text import message, reason_of, translate
 
 __all__ = ["add", "run"]
 
+_DRAWN = "drawn"
 _UNITS = {
     Unit.TURNING: message("{link}"),
     Unit.PER_RADIAN: message("{link} (length, speeds per radian)"),
@@ -46,17 +49,38 @@ def add(parser: Parser) -> None:
         "winch. Then drive LINK=SPEED, hold LINK, load LINK=TORQUE; planets=N asks whether N planets can be "
         "assembled.",
         epilog="Example: gruebler gears 'sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; "
-        "load arm=-50'; with -o train.html --animate --teeth it moves. Exit status: 0 determined (or nothing driven), "
+        "load arm=-50'; with -o train.html --animate --teeth it moves; gruebler gears search --ratio 4.2 --teeth 17-90 "
+        "finds tooth numbers. Exit status: 0 determined (or nothing driven), "
         "1 undetermined, contradictory or impossible to assemble, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument("train", metavar="TRAIN|FILE", help="a text, a file of statements (.txt) or a table (.toml)")
+    parser.add_argument(
+        "train",
+        metavar="TRAIN|FILE|search",
+        help="a text, a file of statements (.txt) or a table (.toml); search: tooth numbers for --ratio",
+    )
+    parser.add_argument("--ratio", metavar="I", help="search: speed of the driving shaft by that of the driven one")
+    parser.add_argument("--planets", type=int, metavar="N", help="search: number of planets (default: 3)")
+    parser.add_argument("--number", type=int, metavar="K", help="search: how many trains are listed (default: 10)")
     parser.add_printed(help="print an object; numbers as exact fractions and decimals", pictures=True)
-    parser.add_argument("--teeth", action="store_true", help="with -o: involute teeth instead of pitch circles")
+    parser.add_argument(
+        "--teeth",
+        nargs="?",
+        const=_DRAWN,
+        metavar="A-B",
+        help="with -o: involute teeth instead of pitch circles; search: fewest and most teeth (default: 17-90)",
+    )
     add_picture_options(parser, help="with --animate: seconds for a turn of the fastest link (default: 4)")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what the train does; 1 if something stays undetermined, is contradicted, or cannot be assembled."""
+    if arguments.train == "search":
+        return _search(arguments)
+    for option in ("ratio", "planets", "number"):
+        if getattr(arguments, option) is not None:
+            raise GrueblerError("--{option} goes with gears search", option=option)
+    if arguments.teeth not in (None, _DRAWN):
+        raise GrueblerError("--teeth {range} goes with gears search; --teeth alone draws teeth", range=arguments.teeth)
     reading = _read(arguments.train)
     found = speeds(reading.train, reading.drives)
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
@@ -72,13 +96,46 @@ def run(arguments: argparse.Namespace) -> int:
     return int((bool(reading.drives) and not found.complete) or not possible)
 
 
+def _search(arguments: argparse.Namespace) -> int:
+    """Print the trains with the wanted ratio; 1 if no train can be assembled."""
+    if arguments.ratio is None:
+        raise GrueblerError("gears search: give the ratio, as in --ratio 4.2 or --ratio=-7/2")
+    if not is_printed(arguments.out) or arguments.teeth == _DRAWN:
+        raise GrueblerError("gears search lists trains; draw one of them with gears TRAIN -o FILE")
+    low, high = _teeth(arguments.teeth or "17-90")
+    designs = search_ratio(
+        exact_number(arguments.ratio, "--ratio"),
+        (low, high),
+        planets=3 if arguments.planets is None else arguments.planets,
+        number=10 if arguments.number is None else arguments.number,
+    )
+    if arguments.json:
+        keys = ("text", "driving", "driven", "held", "planets", "size")
+        print_json([{k: getattr(one, k) for k in keys} | {"ratio": _value(one.ratio)} for one in designs])
+        return int(not designs)
+    if not designs:
+        print_text(translate("No train with these tooth numbers can be assembled.", arguments.lang))
+        return 1
+    rows: list[list[Cell]] = [[fraction_text(one.ratio, arguments.lang), str(one.size), one.text] for one in designs]
+    header = (message("ratio"), message("diameter in modules"), message("train"))
+    print_table(header, rows, numbers=(1,), lang=arguments.lang)
+    return 0
+
+
+def _teeth(text: str) -> tuple[int, int]:
+    low, dash, high = text.partition("-")
+    if not (dash and low.isdigit() and high.isdigit() and len(text) < 12):
+        raise GrueblerError("--teeth {range!r}: expected two numbers such as 17-90", range=text[:40])
+    return int(low), int(high)
+
+
 _FEW = 6  # turns of the fastest link in a file of pictures
 
 
 def _picture(arguments: argparse.Namespace, reading: TrainReading) -> None:
     from gruebler.drawing.machines.train_picture import TrainPictureOptions, animate_train, draw_train
 
-    options = TrainPictureOptions(planets=reading.planets, teeth=arguments.teeth, lang=arguments.lang)
+    options = TrainPictureOptions(planets=reading.planets, teeth=arguments.teeth == _DRAWN, lang=arguments.lang)
     most = {"most": _FEW} if is_few(arguments) else {}
     write_picture(
         arguments,

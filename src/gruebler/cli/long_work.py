@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from time import monotonic
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from gruebler.errors import GrueblerError
-from gruebler.text import Message, message
+from gruebler.text import Message, message, translate
 
-__all__ = ["ask_before", "progress", "time_text"]
+if TYPE_CHECKING:
+    from gruebler.enumeration.worker_pool import Progress
+
+__all__ = ["ask_before", "progress", "run_progress", "time_text"]
 
 T = TypeVar("T")
 
@@ -57,3 +61,37 @@ def progress(items: Iterable[T], words: str) -> Iterator[T]:
             print("\r\033[K" + words.format(n=count, seconds=now - begun), end="", file=sys.stderr, flush=True)
     if last > begun:
         print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def run_progress(lang: str) -> Iterator[Callable[[Progress], None] | None]:
+    """Something that draws the progress on a terminal; None elsewhere."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.live import Live
+    from rich.text import Text
+
+    # Without a thread of its own, so that worker processes can be forked.
+    with Live(console=Console(stderr=True), auto_refresh=False, transient=True) as live:
+        shown = 0.0
+
+        def draw(progress: Progress) -> None:
+            nonlocal shown
+            if progress.seconds - shown < 0.2:
+                return
+            shown = progress.seconds
+            seconds = progress.seconds_left
+            left = "" if seconds is None else message("about {time} left", time=time_text(seconds))
+            line = translate(
+                "{parts} parts  {chains:,} chains  {rate:,.0f}/s  {left}",
+                lang,
+                parts=progress.pieces,
+                chains=progress.chains,
+                rate=progress.rate,
+                left=left,
+            )
+            live.update(Text(line), refresh=True)
+
+        yield draw

@@ -16,7 +16,7 @@ from gruebler.drawing.canvas.moving_picture import MovingPicture
 from gruebler.errors import GrueblerError
 from gruebler.text import Message, message
 
-__all__ = ["add_picture_options", "angle_of", "is_few", "refuse_picture", "write_picture"]
+__all__ = ["add_picture_options", "angle_of", "is_few", "is_printed", "refuse_picture", "write_picture"]
 
 _OPTIONS = ("at", "plot", "teeth", "animate", "seconds", "dark")
 _FEW = ("gif", "webp", "png")
@@ -33,7 +33,7 @@ def refuse_picture(arguments: argparse.Namespace, why: Message) -> None:
     """`GrueblerError` with the reason if an option for pictures is given."""
     for option in ("out", *_OPTIONS):
         value = getattr(arguments, option, None)
-        if option == "out" and not _is_picture(value):
+        if option == "out" and is_printed(value):
             continue
         if value is not None and value is not False:
             raise GrueblerError("--{option}: {why}", option=option, why=why)
@@ -51,16 +51,16 @@ def is_few(arguments: argparse.Namespace) -> bool:
     return arguments.out is not None and arguments.out.suffix.lower().removeprefix(".") in _FEW
 
 
-def _is_picture(path: Path | None) -> bool:
-    """Whether a file is named that does not hold what is printed."""
-    return path is not None and path.suffix.lower() not in (".txt", ".json")
+def is_printed(path: Path | None) -> bool:
+    """Whether what is printed goes to standard output or into a file of text, not into a picture."""
+    return path is None or path.suffix.lower() in (".txt", ".json")
 
 
 def write_picture(
     arguments: argparse.Namespace, still: Callable[[], Figure], moving: Callable[[float], MovingPicture]
 ) -> None:
     """Write the picture if a file is named; ``moving`` takes the seconds."""
-    if not _is_picture(arguments.out):
+    if is_printed(arguments.out):
         refuse_picture(arguments, message("needs a file for the picture: -o FILE"))
         return
     if not arguments.animate:

@@ -140,12 +140,16 @@ class Parser(argparse.ArgumentParser):
         """
         self._replaced[old] = (new, like)
 
-    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As argparse; a former spelling is answered by the present one, and placeholders are translated."""
+    def translate_placeholders(self) -> None:
+        """Put what stands for values into the reader's language, once all arguments are added."""
         if self.names_of_links is None:
             self.names_of_links = [a.dest for a in self._actions if _NAMES_A_LINK.search(str(a.metavar))]
             for action in self._actions:
                 action.metavar = _placeholder(action.metavar, self.lang)
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As argparse; a former spelling is answered by the present one, and placeholders are translated."""
+        self.translate_placeholders()
         for word, following in pairwise([*(args or ()), ""]):
             if word == "--":
                 break

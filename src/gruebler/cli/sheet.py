@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from gruebler.cli.linkage_inputs import linkage_of, size_of
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.measured_lengths import length_of, same_unit
+from gruebler.mechanism import Mechanism
 from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
 from gruebler.sheets.messages import explanation_paragraphs, typeset_number
 from gruebler.text import error_in_language, joined, message, number, translate
+
+if TYPE_CHECKING:
+    from gruebler.worksheets import Document
 
 __all__ = ["add", "run"]
 
@@ -26,19 +31,28 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="A collection sheet describes one mechanism: task, structure, access features, dimensions, how "
         "straight a point moves. All values are derived from the model.",
-        epilog="Example: gruebler sheet draw mzc -o sheet.pdf --lang de; gruebler sheet size mzc --length 15cm "
-        "--ratio 0.005. Exit status: 0 success, 1 a printed value differs (show) or no part of the path is straight "
+        epilog="Examples: gruebler sheet draw mzc -o sheet.pdf --lang de; gruebler sheet draw slider-crank:20,50 -o "
+        "sheet.pdf; gruebler sheet book -o book.pdf; gruebler sheet size mzc --length 15cm --ratio 0.005. Exit "
+        "status: 0 success, 1 a printed value differs (show) or no part of the path is straight "
         "enough (size), 2 wrong usage or unreadable input.",
     )
     listing = parser.add_command("list", help="list all sheets")
     show = parser.add_command("show", help="explain a sheet: features, dimensions, printed and computed values")
     show.add_argument("id", metavar="ID", help="id of a sheet")
     draw = parser.add_command("draw", help="draw a sheet as a page of A4")
-    draw.add_argument("id", metavar="ID", help="id of a sheet")
-    draw.add_out(
-        help="a file: .svg, .html, .pdf or .png (default: SVG to standard output)",
-        endings=("svg", "html", "pdf", "png"),
+    draw.add_argument(
+        "id",
+        metavar="ID|FILE|LENGTHS",
+        help="id of a sheet; or any machine: a catalog entry, a file, lengths such as four-bar:25,70,40,70",
     )
+    draw.add_out(
+        help="a file: .svg, .html, .pdf or .png, of other machines .pdf, .html, .tex or .md (default: SVG, or "
+        "Markdown, to standard output)",
+        endings=("svg", "html", "pdf", "png", "tex", "md"),
+    )
+    book = parser.add_command("book", help="all machines of the catalog in one document, with an index by feature")
+    book.add_argument("ids", nargs="*", metavar="ID", help="only these machines (default: all)")
+    book.add_out(help="a file: .pdf, .html, .tex or .md", required=True, endings=("pdf", "html", "tex", "md"))
     size = parser.add_command("size", help="all lengths for a straight line of a length within a band")
     size.add_argument("id", metavar="ID", help="id of a sheet")
     size.add_argument("--length", required=True, metavar="L", help="length of the line, with or without unit: 15cm")
@@ -60,7 +74,13 @@ def run(arguments: argparse.Namespace) -> int:
         case "show":
             return _show(sheet(arguments.id), arguments)
         case "draw":
-            _draw(sheet(arguments.id), arguments)
+            if arguments.id in sheets():
+                _draw(sheet(arguments.id), arguments)
+            else:
+                _draw_machine(arguments)
+            return 0
+        case "book":
+            _book(arguments)
             return 0
     return _size(sheet(arguments.id), arguments)
 
@@ -87,11 +107,50 @@ def _draw(one: Sheet, arguments: argparse.Namespace) -> None:
     from gruebler.sheets.layout import page
 
     sheet_page = page(one, arguments.lang)
+    if arguments.out is not None and arguments.out.suffix.lower() in (".tex", ".md"):
+        raise GrueblerError("this sheet has a page of its own: end the name with .svg, .html, .pdf or .png")
     if arguments.out is None:
         print_svg(sheet_page.svg())
     else:
         suffix = arguments.out.suffix.lower().removeprefix(".")
         write_file(arguments.out, sheet_page.written(suffix), arguments.lang)
+
+
+def _draw_machine(arguments: argparse.Namespace) -> None:
+    """The sheet of any machine."""
+    from gruebler.catalog import entries
+    from gruebler.worksheets import machine_document
+
+    word, lang = arguments.id, arguments.lang
+    if word in entries():
+        document = machine_document(entries()[word], lang=lang)
+    elif "(" in word:
+        document = machine_document(Mechanism.parse(word), lang=lang)
+    else:
+        linkage, between = linkage_of(word, lang)
+        size = size_of(word)
+        name = "" if size is None else size.type.name(lang)
+        document = machine_document(linkage, between=between, lang=lang, name=name)
+    _write(document, arguments)
+
+
+def _book(arguments: argparse.Namespace) -> None:
+    from gruebler.catalog import entry
+    from gruebler.worksheets import catalog_book
+
+    for id in arguments.ids:
+        entry(id)
+    _write(catalog_book(lang=arguments.lang, ids=arguments.ids), arguments)
+
+
+def _write(document: Document, arguments: argparse.Namespace) -> None:
+    from gruebler.worksheets import document_bytes
+
+    if arguments.out is None:
+        print_svg(document_bytes(document, "md").decode("utf-8"))
+    else:
+        suffix = arguments.out.suffix.lower().removeprefix(".")
+        write_file(arguments.out, document_bytes(document, suffix), arguments.lang)
 
 
 # --- show -------------------------------------------------------------------------------------------

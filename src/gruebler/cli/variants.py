@@ -6,16 +6,26 @@ import argparse
 import sys
 
 from gruebler.chain import Chain
+from gruebler.cli.executors import add_executor, executor_of
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
+from gruebler.cli.tables import print_table
+from gruebler.enumeration import Request
 from gruebler.errors import GrueblerError
 from gruebler.isomorphism import code
 from gruebler.mechanism.inversion import DrivenMechanism
 from gruebler.text import message, translate
-from gruebler.type_synthesis import JointRequirement, Requirements, expected_seconds_of_variants, variants
+from gruebler.type_synthesis import (
+    JointRequirement,
+    Requirements,
+    count_sliding_variants,
+    expected_seconds_of_variants,
+    variants,
+)
+from gruebler.type_synthesis.estimates import expected_seconds_of_sliding
 
 __all__ = ["add", "run"]
 
@@ -29,7 +39,13 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
     parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
-    parser.add_argument("--prismatic", type=int, default=0, metavar="K", help="number of sliding joints (default: 0)")
+    parser.add_argument(
+        "--prismatic",
+        type=_number_or_any,
+        default=0,
+        metavar="K|any",
+        help="number of sliding joints (default: 0); any, with --count: the numbers for every K",
+    )
     parser.add_argument("--rolling", type=int, default=0, metavar="K", help="number of rolling joints (default: 0)")
     parser.add_argument(
         "--roll-slide", type=int, default=0, metavar="K", help="number of gear and cam contacts (default: 0)"
@@ -52,6 +68,7 @@ def add(parser: Parser) -> None:
         "--output-at-drive", choices=("yes", "no"), help="whether the output link is next to a driven link"
     )
     parser.add_argument("--count", action="store_true", help="only the number")
+    add_executor(parser)
     parser.add_argument("--yes", action="store_true", help="start even if it takes long")
     parser.add_printed(help="print an object with count and items")
     parser.replaced("--drive", "--drive-joint")
@@ -63,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
     wanted = Requirements(
         links=arguments.links,
         mobility=arguments.mobility,
-        prismatic=arguments.prismatic,
+        prismatic=0 if arguments.prismatic == "any" else arguments.prismatic,
         rolling=arguments.rolling,
         roll_slide=arguments.roll_slide,
         assortment=assortment_of(arguments.assortment),
@@ -74,6 +91,12 @@ def run(arguments: argparse.Namespace) -> int:
         output=None if arguments.output_joint is None else JointRequirement.parse(arguments.output_joint),
         output_at_drive={"yes": True, "no": False, None: None}[arguments.output_at_drive],
     )
+    if arguments.count and arguments.prismatic and _only_sliding(wanted):
+        return _count_sliding(wanted, arguments)
+    if arguments.prismatic == "any":
+        raise GrueblerError("--prismatic any goes with --count and with numbers of links, freedoms and multiple joints")
+    if arguments.jobs != 1 or arguments.scheduler is not None:
+        raise GrueblerError("--jobs and --scheduler go with --count and --prismatic, and no other kinds of joints")
     seconds = expected_seconds_of_variants(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
     ask_before(seconds, arguments.yes)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
@@ -93,6 +116,46 @@ def run(arguments: argparse.Namespace) -> int:
         for count, each in enumerate(found, 1):  # noqa: B007  the last count is printed
             print(each)
         print(translate("{count} found.", arguments.lang, count=count), file=sys.stderr)
+    return 0
+
+
+def _number_or_any(text: str) -> int | str:
+    """The value of --prismatic."""
+    if text == "any":
+        return text
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected a whole number or any, but found {text!r}") from None
+
+
+def _only_sliding(wanted: Requirements) -> bool:
+    """Whether nothing is asked of the chains but numbers of links, freedoms, sliding and multiple joints."""
+    plain = Requirements(
+        links=wanted.links,
+        mobility=wanted.mobility,
+        prismatic=wanted.prismatic,
+        multiple_joints=wanted.multiple_joints,
+    )
+    return wanted == plain and wanted.links >= 3 and wanted.prismatic >= 0
+
+
+def _count_sliding(wanted: Requirements, arguments: argparse.Namespace) -> int:
+    ask_before(expected_seconds_of_sliding(wanted) / max(1, arguments.jobs), arguments.yes)
+    request = Request(wanted.links, wanted.mobility, "all", None, wanted.multiple_joints)
+    numbers = count_sliding_variants(request, executor=executor_of(arguments))
+    if arguments.prismatic == "any":
+        if arguments.json:
+            print_json({"counts": dict(enumerate(numbers))}, indent=None)
+        else:
+            headers = [translate("sliding joints", arguments.lang), translate("chains", arguments.lang)]
+            print_table(headers, [(str(k), str(number)) for k, number in enumerate(numbers)], numbers=(0, 1))
+        return 0
+    count = numbers[wanted.prismatic] if wanted.prismatic < len(numbers) else 0
+    if arguments.json:
+        print_json({"count": count}, indent=None)
+    else:
+        print(count)
     return 0
 
 

@@ -20,7 +20,7 @@ from gruebler.errors import GrueblerError
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["MOST_LOOPS", "ContractedGraph", "contracted_graphs", "packed_graphs"]
+__all__ = ["MOST_LOOPS", "ContractedGraph", "contracted_graphs", "packed_graphs", "unpacked"]
 
 MOST_LOOPS = 9
 """Contracted graphs of more loops have more nodes than the kernels' 16; there are many millions of them."""
@@ -102,7 +102,7 @@ class ContractedGraph:
         """The isomorphic graph that `contracted_graphs` yields; equal for isomorphic graphs."""
         from gruebler._numeric.counting.packed_graph import canonical_rows
 
-        return _unpacked(canonical_rows(self._packed()))
+        return unpacked(canonical_rows(self._packed()))
 
     def multigraph(self) -> nx.MultiGraph:
         """The graph for networkx, an edge for each string."""
@@ -159,7 +159,7 @@ def _check(graph: ContractedGraph) -> None:
             )
 
 
-def _unpacked(rows: Packed) -> ContractedGraph:
+def unpacked(rows: Packed) -> ContractedGraph:
     """The value of one packed graph, without a check."""
     numbers = [int(row) & (2**64 - 1) for row in rows]
     bundles = tuple(
@@ -225,7 +225,7 @@ def contracted_graphs(loops: int) -> Iterator[ContractedGraph]:
     ((0, 1, 1), (0, 2, 2), (1, 3, 2), (2, 3, 1))
     ((0, 1, 1), (0, 2, 1), (1, 2, 1), (0, 3, 1), (1, 3, 1), (2, 3, 1))
     """
-    return (_unpacked(rows) for block in packed_graphs(loops) for rows in block)
+    return (unpacked(rows) for block in packed_graphs(loops) for rows in block)
 
 
 def pack(graphs: Iterable[ContractedGraph]) -> Packed:

@@ -34,7 +34,7 @@ _ANY_JOINTS: _Table = {0: (1, 1, 6, 149), 1: (1, 4, 60, 2645, 248203), 2: (1, 9,
 # Seconds for a chain on one core, and bytes of an output line besides those of its joints.
 _COUNTED = 1e-8
 _WRITTEN = {"graph6": 4e-7, "text": 3e-5, "json": 6e-5}
-_BUILT = {"simple": 1e-3, "multiple": 2e-3}
+_BUILT = {"simple": 1e-3, "multiple": 1e-4}
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,11 +13,14 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gruebler.chain import Chain
 from gruebler.enumeration.assortment import Assortment, loop_count
 from gruebler.enumeration.condition import fractionation
 from gruebler.enumeration.fractionated import BlockAddition, block_additions, composed, fractionated_chains
-from gruebler.enumeration.multiple import with_multiple_joints
+from gruebler.enumeration.multiple import grown_joints, with_multiple_joints
 from gruebler.enumeration.pieces import WorkPiece, count_piece, list_piece, pieces
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.simple_chains import simple_chains as plain_chains
@@ -31,11 +34,12 @@ __all__ = [
     "PieceTally",
     "Work",
     "add_tallies",
+    "chains_of_piece",
     "chains_of_request",
     "work_units",
 ]
 
-_GROWN_AT_ONCE = 32  # chains with simple joints in a piece; at 12 links some thousand chains grow from them
+_GROWN_AT_ONCE = 256  # chains with simple joints in a piece; at 12 links some ten thousand chains grow from them
 
 Edges = tuple[tuple[int, int], ...]
 
@@ -112,10 +116,10 @@ def chains_of_request(request: Request) -> Iterator[Chain]:
                 yield from (chain for chain in chains if request.assortment in (None, chain.assortment))
         return
     for work in work_units(request):
-        yield from (chain for _, chain in _chains(request, work))
+        yield from (chain for _, chain in chains_of_piece(request, work))
 
 
-def _chains(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
+def chains_of_piece(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
     """The chains of a piece with their classes, for pieces without contracted graphs."""
     if isinstance(work, RingPiece):
         yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
@@ -147,12 +151,41 @@ class PieceCounter:
         """The numbers of a piece, by class and assortment."""
         if isinstance(work, WorkPiece):
             return [PieceTally("none", *piece_count) for piece_count in count_piece(work, self.orbits)]
+        if isinstance(work, MultipleJointPiece) and self.request.mobility < 2 and not self.orbits:
+            return _grown_tallies(self.request, work)
         sums: dict[tuple[str, Assortment], list[int]] = {}
-        for kind, chain in _chains(self.request, work):
+        for kind, chain in chains_of_piece(self.request, work):
             row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])
             for k, number in enumerate((1, *(_orbits(chain) if self.orbits else ()))):
                 row[k] += number
         return [PieceTally(kind, assortment, *row) for (kind, assortment), row in sorted(sums.items())]
+
+
+def _grown_tallies(request: Request, work: MultipleJointPiece) -> list[PieceTally]:
+    """The numbers of chains with multiple joints by assortment; with F < 2 none is fractionated."""
+    if "none" not in request.classes:
+        return []
+    sums: dict[Assortment, int] = {}
+    for block in _grown(request, work):
+        degrees = np.stack([(block[:, 1:] >> link & 1).sum(axis=1) for link in range(work.links)], axis=1)
+        numbers = np.stack([(degrees == k).sum(axis=1) for k in range(2, int(degrees.max(initial=2)) + 1)], axis=1)
+        unique, counts = np.unique(numbers, axis=0, return_counts=True)
+        for row, count in zip(unique, counts.tolist(), strict=True):
+            assortment = tuple(np.trim_zeros(row, "b").tolist())
+            if request.assortment in (None, assortment):
+                sums[assortment] = sums.get(assortment, 0) + count
+    return [PieceTally("none", assortment, count, 0, 0, 0) for assortment, count in sorted(sums.items())]
+
+
+def _grown(request: Request, work: MultipleJointPiece) -> Iterator[NDArray[np.int64]]:
+    fewest, most = request.joints_range
+    simple = [[1 << a | 1 << b for a, b in edges] for edges in work.simple]
+    return grown_joints(work.links, simple, fewest=fewest, most=most)
+
+
+def _joints_of(row: list[int]) -> list[list[int]]:
+    """The links of the joints of a row of `grown_joints`."""
+    return [[link for link in range(mask.bit_length()) if mask >> link & 1] for mask in row[1:] if mask]
 
 
 def _orbits(chain: Chain) -> tuple[int, int, int]:
@@ -215,8 +248,11 @@ class PieceLister:
     def _joints(self, work: Work) -> Iterator[tuple[str, Iterable[Iterable[int]]]]:
         if isinstance(work, WorkPiece):
             yield from (("none", edges) for edges in list_piece(work).tolist())
+        elif isinstance(work, MultipleJointPiece) and self.request.mobility < 2 and self.request.assortment is None:
+            if "none" in self.request.classes:
+                yield from (("none", _joints_of(row)) for block in _grown(self.request, work) for row in block.tolist())
         else:
-            for kind, chain in _chains(self.request, work):
+            for kind, chain in chains_of_piece(self.request, work):
                 yield kind, [[chain.index(link) for link in joint.links] for joint in chain.joints]
 
     def _written(self, kind: str, joints: Iterable[Iterable[int]]) -> str:

@@ -12,7 +12,15 @@ from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import source_text
 from gruebler.text import Readable, decimal_sign_in, number, translate
 
-__all__ = ["lines_of_table", "solution_text", "task_text", "value_text"]
+__all__ = [
+    "asked_text",
+    "cells_of_table",
+    "lines_of_table",
+    "solution_text",
+    "step_lines",
+    "task_text",
+    "value_text",
+]
 
 _INDENT = "     "
 
@@ -42,13 +50,13 @@ def task_text(exercise: Exercise, lang: str = "en", solution: Solution | None = 
     if solution is not None and exercise.asked:
         results = [solution.results[question.key] for question in exercise.asked]
         lines.append(translate("Asked:", lang))
-        lines += [f"  {ascii_key(result.key)}: {_asked(result, lang)}" for result in results]
+        lines += [f"  {ascii_key(result.key)}: {asked_text(result, lang)}" for result in results]
     if exercise.remark is not None:
         lines.append(translate("Remark: {remark}", lang, remark=exercise.remark))
     return "\n".join(lines)
 
 
-def _asked(result: Result, lang: str) -> str:
+def asked_text(result: Result, lang: str) -> str:
     """The name of a result and its unit."""
     if not _is_number(result.value):
         return result.name.in_language(lang)
@@ -69,7 +77,7 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
             lines += ["", *(_INDENT + line for line in lines_of_table(part, lang)), ""]
         else:
             count += 1
-            lines += _step(part, count, lang)
+            lines += step_lines(part, count, lang)
     answers = list(_answers(compare(exercise, solution), lang))
     if answers:
         lines += ["", translate("Results:", lang), *answers]
@@ -78,7 +86,8 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
     return re.sub(r"\n{3,}", "\n\n", "\n".join(lines))
 
 
-def _step(step: SolutionStep, count: int, lang: str) -> list[str]:
+def step_lines(step: SolutionStep, count: int, lang: str) -> list[str]:
+    """A step with its number, and its formula with numbers and value in a line below."""
     numbers = "" if step.numbers in step.formula else decimal_sign_in(step.numbers, lang)
     value = "" if step.value is None else "± " * step.either_sign + value_text(step.value, step.unit, lang)
     sides = [side for side in (decimal_sign_in(step.formula, lang), numbers, value) if side]
@@ -129,11 +138,16 @@ def _check(check: Check, lang: str) -> str:
     return f"  {check.text.in_language(lang)}: {first} | {second}: {verdict}"
 
 
-def lines_of_table(table: Table, lang: str) -> list[str]:
-    """The table as aligned lines under its title; columns of numbers are flush right."""
+def cells_of_table(table: Table, lang: str) -> list[list[str]]:
+    """The headers and the rows of a table as texts."""
     cells = [[value_text(header, "", lang) for header in table.headers]]
     places = [0 if all(map(_is_whole, column)) else table.decimals for column in zip(*table.rows, strict=True)]
-    cells += [[_cell(value, k, lang) for value, k in zip(row, places, strict=True)] for row in table.rows]
+    return [*cells, *([_cell(v, k, lang) for v, k in zip(row, places, strict=True)] for row in table.rows)]
+
+
+def lines_of_table(table: Table, lang: str) -> list[str]:
+    """The table as aligned lines under its title; columns of numbers are flush right."""
+    cells = cells_of_table(table, lang)
     flush = [all(_is_number(row[k]) for row in table.rows) for k in range(len(table.headers))]
     widths = [max(len(row[k]) for row in cells) for k in range(len(table.headers))]
     lines = [table.title.in_language(lang)]

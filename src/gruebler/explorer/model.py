@@ -15,6 +15,7 @@ import numpy as np
 from gruebler.analysis.outputs import find_output
 from gruebler.analysis.transmission import NoTransmissionAngleError, pushing_links
 from gruebler.arrays import Complexes
+from gruebler.catalog import entries
 from gruebler.drawing.canvas.shapes import CircleShape, Polylines
 from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.linkage.wheels import round_parts
@@ -23,9 +24,11 @@ from gruebler.kinematics.branches import labelled_groups
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import CENTRED, Line, direction
-from gruebler.text import LANGUAGES, Text, error_in_language
+from gruebler.text import LANGUAGES, Text, error_in_language, translate
 
-__all__ = ["model_of", "program_record"]
+__all__ = ["link_names", "model_of", "program_record"]
+
+_COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks
 
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
 
@@ -65,6 +68,7 @@ def model_of(
         "source": source,
         "document": linkage_to_json(linkage),
         "links": list(lower.mechanism.chain.links),
+        "linkNames": {lang: list(link_names(linkage, source, lang).values()) for lang in LANGUAGES},
         "own": len(chain.links),
         "frame": lower.mechanism.chain.index(mechanism.frame),
         "unit": linkage.unit,
@@ -115,6 +119,20 @@ def model_of(
         "outputs": _output(linkage, plan),
         "shapes": list(_shapes(posed)),
     }
+
+
+def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
+    """The names of the links in a language, of machines of the catalog and of four-bars; else their own.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> link_names(FourBar(25, 70, 40, 70).linkage(), "", "de")["rocker"]
+    'Schwinge'
+    """
+    links = linkage.mechanism.chain.links
+    record = entries().get(source)
+    if record is not None and record.chain().links == links:
+        return dict(zip(links, record.in_language(lang).chain().links, strict=True))
+    return {link: translate(link, lang) if link in _COMMON else link for link in links}
 
 
 def program_record(plan: Plan) -> dict[str, Any]:

@@ -18,6 +18,8 @@ Progress = Callable[[str], None]
 Word = Annotated[str, msgspec.Meta(max_length=200)]
 ChainText = Annotated[str, msgspec.Meta(max_length=5_000)]
 _PAGE = 60  # pictures in one answer
+_MOST_DESIGNS = 24
+_MOST_MODES = 64
 
 
 class _Params(msgspec.Struct, forbid_unknown_fields=True):
@@ -28,12 +30,26 @@ class Nothing(_Params):
     """No parameters."""
 
 
+Number = Annotated[int, msgspec.Meta(ge=0, le=100)]
+
+
 class ListCatalog(_Params):
-    """Words that must all occur in a machine's name, remark, source or links, in either language."""
+    """Words that must all occur in a machine's name, remark, source or links, in either language; access features."""
 
     words: Word = ""
     pairs: Word = ""
-    links: Annotated[int, msgspec.Meta(ge=1, le=100)] | None = None
+    """Symbols or names of joint types that must occur."""
+    joints: Word = ""
+    """Numbers of joints by type, such as ``R:4,P:0``."""
+    links: Number | None = None
+    mobility: Number | None = None
+    drive_joints: Number | None = None
+    drive_joints_at_frame: Number | None = None
+    output_links: Number | None = None
+    output_links_at_frame: Number | None = None
+    binary: Number | None = None
+    ternary: Number | None = None
+    multiple_joints: Number | None = None
 
 
 class CatalogId(_Params):
@@ -54,6 +70,15 @@ class DescribeStructure(_Params):
     """A chain or mechanism as text."""
 
     text: ChainText
+    at_frame: bool = True
+    """Whether only drives at the frame are listed."""
+
+
+class ListModes(_Params):
+    """A linkage at values of its drives, in radians or lengths."""
+
+    document: dict[str, Any]
+    drives: Annotated[list[float], msgspec.Meta(min_length=1, max_length=20)]
 
 
 class ListChains(_Params):
@@ -69,6 +94,20 @@ class Realise(_Params):
 
     text: ChainText
     seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+
+
+class SynthesisePath(_Params):
+    """Points of the plane that a coupler point passes, in their order."""
+
+    points: Annotated[
+        list[Annotated[list[float], msgspec.Meta(min_length=2, max_length=2)]],
+        msgspec.Meta(min_length=5, max_length=60),
+    ]
+    closed: bool = False
+    crank: bool = True
+    """Whether the drive must turn fully."""
+    transmission: Annotated[float, msgspec.Meta(ge=0, le=90)] = 0.0
+    """The least transmission angle, in degrees."""
 
 
 class Export(_Params):
@@ -119,11 +158,25 @@ def answer(method: str, params: Mapping[str, Any], lang: str, progress: Progress
 
 
 def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, Any]]:
+    from gruebler.catalog.feature_query import FeatureQuery, entry_features, entry_mechanism, read_pairs
     from gruebler.catalog.loader import Query, search
     from gruebler.mechanism import Mechanism
     from gruebler.mobility import counted
 
-    found = search(Query(words=tuple(asked.words.split()), links=asked.links, pairs=tuple(asked.pairs.split())))
+    kinds = ((2, asked.binary), (3, asked.ternary))
+    query = FeatureQuery(
+        links=asked.links,
+        mobility=asked.mobility,
+        drive_joints=asked.drive_joints,
+        drive_joints_at_frame=asked.drive_joints_at_frame,
+        output_links=asked.output_links,
+        output_links_at_frame=asked.output_links_at_frame,
+        pairs=read_pairs(asked.joints) if asked.joints.strip() else (),
+        kinds=tuple((k, number) for k, number in kinds if number is not None),
+        multiple_joints=asked.multiple_joints,
+    )
+    named = search(Query(words=tuple(asked.words.split()), pairs=tuple(asked.pairs.split())))
+    found = [one for one in named if query.fits(entry_mechanism(one), entry_features(one))]
     return [
         {
             "id": one.id,
@@ -186,7 +239,22 @@ def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
 def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.explorer.structures import structure_record
 
-    return structure_record(asked.text, lang)
+    return structure_record(asked.text, lang, at_frame=asked.at_frame)
+
+
+def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
+    """Every assembly mode with the linkage in it."""
+    from gruebler.formats import linkage_from_json, linkage_to_json
+    from gruebler.kinematics import move
+    from gruebler.kinematics.solve import assembly_modes
+
+    linkage = linkage_from_json(asked.document)
+    found = []
+    for label in assembly_modes(linkage, asked.drives)[:_MOST_MODES]:
+        motion = move(linkage, [asked.drives], branch=label)
+        if motion.complete:
+            found.append({"label": label, "document": linkage_to_json(linkage.with_reference_pose(motion.pose()))})
+    return found
 
 
 def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
@@ -215,11 +283,42 @@ def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     return {"model": model_of(linkage, name=""), "message": found.message(lang)}
 
 
+def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[str, Any]:
+    from math import degrees, isfinite, radians
+
+    from gruebler.drawing.linkage.picture import draw_linkage
+    from gruebler.formats import linkage_to_json
+    from gruebler.synthesis import Demands, PathTask, synthesise
+
+    progress(translate("Looking for four-bars through {count} points", lang, count=len(asked.points)))
+    task = PathTask(tuple((x, y) for x, y in asked.points), closed=asked.closed)
+    result = synthesise(task, demands=Demands(crank=asked.crank, transmission=radians(asked.transmission)))
+    designs = [design for design in result.designs if design.verdict.accepted]
+    items = []
+    for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
+        progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
+        picture = draw_linkage(design.linkage, curves=list(design.linkage.points), lang=lang).svg(styled=False)
+        angle, error = degrees(design.verdict.transmission), design.verdict.error
+        items.append(
+            {
+                "document": linkage_to_json(design.linkage),
+                "picture": picture,
+                "form": design.form_in_language(lang),
+                "transmission": angle if isfinite(angle) else None,
+                "error": error if isfinite(error) else None,
+            }
+        )
+    return {"total": len(designs), "refused": len(result.designs) - len(designs), "items": items}
+
+
 def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.analysis.measures import measures
+    from gruebler.explorer.model import link_names
     from gruebler.formats import linkage_from_json
 
-    return {"lines": measures(linkage_from_json(asked.document)).explain(lang).splitlines()}
+    linkage = linkage_from_json(asked.document)
+    named = linkage.renamed(link_names(linkage, asked.source, lang))
+    return {"lines": measures(named).explain(lang).splitlines()}
 
 
 def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
@@ -299,8 +398,10 @@ REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] =
     "open": (CatalogId, _open),
     "open_document": (OpenDocument, _open_document),
     "structure": (DescribeStructure, _structure),
+    "modes": (ListModes, _modes),
     "chains": (ListChains, _chains),
     "realise": (Realise, _realise),
+    "synthesise": (SynthesisePath, _synthesise),
     "measures": (OpenDocument, _measures),
     "export": (Export, _export),
     "exercise_kinds": (Nothing, _exercise_kinds),

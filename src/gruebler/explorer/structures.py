@@ -30,8 +30,10 @@ def mechanism_of(text: str) -> Mechanism:
     return Mechanism.parse(text)
 
 
-def structure_record(text: str, lang: str) -> dict[str, Any]:
+def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str, Any]:
     """Picture, mobility, inversions, driven mechanisms and other joint types of a text, as plain data.
+
+    The driven mechanisms are those with a drive at the frame, or all with one drive.
 
     Raises `GrueblerError` for a text that is no chain; what it says names the place.
 
@@ -58,16 +60,16 @@ def structure_record(text: str, lang: str) -> dict[str, Any]:
         "lines": report.explain(lang).splitlines(),
         "drives": check_drives(mechanism).explain(lang) if mechanism.drives else "",
         "inversions": [_choice(one, lang) for one in inversions(chain)] if few else [],
-        "driven": [_choice(one.mechanism, lang) for one in _driven(chain)]
+        "driven": [_choice(one.mechanism, lang) for one in _driven(chain, at_frame)]
         if few and chain.space is Space.PLANAR
         else [],
     }
 
 
-def _driven(chain: Chain) -> list[Any]:
-    """The mechanisms with one drive at the frame, as far as a page can show them."""
+def _driven(chain: Chain, at_frame: bool) -> list[Any]:
+    """The mechanisms with one drive, as far as a page can show them."""
     out = []
-    for one in driven_mechanisms(chain, drives=1, at_frame=True):
+    for one in driven_mechanisms(chain, drives=1, at_frame=at_frame):
         out.append(one)
         if len(out) == _MOST_DRIVEN:
             break

@@ -42,6 +42,9 @@ class Explorer(anywidget.AnyWidget):
         super().__init__(machine=model, document=model["document"], lang=lang, height=height, styles=picture_styles())
         self.on_msg(self._asked)
 
+    def __repr__(self) -> str:
+        return f"<Explorer of {self.linkage.mechanism.chain}>"
+
     @property
     def linkage(self) -> Linkage:
         """The linkage as it stands in the page now, with the pose that is shown as its reference pose."""

@@ -31,6 +31,8 @@ __all__ = ["GRAPHS", "LINES", "chain_from_graph_text", "graph_text", "read_lines
 _LONGEST_LINE = 1_000_000
 _REVOLUTE = "revolute"
 _MOST = 5000  # links of a chain in a graph file
+_MOST_JOINTS = 50_000
+_PACKED = 100  # times its size a packed file may be: lists of chains come to 30, bombs to 1000
 
 
 # --- one graph a file --------------------------------------------------------------------------------
@@ -52,6 +54,7 @@ def chain_from_graph_text(text: str, form: str) -> Chain:
         raise GrueblerError("is no {form} file: {reason}", form=form, reason=error or type(error).__name__) from None
     if graph.number_of_nodes() > _MOST:
         raise GrueblerError("a chain of {count:,} links is more than {most:,}", count=len(graph), most=_MOST)
+    _check_number(graph.number_of_edges())
     return _chain(graph)
 
 
@@ -118,6 +121,7 @@ def _from_edges(text: str) -> nx.Graph:
             continue
         if len(words) not in (2, 3):
             raise GrueblerError("line {number}: expected two links and perhaps a pair", number=number)
+        _check_number(number)
         graph.add_edge(words[0], words[1], pair=words[2] if len(words) > 2 else _REVOLUTE)
     return graph
 
@@ -144,6 +148,7 @@ def _from_matrix(text: str) -> nx.Graph:
         raise GrueblerError("expected a square matrix of whole numbers")
     if len(rows) > _MOST:
         raise GrueblerError("a chain of {count:,} links is more than {most:,}", count=len(rows), most=_MOST)
+    _check_number(sum(int(cell) for row in rows for cell in row) // 2)
     graph = networkx.MultiGraph()
     graph.add_nodes_from(range(len(rows)))
     for i, row in enumerate(rows):
@@ -154,6 +159,11 @@ def _from_matrix(text: str) -> nx.Graph:
                 raise GrueblerError("row {i}: a link has no joint with itself", i=i + 1)
             graph.add_edges_from([(i, j)] * (int(cell) if i < j else 0))
     return graph
+
+
+def _check_number(joints: int) -> None:
+    if joints > _MOST_JOINTS:
+        raise GrueblerError("a chain of {count:,} joints is more than {most:,}", count=joints, most=_MOST_JOINTS)
 
 
 def _to_matrix(chain: Chain, left_out: list[Message]) -> str:
@@ -249,11 +259,23 @@ def read_lines(path: Path, form: str) -> Iterator[Chain]:
     """
     try:
         with path.open("rb") as raw:
-            lines = gzip.GzipFile(fileobj=raw) if path.suffix.lower() == ".gz" else raw
+            packed = path.suffix.lower() == ".gz"
+            if packed:
+                _check_packing(path, raw)
+            lines = gzip.GzipFile(fileobj=raw) if packed else raw
             yield from _chains(path, lines, LINES[form][0])
     except (OSError, EOFError, ZlibError) as error:
         reason = getattr(error, "strerror", None) or error
         raise GrueblerError("{path}: cannot be read: {problem}", path=path, problem=reason) from None
+
+
+def _check_packing(path: Path, raw: BinaryIO) -> None:
+    """`GrueblerError` for a file that unpacks to far more than its size; takes a hundredth of the time of reading."""
+    with gzip.GzipFile(fileobj=raw) as unpacked:
+        while unpacked.read(_LONGEST_LINE // 10):
+            if unpacked.tell() > _LONGEST_LINE + _PACKED * raw.tell():
+                raise GrueblerError("{path}: unpacks to more than {times} times its size", path=path, times=_PACKED)
+    raw.seek(0)
 
 
 def _chains(path: Path, lines: BinaryIO | gzip.GzipFile, parse: Callable[[str], Chain]) -> Iterator[Chain]:

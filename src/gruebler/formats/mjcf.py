@@ -8,22 +8,17 @@ reference position every joint is at 0, so a control is the change of the drive 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, hypot, sin
+from math import cos, sin
 from xml.sax.saxutils import quoteattr
 
-from gruebler.disjoint_sets import DisjointSets
-from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import lower_linkage
+from gruebler.formats.body_tree import DENSITY, SLENDER, BodyTree
 from gruebler.linkages import Linkage
 from gruebler.linkages.elements import direction
 from gruebler.mechanism import Drive
-from gruebler.text import Message, message
+from gruebler.text import Message
 
 __all__ = ["mjcf_from_linkage"]
 
-_METRES = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "in": 0.0254}
-_STEEL = 7850.0  # kg/m³
-_SLENDER = 50  # size over the radius of a capsule
 _STIFF = 100.0  # 1/s: the drive follows its control at this rate
 _STEP = 5e-4  # s
 
@@ -38,43 +33,14 @@ def mjcf_from_linkage(linkage: Linkage, left_out: list[Message]) -> str:
     >>> model.count("<body "), model.count("<connect "), model.count("<position ")
     (3, 1, 1)
     """
-    lower = lower_linkage(linkage)
-    scale = _METRES.get(lower.unit)
-    if scale is None:
-        left_out.append(message("the unit {unit}", unit=lower.unit))
-        scale = 1.0
-    if linkage.outputs:
-        left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
-    return _Model(lower, scale).text()
+    return _Model(linkage, left_out).text()
 
 
-class _Model:
-    """The tree of a linkage, and what closes its loops."""
+class _Model(BodyTree):
+    """The model of a linkage."""
 
-    def __init__(self, lower: Linkage, scale: float) -> None:
-        self.lower, self.scale = lower, scale
-        mechanism = lower.mechanism
-        self.frame, self.names = mechanism.frame, mechanism.chain.joint_names()
-        driven = {drive.joint: drive.between for drive in mechanism.drives}
-        edges = []  # importance, joint, two links
-        for number, joint in enumerate(mechanism.chain.joints):
-            centre = driven[number][0] if number in driven else joint.links[0]
-            for other in joint.links:
-                if other != centre:
-                    first = number in driven and other == driven[number][1]
-                    edges.append((0 if first else 1 if joint.pair.name == "prismatic" else 2, number, centre, other))
-        sets = DisjointSets(mechanism.chain.links)
-        self.tree: dict[str, list[tuple[int, str]]] = {link: [] for link in mechanism.chain.links}
-        self.closing: list[tuple[int, str, str]] = []
-        for importance, number, one, other in sorted(edges, key=lambda edge: edge[0]):
-            if sets.find(one) != sets.find(other):
-                sets.unite(one, other)
-                self.tree[one].append((number, other))
-                self.tree[other].append((number, one))
-            elif importance < 2:
-                raise GrueblerError("the slide {joint} closes a loop of slides and drives", joint=self.names[number])
-            else:
-                self.closing.append((number, one, other))
+    def __init__(self, linkage: Linkage, left_out: list[Message]) -> None:
+        super().__init__(linkage, left_out)
         self.signs: dict[int, int] = {}
 
     def text(self) -> str:
@@ -85,9 +51,9 @@ class _Model:
             '  <compiler angle="radian"/>',
             f'  <option timestep="{_STEP!r}" gravity="0 0 0" integrator="implicitfast" tolerance="1e-14"/>',
             "  <default>",
-            f'    <geom type="capsule" size="{size / _SLENDER!r}" density="{_STEEL!r}" contype="0" conaffinity="0"/>',
+            f'    <geom type="capsule" size="{size / SLENDER!r}" density="{DENSITY!r}" contype="0" conaffinity="0"/>',
             f'    <equality solref="{2 * _STEP!r} 1" solimp="0.9999 0.9999 0.001"/>',
-            f'    <site size="{size / _SLENDER!r}"/>',
+            f'    <site size="{size / SLENDER!r}"/>',
             "  </default>",
             "  <worldbody>",
         ]
@@ -113,7 +79,7 @@ class _Model:
     def _inertia(self, drive: Drive) -> float:
         """Inertia of the motor of a drive: that of all links together, so that they hardly act back on it."""
         size = self.lower.size * self.scale
-        mass = _STEEL * 3 * (size / _SLENDER) ** 2 * size * len(self.tree)
+        mass = DENSITY * 3 * (size / SLENDER) ** 2 * size * len(self.tree)
         return float(mass * size**2 if drive.turning else mass)
 
     def _at(self, x: float, y: float) -> str:
@@ -121,15 +87,11 @@ class _Model:
 
     def _bodies(self) -> Iterator[str]:
         """The bodies, each within the one that it hangs on."""
-        stack: list[tuple[str, str, int] | str] = [
-            (other, self.frame, number) for number, other in reversed(self.tree[self.frame])
-        ]
         poses, indent = self.lower.required_pose, 2
-        while stack:
-            entry = stack.pop()
-            if isinstance(entry, str):
+        for entry in self.descent():
+            if entry is None:
                 indent -= 1
-                yield "  " * indent + entry
+                yield "  " * indent + "</body>"
                 continue
             child, above, number = entry
             pad = "  " * indent
@@ -140,8 +102,6 @@ class _Model:
             yield f"{pad}  {self._joint(number, child)}"
             yield from self._shape(child, indent + 1)
             yield from self._sites(child, indent + 1)
-            stack.append("</body>")
-            stack += [(other, child, joint) for joint, other in reversed(self.tree[child]) if other != above]
             indent += 1
 
     def _joint(self, number: int, child: str) -> str:
@@ -159,15 +119,12 @@ class _Model:
 
     def _shape(self, link: str, depth: int) -> Iterator[str]:
         """A capsule from the first place of a link to each other one, a ball if there is only one."""
-        places = [(e.x, e.y) for (_, owner), e in self.lower.elements.items() if owner == link]
-        places += [(point.x, point.y) for point in self.lower.points.values() if point.link == link]
-        (x, y), *others = places
-        far = [(a, b) for a, b in dict.fromkeys(others) if hypot(a - x, b - y) > 1e-9 * self.lower.size]
         pad = "  " * depth
-        for a, b in far:
-            yield f'{pad}<geom fromto="{self._at(x, y)} {self._at(a, b)}"/>'
-        if not far:
-            yield f'{pad}<geom type="sphere" pos="{self._at(x, y)}"/>'
+        for one, other in self.bars(link):
+            if one == other:
+                yield f'{pad}<geom type="sphere" pos="{self._at(*one)}"/>'
+            else:
+                yield f'{pad}<geom fromto="{self._at(*one)} {self._at(*other)}"/>'
 
     def _sites(self, link: str, depth: int) -> Iterator[str]:
         """The named points of a link."""

@@ -3,6 +3,7 @@
 from gruebler.gears.assembly import Assembly, assembly
 from gruebler.gears.messages import explain_train
 from gruebler.gears.motion import Balance, Contradiction, Speeds, balance, influence, ratio, speeds
+from gruebler.gears.ratio_search import PlanetaryDesign, search_ratio
 from gruebler.gears.reading import TrainReading, read_toml, read_train
 from gruebler.gears.train import KINDS, GearError, Mesh, Train, Unit
 
@@ -13,6 +14,7 @@ __all__ = [
     "Contradiction",
     "GearError",
     "Mesh",
+    "PlanetaryDesign",
     "Speeds",
     "Train",
     "TrainReading",
@@ -24,5 +26,6 @@ __all__ = [
     "ratio",
     "read_toml",
     "read_train",
+    "search_ratio",
     "speeds",
 ]

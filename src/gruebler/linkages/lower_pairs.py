@@ -33,6 +33,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
     if not split and not idle and not eased and not rollers:
         return linkage
     joints: list[Joint] = []
+    names = chain.joint_names()
     elements: dict[str, dict[str | int, object]] = {link: {} for link in chain.links}
     place: dict[tuple[int, str], tuple[int, tuple[str, str]]] = {}  # (joint, direction) -> new joint and its links
     for number, joint in enumerate(chain.joints):
@@ -44,7 +45,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
             place[number, ""] = len(joints), (joint.links[0], joint.links[1])
             joints.append(Joint(pair("roll_slide"), joint.links) if number in eased else joint)
             continue
-        block = f"block {chain.joint_names()[number]}"
+        block = f"block {names[number]}"
         elements[block] = {}
         parts = _halves(linkage, number)
         measured_from = mechanism.frame if mechanism.frame in joint.links else joint.links[0]
@@ -69,7 +70,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
     if linkage.reference_pose is not None:
         home = {link: tuple(at) for link, at in linkage.reference_pose.items()}
         for number in split:
-            block = f"block {chain.joint_names()[number]}"
+            block = f"block {names[number]}"
             home[block] = _block_home(linkage, number)
     points = {name: tuple(point) for name, point in linkage.points.items()}
     return Linkage(

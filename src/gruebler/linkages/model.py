@@ -91,12 +91,13 @@ class Linkage:
         if chain.space is not Space.PLANAR:
             raise LinkageError("dimensions are those of planar mechanisms; this one is {space}", space=chain.space)
         made: dict[tuple[int, str], Element] = {}
+        names = chain.joint_names()
         for link, mine in elements.items():
             for joint, raw in mine.items():
                 number = joint_number(mechanism, joint)
                 if link not in chain.joints[number].links:
-                    raise LinkageError("{joint} is no joint of {link!r}", joint=chain.joint_names()[number], link=link)
-                made[number, link] = read_element(raw, f"{link}, {chain.joint_names()[number]}")
+                    raise LinkageError("{joint} is no joint of {link!r}", joint=names[number], link=link)
+                made[number, link] = read_element(raw, f"{link}, {names[number]}")
         self._check_joints(mechanism, made)
         made = resolve_wheels(mechanism, made)
         check_wheels(mechanism, made)

@@ -76,7 +76,9 @@ def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     high = 288.0
     links = sheet.entry.links if lang == "de" else {link: link for link in sheet.entry.links}
     names = {link: name.partition(f" {translate('with', lang)} ")[0] for link, name in links.items()}
-    structure = draw(sheet.linkage.mechanism, labels=True, lang=lang, names=names)
+    structure = draw(
+        sheet.linkage.mechanism, labels=True, symbols=True, outputs=sheet.entry.outputs, lang=lang, names=names
+    )
     _fitted(items, scale_picture(sheet, lang), _LEFT, y, 400, high)
     _fitted(items, structure, 480, y + 20, _RIGHT - 480, high - 60)
     pose = f"{typeset_number(sheet.record.picture.pose, lang)}°"
@@ -89,7 +91,7 @@ def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     )
     items.append(TextLine(_LEFT, y + high + 14, to_scale, 10, role="faint"))
     output = ", ".join(names[link] for link in sheet.entry.outputs)
-    caption = translate("Structure, driven joint: arrow, output: {output}", lang, output=output)
+    caption = translate("Structure, output {output}: double arrow", lang, output=output)
     items.append(TextLine(_RIGHT, y + high + 14, caption, 10, role="faint", anchor="end"))
     return y + high + 14
 
@@ -122,7 +124,7 @@ def _straightness(items: list[Item], sheet: Sheet, y: float, lang: str) -> None:
     left, right = _MIDDLE + 38, _MIDDLE + 38 - _GAP
     below = _heading(items, translate("Relative deviation from the line", lang), _LEFT, y, right)
     centre = f"{typeset_number(guide.centre, lang)}°"
-    windows = translate("Q_G = Δy/L for windows φ_G about φ = {centre}", lang, centre=centre)
+    windows = translate("Q_G = Δy/L for φ_G about φ = {centre}, φ_A = {centre} - φ_G/2", lang, centre=centre)
     items.append(TextLine(_LEFT, below, windows, 10, role="faint"))
     _fitted(items, _diagram(sheet, lang), _LEFT, below + 6, right - _LEFT, HEIGHT - 88 - below)
     heading = translate(

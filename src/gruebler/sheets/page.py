@@ -13,7 +13,7 @@ from gruebler.drawing.canvas.files import suffix_of
 from gruebler.drawing.canvas.styles import COLOURS
 from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, svg_text
 
-__all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "suffix_of"]
+__all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "painted", "suffix_of"]
 
 WIDTH, HEIGHT = 793.7, 1122.5
 """Of A4, in pixels of 1/96 inch."""
@@ -93,11 +93,7 @@ class Page:
         """The content of a file of this kind; `GrueblerError` if matplotlib is needed and missing."""
         if suffix in ("svg", "html"):
             return (self.svg() if suffix == "svg" else self.html()).encode("utf-8")
-        from gruebler.drawing.canvas.matplotlib_files import matplotlib_figure
-
-        canvas = matplotlib_figure(Figure((), WIDTH, HEIGHT, self.title, self.description))
-        for item in self.items:
-            _PAINT[type(item)](canvas, item)
+        canvas = painted(self)
         memory = io.BytesIO()
         metadata: dict[str, Any] = {"Title": self.title}
         metadata |= {"CreationDate": None, "Creator": None} if suffix == "pdf" else {"Software": None}
@@ -133,6 +129,16 @@ _SVG: dict[type, Any] = {TextLine: _words_svg, HorizontalRule: _rule_svg, Placed
 
 
 # --- matplotlib -------------------------------------------------------------------------------------
+
+
+def painted(page: Page) -> Any:
+    """The page as a figure of matplotlib; `GrueblerError` if it is not installed."""
+    from gruebler.drawing.canvas.matplotlib_files import matplotlib_figure
+
+    canvas = matplotlib_figure(Figure((), WIDTH, HEIGHT, page.title, page.description))
+    for item in page.items:
+        _PAINT[type(item)](canvas, item)
+    return canvas
 
 
 def _paint_words(canvas: Any, item: TextLine) -> None:

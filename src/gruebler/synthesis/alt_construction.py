@@ -10,21 +10,25 @@ from collections.abc import Iterator
 from math import degrees, pi, sin
 from typing import NamedTuple
 
-import numpy as np
-
-from gruebler.drawing.canvas.figure import MARGIN, Figure
-from gruebler.drawing.canvas.labels import note_near
-from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, bounds, moved_shape
+from gruebler.drawing.canvas.construction import (
+    Angle,
+    Circle,
+    Construction,
+    ConstructionStep,
+    Dot,
+    Drawn,
+    Line,
+    Segment,
+    quantity,
+)
 from gruebler.synthesis.dead_centres import FamilyMember, member_places
 from gruebler.synthesis.tasks import DeadCentreTask
-from gruebler.text import Message, message, number
+from gruebler.text import Message, message
 
-__all__ = ["STRAIGHT", "AltConstruction", "ConstructionStep", "alt_construction", "construction_steps"]
+__all__ = ["STRAIGHT", "AltConstruction", "alt_construction", "alt_steps"]
 
-_WIDE = 300.0  # pixels across the linkage
 STRAIGHT = 1e-9
 """Radians: dead centres so nearly half a turn apart have a line for the circle."""
-_MOST = 0.9  # the circle is drawn as far as so many sizes of the linkage from its middle
 
 
 class AltConstruction(NamedTuple):
@@ -59,7 +63,7 @@ def alt_construction(task: DeadCentreTask, member: FamilyMember) -> AltConstruct
     """The construction of one member of the family; the rocker swings about the vertical, the slider along the x axis.
 
     >>> from gruebler.synthesis.dead_centres import dead_centre_family
-    >>> task = DeadCentreTask(stroke=1, crank_angle=np.radians(200))
+    >>> task = DeadCentreTask(stroke=1, crank_angle=200 * pi / 180)
     >>> made = alt_construction(task, dead_centre_family(task).best)
     >>> round(abs(made.crank_pivot - made.centre) - abs(made.outer - made.centre), 9) + 0.0
     0.0
@@ -93,152 +97,79 @@ def alt_construction(task: DeadCentreTask, member: FamilyMember) -> AltConstruct
     )
 
 
-class ConstructionStep(NamedTuple):
-    """One picture of the sequence, and what is done in it."""
-
-    figure: Figure
-    caption: Message
-
-
-def construction_steps(task: DeadCentreTask, member: FamilyMember, *, lang: str = "en") -> tuple[ConstructionStep, ...]:
-    """The construction step by step, all pictures of one size: given, circle, angle, points, result.
-
-    Cost: 10 ms.
+def alt_steps(task: DeadCentreTask, member: FamilyMember) -> Construction:
+    """The construction step by step: given, circle, angle, points, result; rocker or stroke have their own size.
 
     >>> from gruebler.synthesis.dead_centres import dead_centre_family
-    >>> task = DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(200))
-    >>> len(construction_steps(task, dead_centre_family(task).best))
-    5
+    >>> task = DeadCentreTask(swing=pi / 3, crank_angle=200 * pi / 180)
+    >>> whole = alt_steps(task, dead_centre_family(task).best)
+    >>> len(whole.steps), round(whole.values["crank_angle"], 9)
+    (5, 200.0)
     """
     points = alt_construction(task, member)
-    drawn = _Drawn(points, task, lang)
-    shapes: list[list[Shape]] = []
-    for step in drawn.steps():
-        shapes.append([*(shapes[-1] if shapes else []), *step])
-    final = [*shapes[-1]]
-    corner, size = bounds(final, MARGIN)
-    captions = _captions(task, member, points)
-    out = []
-    for k, (step, caption) in enumerate(zip(shapes, captions, strict=True)):
-        moved = tuple(moved_shape(shape, Point(-corner.x, -corner.y)) for shape in [*step, *drawn.names(k, step)])
-        title = message("Step {number}", number=k + 1).in_language(lang)
-        out.append(ConstructionStep(Figure(moved, size.x, size.y, title, caption.in_language(lang)), caption))
-    return tuple(out)
+    scale = task.stroke or 1.0
+    steps = zip(_captions(task, member, points), _drawn(task, points), strict=True)
+    a0, outer, inner = points.crank_pivot, points.outer, points.inner
+    near, far = abs(inner - a0), abs(outer - a0)
+    values = {
+        "a": scale * (far - near) / 2,
+        "b": scale * (far + near) / 2,
+        "crank_angle": 180 + degrees(abs(cmath.phase((inner - a0) / (outer - a0)))),
+    }
+    if points.rocker_pivot is not None:
+        values |= {"c": abs(outer - points.rocker_pivot), "d": abs(points.rocker_pivot - a0)}
+    return Construction(
+        message("Alt's construction"), tuple(ConstructionStep(text, drawn) for text, drawn in steps), values
+    )
 
 
-class _Drawn:
-    """The shapes of every step, in pixels."""
-
-    def __init__(self, points: AltConstruction, task: DeadCentreTask, lang: str) -> None:
-        self.points, self.task, self.lang = points, task, lang
-        held = [points.crank_pivot, points.outer, points.inner, *points.pins]
-        if points.rocker_pivot is not None:
-            held.append(points.rocker_pivot)
-        z = np.array(held)
-        self.middle = complex(np.ptp(z.real) / 2 + z.real.min(), np.ptp(z.imag) / 2 + z.imag.min())
-        self.size = max(float(np.ptp(z.real)), float(np.ptp(z.imag)))
-
-    def at(self, z: complex) -> Point:
-        return Point(z.real * _WIDE / self.size, -z.imag * _WIDE / self.size)
-
-    def line(self, style: str, *places: complex) -> Polylines:
-        return Polylines((tuple(map(self.at, places)),), style)
-
-    def circle(self, z: complex, radius: float, style: str) -> CircleShape:
-        return CircleShape(self.at(z), radius * _WIDE / self.size, style)
-
-    def dot(self, z: complex) -> CircleShape:
-        return CircleShape(self.at(z), 4.0, "joint")
-
-    def angle(self, z: complex, first: complex, second: complex, pixels: float) -> ArcShape:
-        begin, extent = cmath.phase(first - z), cmath.phase((second - z) / (first - z))
-        return ArcShape(self.at(z), pixels, -begin, -extent, "measure")
-
-    def steps(self) -> Iterator[list[Shape]]:
-        """What each step adds."""
-        p = self.points
-        a0, far, near = p.crank_pivot, p.outer, p.inner
-        sides: list[Shape]
-        if p.rocker_pivot is None:
-            beyond = 0.15 * (far - near)
-            sides = [self.line("rail", near - beyond, far + beyond)]
-        else:
-            b0 = p.rocker_pivot
-            sides = [self.line("edge", far, b0, near), self.angle(b0, far, near, 34), self.dot(b0)]
-        yield [*sides, self.dot(far), self.dot(near)]
-        yield [*self.locus(), self.line("measure", near, far)]
-        yield [self.line("ghost", near, a0, far), self.angle(a0, far, near, 44), self.dot(a0)]
-        cut = a0 + abs(near - a0) * (far - a0) / abs(far - a0)
-        arc = ArcShape(
-            self.at(a0),
-            abs(near - a0) * _WIDE / self.size,
-            -cmath.phase(near - a0),
-            -cmath.phase((far - a0) / (near - a0)),
-            "centrode-moving",
+def _drawn(task: DeadCentreTask, points: AltConstruction) -> Iterator[tuple[Drawn, ...]]:
+    """What each step adds."""
+    a0, far, near = points.crank_pivot, points.outer, points.inner
+    sides: list[Drawn]
+    if points.rocker_pivot is None:
+        beyond = 0.15 * (far - near)
+        stroke = quantity("H", task.stroke or 1.0)
+        sides = [Segment(near - beyond, far + beyond, "given"), Segment(near, far, "given", stroke)]
+    else:
+        b0 = points.rocker_pivot
+        swing = cmath.phase((near - b0) / (far - b0))
+        sides = [
+            Segment(far, b0, "edge"),
+            Segment(b0, near, "edge"),
+            Angle(b0, cmath.phase(far - b0), swing, quantity("ψ_H", degrees(abs(swing)), "°")),
+            Dot(b0, "B₀"),
+        ]
+    yield (*sides, Dot(far, "B₁"), Dot(near, "B₂"))
+    if points.centre is None:
+        yield (Line(far, far - near, "curve"),)
+    else:
+        yield (
+            Segment(near, far),
+            Segment(points.centre, far),
+            Segment(points.centre, near),
+            Dot(points.centre, "M"),
+            Circle(points.centre, abs(far - points.centre), "help"),
         )
-        yield [arc, self.dot(cut), self.line("line-2", cut, far)]
-        outward, inward = p.pins
-        yield [
-            self.circle(a0, p.crank, "curve-rest"),
-            self.line("edge", a0, outward, far),
-            self.line("ghost", a0, inward, near),
-            *(self.dot(z) for z in (a0, outward, inward, far, near)),
-        ]
-
-    def locus(self) -> list[Shape]:
-        """The arc, or the line, on which A0 lies, as far as it is drawn."""
-        p = self.points
-        reach = _MOST * self.size
-        if p.centre is None:
-            along = (p.outer - p.inner) / abs(p.outer - p.inner)
-            ends = sorted((np.conj(along) * (z - p.outer)).real for z in (p.crank_pivot, p.inner, p.outer))
-            return [self.line("curve", p.outer + (ends[0] - 0.2) * along, p.outer + (ends[-1] + 0.2) * along)]
-        radius = abs(p.outer - p.centre)
-        # From B₁ by A0 to B₂: the other arc sees the chord under the supplement.
-        first, turn = p.outer - p.centre, cmath.phase((p.inner - p.centre) / (p.outer - p.centre))
-        by_pivot = cmath.phase((p.crank_pivot - p.centre) / first)
-        if not (0 < by_pivot / turn < 1):
-            turn -= 2 * pi * (1 if turn > 0 else -1)
-        z = p.centre + first * np.exp(1j * turn * np.linspace(0, 1, 361))
-        seen = np.abs(z - self.middle) <= reach
-        lines = [
-            tuple(self.at(complex(w)) for w in z[part])
-            for part in np.split(np.arange(len(z)), np.flatnonzero(np.diff(seen)) + 1)
-            if seen[part[0]] and len(part) > 1
-        ]
-        centre = [self.dot(p.centre)] if abs(p.centre - self.middle) <= reach and radius < reach else []
-        return [Polylines(tuple(lines), "curve"), *centre]
-
-    def names(self, step: int, shapes: list[Shape]) -> list[Shape]:
-        """The names of all points that are there after a step, and its measures."""
-        p = self.points
-        named = [("B₁", p.outer, 0), ("B₂", p.inner, 0), ("A₀", p.crank_pivot, 2)]
-        if p.rocker_pivot is not None:
-            named.append(("B₀", p.rocker_pivot, 0))
-        named += [("A₁", p.pins[0], 4), ("A₂", p.pins[1], 4)]
-        out: list[Shape] = []
-        for name, z, first in named:
-            if step >= first:
-                out.append(note_near(self.at(z), name, "name", [*shapes, *out]))
-        if self.task.swing is not None and p.rocker_pivot is not None:
-            words = f"ψ_H = {number(degrees(self.task.swing), self.lang, '.4g')}°"
-            out.append(note_near(self.at(p.rocker_pivot + 0.3j), words, "value", [*shapes, *out]))
-        elif self.task.stroke is not None:
-            words = f"H = {number(self.task.stroke, self.lang, '.4g')}"
-            out.append(note_near(self.at((p.outer + p.inner) / 2), words, "value", [*shapes, *out]))
-        if step >= 2 and p.centre is not None:
-            towards = (p.outer + p.inner) / 2 - p.crank_pivot
-            at = p.crank_pivot + towards / abs(towards) * 50 / _WIDE * self.size
-            words = f"δ = {number(degrees(abs(p.delta)), self.lang, '.4g')}°"
-            out.append(note_near(self.at(at), words, "value", [*shapes, *out]))
-        if step == 3:
-            cut = p.crank_pivot + (abs(p.inner - p.crank_pivot) + p.crank) * _direction(p.crank_pivot, p.outer)
-            out.append(note_near(self.at(cut), "2a", "value", [*shapes, *out]))
-        return out
-
-
-def _direction(begin: complex, end: complex) -> complex:
-    return (end - begin) / abs(end - begin)
+    seen = cmath.phase((far - a0) / (near - a0))
+    yield (
+        Segment(near, a0),
+        Segment(a0, far),
+        Angle(a0, cmath.phase(near - a0), seen, quantity("δ", degrees(abs(seen)), "°") if abs(seen) > STRAIGHT else ""),
+        Dot(a0, "A₀"),
+    )
+    cut = a0 + abs(near - a0) * (far - a0) / abs(far - a0)
+    yield Circle(a0, abs(near - a0)), Dot(cut), Segment(cut, far, "line-2", "2a")
+    outward, inward = points.pins
+    yield (
+        Circle(a0, points.crank, "curve-rest"),
+        Segment(a0, outward, "edge"),
+        Segment(outward, far, "edge"),
+        Segment(a0, inward, "ghost"),
+        Segment(inward, near, "ghost"),
+        Dot(outward, "A₁"),
+        Dot(inward, "A₂"),
+    )
 
 
 def _captions(task: DeadCentreTask, member: FamilyMember, points: AltConstruction) -> Iterator[Message]:

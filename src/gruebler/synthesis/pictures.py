@@ -11,7 +11,7 @@ from gruebler.drawing.linkage.animation import animated_svg
 from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
-from gruebler.synthesis.alt_construction import STRAIGHT, construction_steps
+from gruebler.synthesis.alt_construction import STRAIGHT, alt_steps
 from gruebler.synthesis.dead_centres import DeadCentreFamily, FamilyMember, dead_centre_family
 from gruebler.synthesis.results import Design, SynthesisResult
 from gruebler.synthesis.tasks import DeadCentreTask, PathTask, PositionTask, Task
@@ -81,8 +81,9 @@ def _construction(task: Task, lang: str) -> list[Section]:
     """Alt's construction of the best linkage with given dead centres."""
     if not isinstance(task, DeadCentreTask):
         return []
-    steps = construction_steps(task, _shown_member(dead_centre_family(task)), lang=lang)
-    items = tuple(Item(step.figure, f"{k}. {step.caption.in_language(lang)}") for k, step in enumerate(steps, 1))
+    whole = alt_steps(task, _shown_member(dead_centre_family(task)))
+    pictures = zip(whole.figures(lang, captions=False), whole.steps, strict=True)
+    items = tuple(Item(figure, f"{k}. {step.text.in_language(lang)}") for k, (figure, step) in enumerate(pictures, 1))
     return [Section(translate("Alt's construction, step by step", lang), items, wide=True)]
 
 

@@ -7,6 +7,7 @@ from math import degrees, isnan
 from typing import Any
 
 from gruebler.linkages import Linkage
+from gruebler.notebook import html_table
 from gruebler.synthesis.tasks import Task
 from gruebler.text import Message, message, plural
 
@@ -62,6 +63,10 @@ class Design:
     """The two connections of coupler and frame, such as ``RR-RR``, or the kind of linkage, such as ``four-bar``."""
     drives: tuple[float, ...] = ()
     """The drive value at each target."""
+
+    def _repr_svg_(self) -> str | None:
+        """The linkage to scale, for notebooks."""
+        return self.linkage._repr_svg_()
 
     def form_in_language(self, lang: str = "en") -> str:
         """The form in words, that of a fitted structure by its number of links."""
@@ -132,6 +137,21 @@ class SynthesisResult:
 
     def __getitem__(self, number: int) -> Design:
         return self.designs[number]
+
+    def _repr_html_(self) -> str:
+        """The accepted designs, for notebooks."""
+        rows = (
+            [
+                str(number),
+                each.form_in_language(),
+                "yes" if each.verdict.turns_fully else "no",
+                "–" if isnan(each.verdict.transmission) else f"{degrees(each.verdict.transmission):.1f}°",
+                f"{each.verdict.error:.2g}",
+            ]
+            for number, each in enumerate(self.designs)
+        )
+        headers = ["", "design", "full turn", "transmission angle", "error"]
+        return html_table(headers, rows, len(self)) + f"<p>{len(self)} accepted, {len(self.rejected)} rejected</p>"
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`."""

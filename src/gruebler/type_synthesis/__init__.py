@@ -5,15 +5,18 @@ from gruebler.type_synthesis.contacts import with_contacts
 from gruebler.type_synthesis.estimates import expected_seconds_of_variants
 from gruebler.type_synthesis.requirements import JointLocation, JointRequirement, Requirements
 from gruebler.type_synthesis.selection import typed_chains, variants
+from gruebler.type_synthesis.sliding import count_sliding_variants, sliding_numbers
 
 __all__ = [
     "JointLocation",
     "JointRequirement",
     "Requirements",
     "assignments",
+    "count_sliding_variants",
     "every_joint_moves",
     "expected_seconds_of_variants",
     "joint_types",
+    "sliding_numbers",
     "typed_chains",
     "variants",
     "with_contacts",

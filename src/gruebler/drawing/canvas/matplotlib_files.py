@@ -14,7 +14,7 @@ from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Polylines, Sha
 from gruebler.drawing.canvas.styles import COLOURS, STYLES
 from gruebler.errors import GrueblerError
 
-__all__ = ["gallery_pdf", "matplotlib_figure", "paint_shapes", "save_figure"]
+__all__ = ["gallery_pdf", "matplotlib_figure", "pages_pdf", "paint_shapes", "save_figure"]
 
 _POINTS = 72 / 96  # of print, to a pixel
 
@@ -156,6 +156,24 @@ def gallery_pdf(title: str, sections: Iterable[Section], *, note: str = "") -> b
                     _paint_item(page, item, (_LEFT + k * wide, top), (wide, high))
                 top -= high
         pages.savefig(page)
+    return memory.getvalue()
+
+
+def pages_pdf(title: str, figures: Iterable[Figure]) -> bytes:
+    """Figures on pages of A4 in landscape, each as large as it fits; `GrueblerError` if matplotlib is not installed."""
+    library = _library()
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    high, wide = _A4
+    memory = io.BytesIO()
+    with PdfPages(memory, metadata=_METADATA["pdf"] | {"Title": title}) as pages:
+        for figure in figures:
+            page = library.Figure(figsize=(wide, high))
+            scale = 96 * (1 - 2 * _LEFT) * min(wide / figure.width, high / figure.height)
+            across, up = scale * figure.width / 96 / wide, scale * figure.height / 96 / high
+            axes = page.add_axes(((1 - across) / 2, (1 - up) / 2, across, up))
+            paint_shapes(axes, figure, scale=scale)
+            pages.savefig(page)
     return memory.getvalue()
 
 

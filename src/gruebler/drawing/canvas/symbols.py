@@ -15,6 +15,7 @@ from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylin
 from gruebler.drawing.canvas.styles import BAR
 
 __all__ = [
+    "CONTACTS",
     "JointMember",
     "JointSign",
     "arrow",
@@ -60,8 +61,16 @@ class JointSign:
     """The greatest distance of the sign from its middle."""
 
 
-def joint_sign(kind: str, at: Point, members: Sequence[JointMember], *, letter: str = "") -> JointSign:
-    """The sign of a pair by name; a letter where the pair has no sign of its own in the plane."""
+def joint_sign(
+    kind: str, at: Point, members: Sequence[JointMember], *, letter: str = "", shapes: Sequence[str] = ()
+) -> JointSign:
+    """The sign of a pair by name; a letter where the pair has no sign of its own in the plane.
+
+    ``shapes`` says for each member of a higher pair what it is, by the keys of `CONTACTS`; without them the sign is the
+    general one of the pair.
+    """
+    if len(shapes) == len(members) == 2 and {*shapes} <= {*CONTACTS}:
+        return _contact(at, members, shapes)
     if letter or kind not in _SIGNS:
         return _lettered(at, members, letter)
     return _SIGNS[kind](at, members)
@@ -145,6 +154,165 @@ def _roll_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
     above = (Polylines((flat,), styles[0], closed=True), CircleShape(middle, _DISC - 0.5, styles[1]))
     return JointSign((), above, (at.plus(n, -5.0), middle), t, 2 * _DISC)
 
+
+_BELOW = {"ring-body": 0, "ring-hole": 1}
+_WHEEL = 12.0  # radius of wheels and cams in a sign
+
+
+def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -> JointSign:
+    """Two bodies that touch, each as what it is: wheels, cam and roller, driver and cross, pin and slot."""
+    n = _normal(members)
+    apart = 5.0 if "belt" in shapes or "crossed" in shapes else 0.0
+    holds: list[Point] = []
+    above: list[Shape] = []
+    for way, shape, member in zip((-1.0, 1.0), shapes, members, strict=True):
+        towards = Point(n.x * way, n.y * way)
+        hold, parts = CONTACTS[shape](at.plus(towards, apart), towards, "block-frame" if member.is_frame else "block")
+        holds.append(hold)
+        above += parts
+    if apart:
+        middles = [at.plus(n, way * (apart + _WHEEL)) for way in (-1.0, 1.0)]
+        turn = -1.0 if "crossed" in shapes else 1.0
+        t = n.across
+        sides = [(middles[0].plus(t, s * _WHEEL), middles[1].plus(t, turn * s * _WHEEL)) for s in (1, -1)]
+        above.append(Polylines(tuple(sides), "edge"))
+    # Rings and slots lie below what runs in them.
+    above.sort(key=lambda shape: _BELOW.get(shape.style, len(_BELOW)))
+    return JointSign((), tuple(above), tuple(holds), n.across, 2 * _WHEEL + apart)
+
+
+_Part = tuple[Point, list[Shape]]
+
+
+def _wheel(at: Point, towards: Point, style: str) -> _Part:
+    """A smooth wheel: of a friction drive or a belt."""
+    middle = at.plus(towards, _WHEEL)
+    return middle, [CircleShape(middle, _WHEEL - 0.7, style)]
+
+
+def _gear(at: Point, towards: Point, style: str) -> _Part:
+    """A toothed wheel with its pitch circle."""
+    middle = at.plus(towards, _WHEEL)
+    rim = []
+    for k in range(12):
+        for part, radius in ((-0.3, -2.2), (-0.18, 2.0), (0.18, 2.0), (0.3, -2.2)):
+            turn = 2 * math.pi * (k + part) / 12
+            rim.append(middle.plus(Point(math.cos(turn), math.sin(turn)), _WHEEL + radius))
+    return middle, [Polylines((tuple(rim),), style, closed=True), CircleShape(middle, _WHEEL, "pitch")]
+
+
+def _ring_gear(at: Point, towards: Point, style: str) -> _Part:
+    """An internal wheel around the other one, which lies on the far side of the contact; hatched if it is held."""
+    middle = at.plus(towards, -1.6 * _WHEEL)
+    parts: list[Shape] = [
+        CircleShape(middle, 1.6 * _WHEEL + 6.0, "ring-body"),
+        CircleShape(middle, 1.6 * _WHEEL, "ring-hole"),
+        CircleShape(middle, 1.6 * _WHEEL, "pitch"),
+    ]
+    if style == "block-frame":
+        turns = [2 * math.pi * k / 30 for k in range(30)]
+        out = [Point(math.cos(x), math.sin(x)) for x in turns]
+        strokes = [(middle.plus(u, 1.6 * _WHEEL + 6), middle.plus(u, 1.6 * _WHEEL + 10).plus(u.across, 3)) for u in out]
+        parts.append(Polylines(tuple(strokes), "hatch"))
+    return at.plus(towards, 3.0), parts
+
+
+def _rack(at: Point, towards: Point, style: str) -> _Part:
+    """A toothed rod along the common tangent."""
+    t = towards.across
+    top = [at.plus(t, -18 + 3.0 * k).plus(towards, 2.2 if k % 4 in (0, 3) else -1.6) for k in range(13)]
+    foot = [at.plus(t, s * 18.0).plus(towards, 10.0) for s in (1, -1)]
+    return at.plus(towards, 6.0), [Polylines(((*top, *foot),), style, closed=True)]
+
+
+def _cam(at: Point, towards: Point, style: str) -> _Part:
+    """A cam: an egg, its nose at the contact."""
+    middle = at.plus(towards, 1.35 * _WHEEL)
+    rim = []
+    for k in range(48):
+        turn = 2 * math.pi * k / 48
+        u = towards.unit
+        way = Point(
+            -u.x * math.cos(turn) - u.across.x * math.sin(turn), -u.y * math.cos(turn) - u.across.y * math.sin(turn)
+        )
+        rim.append(middle.plus(way, 0.85 * _WHEEL + 0.5 * _WHEEL * max(0.0, math.cos(turn)) ** 2))
+    return middle, [Polylines((tuple(rim),), style, closed=True)]
+
+
+def _roller(at: Point, towards: Point, _style: str) -> _Part:
+    """A roller with its pin."""
+    middle = at.plus(towards, 0.6 * _WHEEL)
+    return middle, [CircleShape(middle, 0.6 * _WHEEL - 0.7, "joint"), CircleShape(middle, 1.8, "dot")]
+
+
+def _flat(at: Point, towards: Point, style: str) -> _Part:
+    """A flat face along the common tangent."""
+    t = towards.across
+    plate = tuple(at.plus(t, a * 15.0).plus(towards, b) for a, b in ((-1, 0.5), (1, 0.5), (1, 7.0), (-1, 7.0)))
+    return at.plus(towards, 4.0), [Polylines((plate,), style, closed=True)]
+
+
+def _geneva_driver(at: Point, towards: Point, style: str) -> _Part:
+    """A disc with a pin."""
+    middle = at.plus(towards, _WHEEL + 3)
+    return middle, [CircleShape(middle, _WHEEL, style), CircleShape(at.plus(towards, 3.0), 3.0, "joint")]
+
+
+def _geneva_wheel(at: Point, towards: Point, style: str) -> _Part:
+    """A cross with four slots, one of them at the contact."""
+    middle = at.plus(towards, _WHEEL)
+    rim = []
+    for k in range(4):
+        u = towards.unit
+        for _ in range(k):
+            u = u.across
+        u = Point(-u.x, -u.y)
+        v = u.across
+        rim += [middle.plus(u, a * _WHEEL).plus(v, b * _WHEEL) for a, b in ((1, -0.62), (1, -0.2), (0.3, -0.2))]
+        rim += [middle.plus(u, a * _WHEEL).plus(v, b * _WHEEL) for a, b in ((0.3, 0.2), (1, 0.2), (1, 0.62))]
+        rim.append(middle.plus(u, 0.62 * _WHEEL).plus(v, 0.62 * _WHEEL))
+    return middle, [Polylines((tuple(rim),), style, closed=True)]
+
+
+def _oval(at: Point, towards: Point, style: str) -> _Part:
+    """A wheel that is not round: an ellipse about a focus."""
+    middle, u = at.plus(towards, 0.8 * _WHEEL), towards.unit
+    turns = [2 * math.pi * k / 36 for k in range(36)]
+    rim = [middle.plus(u, 0.8 * _WHEEL * math.cos(x)).plus(u.across, 1.25 * _WHEEL * math.sin(x)) for x in turns]
+    return middle, [Polylines((tuple(rim),), style, closed=True)]
+
+
+def _slot(at: Point, towards: Point, _style: str) -> _Part:
+    """A plate with a slot along the common tangent."""
+    t = towards.across
+    plate = tuple(at.plus(t, a * 19.0).plus(towards, b * 8.0) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    slot = tuple(at.plus(t, a * 15.0).plus(towards, b * 4.2) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    body = Polylines((plate,), "ring-body", closed=True)
+    return at.plus(towards, 6.0), [body, Polylines((slot,), "ring-hole", closed=True)]
+
+
+def _pin(at: Point, _towards: Point, _style: str) -> _Part:
+    """A pin at the contact."""
+    return at, [CircleShape(at, 4.0, "joint"), CircleShape(at, 1.6, "dot")]
+
+
+CONTACTS = {
+    "gear": _gear,
+    "ring": _ring_gear,
+    "rack": _rack,
+    "wheel": _wheel,
+    "belt": _wheel,
+    "crossed": _wheel,
+    "cam": _cam,
+    "roller": _roller,
+    "flat": _flat,
+    "geneva-driver": _geneva_driver,
+    "geneva-wheel": _geneva_wheel,
+    "oval": _oval,
+    "slot": _slot,
+    "pin": _pin,
+}
+"""What a body of a higher pair can be."""
 
 _SIGNS = {
     "revolute": _turning,

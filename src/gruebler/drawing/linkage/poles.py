@@ -19,6 +19,7 @@ __all__ = ["centrode_lines", "cross", "inflection_lines"]
 
 
 _WIDE = 0.3  # of the figure's longer side: the margin in which centrodes and inflection circles are visible
+_WHOLE = 1.6  # of it: an inflection circle within this margin is drawn whole
 _SAMPLES = 1440  # points of a centrode or circle
 _TURNING = 1e-6  # for a drive of speed 1: the pole of a link that turns more slowly is far away
 _POINT = 1e-6  # sizes: a smaller inflection circle is a point
@@ -78,10 +79,18 @@ def inflection_lines(context: LayerContext) -> list[Shape]:
     shift = velocity / w + 1j * (acceleration - velocity * change / w) / w**2
     if abs(shift) < _POINT * posed.lower.size:
         return []
-    box = _Box.around(posed, _WIDE)
     circle = pole - 0.5j * shift * (1 - np.exp(2j * np.pi * np.linspace(0, 1, _SAMPLES + 1)))
+    box = _Box.around(posed, _WHOLE)
+    if not all(box.holds(posed.local(complex(z))) for z in circle[::30]):
+        box = _Box.around(posed, _WIDE)
     lines = _within(posed, circle, box)
     shapes: list[Shape] = [Polylines(tuple(lines), "inflection")] if lines else []
+    # The pole tangent t, to both sides of P, and the pole normal n, from P over W.
+    for way, first, last, name in ((shift, -0.5, 0.5, "t"), (-1j * shift, -0.1, 1.15, "n")):
+        along: Complexes = np.asarray(pole + way * np.linspace(first, last, _SAMPLES), dtype=np.complex128)
+        (line, *_) = _within(posed, along, box) or [()]
+        if lines and line:
+            shapes += [Polylines((line,), "dead"), note_near(line[-1], name, "value", [*context.drawn, *shapes])]
     for z, name in ((pole, "P"), (pole - 1j * shift, "W")):
         point = posed.local(z)
         if lines and box.holds(point):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -21,6 +21,7 @@ from gruebler.drawing.canvas.shapes import Point, Shape
 from gruebler.drawing.canvas.symbols import (
     JointMember,
     JointSign,
+    arrow,
     bar,
     joint_sign,
     polygon,
@@ -38,6 +39,7 @@ from gruebler.mechanism import Mechanism
 __all__ = ["PlacedChain", "chain_of", "draw", "letters", "mean_scale", "paint", "place_joints"]
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
+_ASIDE = 17.0  # pixels between the middle of a link and its output arrow
 _NARROW = 30.0  # pixels between a joint and another link, at least, unless the picture becomes too large
 
 
@@ -55,12 +57,17 @@ class PlacedChain:
     crossing: frozenset[str] = frozenset()
     """Links drawn with a halo above others."""
     faces: tuple[tuple[int, ...], ...] = ()
+    contacts: Mapping[tuple[int, str], str] = field(default_factory=dict)
+    """What the bodies of higher pairs are, by joint and link."""
 
 
 def draw(
     structure: Chain | Mechanism,
     *,
     labels: bool = False,
+    symbols: bool = False,
+    contacts: Mapping[tuple[int, str], str] | None = None,
+    outputs: Collection[str] = (),
     lang: str = "en",
     name: str = "",
     names: Mapping[str, str] | None = None,
@@ -70,18 +77,32 @@ def draw(
     Args:
         structure: the chain or mechanism.
         labels: whether to name the links.
+        symbols: whether to write the symbol of its pair beside every joint, in the alphabet of the language.
+        contacts: what the bodies of higher pairs are, by joint number and link, in the words of
+            `gruebler.drawing.canvas.symbols.CONTACTS`: ``gear``, ``cam``, ``roller``, ...
+        outputs: links that get a double arrow.
         lang: language of title and description, ``en`` or ``de``.
         name: the title; by default a name derived from the structure.
         names: other names for links in the picture.
+
+    Raises `gruebler.errors.ChainError` for an output that is no link.
 
     >>> picture = draw(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"))
     >>> len(picture.svg()) < 5000
     True
     """
-    from gruebler.drawing.canvas.labels import labels_or_numbers
+    from gruebler.drawing.canvas.labels import labels_or_numbers, note_near
 
     placed = place_joints(structure)
+    if contacts:
+        placed = replace(placed, contacts=_renumbered(chain_of(structure), placed.chain, contacts))
     shapes = paint(placed)
+    for link in outputs:
+        shapes += _output(placed, link, shapes)
+    if symbols:
+        for number, joint in enumerate(placed.chain.joints):
+            symbol = joint.pair.symbol(Alphabet.of_language(lang))
+            shapes.append(note_near(placed.joints[number], symbol, "letter", shapes))
     if labels:
         degrees = chain_of(structure).degrees
         outlines = {link: placed.outlines[link] for link in degrees}
@@ -115,6 +136,15 @@ def place_joints(structure: Chain | Mechanism) -> PlacedChain:
         frozenset(plain.links[max(pair)] for pair in layout.crossings),
         tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
     )
+
+
+def _renumbered(chain: Chain, placed: Chain, contacts: Mapping[tuple[int, str], str]) -> dict[tuple[int, str], str]:
+    """The same with the joint numbers of the placed chain, whose joints stand in another order."""
+    where = {(joint.pair.name, frozenset(joint.links)): number for number, joint in enumerate(placed.joints)}
+    return {
+        (where[chain.joints[number].pair.name, frozenset(chain.joints[number].links)], link): shape
+        for (number, link), shape in contacts.items()
+    }
 
 
 def _ordered(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> tuple[Chain, dict[int, int]]:
@@ -184,7 +214,8 @@ def _sign(placed: PlacedChain, number: int) -> tuple[JointSign, list[str]]:
     members = [JointMember(towards(placed, link, number), link == placed.frame) for link in links]
     flat = placed.chain.space is Space.PLANAR
     letter = "" if flat else letters(joint.pair)
-    return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter), links
+    known = [placed.contacts[number, link] for link in links if (number, link) in placed.contacts]
+    return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter, shapes=known), links
 
 
 def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
@@ -194,6 +225,21 @@ def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
 def letters(pair: Pair) -> str:
     """The international symbol of a pair, or the German one where there is none."""
     return pair.symbols.get(Alphabet.INTERNATIONAL) or pair.symbols[Alphabet.GERMAN]
+
+
+def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
+    """A double arrow along the longest side of a link, on the side where there is more space."""
+    from gruebler.drawing.canvas.free_space import Obstacles, complexes
+
+    placed.chain.index(link)  # raises ChainError for an unknown link
+    corners = placed.outlines[link]
+    first, last = max(pairwise([*corners, corners[0]]), key=lambda side: side[1].minus(side[0]).length)
+    along = last.minus(first).unit
+    middle = first.plus(last.minus(first), 0.5)
+    sides = [middle.plus(along.across, side) for side in (_ASIDE, -_ASIDE)]
+    free = Obstacles(shapes).free(complexes(sides), 2 * _ASIDE)
+    at = sides[0] if free[0] >= free[1] else sides[1]
+    return [shape for way in (1, -1) for shape in arrow(at, at.plus(along, way * 11.0), "velocity", "velocity-head")]
 
 
 def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:

@@ -1,0 +1,348 @@
+"""The work of an atlas, divided into parts: each part becomes one file of every table.
+
+The parts of a task and their order are always the same, and so are the bytes of their files. A part is plain data;
+`PartWriter` is a function of a part that any worker can run, and run again: its files appear complete or not at all.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from gruebler.atlas.chain_table import ChainArrays, Contracted, arrays_of_chains, chain_table
+from gruebler.atlas.mechanism_tables import bulk_tables, driven_table, mechanism_table
+from gruebler.atlas.schema import SCHEMA, arrow, arrow_schema
+from gruebler.atomic_files import atomic_file
+from gruebler.chain import Chain
+from gruebler.enumeration.assortment import loop_count
+from gruebler.enumeration.contracted import unpacked
+from gruebler.enumeration.fractionated import BlockAddition
+from gruebler.enumeration.pieces import WorkPiece, list_piece
+from gruebler.enumeration.request import Request
+from gruebler.enumeration.work_units import MultipleJointPiece, RingPiece, Work, chains_of_piece, work_units
+from gruebler.errors import GrueblerError, RunError
+from gruebler.type_synthesis import joint_types
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_table"]
+
+_SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
+_AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part
+_CHECKED = ("inversions", "joint_orbits", "drives")  # columns whose sums the enumeration counts as well
+
+
+@dataclass(frozen=True, slots=True)
+class AtlasTask:
+    """What an atlas contains.
+
+    Raises `GrueblerError` for invalid values.
+
+    >>> [(request.links, request.mobility) for request in AtlasTask("4-8", "1-2").requests()]
+    [(4, 1), (6, 1), (8, 1), (5, 2), (7, 2)]
+    """
+
+    links: str
+    """A number of links or a range, such as ``4-10``."""
+    mobility: str = "1"
+    """F, or a range."""
+    fractionated: str = "none"
+    """As `enumeration.Request`: ``none``, ``link``, ``joint`` or ``all``."""
+    multiple_joints: str = "0"
+    """As `enumeration.Request`: a number, a range or ``any``."""
+    prismatic: str = "0"
+    """The number of sliding joints, or a range."""
+    inversions: bool = False
+    """Whether to list the mechanisms."""
+    drives: str = "none"
+    """Driven mechanisms: ``none``, with drives at the ``frame``, or with ``any`` drives."""
+
+    def __post_init__(self) -> None:
+        for name in ("links", "mobility", "prismatic"):
+            first, last = _range(name, getattr(self, name))
+            if first > last:
+                raise GrueblerError(
+                    "{name}: the range {found} ends before it begins", name=name, found=f"{first}-{last}"
+                )
+        if self.drives not in ("none", "frame", "any"):
+            raise GrueblerError("drives are none, frame or any, not {found!r}", found=self.drives)
+        for _ in self.requests():
+            break
+        else:
+            raise GrueblerError(
+                "there is no chain of {links} links with mobility {mobility}: n + F is odd, n at least F + 3",
+                links=self.links,
+                mobility=self.mobility,
+            )
+
+    @property
+    def tables(self) -> tuple[str, ...]:
+        """The tables that are made."""
+        return ("chains", *(["mechanisms"] if self.inversions else []), *(["driven"] if self.drives != "none" else []))
+
+    @property
+    def sliding(self) -> range:
+        """The numbers of sliding joints."""
+        first, last = _range("prismatic", self.prismatic)
+        return range(first, last + 1)
+
+    def requests(self) -> Iterator[Request]:
+        """The requests of the enumeration: by mobility, then by links."""
+        first, last = _range("links", self.links)
+        least, most = _range("mobility", self.mobility)
+        for mobility in range(least, most + 1):
+            for links in range(max(first, 3), last + 1):
+                if loop_count(links, mobility) is not None:
+                    yield Request(links, mobility, self.fractionated, None, self.multiple_joints)
+
+    def command(self) -> str:
+        """The command that makes the atlas."""
+        words = ["gruebler atlas build", f"--links {self.links}", f"--mobility {self.mobility}"]
+        if self.fractionated != "none":
+            words.append(f"--fractionated {self.fractionated}")
+        if self.multiple_joints != "0":
+            words.append(f"--multiple-joints {self.multiple_joints}")
+        if self.prismatic != "0":
+            words.append(f"--prismatic {self.prismatic}")
+        if self.inversions:
+            words.append("--inversions")
+        if self.drives != "none":
+            words.append(f"--drives {self.drives}")
+        return " ".join([*words, "DIR"])
+
+
+def _range(name: str, text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d{1,3})(?:-(\d{1,3}))?", str(text))
+    if match is None:
+        raise GrueblerError(
+            "{name}: expected a number or a range such as 4-10, but found {found!r}", name=name, found=text
+        )
+    return int(match[1]), int(match[2] or match[1])
+
+
+class Part(NamedTuple):
+    """A part of an atlas."""
+
+    request: Request
+    number: int
+    """Among the parts of this request."""
+    work: tuple[Work, ...]
+    first_graph: int
+    """The number of its first contracted graph, where it has some."""
+
+    def path(self, table: str) -> str:
+        """The file of a table, within the directory of the atlas."""
+        where = f"{table}/mobility={self.request.mobility}/links={self.request.links}"
+        return f"{where}/part-{self.number:05d}.parquet"
+
+
+class PartFile(NamedTuple):
+    """A finished file."""
+
+    table: str
+    path: str
+    mobility: int
+    links: int
+    rows: int
+    bytes: int
+    sha256: str
+    sums: dict[str, int]
+    """Sums of the columns that the enumeration counts as well."""
+
+
+def parts(task: AtlasTask) -> Iterator[Part]:
+    """The parts of a task, lazily."""
+    for request in task.requests():
+        graphs = 0
+        work = work_units(request, size=_SIZE)
+        for number, piece in enumerate(work):
+            some = (piece, *islice(work, _AT_ONCE[type(piece)] - 1))
+            yield Part(request, number, some, graphs)
+            graphs += len(piece.graphs) if isinstance(piece, WorkPiece) else 0
+
+
+@dataclass(frozen=True, slots=True)
+class PartWriter:
+    """Makes the files of a part in a worker."""
+
+    directory: Path
+    task: AtlasTask
+    identity: str
+    """What the files belong to: kept in their metadata."""
+
+    def __call__(self, part: Part) -> list[PartFile]:
+        """Write the files that do not exist yet; returns all of them."""
+        existing = self.existing(part)
+        if existing is not None:
+            return existing
+        tables = {"chains": self._chains(part)}
+        if len(self.task.tables) > 1:
+            tables |= self._mechanisms(part.request, tables["chains"])
+        for name in self.task.tables:
+            table = tables[name]
+            path = self.directory / part.path(name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_table(table, path, {"atlas": self.identity, "part": part.path(name)})
+        return [self._described(part, name) for name in self.task.tables]
+
+    def _mechanisms(self, request: Request, chains: pa.Table) -> dict[str, pa.Table]:
+        """The tables of mechanisms and driven mechanisms, as far as they are wanted."""
+        plain = request.only_simple and request.mobility == 1 and self.task.sliding == range(1)
+        if plain and self.task.drives != "any" and (tables := bulk_tables(chains, driven=self.task.drives == "frame")):
+            return tables
+        codes = chains.column("code").to_pylist()
+        found = {}
+        if self.task.inversions:
+            found["mechanisms"] = mechanism_table(codes, request.mobility)
+        if self.task.drives != "none":
+            found["driven"] = driven_table(codes, request.mobility, at_frame=self.task.drives == "frame")
+        return found
+
+    def existing(self, part: Part) -> list[PartFile] | None:
+        """The files of a part if all of them are there and undamaged, else None.
+
+        Raises `RunError` for files that belong to something else.
+        """
+        found = []
+        for name in self.task.tables:
+            if not (self.directory / part.path(name)).exists():
+                return None
+            try:
+                found.append(self._described(part, name))
+            except _DamagedError:
+                return None
+        return found
+
+    def _described(self, part: Part, name: str) -> PartFile:
+        path = part.path(name)
+        table, content = read_part(self.directory / path)
+        metadata = table.schema.metadata or {}
+        if metadata.get(b"atlas") != self.identity.encode() or metadata.get(b"part") != path.encode():
+            raise RunError(
+                "{path} is not a file of this atlas; give another directory or remove it", path=self.directory / path
+            )
+        sums = (
+            {column: int(np.sum(table.column(column).to_numpy(), dtype=np.int64)) for column in _CHECKED}
+            if (name == "chains")
+            else {}
+        )
+        digest = sha256(content).hexdigest()
+        request = part.request
+        return PartFile(name, path, request.mobility, request.links, table.num_rows, len(content), digest, sums)
+
+    def _chains(self, part: Part) -> pa.Table:
+        request = part.request
+        tables = []
+        for piece in part.work:
+            if isinstance(piece, WorkPiece) and self.task.sliding == range(1):
+                tables.append(_simple_chains(piece, part.first_graph))
+                continue
+            chains, kinds = _typed(request, piece, self.task.sliding)
+            if chains:
+                tables.append(chain_table(arrays_of_chains(request.links, request.mobility, chains), kinds))
+        return arrow().concat_tables(tables) if tables else arrow_schema("chains").empty_table()
+
+
+def _simple_chains(piece: WorkPiece, first_graph: int) -> pa.Table:
+    """The rows of a piece of contracted graphs, checked against their numbers by Burnside's lemma."""
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.counting import census
+
+    loops = loop_count(piece.links, piece.mobility)
+    assert loops is not None
+    edges = list_piece(piece)
+    numbers = np.zeros((len(piece.graphs), census.COLUMNS), np.int64)
+    count = for_work(census.take_census, 3.5e-3 * len(piece.graphs))
+    memory = census.make_census_memory(loops, piece.mobility)
+    count(np.ascontiguousarray(piece.graphs), piece.mobility, True, memory, numbers)
+    graph = np.repeat(np.arange(len(piece.graphs), dtype=np.int32), numbers[:, census.CHAINS])
+    contracted = Contracted(graph + np.int32(first_graph), tuple(map(unpacked, piece.graphs)), first_graph)
+    sums = numbers[:, [census.CHAINS, census.INVERSIONS, census.JOINT_ORBITS, census.DRIVES]].sum(axis=0).tolist()
+    table = None
+    if sums[0] == len(edges):
+        table = chain_table(ChainArrays.of_edges(piece.links, piece.mobility, edges), "none", contracted)
+    if table is None or sums[1:] != [int(table.column(name).to_numpy().sum()) for name in _CHECKED]:
+        raise RunError(
+            "the chains of {links} links that are listed and those that are counted differ; please report this",
+            links=piece.links,
+        )
+    return table
+
+
+def _typed(request: Request, piece: Work, sliding: Sequence[int]) -> tuple[list[Chain], list[str]]:
+    """The chains of a piece with these numbers of sliding joints, and how they are fractionated."""
+    chains: list[Chain] = []
+    kinds: list[str] = []
+    for kind, chain in _listed(request, piece):
+        simple = sum(joint.count == 1 for joint in chain.joints)
+        for number in sliding:
+            if number > simple:
+                break
+            found = list(joint_types(chain, {"prismatic": number})) if number else [chain]
+            chains += found
+            kinds += [kind] * len(found)
+    return chains, kinds
+
+
+def _listed(request: Request, piece: Work) -> Iterator[tuple[str, Chain]]:
+    if isinstance(piece, WorkPiece):
+        for edges in list_piece(piece).tolist():
+            yield "none", Chain([("revolute", edge) for edge in edges], links=range(piece.links))
+    else:
+        yield from chains_of_piece(request, piece)
+
+
+# --- files -------------------------------------------------------------------------------------------
+
+
+class _DamagedError(Exception):
+    """A file that cannot be read as a whole."""
+
+
+def write_table(table: pa.Table, path: Path, metadata: dict[str, str]) -> None:
+    """Write a table as a Parquet file that appears complete or not at all; equal tables give equal bytes."""
+    pa = arrow()
+    table = table.replace_schema_metadata({"schema": str(SCHEMA), **metadata})
+    with atomic_file(path) as file:
+        pa.parquet.write_table(
+            table,
+            file,
+            compression="zstd",
+            compression_level=6,
+            row_group_size=131072,
+            write_page_checksum=True,
+            version="2.6",
+        )
+
+
+def read_part(path: Path) -> tuple[pa.Table, bytes]:
+    """A file and its bytes, all checksums tested.
+
+    Raises:
+        RunError: it cannot be read.
+    """
+    pa = arrow()
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        from gruebler.text import reason_of
+
+        raise RunError("{path} cannot be read: {reason}", path=path, reason=reason_of(error)) from None
+    try:
+        return pa.parquet.read_table(pa.BufferReader(content), page_checksum_verification=True), content
+    except (pa.ArrowException, OSError):
+        raise _DamagedError from None
+
+
+def identity_of(task: AtlasTask, version: str) -> str:
+    """The text that tells the files of this task and version from others."""
+    return json.dumps({"schema": SCHEMA, "version": version, "pyarrow": arrow().__version__, "command": task.command()})

@@ -1,0 +1,185 @@
+"""An atlas opened: its tables for Arrow, pandas, polars and DuckDB, and its rows as chains and mechanisms."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gruebler.atlas.building import manifest_of
+from gruebler.atlas.schema import arrow
+from gruebler.chain import Chain
+from gruebler.errors import GrueblerError, RunError, nearest
+from gruebler.isomorphism import decode
+from gruebler.mechanism.inversion import DrivenMechanism
+from gruebler.mechanism.model import Drive, Mechanism
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+    import pyarrow as pa
+    import pyarrow.dataset
+
+__all__ = ["SMALL", "Atlas", "open_atlas"]
+
+SMALL = Path(__file__).parent / "small"
+"""The atlas that comes with the library: chains and mechanisms to 10 links, some driven."""
+
+
+def open_atlas(directory: str | os.PathLike[str] | None = None) -> Atlas:
+    """The atlas in a directory; without one, the small atlas that comes with the library.
+
+    Nothing but the manifest is read before it is needed.
+
+    Raises `RunError` for a directory that holds no complete atlas, or one of a newer version.
+    """
+    return Atlas(SMALL if directory is None else Path(directory))
+
+
+class Atlas:
+    """An atlas in a directory.
+
+    >>> atlas = open_atlas()
+    >>> atlas.query("select count(*) as chains from chains where links = 10 and mobility = 1").to_pylist()
+    [{'chains': 230}]
+    """
+
+    def __init__(self, directory: Path) -> None:
+        self.directory = directory
+        self.manifest = manifest_of(directory)
+        if not self.manifest.get("complete"):
+            raise RunError(
+                "the atlas in {directory} is not complete; `{command}` continues it",
+                directory=directory,
+                command=self.manifest.get("command"),
+            )
+
+    @property
+    def tables(self) -> tuple[str, ...]:
+        """The names of its tables."""
+        return tuple(self.manifest["tables"])
+
+    def files(self, table: str = "chains") -> list[Path]:
+        """The files of a table, in canonical order.
+
+        Raises:
+            GrueblerError: there is no such table.
+            RunError: a file is missing.
+        """
+        if table not in self.tables:
+            raise GrueblerError(
+                "the atlas in {directory} has no table {table!r}{suggestion}",
+                directory=self.directory,
+                table=table,
+                suggestion=nearest(table, self.tables),
+            )
+        files = [self.directory / file["path"] for file in self.manifest["tables"][table]["files"]]
+        missing = next((file for file in files if not file.is_file()), None)
+        if missing is not None:
+            raise RunError("{path} is missing; build the atlas again to restore it", path=missing)
+        return files
+
+    def dataset(self, table: str = "chains") -> pyarrow.dataset.Dataset:
+        """A table for Arrow, read lazily."""
+        arrow()
+        import pyarrow.dataset
+
+        return pyarrow.dataset.dataset(self.files(table), format="parquet")  # type: ignore[no-untyped-call,unused-ignore]
+
+    def polars(self, table: str = "chains") -> polars.LazyFrame:
+        """A table for polars, read lazily; `GrueblerError` if polars is not installed."""
+        try:
+            import polars
+        except ImportError:
+            raise GrueblerError("this needs polars: pip install polars") from None
+        return polars.scan_parquet(self.files(table))
+
+    def query(self, sql: str) -> pa.Table:
+        """The answer to a query in SQL, in the dialect of DuckDB; its tables are those of the atlas.
+
+        Raises `GrueblerError` with the reason for a query that cannot be answered, and if DuckDB is not installed.
+
+        >>> open_atlas().query("select code from chains where links = 4 and mobility = 1")["code"].to_pylist()
+        ['gr1:R(0-1)R(0-2)R(1-3)R(2-3)']
+        """
+        connection = self._connection
+        import duckdb
+
+        try:
+            statements = connection.extract_statements(sql)
+            if len(statements) != 1 or statements[0].type != duckdb.StatementType.SELECT:
+                raise GrueblerError("a query is one statement that begins with select, with or from")
+            return connection.sql(statements[0]).to_arrow_table()
+        except duckdb.Error as error:
+            raise GrueblerError("the query cannot be answered: {reason}", reason=_reason(str(error))) from None
+
+    def pandas(self, sql: str) -> pandas.DataFrame:
+        """The answer to a query for pandas; `GrueblerError` if pandas is not installed."""
+        try:
+            import pandas  # noqa: F401  what follows needs it
+        except ImportError:
+            raise GrueblerError("this needs pandas: pip install pandas") from None
+        return self.query(sql).to_pandas()
+
+    def chains(self, where: str = "true") -> Iterator[Chain]:
+        """The chains that satisfy a condition in SQL, in the order of the atlas.
+
+        >>> next(open_atlas().chains("links = 6 and mobility = 1")).n
+        6
+        """
+        for code in self.query(f"select code from chains where {where}")["code"].to_pylist():
+            yield decode(code).chain
+
+    def mechanisms(self, where: str = "true") -> Iterator[Mechanism]:
+        """The mechanisms that satisfy a condition in SQL, in the order of the atlas."""
+        for row in self.query(f"select chain, frame from mechanisms where {where}").to_pylist():
+            yield Mechanism(decode(row["chain"]).chain, str(row["frame"]))
+
+    def driven_mechanisms(self, where: str = "true") -> Iterator[DrivenMechanism]:
+        """The driven mechanisms that satisfy a condition in SQL, in the order of the atlas.
+
+        >>> [str(each) for each in open_atlas().driven_mechanisms("links = 4 and mobility = 1")]
+        ['R(0-1) R(0-2) R(1-3) R(2-3); frame=0; drive=R(0-1)']
+        """
+        for row in self.query(f"select chain, frame, drives from driven where {where}").to_pylist():
+            chain = decode(row["chain"]).chain
+            yield DrivenMechanism(Mechanism(chain, str(row["frame"]), _drives(chain, row["drives"])))
+
+    @cached_property
+    def _connection(self) -> Any:
+        """DuckDB with a view for every table; it reads nothing yet."""
+        try:
+            import duckdb
+        except ImportError:
+            raise GrueblerError("queries need duckdb: pip install 'gruebler[atlas]'") from None
+        arrow()
+        connection = duckdb.connect(":memory:")
+        for table in self.tables:
+            files = ", ".join("'" + str(path).replace("'", "''") + "'" for path in self.files(table))
+            connection.execute(
+                f"create view {table} as select * from read_parquet([{files}], hive_partitioning = false)"
+            )
+        return connection
+
+
+def _drives(chain: Chain, text: str) -> Iterator[Drive]:
+    """The drives of a row: each the two links that it moves against each other."""
+    for pair in text.split():
+        ends = set(pair.split("-"))
+        number, joint = next((k, joint) for k, joint in enumerate(chain.joints) if ends <= set(joint.links))
+        first, other = sorted(ends, key=joint.links.index)
+        yield Drive(number, joint.pair.freedoms[chain.space][0], (first, other))
+
+
+def _reason(text: str) -> str:
+    """The first sentences of a message of DuckDB, without the picture of the query."""
+    lines = [line.strip() for line in text.splitlines()]
+    kept = []
+    for line in lines:
+        if line.startswith("LINE "):
+            break
+        if line:
+            kept.append(line)
+    return " ".join(kept)

@@ -1,0 +1,221 @@
+"""`gruebler atlas`: chains and mechanisms with their properties in Parquet files, built and queried."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import io
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gruebler.cli.executors import add_executor, executor_of
+from gruebler.cli.long_work import ask_before, run_progress
+from gruebler.cli.output import print_json, say_written
+from gruebler.cli.parser import Parser
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.text import plural
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+__all__ = ["add", "run"]
+
+_CHAIN = 1e-4  # seconds to describe a chain of simple joints, its files included
+_COMPOSED = 1e-2  # one with multiple or sliding joints, or a fractionated one
+_BULK = 2e-5  # for each link of a chain with F = 1, and each drive at it
+_MECHANISM = 2e-3  # for each link of a chain
+_DRIVEN = 1e-2  # for each joint and frame
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="All chains and mechanisms with their properties, in Parquet files. The atlas that comes with the "
+        "library has all chains to 10 links. pip install 'gruebler[atlas]' brings what this needs.",
+        epilog='Examples: gruebler atlas query "select code from chains where links = 10 and not planar"; '
+        "gruebler atlas build --links 4-14 atlas14; gruebler atlas columns",
+    )
+    build = parser.add_command(
+        "build",
+        help="write all chains of some sizes with their properties into a folder",
+        epilog="A build can be stopped at any time; the same command continues it, and the files are the same.",
+    )
+    build.add_argument("directory", type=Path, metavar="DIR", help="a folder of its own")
+    build.add_argument("--links", required=True, metavar="N", help="number of links, or a range such as 4-10")
+    build.add_argument("--mobility", default="1", metavar="F", help="mobility, or a range (default: 1)")
+    build.add_argument(
+        "--fractionated",
+        choices=("none", "link", "joint", "all"),
+        nargs="?",
+        const="all",
+        default="none",
+        help="as for gruebler enumerate (default: none)",
+    )
+    build.add_argument(
+        "--multiple-joints",
+        nargs="?",
+        const="any",
+        default="0",
+        metavar="K|any",
+        help="as for gruebler enumerate (default: 0)",
+    )
+    build.add_argument(
+        "--prismatic", default="0", metavar="K", help="number of sliding joints, or a range (default: 0)"
+    )
+    build.add_argument("--inversions", action="store_true", help="also the mechanisms: each chain with each frame")
+    build.add_argument(
+        "--drives",
+        choices=("frame", "any"),
+        nargs="?",
+        const="frame",
+        default="none",
+        help="also the driven mechanisms with their Assur groups: drives at the frame, or any drives",
+    )
+    add_executor(build)
+    build.add_argument("--yes", action="store_true", help="start even if it takes long")
+    query = parser.add_command("query", help="answer a query in SQL")
+    query.add_argument(
+        "words", nargs="+", metavar="[DIR] SQL", help="the folder of an atlas (default: the small one), and the query"
+    )
+    columns = parser.add_command("columns", help="list the columns of all tables, with their units and definitions")
+    for action in (query, columns):
+        action.add_argument("--json", action="store_true", help="print JSON")
+        action.add_out(
+            help="write into a file instead: .txt, .json, .csv or .parquet", endings=("txt", "json", "csv", "parquet")
+        )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Build, query or explain."""
+    match arguments.action:
+        case "build":
+            return _build(arguments)
+        case "query":
+            return _query(arguments)
+    return _columns(arguments)
+
+
+def _build(arguments: argparse.Namespace) -> int:
+    from gruebler.atlas import AtlasTask, build
+
+    task = AtlasTask(
+        arguments.links,
+        arguments.mobility,
+        arguments.fractionated,
+        str(arguments.multiple_joints),
+        arguments.prismatic,
+        arguments.inversions,
+        arguments.drives,
+    )
+    chains, seconds = _expected(task)
+    ask_before(seconds / max(arguments.jobs, 1), arguments.yes)
+    with run_progress(arguments.lang) as draw:
+        manifest = build(task, arguments.directory, executor=executor_of(arguments), progress=draw, expected=chains)
+    rows = manifest["tables"]["chains"]["rows"]
+    say_written(
+        arguments.directory, arguments.lang, ", " + plural("{count} chain", "{count} chains", rows, arguments.lang)
+    )
+    return 0
+
+
+def _expected(task: Any) -> tuple[int, float]:
+    """About how many chains a task has, and how many seconds it takes."""
+    from gruebler.enumeration.estimates import expected_chains
+
+    chains, seconds = 0, 0.0
+    for request in task.requests():
+        number = expected_chains(request)[0]
+        sliding = sum(request.links**k for k in task.sliding)
+        chains += number * sliding
+        plain = request.only_simple and request.fractionated == "none" and sliding == 1
+        each = _CHAIN if plain else _COMPOSED
+        if plain and request.mobility == 1 and task.drives != "any":
+            each += _BULK * request.links * (1 + 2 * (task.drives == "frame"))
+        else:
+            each += _MECHANISM * request.links * task.inversions
+            drives = {"none": 0, "frame": 2, "any": request.links}[task.drives]
+            each += _DRIVEN * request.links * drives**request.mobility
+        seconds += number * sliding * each
+    return chains, seconds
+
+
+def _query(arguments: argparse.Namespace) -> int:
+    from gruebler.atlas import open as open_atlas
+
+    *folder, sql = arguments.words
+    if len(folder) > 1:
+        raise GrueblerError("expected a folder and a query; put the query in quotes")
+    _answer(open_atlas(*folder).query(sql), arguments)
+    return 0
+
+
+def _columns(arguments: argparse.Namespace) -> int:
+    from gruebler.atlas import columns_of
+    from gruebler.atlas.schema import TABLES, arrow
+
+    rows = [column for table in TABLES for column in columns_of(table)]
+    if arguments.out is None and not arguments.json:
+        print_table(list(rows[0]._fields), rows)
+        return 0
+    _answer(arrow().Table.from_pylist([row._asdict() for row in rows]), arguments)
+    return 0
+
+
+def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
+    """Print a table, or write it into the file of `-o`."""
+    from gruebler.atomic_files import atomic_file
+
+    if arguments.out is None:
+        if arguments.json:
+            print_json(table.to_pylist())
+        else:
+            _print(table)
+        return
+    with atomic_file(arguments.out, durable=False) as file:
+        match arguments.out.suffix.lower():
+            case ".parquet":
+                from gruebler.atlas.schema import arrow
+
+                arrow().parquet.write_table(table, file, compression="zstd")
+            case ".json":
+                import json
+
+                file.write((json.dumps(table.to_pylist(), indent=2, default=str) + "\n").encode())
+            case ending:
+                text = io.StringIO(newline="")
+                if ending == ".txt" and table.num_columns == 1:
+                    text.writelines(f"{value}\n" for value in _cells(table)[0])
+                else:
+                    lines = csv.writer(text, lineterminator="\n")
+                    lines.writerow(table.column_names)
+                    lines.writerows(zip(*_cells(table), strict=True))
+                file.write(text.getvalue().encode())
+    rows = plural("{count} row", "{count} rows", table.num_rows, arguments.lang)
+    say_written(arguments.out, arguments.lang, f", {rows}")
+
+
+def _print(table: pa.Table) -> None:
+    """A table; a single column without its name, so that other commands read it: gruebler gallery -."""
+    if table.num_columns == 1:
+        sys.stdout.writelines(f"{value}\n" for value in _cells(table)[0])
+        return
+    from gruebler.atlas.schema import arrow
+
+    types = arrow().types
+    numbers = [
+        k for k, field in enumerate(table.schema) if types.is_integer(field.type) or types.is_floating(field.type)
+    ]
+    print_table(table.column_names, list(zip(*_cells(table), strict=True)), numbers=numbers)
+
+
+def _cells(table: pa.Table) -> list[list[str]]:
+    """The values of each column as text."""
+    return [[_cell(value) for value in column.to_pylist()] for column in table.columns]
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, list):
+        return " ".join(map(_cell, value))
+    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)

@@ -1,0 +1,36 @@
+"""The options `--jobs` and `--scheduler`: who does the work."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable
+from concurrent.futures import Executor
+
+from gruebler.cli.parser import Parser
+from gruebler.errors import GrueblerError
+
+__all__ = ["add_executor", "executor_of"]
+
+
+def add_executor(parser: Parser) -> None:
+    """Add the options."""
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="number of processes (default: 1)")
+    parser.add_argument(
+        "--scheduler", metavar="ADDRESS", help="send the work to a Dask scheduler, such as tcp://host:8786"
+    )
+
+
+def executor_of(arguments: argparse.Namespace) -> Callable[[], Executor] | None:
+    """What creates executors for `enumeration.worker_pool.run_work`; None for this process alone."""
+    if arguments.scheduler is not None:
+        from gruebler.enumeration.schedulers import DaskScheduler
+
+        if arguments.jobs != 1:
+            raise GrueblerError("--jobs is for processes of this machine; with --scheduler its workers do the work")
+        return DaskScheduler(arguments.scheduler)
+    if arguments.jobs == 1:
+        return None
+    from gruebler.enumeration.worker_pool import ProcessPools
+
+    return ProcessPools(min(arguments.jobs, 4 * (os.cpu_count() or 1)))

@@ -1,0 +1,77 @@
+"""A linkage as a tree of bodies, as simulators have it: with drives and slides; other pins close its loops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import hypot
+
+from gruebler.disjoint_sets import DisjointSets
+from gruebler.errors import GrueblerError
+from gruebler.formats.pin_drawings import lower_linkage
+from gruebler.linkages import Linkage
+from gruebler.text import Message, message
+
+__all__ = ["DENSITY", "SLENDER", "BodyTree"]
+
+DENSITY = 7850.0
+"""kg/m³, of steel."""
+SLENDER = 50
+"""The size of a linkage over the radius of its bars."""
+_METRES = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "in": 0.0254}
+
+
+class BodyTree:
+    """The tree of a linkage, and what closes its loops."""
+
+    def __init__(self, linkage: Linkage, left_out: list[Message]) -> None:
+        """Of a linkage of turning and sliding joints; `GrueblerError` for others, and if slides alone close a loop."""
+        self.lower = lower = lower_linkage(linkage)
+        scale = _METRES.get(lower.unit)
+        if scale is None:
+            left_out.append(message("the unit {unit}", unit=lower.unit))
+        if linkage.outputs:
+            left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
+        self.scale = 1.0 if scale is None else scale
+        mechanism = lower.mechanism
+        self.frame, self.names = mechanism.frame, mechanism.chain.joint_names()
+        driven = {drive.joint: drive.between for drive in mechanism.drives}
+        edges = []  # importance, joint, two links
+        for number, joint in enumerate(mechanism.chain.joints):
+            centre = driven[number][0] if number in driven else joint.links[0]
+            for other in joint.links:
+                if other != centre:
+                    first = number in driven and other == driven[number][1]
+                    edges.append((0 if first else 1 if joint.pair.name == "prismatic" else 2, number, centre, other))
+        sets = DisjointSets(mechanism.chain.links)
+        self.tree: dict[str, list[tuple[int, str]]] = {link: [] for link in mechanism.chain.links}
+        self.closing: list[tuple[int, str, str]] = []
+        for importance, number, one, other in sorted(edges, key=lambda edge: edge[0]):
+            if sets.find(one) != sets.find(other):
+                sets.unite(one, other)
+                self.tree[one].append((number, other))
+                self.tree[other].append((number, one))
+            elif importance < 2:
+                raise GrueblerError("the slide {joint} closes a loop of slides and drives", joint=self.names[number])
+            else:
+                self.closing.append((number, one, other))
+
+    def descent(self) -> Iterator[tuple[str, str, int] | None]:
+        """Every link but the frame, with the one above it and their joint, before those below it; None behind these."""
+        stack: list[tuple[str, str, int] | None] = [
+            (other, self.frame, number) for number, other in reversed(self.tree[self.frame])
+        ]
+        while stack:
+            entry = stack.pop()
+            yield entry
+            if entry is not None:
+                child, above, _ = entry
+                stack.append(None)
+                stack += [(other, child, joint) for joint, other in reversed(self.tree[child]) if other != above]
+
+    def bars(self, link: str) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+        """From the first place of a link to each other one; one of no length if there is none."""
+        places = [(e.x, e.y) for (_, owner), e in self.lower.elements.items() if owner == link]
+        places += [(point.x, point.y) for point in self.lower.points.values() if point.link == link]
+        (x, y), *others = places
+        far = [(a, b) for a, b in dict.fromkeys(others) if hypot(a - x, b - y) > 1e-9 * self.lower.size]
+        return [((x, y), place) for place in far] or [((x, y), (x, y))]

@@ -1,0 +1,283 @@
+"""A document as a file: PDF, HTML, LaTeX, Markdown; pictures stand in the file itself."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Callable, Iterator
+from html import escape
+
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
+from gruebler.drawing.canvas.styles import COLOURS, STYLES
+from gruebler.drawing.canvas.svg import style_sheet
+from gruebler.errors import GrueblerError
+from gruebler.text import joined_by_or
+from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+from gruebler.worksheets.paged import document_pages, pages_as_pdf
+
+__all__ = ["DOCUMENT_SUFFIXES", "document_bytes"]
+
+
+def document_bytes(document: Document, suffix: str) -> bytes:
+    """The content of a file; `GrueblerError` for another ending, or if matplotlib is needed and missing."""
+    if suffix not in _WRITERS:
+        raise GrueblerError(
+            "expected a file name that ends with {endings}, but found {found!r}",
+            endings=joined_by_or([f".{ending}" for ending in _WRITERS]),
+            found=f".{suffix}",
+        )
+    return _WRITERS[suffix](document)
+
+
+def _pdf(document: Document) -> bytes:
+    return pages_as_pdf(document.title, document_pages(document))
+
+
+# --- HTML --------------------------------------------------------------------------------------------
+
+_HTML_STYLE = (
+    "body{max-width:50rem;margin:1rem auto;padding:0 1rem;font:15px/1.45 sans-serif;color:#22262b;background:#fff}"
+    "h1{font-size:1.5rem}h2{font-size:1.15rem;break-after:avoid}h3{font-size:1rem;break-after:avoid}"
+    ".row{display:flex;gap:1rem;align-items:end;break-inside:avoid}figure{margin:.3rem 0;flex:1}"
+    "figcaption,.small{font-size:.82rem;color:#5c636b}svg{max-width:100%;height:auto}"
+    "table{border-collapse:collapse;margin:.5rem 0}th,td{padding:.1rem .8rem .1rem "
+    "0;text-align:left;vertical-align:top}"
+    "th{border-bottom:1px solid #22262b}.answer{break-inside:avoid}.line{display:inline-block;width:11rem;"
+    "border-bottom:1px solid #22262b;margin-left:.6rem}.break{break-before:page}"
+    "@page{size:A4;margin:16mm}@media print{body{margin:0;padding:0;max-width:none}}"
+)
+
+
+def _html(document: Document) -> bytes:
+    used = {
+        shape.style
+        for block in document.blocks
+        if isinstance(block, Pictures)
+        for figure in block.figures
+        for shape in figure.shapes
+    }
+    rules = style_sheet(sorted({"ground", *used})).partition("@media")[0]
+    body = "\n".join(part for block in document.blocks for part in _html_block(block))
+    title = escape(document.title)
+    return (
+        f'<!doctype html>\n<html lang="{document.lang}"><head><meta charset="utf-8"><title>{title}</title>'
+        f"<style>{rules}{_HTML_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
+        f'<p class="small">{escape(document.subtitle)}</p>\n{body}\n</body></html>\n'
+    ).encode()
+
+
+def _markup(text: str) -> str:
+    """Text for HTML, with subscripts."""
+    return "".join(f"<sub>{escape(part)}</sub>" if low else escape(part) for part, low in split_subscripts(text))
+
+
+def _html_block(block: Block) -> Iterator[str]:
+    match block:
+        case Heading(text, level):
+            yield f"<h{level + 1}>{_markup(text)}</h{level + 1}>"
+        case Paragraph(text, small):
+            yield f"<p{' class=small' if small else ''}>{'<br>'.join(map(_markup, text.split(chr(10))))}</p>"
+        case Pictures(figures, captions, height):
+            items = []
+            for k, figure in enumerate(figures):
+                wide = min(1.0, height / figure.height) * figure.width
+                caption = f"<figcaption>{_markup(captions[k])}</figcaption>" if k < len(captions) else ""
+                items.append(f'<figure style="max-width:{wide:.0f}px">{figure.svg(styled=False)}{caption}</figure>')
+            yield f'<div class="row">{"".join(items)}</div>'
+        case Rows(headers, rows):
+            yield f"<table><tr>{''.join(f'<th>{_markup(cell)}</th>' for cell in headers)}</tr>"
+            for row in rows:
+                yield f"<tr>{''.join(f'<td>{_markup(cell)}</td>' for cell in row)}</tr>"
+            yield "</table>"
+        case AnswerLines(asked, space):
+            lines = "".join(f'<p>{_markup(name)}<span class="line"></span></p>' for name in asked)
+            yield f'<div class="answer" style="padding-top:{space:.0f}px">{lines}</div>'
+        case PageBreak():
+            yield '<div class="break"></div>'
+
+
+# --- Markdown ----------------------------------------------------------------------------------------
+
+
+def _markdown(document: Document) -> bytes:
+    lines = [f"# {document.title}", "", document.subtitle, ""]
+    for block in document.blocks:
+        lines += [*_markdown_block(block), ""]
+    return ("\n".join(lines).rstrip() + "\n").encode()
+
+
+def _markdown_block(block: Block) -> Iterator[str]:
+    match block:
+        case Heading(text, level):
+            yield f"{'#' * (level + 1)} {text}"
+        case Paragraph(text):
+            yield "  \n".join(text.split("\n"))
+        case Pictures(figures, captions):
+            for k, figure in enumerate(figures):
+                data = base64.b64encode(figure.svg().encode("utf-8")).decode("ascii")
+                caption = captions[k] if k < len(captions) else figure.title
+                yield f"![{caption.replace('[', '(').replace(']', ')')}](data:image/svg+xml;base64,{data})"
+        case Rows(headers, rows):
+            for number, row in enumerate([headers, *rows]):
+                yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
+                if number == 0:
+                    yield "|" + "---|" * len(headers)
+        case AnswerLines(asked):
+            yield from (f"- {name} ________" for name in asked)
+        case PageBreak():
+            yield "---"
+
+
+# --- LaTeX -------------------------------------------------------------------------------------------
+
+_SPECIAL = {
+    **{sign: f"\\{sign}" for sign in "&%$#_{}"},
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+}
+_MATHS = {
+    "√": r"$\surd$",
+    "²": "$^2$",
+    "³": "$^3$",
+    "°": r"$^\circ$",
+    "≤": r"$\leq$",
+    "≥": r"$\geq$",
+    "·": r"$\cdot$",
+    "±": r"$\pm$",
+    "→": r"$\to$",
+    "′": "$'$",
+    "″": "$''$",
+    "∞": r"$\infty$",
+    "Σ": r"$\Sigma$",
+    "Δ": r"$\Delta$",
+    "…": r"\dots{}",
+    **{chr(0x2080 + k): f"$_{k}$" for k in range(10)},
+    **dict(
+        zip(
+            "αβγδεθκλμφψω",
+            (
+                rf"$\{name}$"
+                for name in [
+                    "alpha",
+                    "beta",
+                    "gamma",
+                    "delta",
+                    "varepsilon",
+                    "theta",
+                    "kappa",
+                    "lambda",
+                    "mu",
+                    "varphi",
+                    "psi",
+                    "omega",
+                ]
+            ),
+            strict=True,
+        )
+    ),
+}
+_SIGNS = str.maketrans({**_SPECIAL, **_MATHS})
+
+
+def _latex_text(text: str) -> str:
+    """Text for LaTeX, with subscripts and signs of mathematics."""
+    return "".join(
+        rf"\textsubscript{{{piece.translate(_SIGNS)}}}" if low else piece.translate(_SIGNS)
+        for piece, low in split_subscripts(text)
+    )
+
+
+def _latex(document: Document) -> bytes:
+    babel = {"de": "ngerman"}.get(document.lang, "english")
+    colours = "\n".join(
+        rf"\definecolor{{gr{role}}}{{HTML}}{{{light[1:].upper()}}}" for role, (light, _) in COLOURS.items()
+    )
+    body = "\n".join(part for block in document.blocks for part in _latex_block(block))
+    return (
+        "\\documentclass[a4paper,11pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n"
+        f"\\usepackage[{babel}]{{babel}}\n\\usepackage[margin=20mm]{{geometry}}\n\\usepackage{{tikz}}\n"
+        "\\usepackage{longtable}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{6pt}\n"
+        f"{colours}\n\\begin{{document}}\n\\section*{{{_latex_text(document.title)}}}\n"
+        f"{{\\small {_latex_text(document.subtitle)}}}\n\n{body}\n\\end{{document}}\n"
+    ).encode()
+
+
+def _latex_block(block: Block) -> Iterator[str]:
+    match block:
+        case Heading(text, level):
+            command = {1: "section", 2: "subsection", 3: "subsubsection"}[level]
+            yield f"\\{command}*{{{_latex_text(text)}}}"
+        case Paragraph(text, small):
+            lines = r"\\ ".join(map(_latex_text, text.split("\n")))
+            yield f"{{\\small {lines}\\par}}\n" if small else f"{lines}\\par\n"
+        case Pictures(figures, captions, height):
+            for k, figure in enumerate(figures):
+                scale = min(1.0, height / figure.height, 480 / len(figures) / figure.width)
+                caption = rf"\\ {{\footnotesize {_latex_text(captions[k])}}}" if k < len(captions) else ""
+                wide = 0.98 / len(figures)
+                picture = _tikz(figure, scale)
+                yield f"\\begin{{minipage}}[b]{{{wide:.2f}\\linewidth}}{picture}{caption}\\end{{minipage}}%"
+            yield "\\par\n"
+        case Rows(headers, rows):
+            yield f"\\begin{{longtable}}{{@{{}}{'l' * (len(headers) - 1)}p{{0.4\\linewidth}}@{{}}}}"
+            for number, row in enumerate([headers, *rows]):
+                yield " & ".join(map(_latex_text, row)) + r" \\" + (r" \hline" if number == 0 else "")
+            yield "\\end{longtable}\n"
+        case AnswerLines(asked, space):
+            yield f"\\vspace{{{space * 0.75:.0f}pt}}\n"
+            yield from (f"{_latex_text(name)}\\enspace\\underline{{\\hspace{{40mm}}}}\\par\n" for name in asked)
+        case PageBreak():
+            yield "\\newpage"
+
+
+def _tikz(figure: Figure, scale: float) -> str:
+    """The picture in TikZ."""
+    unit = 0.75 * scale
+    commands = "\n".join(part for shape in figure.shapes for part in _tikz_shape(shape, unit))
+    return (
+        f"\\begin{{tikzpicture}}[x={unit:.3f}pt,y=-{unit:.3f}pt,line cap=round,line join=round]\n"
+        f"\\useasboundingbox (0,0) rectangle ({figure.width:.1f},{figure.height:.1f});\n"
+        f"{commands}\n\\end{{tikzpicture}}"
+    )
+
+
+def _tikz_shape(shape: Shape, unit: float) -> Iterator[str]:
+    style = STYLES[shape.style]
+    if isinstance(shape, TextShape):
+        anchor = {"start": "west", "middle": "center", "end": "east"}[shape.anchor]
+        size = style.size * unit
+        text = _latex_text(shape.text)
+        yield (
+            f"\\node[anchor={anchor},inner sep=0,text=gr{style.fill},font=\\fontsize{{{size:.1f}}}{{{size * 1.2:.1f}}}"
+            f"\\selectfont] at {_place(shape.at)} {{{text}}};"
+        )
+        return
+    options = []
+    if style.stroke:
+        options.append(f"draw=gr{style.stroke},line width={style.width * unit:.2f}pt")
+    if style.fill:
+        options.append(f"fill=gr{style.fill}")
+    if style.dash:
+        pairs = zip(style.dash[::2], style.dash[1::2], strict=True)
+        options.append("dash pattern=" + " ".join(f"on {on * unit:.1f}pt off {off * unit:.1f}pt" for on, off in pairs))
+    path = f"\\path[{','.join(options)}]"
+    match shape:
+        case Polylines(parts, _, closed):
+            for part in parts:
+                yield f"{path} {' -- '.join(map(_place, part))}{' -- cycle' if closed else ''};"
+        case CircleShape(at, radius):
+            yield f"{path} {_place(at)} circle [radius={radius * unit:.2f}pt];"
+        case ArcShape():
+            steps = max(2, math.ceil(abs(shape.extent) / 0.05))
+            yield f"{path} {' -- '.join(_place(shape.place(k / steps)) for k in range(steps + 1))};"
+
+
+def _place(at: Point) -> str:
+    return f"({at.x:.1f},{at.y:.1f})"
+
+
+_WRITERS: dict[str, Callable[[Document], bytes]] = {"pdf": _pdf, "html": _html, "tex": _latex, "md": _markdown}
+DOCUMENT_SUFFIXES = tuple(_WRITERS)
+"""Endings of the files that a document can be written into."""

@@ -1,0 +1,176 @@
+"""A document on pages of A4."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from itertools import pairwise
+
+from gruebler.drawing.canvas.construction import wrapped_text
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.shapes import text_width
+from gruebler.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
+from gruebler.text import translate
+from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+
+__all__ = ["document_pages", "pages_as_pdf"]
+
+_LEFT, _RIGHT, _TOP, _BOTTOM = 60.0, WIDTH - 60.0, 86.0, HEIGHT - 66.0
+_BODY, _LEAD = 11.5, 16.0
+_SIZES = {1: 17.0, 2: 13.5, 3: 12.0}
+_GAP = 12.0
+_FILL = 1.04  # texts are set a little wider than estimated
+
+Item = TextLine | HorizontalRule | PlacedPicture
+
+
+def document_pages(document: Document) -> tuple[Page, ...]:
+    """The pages, with title and number on each."""
+    pages: list[list[Item]] = [[]]
+    y = _TOP
+    for block, following in pairwise([*document.blocks, None]):
+        if block is None or isinstance(block, PageBreak):
+            if pages[-1]:
+                pages.append([])
+                y = _TOP
+            continue
+        for items, high in _parts(block):
+            # A heading stays with the beginning of what it heads.
+            more = min(_needed(following), 0.4 * HEIGHT) if isinstance(block, Heading) else 0.0
+            if y + high + more > _BOTTOM and pages[-1]:
+                pages.append([])
+                y = _TOP
+            pages[-1] += [item.at(y) for item in items]
+            y += high
+    count = len(pages)
+    return tuple(_page(document, items, k, count) for k, items in enumerate(pages, 1))
+
+
+class _Lowered:
+    """An item whose y is counted from the top of its part."""
+
+    def __init__(self, item: Item) -> None:
+        self.item = item
+
+    def at(self, y: float) -> Item:
+        """The item on a page, its part beginning at y."""
+        match self.item:
+            case TextLine(x, below, text, size, bold, role, anchor):
+                return TextLine(x, y + below, text, size, bold, role, anchor)
+            case HorizontalRule(x, below, length, width):
+                return HorizontalRule(x, y + below, length, width)
+            case PlacedPicture(x, below, scale, figure):
+                return PlacedPicture(x, y + below, scale, figure)
+        raise AssertionError(self.item)
+
+
+Part = tuple[list[_Lowered], float]
+
+
+def _parts(block: Block) -> Iterator[Part]:
+    """The pieces of a block that are not divided, each with its height."""
+    match block:
+        case Heading(text, level):
+            yield _heading(text, _SIZES[level])
+        case Paragraph(text, small):
+            size, lead = (9.5, 13.0) if small else (_BODY, _LEAD)
+            for paragraph in text.split("\n"):
+                for line in wrapped_text(paragraph, _RIGHT - _LEFT, size * _FILL):
+                    yield [_Lowered(TextLine(_LEFT, size, line, size, role="faint" if small else "ink"))], lead
+            yield [], _GAP / 2
+        case Pictures():
+            yield _pictures(block)
+        case Rows():
+            yield from _table(block)
+        case AnswerLines(asked, space):
+            items = [_Lowered(TextLine(_LEFT, space + _BODY + 22.0 * k, name)) for k, name in enumerate(asked)]
+            rules = [
+                _Lowered(HorizontalRule(_LEFT + text_width(name, _BODY) + 14, space + _BODY + 22.0 * k + 2, 150.0))
+                for k, name in enumerate(asked)
+            ]
+            yield [*items, *rules], space + 22.0 * len(asked) + _GAP
+
+
+def _heading(text: str, size: float) -> Part:
+    lines = wrapped_text(text, _RIGHT - _LEFT, size * 1.08)
+    items = [_Lowered(TextLine(_LEFT, _GAP + size * (1 + 1.25 * k), line, size, True)) for k, line in enumerate(lines)]
+    return items, _GAP + 1.25 * size * len(lines) + 6
+
+
+def _pictures(block: Pictures) -> Part:
+    count = len(block.figures)
+    wide = (_RIGHT - _LEFT - _GAP * (count - 1)) / count
+    items: list[_Lowered] = []
+    scales = [min(1.0, wide / figure.width, block.height / figure.height) for figure in block.figures]
+    high = max(scale * figure.height for scale, figure in zip(scales, block.figures, strict=True))
+    below = 0.0
+    for k, (figure, scale) in enumerate(zip(block.figures, scales, strict=True)):
+        left = _LEFT + k * (wide + _GAP)
+        x = left if count == 1 else left + (wide - scale * figure.width) / 2
+        items.append(_Lowered(PlacedPicture(x, high - scale * figure.height, scale, figure)))
+        if k < len(block.captions):
+            lines = wrapped_text(block.captions[k], wide, 9.5 * _FILL)
+            items += [
+                _Lowered(TextLine(left, high + 13 + 12.5 * row, line, 9.5, role="faint"))
+                for row, line in enumerate(lines)
+            ]
+            below = max(below, 12.5 * len(lines) + 4)
+    return items, high + below + _GAP
+
+
+def _table(block: Rows) -> Iterator[Part]:
+    """The rows, each as high as its highest cell; columns as wide as their widest cell, the widest one wrapped."""
+    cells = [block.headers, *block.rows]
+    widths = [max(text_width(row[k], 10 * _FILL) for row in cells) + 14 for k in range(len(block.headers))]
+    excess = sum(widths) - (_RIGHT - _LEFT)
+    if excess > 0:
+        widest = max(range(len(widths)), key=widths.__getitem__)
+        widths[widest] = max(widths[widest] - excess, 90.0)
+    for number, row in enumerate(cells):
+        items, x, high = [], _LEFT, 0.0
+        for cell, width in zip(row, widths, strict=True):
+            lines = wrapped_text(cell, width - 10, 10 * _FILL)
+            items += [_Lowered(TextLine(x, 10 + 13 * k, line, 10, number == 0)) for k, line in enumerate(lines)]
+            x, high = x + width, max(high, 13.0 * len(lines))
+        if number == 0:
+            items.append(_Lowered(HorizontalRule(_LEFT, high + 2, min(sum(widths), _RIGHT - _LEFT))))
+        yield items, high + (6 if number == 0 else 3)
+    yield [], _GAP
+
+
+def _needed(block: Block | None) -> float:
+    """How much space the beginning of a block needs."""
+    return 0.0 if block is None or isinstance(block, PageBreak) else next(_parts(block), ([], 0.0))[1]
+
+
+def _page(document: Document, items: list[Item], number: int, count: int) -> Page:
+    lang = document.lang
+    head: list[Item] = [
+        TextLine(_LEFT, 50, document.title, 10, role="faint"),
+        TextLine(_RIGHT, 50, document.subtitle, 10, role="faint", anchor="end"),
+        HorizontalRule(_LEFT, 57, _RIGHT - _LEFT),
+        TextLine(
+            WIDTH / 2,
+            HEIGHT - 34,
+            translate("page {number} of {count}", lang, number=number, count=count),
+            9,
+            role="faint",
+            anchor="middle",
+        ),
+    ]
+    return Page((*head, *items), document.title, document.subtitle, lang)
+
+
+def pages_as_pdf(title: str, pages: tuple[Page, ...]) -> bytes:
+    """The pages in one PDF; `GrueblerError` if matplotlib is not installed."""
+    from gruebler.drawing.canvas.matplotlib_files import matplotlib_figure
+    from gruebler.sheets.page import painted
+
+    memory = io.BytesIO()
+    matplotlib_figure(Figure((), 10, 10, title, ""))  # says what is missing
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    with PdfPages(memory, metadata={"Title": title, "CreationDate": None, "Creator": None}) as file:
+        for page in pages:
+            file.savefig(painted(page))
+    return memory.getvalue()

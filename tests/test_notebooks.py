@@ -1,0 +1,62 @@
+"""The notebooks of docs/notebooks: every cell runs, and every value that a cell ends with shows itself."""
+
+import ast
+import json
+
+import pytest
+
+from tests.docs_session import DOCS
+
+NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.ipynb"))
+RICH = ("_repr_html_", "_repr_svg_", "_repr_markdown_", "_repr_mimebundle_")
+
+
+def cells(path):
+    document = json.loads(path.read_text(encoding="utf-8"))
+    assert document["nbformat"] == 4
+    return [("".join(cell["source"]), cell) for cell in document["cells"] if cell["cell_type"] == "code"]
+
+
+def shown(value):
+    """What Jupyter shows of a value: its richest form, else its `repr`."""
+    for name in RICH:
+        made = getattr(value, name, None)
+        if callable(made) and (text := made()):
+            return text
+    return repr(value)
+
+
+def test_there_are_three():
+    assert [path.stem for path in NOTEBOOKS] == ["design", "lesson", "research"]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_cells_run_and_values_show_themselves(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names, pictures = {}, 0
+    for source, cell in cells(path):
+        assert cell["outputs"] == [], "notebooks are kept without outputs"
+        tree = ast.parse(source)
+        last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, path.name, "exec"), names)
+        value = eval(compile(ast.Expression(last.value), path.name, "eval"), names) if last else None
+        if value is not None:
+            text = shown(value)
+            pictures += text.startswith(("<svg", "<table"))
+            assert " object at 0x" not in text, source
+            assert len(text) < 200_000, source
+            if not text.startswith("<"):
+                assert len(text) < 2_000, source
+    assert pictures >= 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_jupyter_runs_them(path, tmp_path):
+    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
+    pytest.importorskip("ipykernel")
+    notebook = nbformat.read(path, as_version=4)
+    nbformat.validate(notebook)
+    nbclient.NotebookClient(notebook, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    kinds = {kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})}
+    assert "image/svg+xml" in kinds

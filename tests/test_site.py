@@ -1,0 +1,97 @@
+"""Everything that README.md and the pages of docs show runs: commands, files, pictures, Python."""
+
+import doctest
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import gruebler as gr
+from tests.docs_session import DOCS, Session, blocks_of
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted(path for path in DOCS.rglob("*.md") if any(blocks_of(path.read_text(encoding="utf-8"))))
+SLOW = {"gallery"}
+RUNNER = doctest.DocTestRunner(verbose=False, optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS)
+
+
+def name_of(page):
+    return page.relative_to(DOCS).with_suffix("").as_posix()
+
+
+def run_page(page, folder):
+    """Run a page in a folder; returns how many blocks ran."""
+    session, number = Session(folder), 0
+    for block in blocks_of(page.read_text(encoding="utf-8")):
+        number += 1
+        if block.kind == "command":
+            status, printed = session.command(block.body)
+            assert status == int(block.options.get("status", 0)), f"{block.body}\n{printed}"
+            assert printed.strip(), block.body
+        elif block.kind == "file":
+            session.file(block.argument, block.body)
+        elif block.kind == "picture":
+            assert session.picture(block.body).svg().startswith("<svg"), block.body
+        else:
+            test = doctest.DocTestParser().get_doctest(block.body + "\n", session.names, page.name, str(page), None)
+            assert test.examples, block.body
+            report = []
+            RUNNER.run(test, out=report.append, clear_globs=False)
+            session.names = test.globs
+            assert not report, "".join(report)
+    return number
+
+
+def test_there_are_pages():
+    assert {"start", "gallery", "tutorials/hood-hinge", "how-to/linkages"} <= {name_of(page) for page in PAGES}
+
+
+@pytest.mark.parametrize(
+    "page", [pytest.param(p, id=name_of(p), marks=[pytest.mark.slow] * (name_of(p) in SLOW)) for p in PAGES]
+)
+def test_pages_run(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run_page(page, tmp_path) > 0
+
+
+def test_the_gallery_has_forty_pictures():
+    text = (DOCS / "gallery.md").read_text(encoding="utf-8")
+    assert len([block for block in blocks_of(text) if block.kind == "picture"]) >= 40
+
+
+def test_every_name_of_the_front_door_is_stable_or_provisional():
+    text = (DOCS / "reference" / "stability.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| (stable|provisional) \|$", text, re.MULTILINE)
+    assert sorted(name for name, _ in rows) == sorted(gr.__all__)
+
+
+def readme_commands():
+    """The commands of the README in their order, without comments."""
+    for row in (ROOT / "README.md").read_text(encoding="utf-8").splitlines():
+        found = re.match(r"    (?:\$ (.*)|(gruebler (?!\w+,).*))", row)
+        if found:
+            yield re.sub(r"\s{2,}#.*| # .*", "", found[1] or found[2])
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("bash") is None, reason="the README is written for bash")
+def test_commands_of_the_readme(tmp_path):
+    """In their order in one folder; only the page's server, which would wait for a browser, is left out."""
+    shell = f'gruebler() {{ "{sys.executable}" -m gruebler "$@"; }}; set -o pipefail; '
+    commands = [each for each in readme_commands() if not each.startswith("gruebler explore") or "-o" in each]
+    assert len(commands) > 60
+    for each in commands:
+        ran = subprocess.run(["bash", "-c", shell + each], cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert ran.returncode in (0, 1), f"{each}\n{ran.stderr}"
+        assert ran.returncode == 0 or not ran.stderr, f"{each}\n{ran.stderr}"
+
+
+def test_every_place_has_the_same_version():
+    cited = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert re.search(r"^version: (.*)$", cited, re.MULTILINE)[1] == gr.__version__
+    changes = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert changes[0] == "[Unreleased]"
+    assert changes[1].startswith(f"[{gr.__version__}] - 20")

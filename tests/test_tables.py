@@ -1,0 +1,38 @@
+"""The tables of docs/tables: their checksums, and their first rows computed again."""
+
+import csv
+import json
+from hashlib import sha256
+
+import pytest
+
+from benchmarks.tables import FOLDER, TABLES, text_of
+from gruebler.enumeration import count_simple_chains
+
+
+def test_every_table_has_its_record():
+    records = json.loads((FOLDER / "records.json").read_text(encoding="utf-8"))
+    assert set(records) == set(TABLES) == {path.stem for path in FOLDER.glob("*.csv")}
+    for name, record in records.items():
+        assert sha256((FOLDER / f"{name}.csv").read_bytes()).hexdigest() == record["sha256"]
+        assert record["command"] == f"python -m benchmarks.tables {name}"
+
+
+@pytest.mark.parametrize(
+    ("name", "most"), [("chains", 11), ("assur_groups", 12), ("sliding", 6), ("driven_by_class", 10)]
+)
+def test_first_rows(name, most):
+    table = list(csv.DictReader((FOLDER / f"{name}.csv").read_text(encoding="utf-8").splitlines()))
+    made = list(csv.DictReader(text_of(TABLES[name](most)).splitlines()))
+    assert made
+    assert made == [row for row in table if int(row["links"]) <= most]
+
+
+def test_the_b_file():
+    terms = dict(
+        [int(word) for word in line.split()]
+        for line in (FOLDER / "b233288.txt").read_text(encoding="utf-8").splitlines()
+    )
+    assert list(terms) == list(range(1, 10))
+    for k in range(1, 7):
+        assert terms[k] == count_simple_chains(2 * k + 2).chains
