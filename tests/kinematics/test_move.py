@@ -411,3 +411,39 @@ def test_rows_of_very_different_lengths_do_not_jump_at_a_change_point():
         motion = move(made, path, branch="-")
         assert motion.complete
         assert np.abs(np.exp(1j * (motion.angle("rocker") - path)) - 1).max() < 1e-6
+
+
+def parallelograms(cranks: list[float], frames: list[float], bends: list[float]) -> Linkage:
+    """Parallelograms in a row: each follower is the crank of the next, by an arm turned by its bend."""
+    foot, arm, driven = 0.0, cranks[0] * np.exp(1j), "0"
+    places = {"R(frame-0)": complex(foot)}
+    for k, (crank, frame, bend) in enumerate(zip(cranks[1:], frames, bends, strict=True), 1):
+        places[f"R({driven}-rod{k})"] = foot + arm
+        places[f"R(rod{k}-{k})"] = foot + frame + arm
+        foot, driven = foot + frame, str(k)
+        places[f"R(frame-{k})"] = complex(foot)
+        arm = crank * np.exp(1j * (1 + bend))
+    mechanism = Mechanism.parse(" ".join(places) + "; frame=frame; drive=R(frame-0)")
+    return Linkage.from_drawing(mechanism, {joint: (z.real, z.imag) for joint, z in places.items()})
+
+
+@pytest.mark.parametrize("bends", [(0, 0, 0), (1e-3, 0, 1e-3), (1e-2, 1.5, 0), (pi / 2, pi, 0.5)], ids=str)
+def test_parallelograms_in_a_row_pass_their_change_points_together(bends: tuple[float, ...]) -> None:
+    """Whether the change points are at the same drive value, near one another or apart, and the rows long or short."""
+    random = np.random.default_rng(20_261_123)
+    for _ in range(25):
+        linkage = parallelograms(random.uniform(0.5, 2, 4).tolist(), random.uniform(2.1, 4, 3).tolist(), list(bends))
+        before, behind = 10 ** random.uniform(-6, -1, 2)
+        path = np.array([1, 2.5, 3, pi - before, pi + behind, pi + behind + 0.1, 5.5, 2 * pi + before, 7.5, 4, 1])
+        motion = move(linkage, path)
+        assert motion.complete
+        for k in range(1, 4):
+            turned = motion.angle(str(k)) - motion.angle(str(k))[0]
+            assert turned == pytest.approx(path - path[0], rel=0, abs=1e-6)
+
+
+def test_a_long_row_behind_short_ones_is_walked_in_small_steps() -> None:
+    linkage = parallelograms([1, 1.3, 0.7], [2.5, 2], [1.5, 0])
+    path = [1.0, 2.5, 3.0, 3.15, 3.25, 5.5]
+    motion = move(linkage, path)
+    assert motion.angle("2") - motion.angle("2")[0] == pytest.approx(np.array(path) - 1, rel=0, abs=1e-9)

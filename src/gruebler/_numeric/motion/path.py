@@ -55,6 +55,7 @@ _SECTIONS = 200  # more than the golden section takes from any interval down to 
 _NARROW = 1e-9  # of the way searched: the place of a least square is not known better, since squares are flat there
 _ROUNDING = 1e-15  # of a place on the path: shorter intervals have no number inside
 _RISEN = 1.5  # times the least square: an end above it lies behind the least place
+_KNOWN = 1e-3  # of the way: the least step on where nothing farther is known
 _FALLING = 0.9  # of the way on which a square falls to its end: nothing is decided yet, no step leads farther
 _FIRST_STEP = 0.01  # of the longest step, where no poses let expect the next one
 _REACHED = 1e-9  # of what is left of the way: a step that misses the row by less goes to it
@@ -87,14 +88,13 @@ def _square_at(
 ) -> float:
     """The squared root of one dyad somewhere near the last pose; NaN where something before it cannot be placed."""
     set_drives(path, speeds, at, s)
+    memory.roots[3, number] = np.nan
     verdict = try_pose(program, 0, at, memory, s)
     if verdict in (APPROACH, APART) and memory.which[0] == number:
         for operation in program.operations:
             if 2 <= operation[0] < GROUP and operation[9] == number:
                 return dyad_square(operation[0], ElementJets(s.points, s.lines, s.spins), program.size)
-    if verdict == GOOD or (verdict == MEET and memory.which[0] == number):
-        return float(memory.roots[3, number] ** 2)
-    return np.nan
+    return float(memory.roots[3, number] ** 2)  # it is known if only something behind it cannot be placed
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -118,18 +118,23 @@ def _look_for_change(
     at_inner = _square_at(program, path, speeds, inner, number, memory, s)
     at_outer = _square_at(program, path, speeds, outer, number, memory, s)
     at, least = reach, np.inf  # the best so far: next to the zero dyads before this one may not be placed at all
+    far, beyond = low, -np.inf  # the farthest place at which they are, and the square there
     for _ in range(_SECTIONS):
         if at_inner < least:
             at, least = inner, at_inner
         if at_outer < least:
             at, least = outer, at_outer
+        if inner > far and not np.isnan(at_inner):
+            far, beyond = inner, at_inner
+        if outer > far and not np.isnan(at_outer):
+            far, beyond = outer, at_outer
         if at_inner < -FLAT:
             return inner, True
         if at_outer < -FLAT:
             return outer, True
         if high - low < _NARROW * (reach - memory.at[0]) or high - low < _ROUNDING * (1 + abs(high)):
             break
-        if at_inner <= at_outer or np.isnan(at_inner):
+        if not at_inner > at_outer:  # or one of them is NaN: what cannot be placed lies farther on
             high, outer, at_outer = outer, inner, at_inner
             inner = high - _GOLDEN * (high - low)
             at_inner = _square_at(program, path, speeds, inner, number, memory, s)
@@ -137,8 +142,11 @@ def _look_for_change(
             low, inner, at_inner = inner, outer, at_outer
             outer = low + _GOLDEN * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
-    end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
-    if least == np.inf or end <= _RISEN * least + _NOISE:  # still falling up to there: nothing is decided yet
+    end = _square_at(program, path, speeds, reach, number, memory, s)
+    if np.isnan(end):
+        if beyond <= _RISEN * least + _NOISE:  # nothing is decided as far as anything is known
+            return max(far, memory.at[0] + _KNOWN * (reach - memory.at[0])), False
+    elif end <= _RISEN * least + _NOISE:  # still falling up to there: nothing is decided yet
         return reach if reach == turn else memory.at[0] + _FALLING * (reach - memory.at[0]), False
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
@@ -309,6 +317,7 @@ def _walk_to(
     """
     unit = memory.unit[0] = _unit(program, path, row)
     at, longest = memory.at[0], min(1.0, unit)
+    step = min(step, longest)  # it is measured in rows, and this row may be longer than the last one
     if not _remembered(path, row, memory):
         memory.filled[0] = 1
         step = min(step, _FIRST_STEP * unit * _least_root(memory))
