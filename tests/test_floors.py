@@ -15,7 +15,18 @@ ROOT = Path(__file__).parents[1]
 # From the ground up. A room may import rooms on lower floors and its own files; errors, then texts, lie beneath them.
 BENEATH = ["errors", "text"]
 FLOORS = [
-    {"arrays", "disjoint_sets", "errors", "events", "text", "atomic_files", "documents", "notebook", "_numeric"},
+    {
+        "arrays",
+        "convex_hull",
+        "disjoint_sets",
+        "errors",
+        "events",
+        "text",
+        "atomic_files",
+        "documents",
+        "notebook",
+        "_numeric",
+    },
     {"chain", "columns", "jets", "cams", "gears", "geneva", "drawing/canvas"},
     {"mobility", "isomorphism", "drawing/machines"},
     {"enumeration", "mechanism"},

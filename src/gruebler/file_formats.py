@@ -192,10 +192,10 @@ def _write_bytes(path: Path, content: bytes) -> None:
 
 def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
     """The linkage of a drawing; errors name the file."""
-    from gruebler.formats.pin_drawings import linkage_of
+    from gruebler.formats.pin_drawings import linkage_of_drawing
 
     try:
-        return linkage_of(drawing(), left_out)
+        return linkage_of_drawing(drawing(), left_out)
     except GrueblerError as error:
         raise GrueblerError("{path}: {error}", path=path, error=error) from None
 

@@ -12,8 +12,9 @@ from math import inf
 
 import numpy as np
 
-from gruebler.analysis.plates import Plates, hull, plates_of, whole_motion
+from gruebler.analysis.plates import Plates, plates_of, whole_motion
 from gruebler.arrays import Complexes, Reals
+from gruebler.convex_hull import convex_hull
 from gruebler.errors import LinkageError
 from gruebler.linkages.conversion import LinkageLike
 from gruebler.text import Message, joined, message
@@ -196,7 +197,7 @@ def collisions_of(plates: Plates, hole: float, margin: float) -> Collisions:
     """
     links = tuple(plates.plates)
     areas = {
-        link: np.stack([plates.track(link, place) for place in hull(plate.places)], axis=1)
+        link: np.stack([plates.track(link, place) for place in convex_hull(plate.places)], axis=1)
         for link, plate in plates.plates.items()
     }
     pins = [plates.track(peg.carrier, peg.place)[:, None] for peg in plates.pegs]

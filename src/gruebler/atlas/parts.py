@@ -19,7 +19,7 @@ import numpy as np
 
 from gruebler.atlas.chain_table import ChainArrays, Contracted, arrays_of_chains, chain_table
 from gruebler.atlas.mechanism_tables import bulk_tables, driven_table, mechanism_table
-from gruebler.atlas.schema import SCHEMA, arrow, arrow_schema
+from gruebler.atlas.schema import SCHEMA, arrow_library, arrow_schema
 from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
 from gruebler.enumeration.assortment import loop_count
@@ -34,7 +34,7 @@ from gruebler.type_synthesis import joint_types
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_table"]
+__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_parquet"]
 
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
 _AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part
@@ -191,7 +191,7 @@ class PartWriter:
             table = tables[name]
             path = self.directory / part.path(name)
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_table(table, path, {"atlas": self.identity, "part": part.path(name)})
+            write_parquet(table, path, {"atlas": self.identity, "part": part.path(name)})
         return [self._described(part, name) for name in self.task.tables]
 
     def _mechanisms(self, request: Request, chains: pa.Table) -> dict[str, pa.Table]:
@@ -249,7 +249,7 @@ class PartWriter:
             chains, kinds = _typed(request, piece, self.task.sliding)
             if chains:
                 tables.append(chain_table(arrays_of_chains(request.links, request.mobility, chains), kinds))
-        return arrow().concat_tables(tables) if tables else arrow_schema("chains").empty_table()
+        return arrow_library().concat_tables(tables) if tables else arrow_schema("chains").empty_table()
 
 
 def _simple_chains(piece: WorkPiece, first_graph: int) -> pa.Table:
@@ -308,9 +308,9 @@ class _DamagedError(Exception):
     """A file that cannot be read as a whole."""
 
 
-def write_table(table: pa.Table, path: Path, metadata: dict[str, str]) -> None:
+def write_parquet(table: pa.Table, path: Path, metadata: dict[str, str]) -> None:
     """Write a table as a Parquet file that appears complete or not at all; equal tables give equal bytes."""
-    pa = arrow()
+    pa = arrow_library()
     table = table.replace_schema_metadata({"schema": str(SCHEMA), **metadata})
     with atomic_file(path) as file:
         pa.parquet.write_table(
@@ -330,7 +330,7 @@ def read_part(path: Path) -> tuple[pa.Table, bytes]:
     Raises:
         RunError: it cannot be read.
     """
-    pa = arrow()
+    pa = arrow_library()
     try:
         content = path.read_bytes()
     except OSError as error:
@@ -345,4 +345,6 @@ def read_part(path: Path) -> tuple[pa.Table, bytes]:
 
 def identity_of(task: AtlasTask, version: str) -> str:
     """The text that tells the files of this task and version from others."""
-    return json.dumps({"schema": SCHEMA, "version": version, "pyarrow": arrow().__version__, "command": task.command()})
+    return json.dumps(
+        {"schema": SCHEMA, "version": version, "pyarrow": arrow_library().__version__, "command": task.command()}
+    )

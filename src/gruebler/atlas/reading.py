@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gruebler.atlas.building import manifest_of
-from gruebler.atlas.schema import arrow
+from gruebler.atlas.schema import arrow_library
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError, RunError, nearest
 from gruebler.isomorphism import decode
@@ -83,7 +83,7 @@ class Atlas:
 
     def dataset(self, table: str = "chains") -> pyarrow.dataset.Dataset:
         """A table for Arrow, read lazily."""
-        arrow()
+        arrow_library()
         import pyarrow.dataset
 
         return pyarrow.dataset.dataset(self.files(table), format="parquet")  # type: ignore[no-untyped-call,unused-ignore]
@@ -154,7 +154,7 @@ class Atlas:
             import duckdb
         except ImportError:
             raise GrueblerError("queries need duckdb: pip install 'gruebler[atlas]'") from None
-        arrow()
+        arrow_library()
         connection = duckdb.connect(":memory:")
         for table in self.tables:
             files = ", ".join("'" + str(path).replace("'", "''") + "'" for path in self.files(table))

@@ -153,13 +153,13 @@ def _query(arguments: argparse.Namespace) -> int:
 
 def _columns(arguments: argparse.Namespace) -> int:
     from gruebler.atlas import columns_of
-    from gruebler.atlas.schema import TABLES, arrow
+    from gruebler.atlas.schema import TABLES, arrow_library
 
     rows = [column for table in TABLES for column in columns_of(table)]
     if arguments.out is None and not arguments.json:
         print_table(list(rows[0]._fields), rows)
         return 0
-    _answer(arrow().Table.from_pylist([row._asdict() for row in rows]), arguments)
+    _answer(arrow_library().Table.from_pylist([row._asdict() for row in rows]), arguments)
     return 0
 
 
@@ -176,9 +176,9 @@ def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
     with atomic_file(arguments.out, durable=False) as file:
         match arguments.out.suffix.lower():
             case ".parquet":
-                from gruebler.atlas.schema import arrow
+                from gruebler.atlas.schema import arrow_library
 
-                arrow().parquet.write_table(table, file, compression="zstd")
+                arrow_library().parquet.write_table(table, file, compression="zstd")
             case ".json":
                 import json
 
@@ -201,9 +201,9 @@ def _print(table: pa.Table) -> None:
     if table.num_columns == 1:
         sys.stdout.writelines(f"{value}\n" for value in _cells(table)[0])
         return
-    from gruebler.atlas.schema import arrow
+    from gruebler.atlas.schema import arrow_library
 
-    types = arrow().types
+    types = arrow_library().types
     numbers = [
         k for k, field in enumerate(table.schema) if types.is_integer(field.type) or types.is_floating(field.type)
     ]

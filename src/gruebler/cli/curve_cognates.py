@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of, size_of, with_points
+from gruebler.cli.linkage_inputs import linkage_of_word, size_of, with_points
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError
@@ -49,7 +49,7 @@ def _given(
     if size is not None:
         u, v = coupler_point(size, arguments.point)
         return size, u, v, branch_sign(arguments.branch), _radians(arguments.at)
-    linkage = with_points(linkage_of(arguments.linkage, language_of_names(arguments))[0], [arguments.point])
+    linkage = with_points(linkage_of_word(arguments.linkage, language_of_names(arguments))[0], [arguments.point])
     drive = _radians(arguments.at)
     if drive is None:
         span = drive_cycle(linkage, arguments.branch).span

@@ -7,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table, print_text
@@ -137,7 +137,7 @@ def _picture(arguments: argparse.Namespace, reading: TrainReading) -> None:
 
     options = TrainPictureOptions(planets=reading.planets, teeth=arguments.teeth == _DRAWN, lang=arguments.lang)
     most = {"most": _FEW} if is_few(arguments) else {}
-    write_picture(
+    write_machine_picture(
         arguments,
         lambda: draw_train(reading.train, **options),
         lambda seconds: animate_train(reading.train, reading.drives, seconds=seconds, **most, **options),

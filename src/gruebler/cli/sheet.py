@@ -6,7 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING, Any
 
-from gruebler.cli.linkage_inputs import linkage_of, size_of
+from gruebler.cli.linkage_inputs import linkage_of_word, size_of
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
@@ -127,7 +127,7 @@ def _draw_machine(arguments: argparse.Namespace) -> None:
     elif "(" in word:
         document = machine_document(Mechanism.parse(word), lang=lang)
     else:
-        linkage, between = linkage_of(word, lang)
+        linkage, between = linkage_of_word(word, lang)
         size = size_of(word)
         name = "" if size is None else size.type.name(lang)
         document = machine_document(linkage, between=between, lang=lang, name=name)

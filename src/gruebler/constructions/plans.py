@@ -10,7 +10,7 @@ import cmath
 from math import radians
 
 from gruebler.constructions.compass import Board, line_meets_circle, lines_meet, meet_left
-from gruebler.drawing.canvas.construction import Arrow, Construction, Dot, Line, Segment
+from gruebler.drawing.canvas.construction import Arrow, Construction, Dot, DrawnLine, Segment
 from gruebler.text import message
 
 __all__ = [
@@ -130,8 +130,8 @@ def instant_centres_of_four_bar(
     )
     board.step(
         message("P₁₃ lies on one line with P₁₂ and P₂₃, the polar ray of A, and on one with P₁₄ and P₃₄, that of B."),
-        Line(a0, pin - a0),
-        Line(b0, joint - b0),
+        DrawnLine(a0, pin - a0),
+        DrawnLine(b0, joint - b0),
     )
     pole = lines_meet(a0, pin - a0, b0, joint - b0)
     board.step(
@@ -153,8 +153,8 @@ def instant_centres_of_four_bar(
             x=relative.real,
             ratio=ratio,
         ),
-        Line(a0, b0 - a0),
-        Line(pin, joint - pin),
+        DrawnLine(a0, b0 - a0),
+        DrawnLine(pin, joint - pin),
         Dot(relative, "P₂₄"),
     )
     return board.done(x13=pole.real, y13=pole.imag, x24=relative.real, ratio=ratio)
@@ -172,7 +172,7 @@ def instant_centres_of_slider_crank(a: float = 20, b: float = 50, e: float = 0, 
         Dot(a0, "P₁₂"),
         Dot(pin, "P₂₃"),
         Dot(joint, "P₃₄"),
-        Line(joint, 1j, "dead"),
+        DrawnLine(joint, 1j, "dead"),
     )
     pole = lines_meet(a0, pin - a0, joint, 1j)
     board.step(
@@ -193,8 +193,8 @@ def instant_centres_of_slider_crank(a: float = 20, b: float = 50, e: float = 0, 
             "the crank: v_B = ω · A₀P₂₄ = ω · {arm:.4g}.",
             arm=abs(relative),
         ),
-        Line(a0, 1j),
-        Line(pin, joint - pin),
+        DrawnLine(a0, 1j),
+        DrawnLine(pin, joint - pin),
         Dot(relative, "P₂₄"),
     )
     return board.done(x13=pole.real, y13=pole.imag, arm=abs(relative))
@@ -225,8 +225,8 @@ def _four_bar_velocities(
             "v_BA is perpendicular to AB: its line goes through the tip a. v_B is perpendicular to B₀B: its line goes "
             "through the pole p_v."
         ),
-        Line(plan.at(v_a), across_coupler),
-        Line(plan.pole, across_rocker),
+        DrawnLine(plan.at(v_a), across_coupler),
+        DrawnLine(plan.pole, across_rocker),
     )
     tip = lines_meet(plan.at(v_a), across_coupler, plan.pole, across_rocker)
     v_b = (tip - plan.pole) / plan.scale
@@ -287,8 +287,8 @@ def _slider_crank_velocities(
             "v_BA is perpendicular to AB: its line goes through the tip a. v_B lies along the line of the slider, "
             "through the pole p_v."
         ),
-        Line(plan.at(v_a), across),
-        Line(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(v_a), across),
+        DrawnLine(plan.pole, 1 + 0j),
     )
     tip = lines_meet(plan.at(v_a), across, plan.pole, 1 + 0j)
     v_b = (tip - plan.pole) / plan.scale
@@ -319,8 +319,8 @@ def _lever_velocities(
             "C is the point of the lever under A. v_C is perpendicular to B₀A: its line goes through the pole p_v; the "
             "block slides along the lever: the line of v_rel goes through a."
         ),
-        Line(plan.pole, 1j * lever),
-        Line(plan.at(v_a), lever),
+        DrawnLine(plan.pole, 1j * lever),
+        DrawnLine(plan.at(v_a), lever),
     )
     tip = lines_meet(plan.pole, 1j * lever, plan.at(v_a), lever)
     v_c = (tip - plan.pole) / plan.scale
@@ -369,8 +369,8 @@ def accelerations_of_four_bar(
             "The tangential parts are perpendicular to AB, through the tip of a_BAn, and perpendicular to B₀B, "
             "through the tip of a_Bn."
         ),
-        Line(begin, ways[0]),
-        Line(foot, ways[1]),
+        DrawnLine(begin, ways[0]),
+        DrawnLine(foot, ways[1]),
     )
     a_b = (lines_meet(begin, ways[0], foot, ways[1]) - plan.pole) / plan.scale
     t_ba, t_b = a_b - a_a - n_ba, a_b - n_b
@@ -425,8 +425,8 @@ def accelerations_of_slider_crank(
             "a_BAt is perpendicular to AB, through the tip of a_BAn; a_B lies along the line of the slider, through "
             "p_a."
         ),
-        Line(begin, way),
-        Line(plan.pole, 1 + 0j),
+        DrawnLine(begin, way),
+        DrawnLine(plan.pole, 1 + 0j),
     )
     a_b = (lines_meet(begin, way, plan.pole, 1 + 0j) - plan.pole) / plan.scale
     t_ba = a_b - a_a - n_ba
@@ -476,8 +476,8 @@ def accelerations_of_inverted_slider_crank(
     begin = plan.at(n_c + coriolis)
     board.step(
         message("a_Ct is perpendicular to the lever, through the tip of a_Cor; a_rel lies along the lever, through a."),
-        Line(begin, 1j * lever),
-        Line(plan.at(a_a), lever),
+        DrawnLine(begin, 1j * lever),
+        DrawnLine(plan.at(a_a), lever),
     )
     tip = lines_meet(begin, 1j * lever, plan.at(a_a), lever)
     t_c, rel = (tip - begin) / plan.scale, (plan.at(a_a) - tip) / plan.scale

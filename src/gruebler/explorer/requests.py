@@ -193,7 +193,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
 def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
     from gruebler.catalog import entry
     from gruebler.drawing.linkage.picture import draw_linkage
-    from gruebler.drawing.structure import draw
+    from gruebler.drawing.structure import draw_structure
     from gruebler.mechanism import Mechanism
 
     record = entry(asked.id)
@@ -202,7 +202,7 @@ def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]
         figure = draw_linkage(record.linkage(), between=_between(asked.id), lang=lang, name=name)
     else:
         chain = record.chain()
-        figure = draw(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
+        figure = draw_structure(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
     return {"picture": figure.svg(styled=False)}
 
 
@@ -258,13 +258,13 @@ def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
 
 
 def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
-    from gruebler.drawing.structure import draw
+    from gruebler.drawing.structure import draw_structure
     from gruebler.enumeration import chains, count_chains
 
     total = count_chains(asked.links, asked.mobility).chains
     items = []
     for chain in islice(chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
-        items.append({"text": chain.text(), "picture": draw(chain, lang=lang).svg(styled=False)})
+        items.append({"text": chain.text(), "picture": draw_structure(chain, lang=lang).svg(styled=False)})
         if len(items) % 10 == 0:
             progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
     return {"total": total, "start": asked.start, "items": items}
@@ -272,11 +272,11 @@ def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
 
 def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.explorer.model import model_of
-    from gruebler.explorer.structures import mechanism_of
+    from gruebler.explorer.structures import mechanism_of_text
     from gruebler.realisation.realise import realise
 
     progress(translate("Looking for dimensions with which it moves", lang))
-    found = realise(mechanism_of(asked.text), seed=asked.seed)
+    found = realise(mechanism_of_text(asked.text), seed=asked.seed)
     if found.linkage is None:
         raise GrueblerError("{message}", message=found.message(lang))
     linkage = found.linkage

@@ -9,19 +9,19 @@ from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import PAIRS, Alphabet, Space
 from gruebler.drawing.canvas.figure import figure_of
 from gruebler.drawing.canvas.shapes import Point, bounds
-from gruebler.drawing.structure import PlacedChain, draw, paint, place_joints
+from gruebler.drawing.structure import PlacedChain, draw_structure, paint, place_joints
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.drives import check_drives
 from gruebler.mechanism.inversion import driven_mechanisms, family, inversions
 from gruebler.mobility import MobilityReport, mobility_report
 
-__all__ = ["mechanism_of", "structure_record"]
+__all__ = ["mechanism_of_text", "structure_record"]
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _MOST_DRIVEN = 60
 
 
-def mechanism_of(text: str) -> Mechanism:
+def mechanism_of_text(text: str) -> Mechanism:
     """The mechanism of a text; of a chain alone the one whose frame is its first link, without drives.
 
     >>> mechanism_of("R(0-1) R(1-2) R(2-0)").frame
@@ -41,7 +41,7 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
     >>> record["generic"], len(record["inversions"]), len(record["driven"])
     (1, 1, 1)
     """
-    mechanism = mechanism_of(text)
+    mechanism = mechanism_of_text(text)
     chain = mechanism.chain
     placed = place_joints(mechanism)
     shapes = paint(placed)
@@ -82,7 +82,7 @@ def _choice(mechanism: Mechanism, lang: str) -> dict[str, Any]:
         "frame": mechanism.frame,
         "drives": list(mechanism.drive_names()),
         "family": family(mechanism, lang) or "",
-        "picture": draw(mechanism, lang=lang).svg(styled=False),
+        "picture": draw_structure(mechanism, lang=lang).svg(styled=False),
     }
 
 

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 
 from gruebler.analysis.link_planes import link_planes, plate_sizes
-from gruebler.analysis.plates import Plate, Plates, hull, plates_of, whole_motion
+from gruebler.analysis.plates import Plate, Plates, plates_of, whole_motion
+from gruebler.convex_hull import convex_hull
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.pin_drawings import lower_linkage
 from gruebler.kinematics import move
@@ -192,7 +193,7 @@ def plate_outline(places: Sequence[tuple[float, float]], margin: float) -> list[
     >>> [tuple(round(v, 9) for v in corner) for corner in plate_outline([(0, 0), (4, 0)], 1)]
     [(0.0, -1.0, 0.0), (4.0, -1.0, 1.0), (4.0, 1.0, 0.0), (0.0, 1.0, 1.0)]
     """
-    corners = [(z.real, z.imag) for z in hull([complex(x, y) for x, y in places])]
+    corners = [(z.real, z.imag) for z in convex_hull([complex(x, y) for x, y in places])]
     if len(corners) == 1:
         x, y = corners[0]
         return [(x - margin, y, 1.0), (x + margin, y, 1.0)]

@@ -30,7 +30,7 @@ __all__ = [
     "DrawnJoint",
     "PinDrawing",
     "drawing_of",
-    "linkage_of",
+    "linkage_of_drawing",
     "lower_linkage",
     "one_drive_a_joint",
     "with_slot_ends",
@@ -84,7 +84,7 @@ class PinDrawing:
 # --- from a drawing to a linkage ---------------------------------------------------------------------
 
 
-def linkage_of(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
+def linkage_of_drawing(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
     """The linkage of a drawing; links that share two pins become one, links that hang freely are left out.
 
     Args:

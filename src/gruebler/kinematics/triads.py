@@ -27,7 +27,7 @@ from gruebler.kinematics.assembly_modes import (
     search_modes,
 )
 
-__all__ = ["BOUNDS", "assembly_modes", "is_triad", "triad_modes"]
+__all__ = ["BOUNDS", "all_modes", "is_triad", "triad_modes"]
 
 BOUNDS = {
     ("RR", "RR", "RR"): 6,
@@ -110,7 +110,7 @@ def is_triad(group: GroupConditions) -> bool:
     return _truss(group) is not None
 
 
-def assembly_modes(group: GroupConditions, *, seed: int = 0) -> AssemblyModes:
+def all_modes(group: GroupConditions, *, seed: int = 0) -> AssemblyModes:
     """All assembly modes: exactly for groups of four bodies, by `search_modes` for all others."""
     return triad_modes(group) if is_triad(group) else search_modes(group, seed=seed)
 

@@ -26,7 +26,7 @@ from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import PathTask
 from gruebler.text import message
 
-__all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
+__all__ = ["CurveAtlas", "Fit", "atlas", "fit_curve", "fit_path"]
 
 Progress = Callable[[int, int], None]
 
@@ -35,7 +35,7 @@ ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
 
 
-class Atlas(NamedTuple):
+class CurveAtlas(NamedTuple):
     """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
 
     kind: FourBarKind
@@ -60,7 +60,7 @@ def _halton(count: int, base: int) -> Reals:
 
 
 @cache
-def atlas(kind: FourBarKind, count: int = 0) -> Atlas:
+def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
     """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
     count = count or (90_000 if kind is FOUR_BAR else 12_000)
     one, two, three, four, five = (_halton(count, base) for base in (2, 3, 5, 7, 11))
@@ -83,7 +83,7 @@ def atlas(kind: FourBarKind, count: int = 0) -> Atlas:
     good = np.isfinite(z).all(axis=1)
     rows, branch, z = rows[:, good], branch[good], z[good]
     at = evenly_along(z, phi)
-    return Atlas(kind, rows, branch, at, curve_points(kind, rows[:, :, None], at, branch[:, None]).z)
+    return CurveAtlas(kind, rows, branch, at, curve_points(kind, rows[:, :, None], at, branch[:, None]).z)
 
 
 class _Start(NamedTuple):
@@ -103,7 +103,7 @@ def _neighbours(kind: FourBarKind, z: Complexes, closed: bool, number: int) -> l
     return [_placed(book, match) for match in best_matches(book.z, z, number, closed=closed)]
 
 
-def _placed(book: Atlas, match: CurveMatch) -> _Start:
+def _placed(book: CurveAtlas, match: CurveMatch) -> _Start:
     """A curve of the atlas turned, scaled and shifted onto the target."""
     n = match.number
     row = _transformed(book.kind, book.rows[:, n], match.turn, match.shift)

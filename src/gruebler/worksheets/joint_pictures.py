@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from gruebler.chain.pairs import PAIRS, Alphabet, Pair, Space
+from gruebler.convex_hull import convex_hull
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, TextShape
 from gruebler.drawing.canvas.symbols import arrow
@@ -75,22 +76,9 @@ def _round(centre: Space3, radius: float, axis: str) -> list[Point]:
 def _cylinder(begin: Space3, end: Space3, radius: float, axis: str, style: str = "block") -> Iterator[Shape]:
     """The silhouette of a cylinder and its visible end."""
     first, last = _round(begin, radius, axis), _round(end, radius, axis)
-    yield Polylines((tuple(_hull([*first, *last])),), style, closed=True)
+    corners = convex_hull(complex(*p) for p in (*first, *last))
+    yield Polylines((tuple(Point(z.real, z.imag) for z in corners),), style, closed=True)
     yield Polylines((tuple(last),), style, closed=True)
-
-
-def _hull(points: list[Point]) -> list[Point]:
-    """The convex hull, counter-clockwise."""
-    ranked = sorted(set(points))
-    halves = []
-    for ordered in (ranked, ranked[::-1]):
-        half: list[Point] = []
-        for p in ordered:
-            while len(half) > 1 and half[-1].minus(half[-2]).across.dot(p.minus(half[-1])) <= 0:
-                half.pop()
-            half.append(p)
-        halves.append(half[:-1])
-    return [*halves[0], *halves[1]]
 
 
 def _ball(centre: Space3, radius: float, style: str = "block") -> Iterator[Shape]:

@@ -15,7 +15,7 @@ from gruebler.drawing.linkage.contact_shapes import contact_shapes
 from gruebler.drawing.linkage.curve_plots import coupler_plot
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.formats.catalog_records import source_text
@@ -104,7 +104,7 @@ def _machine_blocks(
 def _pictures(mechanism: Mechanism, linkage: Linkage | None, lang: str, outputs: Sequence[str]) -> Pictures:
     """The linkage to scale, if there are dimensions, and the structure with the symbols of the joints."""
     contacts = None if linkage is None else contact_shapes(linkage)
-    structure = draw(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
+    structure = draw_structure(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
     caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
     if linkage is not None:
         try:

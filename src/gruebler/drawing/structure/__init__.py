@@ -1,14 +1,14 @@
 """Structure pictures of chains and mechanisms, and their graphs."""
 
 from gruebler.drawing.structure.graphs import draw_contracted, draw_graph, draw_loops
-from gruebler.drawing.structure.picture import PlacedChain, draw, paint, place_joints
+from gruebler.drawing.structure.picture import PlacedChain, draw_structure, paint, place_joints
 
 __all__ = [
     "PlacedChain",
-    "draw",
     "draw_contracted",
     "draw_graph",
     "draw_loops",
+    "draw_structure",
     "paint",
     "place_joints",
 ]

@@ -36,7 +36,7 @@ from gruebler.drawing.structure.orientation import upright
 from gruebler.isomorphism import canonical_order
 from gruebler.mechanism import Mechanism
 
-__all__ = ["PlacedChain", "chain_of", "draw", "letters", "mean_scale", "paint", "place_joints"]
+__all__ = ["PlacedChain", "chain_of", "draw_structure", "letters", "mean_scale", "paint", "place_joints"]
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
 _ASIDE = 17.0  # pixels between the middle of a link and its output arrow
@@ -61,7 +61,7 @@ class PlacedChain:
     """What the bodies of higher pairs are, by joint and link."""
 
 
-def draw(
+def draw_structure(
     structure: Chain | Mechanism,
     *,
     labels: bool = False,
