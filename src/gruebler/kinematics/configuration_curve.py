@@ -161,7 +161,7 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
             ]
             continue
         sides = keys.index(ends[0]), keys.index(ends[1])
-        for condition in contact_conditions(lower, joint.pair.name, keys, sides, (owners[0], owners[1])):
+        for condition in contact_conditions(lower, joint.pair, keys, sides, (owners[0], owners[1])):
             one, two, value = condition.values
             places = _at(lower, keys[condition.sides[0]]), _at(lower, keys[condition.sides[1]])
             if condition.kind == MESH:

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.motion.closure import FACE, MESH, POLAR, RACK, REACH, RIDE
+from gruebler.chain.pairs import Pair
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contours import COEFFICIENTS, PiecewiseLaw, cam_law, turn_law
 from gruebler.kinematics.noncircular import transfer_of
 from gruebler.linkages import CamDisc, Circle, Element, GenevaDriver, Line, Linkage, NonCircular, Wheel
-from gruebler.linkages.elements import INVERSE, direction
+from gruebler.linkages.elements import INVERSE, RoundElement, direction
 from gruebler.linkages.wheels import rolling_factors
 
 __all__ = ["Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
@@ -42,7 +43,7 @@ class Condition(NamedTuple):
 
 
 def contact_conditions(
-    lower: Linkage, pair: str, keys: Keys, sides: tuple[int, int], owners: tuple[int, int]
+    lower: Linkage, pair: Pair, keys: Keys, sides: tuple[int, int], owners: tuple[int, int]
 ) -> list[Condition]:
     """What a roll-slide or rolling pair of wheels, circles and lines asks for."""
     one, other = (lower.elements[keys[side]] for side in sides)
@@ -66,13 +67,13 @@ def contact_conditions(
             assert isinstance(one, Wheel)
             raw = Condition(MESH, sides, owners, (*rolling_factors(one, other), 0.0))
         conditions.append(_phased(lower, keys, raw))
-    if pair == "rolling" or isinstance(other, Circle):
-        assert isinstance(other, Wheel | Circle)
+    if pair.is_rolling or isinstance(other, Circle):
+        assert isinstance(other, RoundElement)
         if isinstance(one, Line):
             offset = other.radius * side_of(lower, keys, sides)
             conditions.append(Condition(RIDE, sides, owners, (0.0, 0.0, offset)))
         else:
-            assert isinstance(one, Wheel | Circle)
+            assert isinstance(one, RoundElement)
             conditions.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(one.radius + other.radius))))
     return conditions
 

@@ -20,7 +20,7 @@ from gruebler.kinematics.link_poses import LinkPoses
 from gruebler.kinematics.messages import stop_message, unbounded_message
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, NonCircular, Wheel
-from gruebler.linkages.elements import INVERSE
+from gruebler.linkages.elements import INVERSE, LeadingElement, RoundElement
 from gruebler.linkages.wheels import carriers, rolling_factors, round_joints
 from gruebler.notebook import Brief
 from gruebler.text import Message, joined
@@ -172,9 +172,6 @@ class Motion(LinkPoses, Brief):
             raise LinkageError("the order of a derivative is 0, 1, 2 or 3, not {order!r}", order=order)
 
 
-_LEADING = (CamDisc, GenevaDriver, NonCircular)
-
-
 def _closure_error(motion: Motion) -> float:
     """See `Motion.closure_error`."""
     lower = motion.plan.lower
@@ -201,9 +198,9 @@ def _open_contact(motion: Motion, number: int) -> float:
     if isinstance(elements[number, b], Line):
         a, b = b, a
     one, other = elements[number, a], elements[number, b]
-    if isinstance(one, _LEADING) or isinstance(other, _LEADING):
+    if isinstance(one, LeadingElement) or isinstance(other, LeadingElement):
         return _open_curve(motion, number) / linkage.size
-    assert isinstance(other, Wheel | Circle)
+    assert isinstance(other, RoundElement)
     gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
     touching = chain.joints[number].pair.is_rolling or isinstance(other, Circle)
     if isinstance(one, Line):
@@ -211,7 +208,7 @@ def _open_contact(motion: Motion, number: int) -> float:
         radius = np.copysign(other.radius, gap.imag)
         far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
     else:
-        assert isinstance(one, Wheel | Circle)
+        assert isinstance(one, RoundElement)
         far = np.abs(np.abs(gap) - abs(one.radius + other.radius))
         arm = carriers(linkage.mechanism, elements).get(number)
         along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
@@ -232,7 +229,7 @@ def _open_curve(motion: Motion, number: int) -> float:
     if isinstance(last, CamDisc | GenevaDriver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
         a, b = b, a
     one, other = elements[number, a], elements[number, b]
-    assert isinstance(one, CamDisc | GenevaDriver | NonCircular)
+    assert isinstance(one, LeadingElement)
     gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
     along = motion.turns[:, motion.link_index(a)] * rect(1, one.angle)
     if isinstance(one, GenevaDriver | NonCircular):
@@ -269,7 +266,7 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
         gap = (_point_at(motion, other, two.x, two.y) - _point_at(motion, first, one.x, one.y)) / linkage.size
         if isinstance(one, Line):
             line = motion.turns[:, motion.link_index(first)] * rect(1, one.angle)
-            if joint.pair.name != "double_slide":
+            if not joint.pair.is_double_slide:
                 openings = np.maximum(openings, np.abs((np.conj(line) * gap).imag))
             if isinstance(two, Line):
                 openings = np.maximum(

@@ -354,7 +354,7 @@ class _Planner:
                     conditions.append(Condition(PIN if member.pair.is_revolute else SLIDE, both, owners))
                 else:
                     try:
-                        conditions += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
+                        conditions += contact_conditions(self.lower, member.pair, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
                             "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error

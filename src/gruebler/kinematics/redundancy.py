@@ -206,7 +206,7 @@ class ReferenceConditions:
             return
         lined = first if isinstance(self.linkage.elements[number, first], Line) else other
         along = self._line(x, number, lined)
-        if joint.pair.name != "double_slide":
+        if not joint.pair.is_double_slide:
             yield self._way(x, number, links, 1j * along, lined)
         if not joint.pair.is_roll_slide:
             turned = self._line(x, number, other) * self._line(x, number, first).conjugate()

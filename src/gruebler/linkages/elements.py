@@ -12,17 +12,18 @@ from gruebler.text import Message, joined_by_or, message
 __all__ = [
     "CENTRED",
     "INVERSE",
-    "ROUND",
     "CamDisc",
     "Circle",
     "Element",
     "GenevaDriver",
     "GenevaWheel",
+    "LeadingElement",
     "Line",
     "LinkPoint",
     "NonCircular",
     "Pin",
     "Pose2D",
+    "RoundElement",
     "Wheel",
     "check_elements_fit",
     "direction",
@@ -131,8 +132,10 @@ INVERSE = "inverse"
 
 Element = Pin | Line | Wheel | Circle | CamDisc | GenevaDriver | GenevaWheel | NonCircular
 
-ROUND = (Wheel, Circle)
+RoundElement = Wheel | Circle
 """The elements with a centre and a radius."""
+LeadingElement = CamDisc | GenevaDriver | NonCircular
+"""The elements that lead another one by a law."""
 CENTRED = (Wheel, Circle, CamDisc, GenevaDriver, GenevaWheel, NonCircular)
 """The elements that turn about a centre and touch another element."""
 
@@ -227,7 +230,7 @@ def read_element(raw: object, where: str | Message) -> Element:
     >>> read_element([3, 4], "crank")
     Pin(x=3.0, y=4.0)
     """
-    if isinstance(raw, Wheel | Circle):
+    if isinstance(raw, RoundElement):
         return _round(raw, where)
     if isinstance(raw, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
         if isinstance(raw, NonCircular) and _whole(raw.teeth, where) < 0:
@@ -248,7 +251,7 @@ def read_element(raw: object, where: str | Message) -> Element:
     return Pin(*made) if len(made) == 2 else Line(*made)
 
 
-def _round(raw: Wheel | Circle, where: str | Message) -> Wheel | Circle:
+def _round(raw: RoundElement, where: str | Message) -> RoundElement:
     x, y, radius = (_number(value, where) for value in raw[:3])
     if not abs(radius) > 1e-100 and not (isinstance(raw, Wheel) and radius == 0 and raw.teeth):
         raise LinkageError(

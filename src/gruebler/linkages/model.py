@@ -14,16 +14,14 @@ from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import (
     CENTRED,
     INVERSE,
-    ROUND,
     CamDisc,
-    Circle,
     Element,
     Line,
     LinkPoint,
     NonCircular,
     Pin,
     Pose2D,
-    Wheel,
+    RoundElement,
     check_elements_fit,
     read_element,
 )
@@ -225,7 +223,7 @@ class Linkage:
         for link in self.mechanism.chain.links:
             mine = [e for (_, owner), e in self.elements.items() if owner == link]
             out = max([out, *(hypot(a.x - b.x, a.y - b.y) for a in mine for b in mine)])
-            out = max([out, *(abs(e.radius) for e in mine if isinstance(e, ROUND))])
+            out = max([out, *(abs(e.radius) for e in mine if isinstance(e, RoundElement))])
         return out or 1.0
 
     def reference(self, drive: int) -> tuple[str, str]:
@@ -300,7 +298,7 @@ class Linkage:
             raise LinkageError("a scale is a positive number, not {factor!r}", factor=factor)
 
         def element(e: Element) -> Element:
-            if isinstance(e, Wheel | Circle):
+            if isinstance(e, RoundElement):
                 return e._replace(x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
             if isinstance(e, CamDisc):
                 return e._replace(x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
@@ -322,7 +320,7 @@ class Linkage:
                 raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
             if isinstance(e, NonCircular) and e.transfer != INVERSE and not e.transfer.lstrip().startswith("ellipse"):
                 raise LinkageError("the mirror image of a non-circular wheel is another one: reverse its lift")
-            return e._replace(y=-e.y) if isinstance(e, Pin | Wheel | Circle) else e._replace(y=-e.y, angle=-e.angle)
+            return e._replace(y=-e.y) if isinstance(e, Pin | RoundElement) else e._replace(y=-e.y, angle=-e.angle)
 
         return self._changed(
             elements=self._by_link(element),
@@ -435,7 +433,7 @@ def _from_drawing(
     for (number, link), element in drawn.items():
         x, y = home[link].to_local(element.x, element.y)
         seen_there = element._replace(x=x, y=y)
-        if not isinstance(seen_there, Pin | Wheel | Circle):
+        if not isinstance(seen_there, Pin | RoundElement):
             seen_there = seen_there._replace(angle=seen_there.angle - home[link].angle)
         elements[link][number] = seen_there
     seen = {}

@@ -22,6 +22,7 @@ from gruebler.linkages.elements import (
     Line,
     NonCircular,
     Pin,
+    RoundElement,
     Wheel,
 )
 from gruebler.mechanism import Mechanism
@@ -186,8 +187,8 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
         if isinstance(one, Line) or isinstance(other, Line):
             _check_rack(name, other if isinstance(one, Line) else one)
             continue
-        assert isinstance(one, Wheel | Circle)
-        assert isinstance(other, Wheel | Circle)
+        assert isinstance(one, RoundElement)
+        assert isinstance(other, RoundElement)
         _check_pair(name, joint.pair.is_rolling, one, other)
         apart = abs(one.radius + other.radius)
         touching = joint.pair.is_rolling or isinstance(one, Circle)
@@ -238,12 +239,12 @@ def _check_disc(name: str, disc: Element, other: Element) -> None:
 
 
 def _check_rack(name: str, wheel: Element) -> None:
-    assert isinstance(wheel, Wheel | Circle)
+    assert isinstance(wheel, RoundElement)
     if wheel.radius < 0 or (isinstance(wheel, Wheel) and wheel.belt):
         raise LinkageError("{name}: along a line rolls a wheel of positive radius, without a belt", name=name)
 
 
-def _check_pair(name: str, rolling: bool, one: Wheel | Circle, other: Wheel | Circle) -> None:
+def _check_pair(name: str, rolling: bool, one: RoundElement, other: RoundElement) -> None:
     low, high = sorted((one.radius, other.radius))
     if high < 0:
         raise LinkageError("{name}: two internal wheels do not touch", name=name)

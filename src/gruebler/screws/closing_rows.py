@@ -32,13 +32,13 @@ Row = Reals | Bent
 def joint_rows(pair: Pair, space: Space, place: JointPlace) -> list[Row]:
     """The rows of a joint, u of them."""
     free = pair.freedoms[space]
-    if space is Space.PLANAR and pair.name == "roll_slide":
+    if space is Space.PLANAR and pair.is_roll_slide:
         return _contact(place)
-    if space is Space.PLANAR and pair.name == "rolling":
+    if space is Space.PLANAR and pair.is_rolling:
         return [_touch(*_radii(place)), _arcs(*_radii(place), 0.0)]
-    if space is Space.SPHERICAL and pair.name in ("rolling", "roll_slide"):
+    if space is Space.SPHERICAL and pair.is_higher:
         touch, arcs = _cone_touch(*_radii(place)), _cone_arcs(*_radii(place))
-        return [touch, arcs] if pair.name == "rolling" else [touch if place.pressure is None else arcs]
+        return [touch, arcs] if pair.is_rolling else [touch if place.pressure is None else arcs]
     rows: list[Row] = _turns([d[1] for d in free if d[0] in "RH"], space)
     for direction in space.directions:
         if direction[0] == "T" and direction not in free:
@@ -74,11 +74,11 @@ def _turns(free: list[str], space: Space) -> list[Row]:
 
 
 def _shift(direction: str, pair: Pair, place: JointPlace) -> list[Row]:
-    if direction == "Tz" and pair.name == "helical":
+    if direction == "Tz" and pair.is_helical:
         return [_screw(place.pitch)]
     if direction == "Tz" and pair.name == "double_cylindrical":
         return [_crossed]
-    if direction == "Ty" and pair.name == "roll_slide":
+    if direction == "Ty" and pair.is_roll_slide:
         return _contact(place)
     return [_entry("xyz".index(direction[1]), 3)]
 

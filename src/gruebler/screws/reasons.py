@@ -157,7 +157,7 @@ def _congruent(s: JointGeometry, one: tuple[str, ...], other: tuple[str, ...], e
 def _pins(s: JointGeometry, part: tuple[str, ...]) -> Reals:
     """The points of a part's pins and balls, else of all its joints; (points, 3)."""
     joints = _joints(s, part)
-    pins = [k for k in joints if s.chain.joints[k].pair.name in ("revolute", "spherical")] or joints
+    pins = [k for k in joints if s.chain.joints[k].pair.is_revolute or s.chain.joints[k].pair.is_spherical] or joints
     return np.array([s.at(k) for k in pins])
 
 
