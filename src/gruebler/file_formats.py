@@ -213,8 +213,8 @@ def _drawn(
     """A row for a text of pins and slots: the functions of a module in `formats` read and write it."""
 
     def function(name: str) -> Callable[..., Any]:
-        found: Callable[..., Any] = getattr(import_module(f"gruebler.formats.{module}"), name)
-        return found
+        value: Callable[..., Any] = getattr(import_module(f"gruebler.formats.{module}"), name)
+        return value
 
     def read(path: Path, left_out: list[Message]) -> Linkage:
         from gruebler.formats.text_files import read_text

@@ -94,9 +94,9 @@ def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
     for number, joint in enumerate(mechanism.chain.joints):
         if number in wheels:
             continue
-        for one, two in itertools.combinations(joint.links, 2):
+        for first, second in itertools.combinations(joint.links, 2):
             for freedom in _FREEDOMS[joint.pair.name]:
-                yield number, (two, one) if two == mechanism.frame else (one, two), freedom
+                yield number, (second, first) if second == mechanism.frame else (first, second), freedom
 
 
 @lru_cache(maxsize=32)

@@ -172,8 +172,8 @@ def _lines(motion: Motion, leg: PushingLink) -> _Lines:
     if leg.guide is not None:
         kind, place = leg.guide
         if kind == "P":
-            way = np.full(len(motion), place[2])
-            return _Lines(force, force_rate, way, np.zeros_like(way))
+            directions = np.full(len(motion), place[2])
+            return _Lines(force, force_rate, directions, np.zeros_like(directions))
         return _Lines(force, force_rate, 1j * (point[0] - place[1]), 1j * point[1])
     return _Lines(force, force_rate, *_velocity(motion, leg.pushed, point))
 
@@ -196,11 +196,11 @@ def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Comp
     k = motion.link_index(link)
     w, spin = motion.rates[0, :, k], motion.rates[1, :, k]
     origin, speed, change = (motion.places[m, :, k] for m in range(3))
-    way = speed + 1j * w * (point[0] - origin)
+    velocity = speed + 1j * w * (point[0] - origin)
     rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
     fastest = np.maximum(np.abs(motion.places[1]).max(axis=1), motion.size * np.abs(motion.rates[0]).max(axis=1))
-    rest = np.abs(way) < _SLOW * fastest
-    return np.where(rest, rate, way), np.where(rest, 0, rate)
+    rest = np.abs(velocity) < _SLOW * fastest
+    return np.where(rest, rate, velocity), np.where(rest, 0, rate)
 
 
 def _pace(motion: Motion) -> Reals:

@@ -200,27 +200,27 @@ class PartWriter:
         if plain and self.task.drives != "any" and (tables := bulk_tables(chains, driven=self.task.drives == "frame")):
             return tables
         codes = chains.column("code").to_pylist()
-        found = {}
+        chunks = {}
         if self.task.inversions:
-            found["mechanisms"] = mechanism_table(codes, request.mobility)
+            chunks["mechanisms"] = mechanism_table(codes, request.mobility)
         if self.task.drives != "none":
-            found["driven"] = driven_table(codes, request.mobility, at_frame=self.task.drives == "frame")
-        return found
+            chunks["driven"] = driven_table(codes, request.mobility, at_frame=self.task.drives == "frame")
+        return chunks
 
     def existing(self, part: Part) -> list[PartFile] | None:
         """The files of a part if all of them are there and undamaged, else None.
 
         Raises `RunError` for files that belong to something else.
         """
-        found = []
+        files = []
         for name in self.task.tables:
             if not (self.directory / part.path(name)).exists():
                 return None
             try:
-                found.append(self._described(part, name))
+                files.append(self._described(part, name))
             except _DamagedError:
                 return None
-        return found
+        return files
 
     def _described(self, part: Part, name: str) -> PartFile:
         path = part.path(name)
@@ -287,9 +287,9 @@ def _typed(request: Request, piece: Work, sliding: Sequence[int]) -> tuple[list[
         for number in sliding:
             if number > simple:
                 break
-            found = list(joint_types(chain, {"prismatic": number})) if number else [chain]
-            chains += found
-            kinds += [kind] * len(found)
+            typed = list(joint_types(chain, {"prismatic": number})) if number else [chain]
+            chains += typed
+            kinds += [kind] * len(typed)
     return chains, kinds
 
 

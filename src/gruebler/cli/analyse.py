@@ -290,8 +290,8 @@ def _report(
     if arguments.json:
         planes = {}
         if arguments.planes:
-            found = _planes(linkage, arguments)
-            planes = {"planes": found.planes, "planes_message": found.explain(arguments.lang)}
+            arrangement = _planes(linkage, arguments)
+            planes = {"planes": arrangement.planes, "planes_message": arrangement.explain(arguments.lang)}
         print_json(_document(linkage, measures, motion, columns, arguments.lang) | planes)
     else:
         if measures is not None:
@@ -361,11 +361,11 @@ def _extent(row: Rotatability, unit: str) -> Message:
 
 def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
     """A row of the rotatability; the keys of angles end in ``_deg``."""
-    out = row._asdict()
-    angles = {key: out.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
+    document = row._asdict()
+    angles = {key: document.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
     if row.freedom == "turn":
-        return out | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
-    return out | angles | {"unit": unit}
+        return document | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
+    return document | angles | {"unit": unit}
 
 
 def _document(

@@ -271,10 +271,10 @@ def _degrees(angle: float, lang: str) -> str:
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     report = cam.findings()
 
-    def item(found: Extremum | None, angle: bool = False) -> dict[str, float] | None:
-        return found and {
-            "value": math.degrees(found.value) if angle else found.value,
-            "at_deg": math.degrees(found.at),
+    def item(extremum: Extremum | None, angle: bool = False) -> dict[str, float] | None:
+        return extremum and {
+            "value": math.degrees(extremum.value) if angle else extremum.value,
+            "at_deg": math.degrees(extremum.at),
         }
 
     document: dict[str, Any] = {

@@ -67,10 +67,10 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         from gruebler.explorer.structures import mechanism_of_text
         from gruebler.realisation.realise import realise
 
-        found = realise(mechanism_of_text(word))
-        if found.linkage is None:
-            raise GrueblerError("{message}", message=found.message(lang))
-        return model_of(found.linkage)
+        realisation = realise(mechanism_of_text(word))
+        if realisation.linkage is None:
+            raise GrueblerError("{message}", message=realisation.message(lang))
+        return model_of(realisation.linkage)
     linkage, between = linkage_and_range(word)
     record = entry_of(word)
     return model_of(

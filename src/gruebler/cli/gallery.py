@@ -185,14 +185,14 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
                 number=size,
                 most=_MOST,
             )
-    found = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
-    if len(found) > _MOST:
+    listed = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
+    if len(listed) > _MOST:
         raise GrueblerError(
             "more than {most:,} chains have the assortment {assortment}: too many for one page",
             most=_MOST,
             assortment=arguments.assortment,
         )
-    if not found:
+    if not listed:
         raise GrueblerError(
             "there are no such chains with {links} links and F = {mobility}",
             links=arguments.links,
@@ -200,7 +200,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         )
     sections = []
     pictures = 0
-    for (joints, _), group in groupby(sorted(enumerate(found, 1), key=_section_key), key=_section_key):
+    for (joints, _), group in groupby(sorted(enumerate(listed, 1), key=_section_key), key=_section_key):
         numbered = list(group)
         assortment = ", ".join(map(str, numbered[0][1].assortment))
         items = tuple(item for number, chain in numbered for item in _items(number, chain, arguments))
@@ -222,7 +222,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         links=arguments.links,
         mobility=mobility,
     )
-    note = translate("{chains} chains, {pictures} pictures.", lang, chains=len(found), pictures=pictures)
+    note = translate("{chains} chains, {pictures} pictures.", lang, chains=len(listed), pictures=pictures)
     return title, note, sections
 
 

@@ -82,18 +82,18 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.teeth not in (None, _DRAWN):
         raise GrueblerError("--teeth {range} goes with gears search; --teeth alone draws teeth", range=arguments.teeth)
     reading = _read(arguments.train)
-    found = speeds(reading.train, reading.drives)
+    solution = speeds(reading.train, reading.drives)
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
     possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
     _picture(arguments, reading)
     if arguments.json:
-        print_json(_document(reading, found, forces))
+        print_json(_document(reading, solution, forces))
     else:
         print_text(explain_train(reading, arguments.lang))
         if reading.drives:
             print()
-            _print_speeds(reading, found, forces, arguments.lang)
-    return int((bool(reading.drives) and not found.complete) or not possible)
+            _print_speeds(reading, solution, forces, arguments.lang)
+    return int((bool(reading.drives) and not solution.complete) or not possible)
 
 
 def _search(arguments: argparse.Namespace) -> int:
@@ -161,12 +161,12 @@ def _driver(reading: TrainReading) -> str | None:
     return moving[0] if len(moving) == 1 else None
 
 
-def _print_speeds(reading: TrainReading, found: Speeds, forces: Balance | None, lang: str) -> None:
+def _print_speeds(reading: TrainReading, solution: Speeds, forces: Balance | None, lang: str) -> None:
     driver = _driver(reading)
     units = reading.train.units()
     torques, powers = (forces.torques, forces.powers) if forces else ({}, {})
     rows = []
-    for link, speed in found.values.items():
+    for link, speed in solution.values.items():
         ratio = speed / reading.drives[driver] if driver and speed is not None else None
         speed_text = "?" if speed is None else fraction_text(speed, lang)
         cells: list[Cell] = [_UNITS[units[link]].filled(link=link), speed_text]
@@ -180,15 +180,15 @@ def _print_speeds(reading: TrainReading, found: Speeds, forces: Balance | None, 
     print_table(chosen[0], chosen[1:], numbers=range(1, len(shown)), lang=lang)
 
 
-def _document(reading: TrainReading, found: Speeds, forces: Balance | None) -> dict[str, Any]:
+def _document(reading: TrainReading, solution: Speeds, forces: Balance | None) -> dict[str, Any]:
     train, units = reading.train, reading.train.units()
     document: dict[str, Any] = {
         "meshes": [str(mesh) for mesh in train.meshes],
         "mobility": train.mobility,
         "redundant": [str(mesh) for mesh in train.redundant],
-        "complete": found.complete,
+        "complete": solution.complete,
         "links": [
-            {"link": link, "unit": units[link].value, "speed": _value(found.values[link])} for link in train.links
+            {"link": link, "unit": units[link].value, "speed": _value(solution.values[link])} for link in train.links
         ],
         "contradictions": [
             {
@@ -196,9 +196,9 @@ def _document(reading: TrainReading, found: Speeds, forces: Balance | None) -> d
                 "wanted": _value(contradiction.wanted),
                 "follows": _value(contradiction.follows),
             }
-            for contradiction in found.contradictions
+            for contradiction in solution.contradictions
         ],
-        "spare": list(found.spare),
+        "spare": list(solution.spare),
     }
     if forces:
         document["torques"] = {link: _value(value) for link, value in forces.torques.items()}

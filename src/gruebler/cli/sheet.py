@@ -297,16 +297,16 @@ def _print_size(one: Sheet, sized: SizedMechanism, unit: str, lang: str) -> None
         print(f"{symbol} = {product}{number(length, lang, '.4f')}{unit}")
 
 
-def _sized_item(found: SizedMechanism, unit: str) -> dict[str, Any]:
-    start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
+def _sized_item(sized: SizedMechanism, unit: str) -> dict[str, Any]:
+    start, end = (math.degrees(angle) for angle in sized.sizing.piece[:2])
     return {
-        "length": found.length,
-        "tolerance": found.tolerance,
+        "length": sized.length,
+        "tolerance": sized.tolerance,
         "unit": unit,
-        "ratio": found.sizing.piece.ratio,
+        "ratio": sized.sizing.piece.ratio,
         "phi_G_deg": end - start,
         "phi_A_deg": start,
         "phi_E_deg": end,
-        "length_by_scale": found.ratio,
-        "lengths": dict(found.lengths),
+        "length_by_scale": sized.ratio,
+        "lengths": dict(sized.lengths),
     }

@@ -125,12 +125,12 @@ def _loads(arguments: argparse.Namespace) -> Loads:
 
 def _added(option: str, given: Sequence[str], count: int) -> dict[Any, ArrayLike]:
     """What is given for each name; several times the same name add up."""
-    out: dict[Any, ArrayLike] = {}
+    totals: dict[Any, ArrayLike] = {}
     for text in given:
         name, numbers = _named(option, text, count)
         key = name if option == "--moment" else point_of(name)
-        out[key] = np.add(out.get(key, 0.0), numbers)
-    return out
+        totals[key] = np.add(totals.get(key, 0.0), numbers)
+    return totals
 
 
 def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float]:

@@ -94,24 +94,24 @@ def coupler_curve_by_points(
 def _third_proportional(board: Board, name: str, at: complex, pole: complex, centre: complex) -> complex:
     """The point J of a ray with AJ · AA0 = AP², on the side of A0, by two parallels."""
     unit = (centre - at) / abs(centre - at)
-    way = unit * _HELPER
-    carried = at + abs(pole - at) * way
-    cut = lines_meet(at, way, pole, centre - carried)
-    found = at + abs(cut - at) * unit
+    helper = unit * _HELPER
+    carried = at + abs(pole - at) * helper
+    cut = lines_meet(at, helper, pole, centre - carried)
+    third = at + abs(cut - at) * unit
     board.step(
         message(
             "Euler and Savary: {name}J · {name}{name}₀ = {name}P². On a line through {name} the length {name}P is laid "
             "off; the parallel through P to the line from its end to {name}₀ cuts off {name}J = {length:.4g}, which is "
             "carried to the polar ray, towards {name}₀.",
             name=name,
-            length=abs(found - at),
+            length=abs(third - at),
         ),
-        DrawnLine(at, way),
+        DrawnLine(at, helper),
         Segment(carried, centre),
         Segment(pole, cut),
-        Dot(found, f"J_{name}"),
+        Dot(third, f"J_{name}"),
     )
-    return found
+    return third
 
 
 def _polar_rays(board: Board, pins: tuple[complex, complex, complex, complex]) -> complex:
@@ -161,9 +161,9 @@ def inflection_circle(
     ends = line_meets_circle(pole, point - pole, middle, abs(middle - pole))
     inflection = max(ends, key=lambda z: abs(z - pole))
     unit = (inflection - point) / abs(inflection - point)
-    way = unit * _HELPER
-    carried = point + abs(pole - point) * way
-    cut = lines_meet(point, way, pole, inflection - carried)
+    helper = unit * _HELPER
+    carried = point + abs(pole - point) * helper
+    cut = lines_meet(point, helper, pole, inflection - carried)
     centre = point + abs(cut - point) * unit
     board.step(
         message(
@@ -368,9 +368,9 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
     )
     # AJ · AA0 = AP²: A0 from A through J.
     unit = (cut - pin) / abs(cut - pin)
-    way = unit * _HELPER
-    carried = pin + abs(pole - pin) * way
-    third = lines_meet(pin, way, pole, cut - carried)
+    helper = unit * _HELPER
+    carried = pin + abs(pole - pin) * helper
+    third = lines_meet(pin, helper, pole, cut - carried)
     a0 = along(pin, pin + unit, abs(third - pin))
     b0 = mirrored(a0, pole, 1j)
     board.step(
@@ -379,7 +379,7 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
             "on "
             "the auxiliary line cuts off AA₀, which is carried to the ray, from A through J."
         ),
-        DrawnLine(pin, way),
+        DrawnLine(pin, helper),
         Segment(carried, cut),
         Segment(pole, third),
         Dot(a0, "A₀"),

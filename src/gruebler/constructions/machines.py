@@ -43,18 +43,18 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
         Dot(wheel, "O₂"),
         Segment(driver, wheel, "dead"),
     )
-    way = cmath.rect(1.0, pi - pi / count)
+    direction = cmath.rect(1.0, pi - pi / count)
     board.step(
         message(
             "The slot that the pin enters makes half a step with the line of the axes, 180°/{slots} = {angle:g}°.",
             slots=count,
             angle=180 / count,
         ),
-        DrawnLine(wheel, way),
-        DrawnLine(wheel, way.conjugate()),
+        DrawnLine(wheel, direction),
+        DrawnLine(wheel, direction.conjugate()),
         Angle(wheel, pi, -pi / count, quantity("ψ₀", 180 / count, "°"), 44),
     )
-    pin = lines_meet(driver, 1j * way, wheel, way)
+    pin = lines_meet(driver, 1j * direction, wheel, direction)
     crank = abs(pin - driver)
     board.step(
         message(
@@ -163,8 +163,8 @@ def cam_profile(
     slope = law.at(fine, 1)
     along = np.exp(1j * (pi / 2 - fine))
     pitch = (start + values) * along
-    way = (slope - 1j * (start + values)) * along
-    inward = -1j * way / np.abs(way)
+    tangent = (slope - 1j * (start + values)) * along
+    inward = -1j * tangent / np.abs(tangent)
     inward = np.where((inward / along).real < 0, inward, -inward)
     profile = pitch + roller * inward
     board.step(

@@ -419,16 +419,16 @@ def accelerations_of_slider_crank(
     v_a, v_b = _slider_crank_velocities(board, _Plan(pins, abs(a * omega), 0.2), pins, omega)
     a_a, n_ba = _towards(pin - a0, v_a), _towards(joint - pin, v_b - v_a)
     plan = _acceleration_start(board, pins, a_a, n_ba)
-    begin, way = plan.at(a_a + n_ba), 1j * (joint - pin)
+    begin, direction = plan.at(a_a + n_ba), 1j * (joint - pin)
     board.step(
         message(
             "a_BAt is perpendicular to AB, through the tip of a_BAn; a_B lies along the line of the slider, through "
             "p_a."
         ),
-        DrawnLine(begin, way),
+        DrawnLine(begin, direction),
         DrawnLine(plan.pole, 1 + 0j),
     )
-    a_b = (lines_meet(begin, way, plan.pole, 1 + 0j) - plan.pole) / plan.scale
+    a_b = (lines_meet(begin, direction, plan.pole, 1 + 0j) - plan.pole) / plan.scale
     t_ba = a_b - a_a - n_ba
     board.step(
         message("They meet in b: a_B = {a_b:.4g}, a_BAt = {t_ba:.4g}.", a_b=abs(a_b), t_ba=abs(t_ba)),

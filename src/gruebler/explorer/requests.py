@@ -176,7 +176,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
         multiple_joints=asked.multiple_joints,
     )
     named = search(Query(words=tuple(asked.words.split()), pairs=tuple(asked.pairs.split())))
-    found = [one for one in named if query.fits(entry_mechanism(one), entry_features(one))]
+    fitting = [one for one in named if query.fits(entry_mechanism(one), entry_features(one))]
     return [
         {
             "id": one.id,
@@ -186,7 +186,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
             "moves": one.dimensions is not None and one.space == "planar",
             "text": Mechanism(one.chain(), one.frame or one.chain().links[0], one.drives).text(),
         }
-        for one in found
+        for one in fitting
     ]
 
 
@@ -249,12 +249,12 @@ def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
     from gruebler.kinematics.solve import assembly_modes
 
     linkage = linkage_from_json(asked.document)
-    found = []
+    modes = []
     for label in assembly_modes(linkage, asked.drives)[:_MOST_MODES]:
         motion = move(linkage, [asked.drives], branch=label)
         if motion.complete:
-            found.append({"label": label, "document": linkage_to_json(linkage.with_reference_pose(motion.pose()))})
-    return found
+            modes.append({"label": label, "document": linkage_to_json(linkage.with_reference_pose(motion.pose()))})
+    return modes
 
 
 def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
@@ -276,11 +276,11 @@ def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.realisation.realise import realise
 
     progress(translate("Looking for dimensions with which it moves", lang))
-    found = realise(mechanism_of_text(asked.text), seed=asked.seed)
-    if found.linkage is None:
-        raise GrueblerError("{message}", message=found.message(lang))
-    linkage = found.linkage
-    return {"model": model_of(linkage, name=""), "message": found.message(lang)}
+    realisation = realise(mechanism_of_text(asked.text), seed=asked.seed)
+    if realisation.linkage is None:
+        raise GrueblerError("{message}", message=realisation.message(lang))
+    linkage = realisation.linkage
+    return {"model": model_of(linkage, name=""), "message": realisation.message(lang)}
 
 
 def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[str, Any]:

@@ -68,12 +68,12 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
 
 def _driven(chain: Chain, at_frame: bool) -> list[Any]:
     """The mechanisms with one drive, as far as a page can show them."""
-    out = []
+    rows = []
     for one in driven_mechanisms(chain, drives=1, at_frame=at_frame):
-        out.append(one)
-        if len(out) == _MOST_DRIVEN:
+        rows.append(one)
+        if len(rows) == _MOST_DRIVEN:
             break
-    return out
+    return rows
 
 
 def _choice(mechanism: Mechanism, lang: str) -> dict[str, Any]:
@@ -111,10 +111,10 @@ def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, A
             continue
         if chain.space is not Space.PLANAR and pair.freedoms[chain.space] is None:
             continue
-        joints = [Joint(pair, joint.links) if k == number else one for k, one in enumerate(chain.joints)]
-        other = Chain(joints, links=chain.links, space=chain.space)
+        joints = [Joint(pair, joint.links) if k == number else first for k, first in enumerate(chain.joints)]
+        second = Chain(joints, links=chain.links, space=chain.space)
         drives = [drive.joint for drive in mechanism.drives]
-        text = Mechanism(other, mechanism.frame, drives).text() if _drivable(other, drives) else other.text()
+        text = Mechanism(second, mechanism.frame, drives).text() if _drivable(second, drives) else second.text()
         name = pair.german if lang == "de" else pair.name.replace("_", "-")
         yield {
             "symbol": pair.symbols.get(alphabet, pair.name),

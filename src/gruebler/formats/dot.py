@@ -104,12 +104,12 @@ class _Reader:
         return self._next()
 
     def _attributes(self) -> dict[str, str]:
-        found: dict[str, str] = {}
+        attributes: dict[str, str] = {}
         while self._passed("["):
             while not self._passed("]"):
                 key = self._name()
                 self._take("=")
-                found[key] = self._name()
+                attributes[key] = self._name()
                 if not self._passed(","):
                     self._passed(";")
-        return found
+        return attributes

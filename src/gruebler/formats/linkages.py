@@ -142,8 +142,8 @@ def _plain(element: Element | Pose2D) -> Any:
         more = {"teeth": element.teeth, "belt": element.belt}
         return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
     if isinstance(element, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
-        found = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
-        renamed = {{"lift": "cam"}.get(key, key): value for key, value in found.items() if key not in "xy"}
+        table = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
+        renamed = {{"lift": "cam"}.get(key, key): value for key, value in table.items() if key not in "xy"}
         return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
     return [*at, *(in_degrees(angle) for angle in element[2:])]
 
@@ -173,7 +173,7 @@ def linkage_to_toml(linkage: Linkage) -> str:
     document = linkage_to_json(linkage)
     tables = {
         "points": document.pop("points"),
-        **{f"elements.{_key(link)}": mine for link, mine in document.pop("elements").items()},
+        **{f"elements.{_key(link)}": elements for link, elements in document.pop("elements").items()},
         "home": document.pop("home", {}),
     }
     lines = [f"{key} = {_value(value)}" for key, value in document.items()]

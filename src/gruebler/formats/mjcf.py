@@ -120,11 +120,11 @@ class _Model(BodyTree):
     def _shape(self, link: str, depth: int) -> Iterator[str]:
         """A capsule from the first place of a link to each other one, a ball if there is only one."""
         pad = "  " * depth
-        for one, other in self.bars(link):
-            if one == other:
-                yield f'{pad}<geom type="sphere" pos="{self._at(*one)}"/>'
+        for first, second in self.bars(link):
+            if first == second:
+                yield f'{pad}<geom type="sphere" pos="{self._at(*first)}"/>'
             else:
-                yield f'{pad}<geom fromto="{self._at(*one)} {self._at(*other)}"/>'
+                yield f'{pad}<geom fromto="{self._at(*first)} {self._at(*second)}"/>'
 
     def _sites(self, link: str, depth: int) -> Iterator[str]:
         """The named points of a link."""

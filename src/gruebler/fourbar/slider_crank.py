@@ -223,13 +223,15 @@ class SliderCrank:
         centres = self.dead_centres
         if centres is None:
             return None
-        way = (centres.inner.output + centres.outer.output) / 2
+        displacement = (centres.inner.output + centres.outer.output) / 2
         phi_time = centres.phi_back / 2
         time = float(self.motion(centres.outer.drive + phi_time).output.value)
-        return StrokeMidpoint(way, time, float(self.phi_at(way)[0] - centres.outer.drive) % TURN, phi_time)
+        return StrokeMidpoint(
+            displacement, time, float(self.phi_at(displacement)[0] - centres.outer.drive) % TURN, phi_time
+        )
 
     def phi_at(self, displacement: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """The two crank angles, in 0..2 pi, at which the slider is at s = way; NaN where it never is.
+        """The two crank angles, in 0..2 pi, at which the slider has a displacement; NaN where it never is.
 
         The first comes after the outer dead centre, the second before it (crank turning in the positive sense).
 
@@ -294,14 +296,14 @@ class SliderCrank:
             gap = b - np.abs(rise)
             along = side * np.sqrt(np.where(np.abs(gap) < slack, 0, gap) * (b + np.abs(rise)))
             theta = [np.arctan2(rise, along)]
-            way = [a * np.cos(crank.value) + along]
+            displacements = [a * np.cos(crank.value) + along]
             for k in (1, 2, 3):
                 rest = a * rotation_derivative(crank[: k + 1], k) + b * rotation_derivative(theta, k)
                 theta_k = -np.imag(rest) / along
-                way.append(np.real(rest) - theta_k * rise)
+                displacements.append(np.real(rest) - theta_k * rise)
                 theta.append(theta_k)
             mu = np.arctan2(np.abs(along), -rise)
-            coupler, output = determined_rates(theta), determined_rates(way)
+            coupler, output = determined_rates(theta), determined_rates(displacements)
             joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
         missing = np.isnan(along)
         return CrankMotion(

@@ -110,15 +110,15 @@ def _near_sides(samples: PathPolygon, closed: bool, pad: float) -> _Pairs:
 
 def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Reals, Reals, Reals]:
     """The distance of sides pq and ab, and where on both it is."""
-    one, other = q - p, b - a
-    sine = _cross(one, other)
+    first, second = q - p, b - a
+    sine = _cross(first, second)
     with np.errstate(divide="ignore", invalid="ignore"):
-        t, u = _cross(a - p, other) / sine, _cross(a - p, one) / sine
+        t, u = _cross(a - p, second) / sine, _cross(a - p, first) / sine
     inside = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
     best = np.where(inside, 0.0, np.inf)
     t, u = np.where(inside, t, 0.0), np.where(inside, u, 0.0)
     for end, side, swap in ((p, 0.0, False), (q, 1.0, False), (a, 0.0, True), (b, 1.0, True)):
-        start, segment = (p, one) if swap else (a, other)
+        start, segment = (p, first) if swap else (a, second)
         square = np.maximum(np.abs(segment) ** 2, 1e-300)
         foot = np.clip((np.conj(segment) * (end - start)).real / square, 0, 1)
         gap = np.abs(end - start - foot * segment)
@@ -203,7 +203,7 @@ def _double_points(point_path: PointPath, pairs: _Pairs, touching: bool) -> list
     return points
 
 
-def _equal(point_path: PointPath, one: tuple[float, float], other: tuple[float, float]) -> bool:
+def _equal(point_path: PointPath, first: tuple[float, float], second: tuple[float, float]) -> bool:
     """Whether two pairs of drive values are the same, also across the seam."""
     period = point_path.cycle.span.period
 
@@ -211,7 +211,7 @@ def _equal(point_path: PointPath, one: tuple[float, float], other: tuple[float, 
         gap = abs(a - b)
         return bool(min(gap, abs(period - gap)) < _SAME * 100)
 
-    (a, b), (c, d) = one, other
+    (a, b), (c, d) = first, second
     return (near(a, c) and near(b, d)) or (near(a, d) and near(b, c))
 
 

@@ -283,8 +283,8 @@ def _folds(size: FourBar | SliderCrank) -> bool:
 def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
     """Refuse assembly modes in which a moving link stands still: a parallelogram, or a kite whose joints coincide."""
 
-    def same(one: complex, other: complex) -> bool:
-        return abs(one - other) <= _AT_A_JOINT * size.b
+    def same(first: complex, second: complex) -> bool:
+        return abs(first - second) <= _AT_A_JOINT * size.b
 
     still: Message | None = None
     if isinstance(size, SliderCrank):

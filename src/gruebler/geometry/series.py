@@ -133,8 +133,8 @@ def _solved(jacobian: Reals, right: Reals) -> Reals:
         raise LinkageError("the linkage is in a singular pose: there is no series in the drive") from None
 
 
-def _ends(lower: Linkage, joint: int, one: str, other: str) -> tuple[complex, complex, complex]:
-    near, far = lower.elements[joint, one], lower.elements[joint, other]
+def _ends(lower: Linkage, joint: int, first: str, second: str) -> tuple[complex, complex, complex]:
+    near, far = lower.elements[joint, first], lower.elements[joint, second]
     line = rect(1, direction(near))
     return complex(near.x, near.y) / lower.size, complex(far.x, far.y) / lower.size, line
 

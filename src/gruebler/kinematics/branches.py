@@ -124,8 +124,8 @@ def branch_of(plan: Plan, roots: Reals, unknowns: Reals, drives: Reals) -> tuple
     return tuple(labels)
 
 
-def _distance(one: Reals, other: Reals, size: float) -> float:
-    gap = one - other
+def _distance(first: Reals, second: Reals, size: float) -> float:
+    gap = first - second
     angles = np.abs(np.exp(1j * gap[:, 2]) - 1)
     return float(max(np.abs(gap[:, :2]).max() / size, angles.max()))
 

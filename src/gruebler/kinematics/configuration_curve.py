@@ -339,13 +339,13 @@ def _is_start(curve: SampleBuffer, sample: int) -> bool:
     return bool(sample > 1 and np.abs(gap).max() < _SAME and curve.tangents[sample] @ curve.tangents[0] > _AHEAD)
 
 
-def _change(closure: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
+def _change(closure: ClosureSystem, first: Reals, second: Reals) -> Reals | None:
     """The pose between two neighbouring samples in which the Jacobian loses its rank; None if it does not on the curve.
 
     Newton's method on F(x) + beta psi = 0, J(x)^T psi = 0, |psi| = 1 for x, psi, beta; beta is 0 at a change point.
     """
-    rows = closure.independent(one)
-    x, n, p = (one + two) / 2, closure.unknowns, len(rows)
+    rows = closure.independent(first)
+    x, n, p = (first + second) / 2, closure.unknowns, len(rows)
     beta = 0.0
     psi = np.linalg.svd(closure.linearised(x)[1][rows])[0][:, -1]
     for _ in range(15):
@@ -363,12 +363,12 @@ def _change(closure: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
         if not np.abs(move).max() < 1:
             return None
         if np.abs(move).max() < _EXACT:
-            near = np.linalg.norm(x - (one + two) / 2) <= np.linalg.norm(two - one)
+            near = np.linalg.norm(x - (first + second) / 2) <= np.linalg.norm(second - first)
             return x if near and abs(beta) < _EXACT else None
     return None
 
 
-def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
+def _meeting(system: ClosureSystem, first: Reals, second: Reals, tangent: Reals) -> tuple[Reals | None, int]:
     """The pose between two neighbouring samples in which other curves meet this one, and how many ranks are lost there.
 
     The pose is None if there is none.
@@ -381,7 +381,7 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
     from gruebler._numeric.work_estimates import sampling
 
     def at(part: float) -> tuple[Reals, float]:
-        pose = one + part * (two - one)
+        pose = first + part * (second - first)
         for_work(settle_on_curve, sampling(system.unknowns, 1))(system.conditions, pose, tangent.copy(), system.room)
         return pose, float(np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2])
 
@@ -398,7 +398,7 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
         shift = float(min(roots, key=abs))
         place += width * shift
     weights = np.array([np.prod([(shift - v) / (u - v) for v in _BESIDE if v != u]) for u in _BESIDE])
-    pose = weights @ np.array([one for one, _ in samples])
+    pose = weights @ np.array([first for first, _ in samples])
     singular = np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[: system.unknowns - 1]
     lost = int((singular < _LOST * values.min()).sum())
     return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost

@@ -46,35 +46,35 @@ def contact_conditions(
     lower: Linkage, pair: Pair, keys: Keys, sides: tuple[int, int], owners: tuple[int, int]
 ) -> list[Condition]:
     """What a roll-slide or rolling pair of wheels, circles and lines asks for."""
-    one, other = (lower.elements[keys[side]] for side in sides)
-    if _rank(other) < _rank(one):
-        one, other, sides, owners = other, one, sides[::-1], owners[::-1]
-    if isinstance(one, CamDisc):
-        return [Condition(POLAR, sides, owners, (one.base * one.scale, 0.0, 0.0), cam_law(one))]
-    if isinstance(other, CamDisc):
-        return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(other))]
-    if isinstance(one, GenevaDriver | NonCircular):
-        raw = Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), turn_law(one, other))
+    first, second = (lower.elements[keys[side]] for side in sides)
+    if _rank(second) < _rank(first):
+        first, second, sides, owners = second, first, sides[::-1], owners[::-1]
+    if isinstance(first, CamDisc):
+        return [Condition(POLAR, sides, owners, (first.base * first.scale, 0.0, 0.0), cam_law(first))]
+    if isinstance(second, CamDisc):
+        return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(second))]
+    if isinstance(first, GenevaDriver | NonCircular):
+        raw = Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), turn_law(first, second))
         condition = _phased(lower, keys, raw)
-        if isinstance(one, NonCircular):
+        if isinstance(first, NonCircular):
             _check_phase(lower, keys, condition)
         return [condition]
     conditions = []
-    if isinstance(other, Wheel):
-        if isinstance(one, Line):
-            raw = Condition(RACK, sides, owners, (other.radius * side_of(lower, keys, sides), 1.0, 0.0))
+    if isinstance(second, Wheel):
+        if isinstance(first, Line):
+            raw = Condition(RACK, sides, owners, (second.radius * side_of(lower, keys, sides), 1.0, 0.0))
         else:
-            assert isinstance(one, Wheel)
-            raw = Condition(MESH, sides, owners, (*rolling_factors(one, other), 0.0))
+            assert isinstance(first, Wheel)
+            raw = Condition(MESH, sides, owners, (*rolling_factors(first, second), 0.0))
         conditions.append(_phased(lower, keys, raw))
-    if pair.is_rolling or isinstance(other, Circle):
-        assert isinstance(other, RoundElement)
-        if isinstance(one, Line):
-            offset = other.radius * side_of(lower, keys, sides)
+    if pair.is_rolling or isinstance(second, Circle):
+        assert isinstance(second, RoundElement)
+        if isinstance(first, Line):
+            offset = second.radius * side_of(lower, keys, sides)
             conditions.append(Condition(RIDE, sides, owners, (0.0, 0.0, offset)))
         else:
-            assert isinstance(one, RoundElement)
-            conditions.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(one.radius + other.radius))))
+            assert isinstance(first, RoundElement)
+            conditions.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(first.radius + second.radius))))
     return conditions
 
 
@@ -87,10 +87,10 @@ def _rank(element: Element) -> int:
 
 def _check_phase(lower: Linkage, keys: Keys, condition: Condition) -> None:
     """Refuse non-circular wheels whose curves do not touch at home; the second may start in any of its equal parts."""
-    one, other = (lower.elements[keys[side]] for side in condition.sides)
-    assert isinstance(one, NonCircular)
-    assert isinstance(other, NonCircular)
-    part = 2 * pi / transfer_of(one, other).mean.denominator
+    first, second = (lower.elements[keys[side]] for side in condition.sides)
+    assert isinstance(first, NonCircular)
+    assert isinstance(second, NonCircular)
+    part = 2 * pi / transfer_of(first, second).mean.denominator
     off = condition.values[2] / lower.size + pi
     off -= part * floor(off / part + 0.5)
     if abs(off) > _MESHES:

@@ -228,21 +228,21 @@ def _open_curve(motion: Motion, number: int) -> float:
     last = elements[number, b]
     if isinstance(last, CamDisc | GenevaDriver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
         a, b = b, a
-    one, other = elements[number, a], elements[number, b]
-    assert isinstance(one, LeadingElement)
-    gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
-    along = motion.turns[:, motion.link_index(a)] * rect(1, one.angle)
-    if isinstance(one, GenevaDriver | NonCircular):
-        law = turn_law(one, other)
+    first, second = elements[number, a], elements[number, b]
+    assert isinstance(first, LeadingElement)
+    gap = _point_at(motion, b, second.x, second.y) - _point_at(motion, a, first.x, first.y)
+    along = motion.turns[:, motion.link_index(a)] * rect(1, first.angle)
+    if isinstance(first, GenevaDriver | NonCircular):
+        law = turn_law(first, second)
         bearing = np.unwrap(np.angle(gap))
-        turned = motion.angle(a) + one.angle - bearing
+        turned = motion.angle(a) + first.angle - bearing
         turned += np.angle(along[0] / gap[0] * abs(gap[0])) - turned[0]
         wheel = motion.angle(b) - bearing
         off = np.array([law_at(law, float(t)) for t in turned]) - wheel
         return float(np.abs(off - off[0]).max()) * motion.linkage.size
-    law = cam_law(one)
-    if isinstance(other, Line):
-        normal = 1j * motion.turns[:, motion.link_index(b)] * rect(1, other.angle)
+    law = cam_law(first)
+    if isinstance(second, Line):
+        normal = 1j * motion.turns[:, motion.link_index(b)] * rect(1, second.angle)
         height = (np.conj(normal) * gap).real
         normal, height = normal * np.sign(height), np.abs(height)
         wanted = np.array([law_at(law, float(t)) for t in np.angle(normal / along)])

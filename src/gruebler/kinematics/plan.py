@@ -173,15 +173,15 @@ class Plan(Brief):
             line = program.lines[near]
             turn = line * np.conj(program.lines[far])
             for operation in self.operations:
-                for one, other in (operation[2:4], operation[4:6]) if operation[0] == RRR else ():
-                    if {program.links[one], program.links[other]} != {program.links[near], program.links[far]}:
+                for first, second in (operation[2:4], operation[4:6]) if operation[0] == RRR else ():
+                    if {program.links[first], program.links[second]} != {program.links[near], program.links[far]}:
                         continue
-                    if program.links[one] != program.links[near]:
-                        one, other = other, one  # noqa: PLW2901
+                    if program.links[first] != program.links[near]:
+                        first, second = second, first  # noqa: PLW2901
                     gap = (
                         program.points[near]
-                        + turn * (program.points[other] - program.points[far])
-                        - program.points[one]
+                        + turn * (program.points[second] - program.points[far])
+                        - program.points[first]
                     )
                     value = float(-sign * (np.conj(line) * gap).real)
                     if not any(
@@ -292,11 +292,11 @@ class _Planner:
         roots = tuple(body[0] for body in group.bodies)
         dyad = self._dyad(group, base)
         if dyad is not None:
-            kind, elements, one, two = dyad
+            kind, elements, first, second = dyad
             count = len([part for part in self.parts if isinstance(part, Dyad)])
             index = self.chain.index
-            self.operations.append((kind, *elements, index(one), index(two), count))
-            self.parts.append(Dyad(number, _FORMS[kind], one, two, count))
+            self.operations.append((kind, *elements, index(first), index(second), count))
+            self.parts.append(Dyad(number, _FORMS[kind], first, second, count))
         else:
             count = len(self.conditions)
             self.operations.append((GROUP, count))

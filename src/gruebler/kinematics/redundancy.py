@@ -345,11 +345,11 @@ def _simplest(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> 
     others = [_release for _release in releases if not _release.turned]
     for _ in range(len(chosen)):
         best = chosen
-        for place, other in itertools.islice(itertools.product(range(len(chosen)), others), _TRIALS):
-            trial = [*chosen[:place], other, *chosen[place + 1 :]]
-            if len({(one.joint, one.link) for one in trial}) < len(trial) or _links_taken(linkage, trial):
+        for place, second in itertools.islice(itertools.product(range(len(chosen)), others), _TRIALS):
+            trial = [*chosen[:place], second, *chosen[place + 1 :]]
+            if len({(first.joint, first.link) for first in trial}) < len(trial) or _links_taken(linkage, trial):
                 continue
-            together = np.vstack([one.functional for one in trial])
+            together = np.vstack([first.functional for first in trial])
             if together.shape[0] != forces.shape[1]:
                 continue
             if np.linalg.svd(together @ forces, compute_uv=False)[-1] < _WELL**2:

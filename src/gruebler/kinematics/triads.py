@@ -189,13 +189,13 @@ def _truss(group: GroupConditions) -> _Truss | None:
     return _Truss(base, hub, tuple(sorted(legs, key=lambda leg: (leg.form, leg.body))))
 
 
-def _joint(group: GroupConditions, one: int, other: int) -> tuple[str, _End, _End] | None:
+def _joint(group: GroupConditions, first: int, second: int) -> tuple[str, _End, _End] | None:
     """The only joint between two bodies: its letter and its elements; None if there is not one."""
     joints = []
     for c, kind in enumerate(group.kinds):
         slots = {int(group.owners[2 * c]): 2 * c, int(group.owners[2 * c + 1]): 2 * c + 1}
-        if set(slots) == {one, other}:
-            ends = [_End(complex(group.points[slots[b]]), complex(group.lines[slots[b]])) for b in (one, other)]
+        if set(slots) == {first, second}:
+            ends = [_End(complex(group.points[slots[b]]), complex(group.lines[slots[b]])) for b in (first, second)]
             joints.append(("R" if kind == PIN else "P", ends[0], ends[1]))
     return joints[0] if len(joints) == 1 else None
 

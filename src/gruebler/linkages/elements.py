@@ -212,14 +212,14 @@ def check_elements_fit(pair: Pair, name: str, elements: dict[str, Element]) -> N
         raise LinkageError(
             "{name}: dimensions of this kind of joint ({pair}) are not known here", name=name, pair=pair.title
         )
-    made = {type(e) for e in elements.values()}
-    if any(made == set(kinds) for kinds in _WANTED[pair.name]):
+    given = {type(e) for e in elements.values()}
+    if any(given == set(kinds) for kinds in _WANTED[pair.name]):
         return
     wanted = [
-        message("{element} on each of its links", element=_KINDS[one])
-        if one is other
-        else message("{one} on one of its links and {other} on the other", one=_KINDS[one], other=_KINDS[other])
-        for one, other in _WANTED[pair.name]
+        message("{element} on each of its links", element=_KINDS[first])
+        if first is second
+        else message("{one} on one of its links and {other} on the other", one=_KINDS[first], other=_KINDS[second])
+        for first, second in _WANTED[pair.name]
     ]
     raise LinkageError("{name} needs {elements}", name=name, elements=joined_by_or(wanted))
 
@@ -247,8 +247,8 @@ def read_element(raw: object, where: str | Message) -> Element:
         raise LinkageError("{where}: expected [x, y] or [x, y, angle], but found {raw!r}", where=where, raw=raw)
     if len(numbers) not in (2, 3):
         raise LinkageError("{where}: expected two or three numbers, but found {count}", where=where, count=len(numbers))
-    made = [_number(value, where) for value in numbers]
-    return Pin(*made) if len(made) == 2 else Line(*made)
+    values = [_number(value, where) for value in numbers]
+    return Pin(*values) if len(values) == 2 else Line(*values)
 
 
 def _round(raw: RoundElement, where: str | Message) -> RoundElement:

@@ -49,10 +49,10 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         elements[block] = {}
         parts = _halves(linkage, number)
         measured_from = mechanism.frame if mechanism.frame in joint.links else joint.links[0]
-        for direction, kind, link, mine, on_block in parts:
+        for direction, kind, link, on_link, on_block in parts:
             links = (link, block) if link == measured_from else (block, link)
             place[number, direction] = len(joints), links
-            elements[link][len(joints)] = mine
+            elements[link][len(joints)] = on_link
             elements[block][len(joints)] = on_block
             joints.append(Joint(pair(kind), links))
     drives = []
@@ -65,7 +65,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         new, links = place[number, ""]
         drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], links))
     blocks = [link for link in elements if link not in chain.links]
-    made = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
+    lower_chain = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
     home = None
     if linkage.reference_pose is not None:
         home = {link: tuple(at) for link, at in linkage.reference_pose.items()}
@@ -74,7 +74,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
             home[block] = _block_home(linkage, number)
     points = {name: tuple(point) for name, point in linkage.points.items()}
     return Linkage(
-        Mechanism(made, mechanism.frame, drives),
+        Mechanism(lower_chain, mechanism.frame, drives),
         elements,
         points,  # type: ignore[arg-type]
         unit=linkage.unit,
@@ -100,16 +100,16 @@ def _idle_rollers(linkage: Linkage) -> list[int]:
     """The turning joints in the centre of a circle on a link that has no other joint but its contact."""
     chain, elements = linkage.mechanism.chain, linkage.elements
     driven = {drive.joint for drive in linkage.mechanism.drives}
-    found = []
+    idle = []
     for (number, link), circle in elements.items():
         if not isinstance(circle, Circle):
             continue
-        mine = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
-        if len(mine) == 1 and mine[0] not in driven:
-            pin = elements[mine[0], link]
-            if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[mine[0]].links) == 2:
-                found.append(mine[0])
-    return found
+        own_joints = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
+        if len(own_joints) == 1 and own_joints[0] not in driven:
+            pin = elements[own_joints[0], link]
+            if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[own_joints[0]].links) == 2:
+                idle.append(own_joints[0])
+    return idle
 
 
 def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element, Element]]:
@@ -147,5 +147,5 @@ def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:
         return (*linkage.required_pose[pinned].put(pin.x, pin.y), turned)
     x, y = linkage.required_pose[first].put(one.x, one.y)
     u, v = linkage.required_pose[second].put(other.x, other.y)
-    way = cos(angle) * (u - x) + sin(angle) * (v - y)
-    return x + way * cos(angle), y + way * sin(angle), turned
+    displacement = cos(angle) * (u - x) + sin(angle) * (v - y)
+    return x + displacement * cos(angle), y + displacement * sin(angle), turned

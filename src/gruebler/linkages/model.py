@@ -88,17 +88,17 @@ class Linkage:
         chain = mechanism.chain
         if chain.space is not Space.PLANAR:
             raise LinkageError("dimensions are those of planar mechanisms; this one is {space}", space=chain.space)
-        made: dict[tuple[int, str], Element] = {}
+        checked: dict[tuple[int, str], Element] = {}
         names = chain.joint_names()
-        for link, mine in elements.items():
-            for joint, raw in mine.items():
+        for link, by_joint in elements.items():
+            for joint, raw in by_joint.items():
                 number = chain.joint_number(joint, LinkageError)
                 if link not in chain.joints[number].links:
                     raise LinkageError("{joint} is no joint of {link!r}", joint=names[number], link=link)
-                made[number, link] = read_element(raw, f"{link}, {names[number]}")
-        self._check_joints(mechanism, made)
-        made = resolve_wheels(mechanism, made)
-        check_wheels(mechanism, made)
+                checked[number, link] = read_element(raw, f"{link}, {names[number]}")
+        self._check_joints(mechanism, checked)
+        checked = resolve_wheels(mechanism, checked)
+        check_wheels(mechanism, checked)
         named = {
             name: _named(mechanism, name, *place) if len(place) == 3 else _refuse_point(name)
             for name, place in (points or {}).items()
@@ -109,7 +109,7 @@ class Linkage:
         for link in outputs:
             _link(mechanism, link, "outputs")
         object.__setattr__(self, "mechanism", mechanism)
-        object.__setattr__(self, "elements", MappingProxyType(made))
+        object.__setattr__(self, "elements", MappingProxyType(checked))
         object.__setattr__(self, "points", MappingProxyType(named))
         object.__setattr__(self, "unit", unit)
         object.__setattr__(
@@ -120,17 +120,17 @@ class Linkage:
         object.__setattr__(self, "outputs", tuple(outputs))
 
     @staticmethod
-    def _check_joints(mechanism: Mechanism, made: Mapping[tuple[int, str], Element]) -> None:
+    def _check_joints(mechanism: Mechanism, elements: Mapping[tuple[int, str], Element]) -> None:
         names = mechanism.chain.joint_names()
         for number, joint in enumerate(mechanism.chain.joints):
             for link in joint.links:
-                if (number, link) not in made:
+                if (number, link) not in elements:
                     raise LinkageError("{joint} has no dimensions on {link!r}", joint=names[number], link=link)
-            check_elements_fit(joint.pair, names[number], {link: made[number, link] for link in joint.links})
-        if any(isinstance(element, CENTRED) for element in made.values()):
+            check_elements_fit(joint.pair, names[number], {link: elements[number, link] for link in joint.links})
+        if any(isinstance(element, CENTRED) for element in elements.values()):
             return  # shafts on one axis
         for link in mechanism.chain.links:
-            pins = [(n, e) for (n, owner), e in made.items() if owner == link and isinstance(e, Pin)]
+            pins = [(n, e) for (n, owner), e in elements.items() if owner == link and isinstance(e, Pin)]
             for k, (n, pin) in enumerate(pins):
                 for m, other in pins[:k]:
                     size = max(hypot(*pin), hypot(*other), 1e-300)
@@ -219,12 +219,12 @@ class Linkage:
     @cached_property
     def size(self) -> float:
         """A length of the order of the linkage: the largest distance of joints on one link."""
-        out = 0.0
+        extent = 0.0
         for link in self.mechanism.chain.links:
-            mine = [e for (_, owner), e in self.elements.items() if owner == link]
-            out = max([out, *(hypot(a.x - b.x, a.y - b.y) for a in mine for b in mine)])
-            out = max([out, *(abs(e.radius) for e in mine if isinstance(e, RoundElement))])
-        return out or 1.0
+            own_elements = [e for (_, owner), e in self.elements.items() if owner == link]
+            extent = max([extent, *(hypot(a.x - b.x, a.y - b.y) for a in own_elements for b in own_elements)])
+            extent = max([extent, *(abs(e.radius) for e in own_elements if isinstance(e, RoundElement))])
+        return extent or 1.0
 
     def reference(self, drive: int) -> tuple[str, str]:
         """The two links of a drive: against the first is measured, the second is moved."""
@@ -331,10 +331,10 @@ class Linkage:
         )
 
     def _by_link(self, change: Callable[[Element], Element] = lambda e: e) -> dict[str, dict[str | int, object]]:
-        out: dict[str, dict[str | int, object]] = {link: {} for link in self.mechanism.chain.links}
+        by_link: dict[str, dict[str | int, object]] = {link: {} for link in self.mechanism.chain.links}
         for (number, link), e in self.elements.items():
-            out[link][number] = change(e)
-        return out
+            by_link[link][number] = change(e)
+        return by_link
 
     def _changed(self, **other: Any) -> Linkage:
         given: dict[str, Any] = {
@@ -403,19 +403,19 @@ def _refuse_point(name: str) -> LinkPoint:
 
 
 def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
-    out = {}
+    poses = {}
     for link in mechanism.chain.links:
         if link not in home and link != mechanism.frame:
             raise LinkageError("home: the position of {link!r} is missing", link=link)
         line = read_element(tuple(home.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
         if not isinstance(line, Line):
             raise LinkageError("home, {link}: expected x, y and an angle", link=link)
-        out[link] = Pose2D(*line)
+        poses[link] = Pose2D(*line)
     for link in home:
         _link(mechanism, link, "home")
-    if any(abs(v) > 1e-12 for v in (*out[mechanism.frame][:2], out[mechanism.frame].angle % (2 * pi))):
+    if any(abs(v) > 1e-12 for v in (*poses[mechanism.frame][:2], poses[mechanism.frame].angle % (2 * pi))):
         raise LinkageError("home: the frame lies at 0, 0, 0; its coordinates are those of the plane")
-    return out
+    return poses
 
 
 def _from_drawing(
@@ -487,8 +487,8 @@ def _at_the_pin(link: str, line: Line, drawn: Mapping[tuple[int, str], Element])
     for (_, owner), element in drawn.items():
         if owner == link and isinstance(element, Pin):
             c, s = cos(line.angle), sin(line.angle)
-            way = c * (element.x - line.x) + s * (element.y - line.y)
-            return Line(line.x + c * way, line.y + s * way, line.angle)
+            displacement = c * (element.x - line.x) + s * (element.y - line.y)
+            return Line(line.x + c * displacement, line.y + s * displacement, line.angle)
     return line
 
 
@@ -497,8 +497,8 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
     if link == mechanism.frame:
         return Pose2D(0.0, 0.0, 0.0)
     driven = {drive.joint for drive in mechanism.drives}
-    mine = sorted((number not in driven, number, e) for (number, owner), e in drawn.items() if owner == link)
-    elements = [element for _, _, element in mine]
+    own_elements = sorted((number not in driven, number, e) for (number, owner), e in drawn.items() if owner == link)
+    elements = [element for _, _, element in own_elements]
     lines = [e for e in elements if isinstance(e, Line)]
     pins = [e for e in elements if isinstance(e, Pin)]
     first = pins[0] if pins else elements[0]

@@ -173,29 +173,29 @@ def _cones(r: float, s: float) -> tuple[Reals, Reals]:
 
 
 def _cone_touch(r: float, s: float) -> Bent:
-    one, other = _cones(r, s)
+    first, second = _cones(r, s)
 
     def row(e: Reals) -> tuple[float, Reals]:
         gradient = np.zeros((4, 4))
-        gradient[:3, :3] = -np.outer(one, other) / sin(r + s)
-        return float(cos(r + s) - one @ e[:3, :3] @ other) / sin(r + s), gradient
+        gradient[:3, :3] = -np.outer(first, second) / sin(r + s)
+        return float(cos(r + s) - first @ e[:3, :3] @ second) / sin(r + s), gradient
 
     return row
 
 
 def _cone_arcs(r: float, s: float) -> Bent:
-    one, other = _cones(r, s)
+    first, second = _cones(r, s)
     x = np.array([1.0, 0.0, 0.0])
     ahead, back = np.array([0.0, cos(r), sin(r)]), np.array([0.0, -cos(s), sin(s)])
     sign = np.sign(sin(r + s))
 
     def row(e: Reals) -> tuple[float, Reals]:
         turn = e[:3, :3]
-        m, n = sign * (turn @ other), sign * (turn.T @ one)
+        m, n = sign * (turn @ second), sign * (turn.T @ first)
         a, b, c, d = m @ x, m @ ahead, -n @ x, n @ back
         gradient = np.zeros((4, 4))
-        gradient[:3, :3] = sign * sin(r) * np.outer(b * x - a * ahead, other) / (a * a + b * b)
-        gradient[:3, :3] += sign * sin(s) * np.outer(one, -d * x - c * back) / (c * c + d * d)
+        gradient[:3, :3] = sign * sin(r) * np.outer(b * x - a * ahead, second) / (a * a + b * b)
+        gradient[:3, :3] += sign * sin(s) * np.outer(first, -d * x - c * back) / (c * c + d * d)
         return float(sin(r) * np.arctan2(a, b) + sin(s) * np.arctan2(c, d)), gradient
 
     return row

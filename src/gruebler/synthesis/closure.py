@@ -115,14 +115,14 @@ class DesignClosure:
         self.equations = 2 * len(joints)
         self.unknowns = 3 * len(self.links)
 
-    def poses(self, found: Poses) -> Reals:
+    def poses(self, solved: Poses) -> Reals:
         """(rows, unknowns) of positions on a circuit."""
-        out = np.empty((len(found), self.unknowns))
+        unknowns = np.empty((len(solved), self.unknowns))
         for link, c in self.column.items():
-            k = found.lower.mechanism.chain.links.index(link)
-            z = found.places[0, :, k]
-            out[:, c], out[:, c + 1], out[:, c + 2] = z.real, z.imag, found.angles[:, k]
-        return out
+            k = solved.lower.mechanism.chain.links.index(link)
+            z = solved.places[0, :, k]
+            unknowns[:, c], unknowns[:, c + 1], unknowns[:, c + 2] = z.real, z.imag, solved.angles[:, k]
+        return unknowns
 
     def joined(self, q: Reals, p: Reals) -> _Joined:
         """Both sides of all joints. Cost: about 1 us a pose."""

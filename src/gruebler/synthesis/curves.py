@@ -63,14 +63,14 @@ def _halton(count: int, base: int) -> Reals:
 def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
     """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
     count = count or (90_000 if kind is FOUR_BAR else 12_000)
-    one, two, three, four, five = (_halton(count, base) for base in (2, 3, 5, 7, 11))
+    first, second, three, four, five = (_halton(count, base) for base in (2, 3, 5, 7, 11))
     spread = np.log(6.0)
     if kind is FOUR_BAR:
-        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (one, two, three))
+        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (first, second, three))
         zero = 0 * b
         rows = np.stack([zero, zero, d, zero, zero + 1, b, c, zero, zero])
     else:
-        b, h = np.exp(spread * one) * 1.05, 3 * two
+        b, h = np.exp(spread * first) * 1.05, 3 * second
         zero = 0 * b
         rows = np.stack([zero, zero, zero, h, zero + 1, b, zero, zero])
     reach = np.maximum(rows[kind.unknowns.index("b")], 1.0)

@@ -280,9 +280,9 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
     return distinct
 
 
-def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:
-    gap = abs(one.moving - other.moving) + abs(one.fixed - other.fixed)
-    return one.form != other.form or gap > 1e-3 * (1 + abs(one.moving) + abs(one.fixed))
+def _apart(first: GuidingDyad, second: GuidingDyad) -> bool:
+    gap = abs(first.moving - second.moving) + abs(first.fixed - second.fixed)
+    return first.form != second.form or gap > 1e-3 * (1 + abs(first.moving) + abs(first.fixed))
 
 
 def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> SynthesisResult:

@@ -118,7 +118,7 @@ def _limit(demands: Demands) -> float:
     return demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
 
 
-def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
+def pareto(result: SynthesisResult) -> tuple[ParetoRow, ...]:
     """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
     rows = [
         ParetoRow(
@@ -129,7 +129,7 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
             len(design.linkage.mechanism.chain.links),
             design,
         )
-        for design in found.designs
+        for design in result.designs
     ]
     best = [row for row in rows if not any(other.dominates(row) for other in rows)]
     return tuple(sorted(best, key=lambda row: row.error))

@@ -65,12 +65,12 @@ def _block(centre: Space3, size: Space3, style: str = "block") -> Iterator[Shape
 def _round(centre: Space3, radius: float, axis: str) -> list[Point]:
     """A circle across an axis."""
     x, y, z = centre
-    out = []
+    rim = []
     for k in range(_SIDES):
         c, s = radius * math.cos(2 * math.pi * k / _SIDES), radius * math.sin(2 * math.pi * k / _SIDES)
         place = {"x": (x, y + c, z + s), "y": (x + c, y, z + s), "z": (x + c, y + s, z)}[axis]
-        out.append(_at(place))
-    return out
+        rim.append(_at(place))
+    return rim
 
 
 def _cylinder(begin: Space3, end: Space3, radius: float, axis: str, style: str = "block") -> Iterator[Shape]:
@@ -231,16 +231,16 @@ def _motions(pair: Pair) -> Iterator[Shape]:
     names = _AXES.get(pair.name, {})
     for freedom in pair.freedoms[Space.SPATIAL]:
         axis = names.get(freedom, freedom[1])
-        way = {"x": _X, "y": _Y, "z": _Z}[axis].unit
+        direction = {"x": _X, "y": _Y, "z": _Z}[axis].unit
         foot = {"x": Point(0, 74), "y": Point(70, 26), "z": Point(-84, 20)}[axis]
         if freedom[0] in "TH":
             for sign in (1, -1):
-                yield from arrow(foot, foot.plus(way, sign * 15), "velocity", "velocity-head")
+                yield from arrow(foot, foot.plus(direction, sign * 15), "velocity", "velocity-head")
         if freedom[0] in "RH":
-            centre = foot.plus(way, 30)
-            side = way.across
+            centre = foot.plus(direction, 30)
+            side = direction.across
             curve = [
-                centre.plus(side, 13 * math.sin(x)).plus(way, 5 * math.cos(x))
+                centre.plus(side, 13 * math.sin(x)).plus(direction, 5 * math.cos(x))
                 for x in (math.radians(20 + 12 * k) for k in range(26))
             ]
             yield Polylines((tuple(curve[:-1]),), "drive")

@@ -141,9 +141,9 @@ def _diagram(linkage: Linkage, mechanism: Mechanism, lang: str, between: tuple[f
     if len(mechanism.drives) == 1:
         ways.append(lambda: transfer_plot(linkage, between=shown, lang=lang))
         ways.append(lambda: transmission_plot(linkage, between=shown, lang=lang))
-    for way in ways:
+    for branch in ways:
         try:
-            return way()
+            return branch()
         except GrueblerError:
             continue
     return None
@@ -182,7 +182,7 @@ def catalog_book(*, lang: str = "en", ids: Sequence[str] = ()) -> Document:
 
 def _index(chosen: Mapping[str, Entry], lang: str) -> Iterator[Block]:
     """The machines by what they have: number of links, joints, drives, kind of output, mobility."""
-    found: dict[tuple[str, str], list[str]] = {}
+    ids_by_feature: dict[tuple[str, str], list[str]] = {}
     for id, entry in chosen.items():
         mechanism = entry_mechanism(entry)
         features = access_features(mechanism, entry.outputs)
@@ -201,10 +201,12 @@ def _index(chosen: Mapping[str, Entry], lang: str) -> Iterator[Block]:
         kind = translate("guide mechanism", lang) if guided else translate("transmits a motion", lang)
         marks.append((translate("purpose", lang), kind))
         for mark in marks:
-            found.setdefault(mark, []).append(id)
+            ids_by_feature.setdefault(mark, []).append(id)
     yield Heading(translate("Index by feature", lang), 1)
     headers = translate("feature", lang), translate("value", lang), translate("machines", lang)
-    yield Rows(headers, tuple((*mark, ", ".join(found[mark])) for mark in sorted(found, key=_natural)))
+    yield Rows(
+        headers, tuple((*mark, ", ".join(ids_by_feature[mark])) for mark in sorted(ids_by_feature, key=_natural))
+    )
 
 
 def _natural(mark: tuple[str, str]) -> tuple[str, int, str]:

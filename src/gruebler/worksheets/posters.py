@@ -53,9 +53,9 @@ def poster(name: str, links: int | None = None, lang: str = "en") -> tuple[str, 
 def _chains(links: int, lang: str) -> tuple[str, tuple[Section, ...]]:
     sections = []
     for count in range(4, links + 1, 2):
-        found = sorted(chains(count, 1), key=lambda chain: [-k for k in chain.assortment])
+        ranked = sorted(chains(count, 1), key=lambda chain: [-k for k in chain.assortment])
         number = 0
-        for assortment, group in groupby(found, key=lambda chain: chain.assortment):
+        for assortment, group in groupby(ranked, key=lambda chain: chain.assortment):
             items = []
             for chain in group:
                 number += 1

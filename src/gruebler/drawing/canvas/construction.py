@@ -276,9 +276,9 @@ class _View:
                     yield from self._arrow(self.at(ends[0]), self.at(ends[1]), style)
 
     def _arrow(self, tail: Point, tip: Point, style: str) -> Iterator[Shape]:
-        way = tip.minus(tail)
-        if way.length > _LEAST:
-            yield from arrow(tail, tip.plus(way.unit, -min(7.0, way.length / 2)), style, f"{style}-head")
+        shaft = tip.minus(tail)
+        if shaft.length > _LEAST:
+            yield from arrow(tail, tip.plus(shaft.unit, -min(7.0, shaft.length / 2)), style, f"{style}-head")
 
     def _circle(self, circle: DrawnCircle, style: str) -> Iterator[Shape]:
         z = circle.centre + circle.radius * np.exp(2j * math.pi * np.arange(721) / 720)

@@ -239,7 +239,7 @@ def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
     sides = [middle.plus(along.across, side) for side in (_ASIDE, -_ASIDE)]
     free = Obstacles(shapes).free(complexes(sides), 2 * _ASIDE)
     at = sides[0] if free[0] >= free[1] else sides[1]
-    return [shape for way in (1, -1) for shape in arrow(at, at.plus(along, way * 11.0), "velocity", "velocity-head")]
+    return [shape for sign in (1, -1) for shape in arrow(at, at.plus(along, sign * 11.0), "velocity", "velocity-head")]
 
 
 def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:
