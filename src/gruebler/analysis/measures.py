@@ -164,8 +164,10 @@ class Measures(Brief):
             return None
         period, near = self.span.period, 1e-9 * (self.travel or 0.0)
 
-        def alike(one: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
-            return [stop for stop in self.stops if stop.kind == one.kind and abs(stop.output - one.output) <= near]
+        def alike(extreme: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
+            return [
+                stop for stop in self.stops if stop.kind == extreme.kind and abs(stop.output - extreme.output) <= near
+            ]
 
         def ahead(drive: float, of: float) -> float:
             return (drive - of) % period

@@ -111,12 +111,14 @@ def _search(arguments: argparse.Namespace) -> int:
     )
     if arguments.json:
         keys = ("text", "driving", "driven", "held", "planets", "size")
-        print_json([{k: getattr(one, k) for k in keys} | {"ratio": _value(one.ratio)} for one in designs])
+        print_json([{k: getattr(design, k) for k in keys} | {"ratio": _value(design.ratio)} for design in designs])
         return int(not designs)
     if not designs:
         print_text(translate("No train with these tooth numbers can be assembled.", arguments.lang))
         return 1
-    rows: list[list[Cell]] = [[fraction_text(one.ratio, arguments.lang), str(one.size), one.text] for one in designs]
+    rows: list[list[Cell]] = [
+        [fraction_text(design.ratio, arguments.lang), str(design.size), design.text] for design in designs
+    ]
     header = (message("ratio"), message("diameter in modules"), message("train"))
     print_table(header, rows, numbers=(1,), lang=arguments.lang)
     return 0
@@ -205,20 +207,20 @@ def _document(reading: TrainReading, solution: Speeds, forces: Balance | None) -
         document["powers"] = {link: _value(value) for link, value in forces.powers.items()}
     document["axes"] = [
         {
-            "planet": one.planet,
-            "carrier": one.carrier,
-            "wheels": [mesh.b for mesh in one.meshes],
-            "coaxial": one.coaxial,
+            "planet": axis.planet,
+            "carrier": axis.carrier,
+            "wheels": [mesh.b for mesh in axis.meshes],
+            "coaxial": axis.coaxial,
         }
-        | {"distances_in_half_modules": [_value(distance) for distance in one.distances]}
-        for one in axes(train)
+        | {"distances_in_half_modules": [_value(distance) for distance in axis.distances]}
+        for axis in axes(train)
     ]
     if reading.planets:
         tested = [assembly(train, planet, count) for planet, count in reading.planets.items()]
         document["assembly"] = [
-            {name: getattr(one, name) for name in ("planet", "number", "coaxial", "evenly", "clear", "possible")}
-            | {"spacing_turns": _value(one.spacing)}
-            for one in tested
+            {name: getattr(axis, name) for name in ("planet", "number", "coaxial", "evenly", "clear", "possible")}
+            | {"spacing_turns": _value(axis.spacing)}
+            for axis in tested
         ]
     return document
 

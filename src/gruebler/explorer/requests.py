@@ -176,17 +176,19 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
         multiple_joints=asked.multiple_joints,
     )
     named = search(Query(words=tuple(asked.words.split()), pairs=tuple(asked.pairs.split())))
-    fitting = [one for one in named if query.fits(entry_mechanism(one), entry_features(one))]
+    fitting = [candidate for candidate in named if query.fits(entry_mechanism(candidate), entry_features(candidate))]
     return [
         {
-            "id": one.id,
-            "name": one.name.in_language(lang),
-            "links": one.chain().n,
-            "counted": counted(one.chain()),
-            "moves": one.dimensions is not None and one.space == "planar",
-            "text": Mechanism(one.chain(), one.frame or one.chain().links[0], one.drives).text(),
+            "id": candidate.id,
+            "name": candidate.name.in_language(lang),
+            "links": candidate.chain().n,
+            "counted": counted(candidate.chain()),
+            "moves": candidate.dimensions is not None and candidate.space == "planar",
+            "text": Mechanism(
+                candidate.chain(), candidate.frame or candidate.chain().links[0], candidate.drives
+            ).text(),
         }
-        for one in fitting
+        for candidate in fitting
     ]
 
 
@@ -384,11 +386,13 @@ def _mark(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
         if not given.strip():
             continue
         try:
-            one = grade(task, {key: given})[0]
+            graded = grade(task, {key: given})[0]
         except GrueblerError as error:
             marks.append({"key": key, "mark": "wrong", "hint": error_in_language(error, lang)})
             continue
-        marks.append({"key": key, "mark": str(one.mark), "hint": one.hint.in_language(lang) if one.hint else ""})
+        marks.append(
+            {"key": key, "mark": str(graded.mark), "hint": graded.hint.in_language(lang) if graded.hint else ""}
+        )
     return {"marks": marks, "solution": solution_text(task, solve(task), lang)}
 
 

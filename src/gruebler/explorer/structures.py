@@ -59,8 +59,8 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
         "verdict": str(report.verdict),
         "lines": report.explain(lang).splitlines(),
         "drives": check_drives(mechanism).explain(lang) if mechanism.drives else "",
-        "inversions": [_choice(one, lang) for one in inversions(chain)] if few else [],
-        "driven": [_choice(one.mechanism, lang) for one in _driven(chain, at_frame)]
+        "inversions": [_choice(inversion, lang) for inversion in inversions(chain)] if few else [],
+        "driven": [_choice(inversion.mechanism, lang) for inversion in _driven(chain, at_frame)]
         if few and chain.space is Space.PLANAR
         else [],
     }
@@ -69,8 +69,8 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
 def _driven(chain: Chain, at_frame: bool) -> list[Any]:
     """The mechanisms with one drive, as far as a page can show them."""
     rows = []
-    for one in driven_mechanisms(chain, drives=1, at_frame=at_frame):
-        rows.append(one)
+    for driven in driven_mechanisms(chain, drives=1, at_frame=at_frame):
+        rows.append(driven)
         if len(rows) == _MOST_DRIVEN:
             break
     return rows

@@ -170,7 +170,7 @@ def _solved(matrix: Reals, right: Reals) -> Reals:
         return np.asarray(np.linalg.solve(matrix, right))
     except np.linalg.LinAlgError:
         solutions = np.full(right.shape, np.inf)
-        for row, (one, side) in enumerate(zip(matrix, right, strict=True)):
-            if np.linalg.matrix_rank(one) == len(one):
-                solutions[row] = np.linalg.solve(one, side)
+        for row, (system, side) in enumerate(zip(matrix, right, strict=True)):
+            if np.linalg.matrix_rank(system) == len(system):
+                solutions[row] = np.linalg.solve(system, side)
         return solutions

@@ -130,7 +130,7 @@ class Statics(Brief):
         number = mechanism.chain.joint_number(joint, LinkageError)
         links = mechanism.chain.joints[number].links
         if link is None:
-            return number, next(one for one in reversed(links) if one != mechanism.frame)
+            return number, next(candidate for candidate in reversed(links) if candidate != mechanism.frame)
         if link not in links:
             raise LinkageError(
                 "{joint} is no joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link

@@ -248,7 +248,7 @@ def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object
 
 def _element(raw: Any, where: str, slots: bool) -> object:
     if slots and isinstance(raw, Mapping):
-        return {link: _element(one, f"{where}.{link}", False) for link, one in raw.items()}
+        return {link: _element(value, f"{where}.{link}", False) for link, value in raw.items()}
     if isinstance(raw, Mapping):
         return _round(convert_document(raw, RoundRecord, LinkageError, where), raw, where)
     if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):

@@ -59,8 +59,8 @@ class _Model(BodyTree):
         ]
         bodies = [*self._sites(self.frame, 2), *self._bodies()]
         closing = []
-        for number, one, other in self.closing:
-            body, partner = (other, one) if one == self.frame else (one, other)
+        for number, base, follower in self.closing:
+            body, partner = (follower, base) if base == self.frame else (base, follower)
             pin = self.lower.elements[number, body]
             second = "" if partner == self.frame else f" body2={quoteattr(partner)}"
             closing.append(f'    <connect body1={quoteattr(body)}{second} anchor="{self._at(pin.x, pin.y)}"/>')

@@ -150,8 +150,8 @@ def _rigid_links_united(drawing: PinDrawing) -> tuple[list[DrawnJoint], Disjoint
     links = dict.fromkeys([drawing.frame, *(link for joint in drawing.joints for link in joint.links)])
     links |= dict.fromkeys(link for drive in drawing.drives or () for link in (drive.fixed, drive.moved))
     names = DisjointSets(links | dict.fromkeys(link for both in drawing.rigid for link in both))
-    for one, other in drawing.rigid:
-        _unite(names, one, other, drawing.frame)
+    for kept, joined in drawing.rigid:
+        _unite(names, kept, joined, drawing.frame)
     near = _SAME * _extent(drawing.joints)
     joints = list(drawing.joints)
     united = True
@@ -160,11 +160,11 @@ def _rigid_links_united(drawing: PinDrawing) -> tuple[list[DrawnJoint], Disjoint
         united = False
         shared: dict[frozenset[str], DrawnJoint] = {}
         for joint in joints:
-            for one, other in combinations(joint.links if joint.slot is None else (), 2):
-                first = shared.setdefault(frozenset((one, other)), joint)
+            for kept, joined in combinations(joint.links if joint.slot is None else (), 2):
+                first = shared.setdefault(frozenset((kept, joined)), joint)
                 apart = hypot(first.x - joint.x, first.y - joint.y) > near
-                if apart and names.find(one) != names.find(other):
-                    _unite(names, one, other, drawing.frame)
+                if apart and names.find(kept) != names.find(joined):
+                    _unite(names, kept, joined, drawing.frame)
                     united = True
     return joints, names
 
@@ -199,16 +199,20 @@ def _with_slides(frame: str, joints: list[DrawnJoint]) -> list[DrawnJoint]:
     drawn, slides = list(joints), []
     in_slots = [k for k, joint in enumerate(drawn) if joint.slot is not None and joint.turns]
     for first, second in combinations(in_slots, 2):
-        one, other = drawn[first], drawn[second]
-        if one.slot is None or other.slot is None or one.links[0] != other.links[0]:
+        joint_a, joint_b = drawn[first], drawn[second]
+        if joint_a.slot is None or joint_b.slot is None or joint_a.links[0] != joint_b.links[0]:
             continue
-        across = abs(cos(one.slot) * (other.y - one.y) - sin(one.slot) * (other.x - one.x))
-        both = [link for link in one.links[1:] if link in other.links[1:] and (one.links[0], link) not in taken]
-        if not both or across > near or abs(sin(one.slot - other.slot)) > _PARALLEL:
+        across = abs(cos(joint_a.slot) * (joint_b.y - joint_a.y) - sin(joint_a.slot) * (joint_b.x - joint_a.x))
+        both = [
+            link for link in joint_a.links[1:] if link in joint_b.links[1:] and (joint_a.links[0], link) not in taken
+        ]
+        if not both or across > near or abs(sin(joint_a.slot - joint_b.slot)) > _PARALLEL:
             continue
-        base, link = one.links[0], min(both, key=lambda name: name != frame)
+        base, link = joint_a.links[0], min(both, key=lambda name: name != frame)
         taken.add((base, link))
-        slides.append(DrawnJoint(f"{one.name} slide", one.x, one.y, (base, link), one.slot, turns=False))
+        slides.append(
+            DrawnJoint(f"{joint_a.name} slide", joint_a.x, joint_a.y, (base, link), joint_a.slot, turns=False)
+        )
         for k in (first, second):
             others = [name for name in drawn[k].links[1:] if name != link]
             drawn[k] = replace(drawn[k], links=(link, *others), slot=None)

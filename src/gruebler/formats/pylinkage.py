@@ -125,7 +125,7 @@ class _Placing:
                 )
             for joint in ready:
                 self._place(joint)
-            waiting = [joint for joint in waiting if not any(joint is one for one in ready)]
+            waiting = [joint for joint in waiting if not any(joint is known for known in ready)]
 
     def _refs(self, joint: Mapping[str, Any]) -> list[str]:
         """The names of the joints that it is placed by; those written within it are placed at once."""

@@ -162,7 +162,7 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
             continue
         sides = keys.index(ends[0]), keys.index(ends[1])
         for condition in contact_conditions(lower, joint.pair, keys, sides, (owners[0], owners[1])):
-            one, two, value = condition.values
+            weight, other_weight, value = condition.values
             places = _at(lower, keys[condition.sides[0]]), _at(lower, keys[condition.sides[1]])
             if condition.kind == MESH:
                 arm = len(bodies) + len(free)
@@ -176,14 +176,26 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
                 if number in held:
                     turned -= held[number].direction + (pi if condition.sides != sides else 0.0)
                 rows.append(
-                    _Row(TRAIN, condition.owners, places, (one / size, two / size, 0.0, arm, turned), condition.law)
+                    _Row(
+                        TRAIN,
+                        condition.owners,
+                        places,
+                        (weight / size, other_weight / size, 0.0, arm, turned),
+                        condition.law,
+                    )
                 )
             elif condition.kind == RACK:
-                rows.append(_Row(TRAVEL, condition.owners, places, (one / size, two, 0.0, 0.0, 0.0)))
+                rows.append(_Row(TRAVEL, condition.owners, places, (weight / size, other_weight, 0.0, 0.0, 0.0)))
             else:
                 law = condition.law.scaled(size, condition.kind == POLAR)
                 rows.append(
-                    _Row(condition.kind, condition.owners, places, (one / size, two, value / size, 0.0, 0.0), law)
+                    _Row(
+                        condition.kind,
+                        condition.owners,
+                        places,
+                        (weight / size, other_weight, value / size, 0.0, 0.0),
+                        law,
+                    )
                 )
     for a, b in still:
         owners = [-1 if link == frame else bodies.index(link) for link in (a, b)]

@@ -103,13 +103,13 @@ def _check_phase(lower: Linkage, keys: Keys, condition: Condition) -> None:
 
 def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
     """The condition as it holds at home."""
-    one, two, _ = raw.values
+    a, b, _ = raw.values
     first, second = home_angles(lower, keys, raw)
     if raw.kind == RACK:
         second = _way(lower, keys, raw.sides).real
     elif raw.law.pieces:
         first = law_at(raw.law, first)
-    return raw._replace(values=(one, two, one * first + two * second))
+    return raw._replace(values=(a, b, a * first + b * second))
 
 
 def law_at(law: PiecewiseLaw, angle: float) -> float:

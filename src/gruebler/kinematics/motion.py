@@ -197,26 +197,26 @@ def _open_contact(motion: Motion, number: int) -> float:
     a, b = chain.joints[number].links
     if isinstance(elements[number, b], Line):
         a, b = b, a
-    one, other = elements[number, a], elements[number, b]
-    if isinstance(one, LeadingElement) or isinstance(other, LeadingElement):
+    element, other_element = elements[number, a], elements[number, b]
+    if isinstance(element, LeadingElement) or isinstance(other_element, LeadingElement):
         return _open_curve(motion, number) / linkage.size
-    assert isinstance(other, RoundElement)
-    gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
-    touching = chain.joints[number].pair.is_rolling or isinstance(other, Circle)
-    if isinstance(one, Line):
-        gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, one.angle))
-        radius = np.copysign(other.radius, gap.imag)
+    assert isinstance(other_element, RoundElement)
+    gap = _point_at(motion, b, other_element.x, other_element.y) - _point_at(motion, a, element.x, element.y)
+    touching = chain.joints[number].pair.is_rolling or isinstance(other_element, Circle)
+    if isinstance(element, Line):
+        gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, element.angle))
+        radius = np.copysign(other_element.radius, gap.imag)
         far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
     else:
-        assert isinstance(one, RoundElement)
-        far = np.abs(np.abs(gap) - abs(one.radius + other.radius))
+        assert isinstance(element, RoundElement)
+        far = np.abs(np.abs(gap) - abs(element.radius + other_element.radius))
         arm = carriers(linkage.mechanism, elements).get(number)
         along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
-        if isinstance(one, Wheel) and isinstance(other, Wheel):
-            first, second = rolling_factors(one, other)
+        if isinstance(element, Wheel) and isinstance(other_element, Wheel):
+            first, second = rolling_factors(element, other_element)
             rolled = first * (motion.angle(a) - along) + second * (motion.angle(b) - along)
     largest = float(far.max()) if touching else 0.0
-    if isinstance(other, Wheel):
+    if isinstance(other_element, Wheel):
         largest = max(largest, float(np.abs(rolled - rolled[0]).max()))
     return largest / linkage.size
 
@@ -262,15 +262,17 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
     for first, other in ((joint.links[0], other) for other in joint.links[1:]):
         if not isinstance(linkage.elements[number, first], Line):
             first, other = other, first  # noqa: PLW2901
-        one, two = linkage.elements[number, first], linkage.elements[number, other]
-        gap = (_point_at(motion, other, two.x, two.y) - _point_at(motion, first, one.x, one.y)) / linkage.size
-        if isinstance(one, Line):
-            line = motion.turns[:, motion.link_index(first)] * rect(1, one.angle)
+        element, other_element = linkage.elements[number, first], linkage.elements[number, other]
+        gap = (
+            _point_at(motion, other, other_element.x, other_element.y) - _point_at(motion, first, element.x, element.y)
+        ) / linkage.size
+        if isinstance(element, Line):
+            line = motion.turns[:, motion.link_index(first)] * rect(1, element.angle)
             if not joint.pair.is_double_slide:
                 openings = np.maximum(openings, np.abs((np.conj(line) * gap).imag))
-            if isinstance(two, Line):
+            if isinstance(other_element, Line):
                 openings = np.maximum(
-                    openings, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, two.angle) - line)
+                    openings, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, other_element.angle) - line)
                 )
         else:
             openings = np.maximum(openings, np.abs(gap))

@@ -123,7 +123,7 @@ def _check_ratio(transfer: WheelTransfer) -> None:
                 at=degrees(jump.at),
             )
         extremes = [(a, float(transfer.mean) + slope) for a, slope in transfer.lift.extremes(1)]
-    for at, ratio in (min(extremes, key=lambda one: one[1]), max(extremes, key=lambda one: one[1])):
+    for at, ratio in (min(extremes, key=lambda place: place[1]), max(extremes, key=lambda place: place[1])):
         if not _RATIOS[0] <= ratio <= _RATIOS[1]:
             raise LinkageError(
                 "transfer: the ratio is {ratio:.4g} at {at:.6g}°; it must be positive everywhere, from "

@@ -103,12 +103,12 @@ class Plan(Brief):
     @cached_property
     def held(self) -> np.ndarray:
         """The values of the drives that hold idle rollers; they stand behind the others."""
-        home, drives = (
+        reference, drives = (
             self.lower.reference_pose,
             range(len(self.linkage.mechanism.drives), len(self.lower.mechanism.drives)),
         )
         links = [self.lower.reference(k) for k in drives]
-        return np.array([home[b].angle - home[a].angle if home is not None else 0.0 for a, b in links])
+        return np.array([reference[b].angle - reference[a].angle if reference is not None else 0.0 for a, b in links])
 
     @property
     def dwelling(self) -> bool:
@@ -328,18 +328,18 @@ class _Planner:
                 outer[member.links[0]] = joint, member.pair.symbol()
             else:
                 inner = joint, member.pair.symbol()
-        one, two = 0, 1
+        body_a, body_b = 0, 1
         form = outer[0][1] + inner[1] + outer[1][1]
         if form not in _DYADS:
-            form, one, two = form[::-1], 1, 0
-        first, second = group.bodies[one][0], group.bodies[two][0]
+            form, body_a, body_b = form[::-1], 1, 0
+        first, second = group.bodies[body_a][0], group.bodies[body_b][0]
         elements = [
-            self._element(outer[one][0], base),
-            self._element(outer[one][0], first),
+            self._element(outer[body_a][0], base),
+            self._element(outer[body_a][0], first),
             self._element(inner[0], first),
             self._element(inner[0], second),
-            self._element(outer[two][0], second),
-            self._element(outer[two][0], base),
+            self._element(outer[body_b][0], second),
+            self._element(outer[body_b][0], base),
         ]
         return _DYADS[form], elements, first, second
 

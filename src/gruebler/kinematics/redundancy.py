@@ -318,7 +318,7 @@ def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> li
     chosen: list[_Release] = []
     joints: dict[int, set[str]] = {}
     while forces.shape[1]:
-        here = [one.directed(forces) for one in releases]
+        here = [release.directed(forces) for release in releases]
         share = {}
         for k, _release in enumerate(here):
             taken = joints.get(_release.joint, set())
@@ -387,7 +387,7 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
     for number, joint in enumerate(mechanism.chain.joints):
         members: dict[str, Element] = {link: linkage.elements[number, link] for link in joint.links}
         kind = joint.pair
-        for _release in (one for one in chosen if one.joint == number):
+        for _release in (release for release in chosen if release.joint == number):
             here = members.pop(_release.link)
             if _release.pair is not None and joint.pair.is_revolute:
                 block = f"block {names[number]} {_release.link}"

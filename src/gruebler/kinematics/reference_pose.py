@@ -42,8 +42,11 @@ def pose_at_reference(plan: Plan, near: Reals) -> ReferencePose:
 def check_reference(plan: Plan, places: NDArray[np.complex128], turns: NDArray[np.complex128]) -> None:
     """`LinkageError` if a solved pose is far from the home position: then the joints are not closed there."""
     for k, link in enumerate(plan.lower.mechanism.chain.links):
-        home = plan.lower.required_pose[link]
-        gap = max(abs(places[k] - complex(home.x, home.y)) / plan.lower.size, abs(turns[k] - rect(1, home.angle)))
+        reference = plan.lower.required_pose[link]
+        gap = max(
+            abs(places[k] - complex(reference.x, reference.y)) / plan.lower.size,
+            abs(turns[k] - rect(1, reference.angle)),
+        )
         if gap > NEAR_REFERENCE:
             raise LinkageError("home: the joints are not closed there; {link!r} would have to lie elsewhere", link=link)
 

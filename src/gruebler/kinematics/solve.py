@@ -86,15 +86,15 @@ def move(
         signs, unknowns = starting_configuration(plan, path[0], branch)
     except Unassembled as found:
         return _never(plan, path, upto, found)
-    home = branch is None and plan.lower.reference_pose is not None
+    from_reference = branch is None and plan.lower.reference_pose is not None
     rows = follow_path(plan, path, speeds, upto, signs, unknowns)
-    if home and (_in_change_point(plan, rows) if rows.reached else plan.higher_groups):
+    if from_reference and (_in_change_point(plan, rows) if rows.reached else plan.higher_groups):
         rows = _from_home(plan, path, speeds, upto)
     motion = motion_from_rows(plan, path, rows)
-    if motion.stop is not None and motion.stop.reason == "open" and home:
+    if motion.stop is not None and motion.stop.reason == "open" and from_reference:
         # the start may be a change point of the independent part: the way from home tells the way on
         motion = motion_from_rows(plan, path, _from_home(plan, path, speeds, upto))
-    start = pose_at_reference(plan, path[0]) if home else ReferencePose(path[0], signs, unknowns)
+    start = pose_at_reference(plan, path[0]) if from_reference else ReferencePose(path[0], signs, unknowns)
     unbounded = set_change_point_rows(plan, motion, path, speeds, start)
     return replace(motion, unbounded=unbounded, speeds=speeds[:, : len(motion)])
 

@@ -66,19 +66,19 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], links))
     blocks = [link for link in elements if link not in chain.links]
     lower_chain = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
-    home = None
+    poses = None
     if linkage.reference_pose is not None:
-        home = {link: tuple(at) for link, at in linkage.reference_pose.items()}
+        poses = {link: tuple(at) for link, at in linkage.reference_pose.items()}
         for number in split:
             block = f"block {names[number]}"
-            home[block] = _block_home(linkage, number)
+            poses[block] = _block_home(linkage, number)
     points = {name: tuple(point) for name, point in linkage.points.items()}
     return Linkage(
         Mechanism(lower_chain, mechanism.frame, drives),
         elements,
         points,  # type: ignore[arg-type]
         unit=linkage.unit,
-        reference_pose=home,  # type: ignore[arg-type]
+        reference_pose=poses,  # type: ignore[arg-type]
         outputs=linkage.outputs,
     )
 
@@ -116,36 +116,36 @@ def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element,
     """The two joints that a block makes of one: direction of a drive, pair, link, its element and the block's."""
     joint = linkage.mechanism.chain.joints[number]
     first, second = joint.links
-    one, other = linkage.elements[number, first], linkage.elements[number, second]
+    element, other_element = linkage.elements[number, first], linkage.elements[number, second]
     if joint.pair.is_roll_slide:
-        slotted, pinned = (first, second) if isinstance(one, Line) else (second, first)
-        line, pin = (one, other) if isinstance(one, Line) else (other, one)
+        slotted, pinned = (first, second) if isinstance(element, Line) else (second, first)
+        line, pin = (element, other_element) if isinstance(element, Line) else (other_element, element)
         assert isinstance(line, Line)
         return [
             ("Tx", "prismatic", slotted, line, Line(0, 0, line.angle)),
             ("Rz", "revolute", pinned, pin, Pin(0, 0)),
         ]
-    assert isinstance(one, Line)
-    assert isinstance(other, Line)
-    turned = Line(other.x, other.y, other.angle + pi / 2)
+    assert isinstance(element, Line)
+    assert isinstance(other_element, Line)
+    turned = Line(other_element.x, other_element.y, other_element.angle + pi / 2)
     return [
-        ("Tx", "prismatic", first, one, Line(0, 0, one.angle)),
-        ("Ty", "prismatic", second, turned, Line(0, 0, one.angle + pi / 2)),
+        ("Tx", "prismatic", first, element, Line(0, 0, element.angle)),
+        ("Ty", "prismatic", second, turned, Line(0, 0, element.angle + pi / 2)),
     ]
 
 
 def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:
     """Where the block of a split joint lies at home: on the line, at the pin or where the lines cross."""
     first, second = linkage.mechanism.chain.joints[number].links
-    one, other = linkage.elements[number, first], linkage.elements[number, second]
-    lined, line = (first, one) if isinstance(one, Line) else (second, other)
+    element, other_element = linkage.elements[number, first], linkage.elements[number, second]
+    lined, line = (first, element) if isinstance(element, Line) else (second, other_element)
     assert isinstance(line, Line)
     turned = linkage.required_pose[lined].angle
     angle = turned + line.angle
-    if isinstance(one, Pin) or isinstance(other, Pin):
-        pinned, pin = (first, one) if isinstance(one, Pin) else (second, other)
+    if isinstance(element, Pin) or isinstance(other_element, Pin):
+        pinned, pin = (first, element) if isinstance(element, Pin) else (second, other_element)
         return (*linkage.required_pose[pinned].put(pin.x, pin.y), turned)
-    x, y = linkage.required_pose[first].put(one.x, one.y)
-    u, v = linkage.required_pose[second].put(other.x, other.y)
+    x, y = linkage.required_pose[first].put(element.x, element.y)
+    u, v = linkage.required_pose[second].put(other_element.x, other_element.y)
     displacement = cos(angle) * (u - x) + sin(angle) * (v - y)
     return x + displacement * cos(angle), y + displacement * sin(angle), turned

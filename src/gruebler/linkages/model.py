@@ -353,9 +353,9 @@ class Linkage:
         raise AttributeError(f"a linkage does not change; build another one instead of setting {name!r}")
 
     def _key(self) -> tuple[object, ...]:
-        home = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
+        reference = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
         points = tuple(sorted(self.points.items()))
-        return self.mechanism, tuple(sorted(self.elements.items())), points, self.unit, home, self.outputs
+        return self.mechanism, tuple(sorted(self.elements.items())), points, self.unit, reference, self.outputs
 
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if isinstance(other, Linkage) else NotImplemented
@@ -371,13 +371,13 @@ class Linkage:
         return f"<linkage {self.mechanism.text()}>"
 
     def __reduce__(self) -> tuple[object, ...]:
-        home = None if self.reference_pose is None else {k: tuple(p) for k, p in self.reference_pose.items()}
+        reference = None if self.reference_pose is None else {k: tuple(p) for k, p in self.reference_pose.items()}
         points = {n: tuple(p) for n, p in self.points.items()}
-        return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, home, self.outputs)
+        return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, reference, self.outputs)
 
 
-def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, home: Any, outputs: Any) -> Linkage:
-    return Linkage(mechanism, elements, points, unit=unit, reference_pose=home, outputs=outputs)
+def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, reference_pose: Any, outputs: Any) -> Linkage:
+    return Linkage(mechanism, elements, points, unit=unit, reference_pose=reference_pose, outputs=outputs)
 
 
 def _link(mechanism: Mechanism, link: str, where: str | Message) -> str:
@@ -402,16 +402,16 @@ def _refuse_point(name: str) -> LinkPoint:
     raise LinkageError("the point {name!r} needs a link and two coordinates", name=name)
 
 
-def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
+def _home(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
     poses = {}
     for link in mechanism.chain.links:
-        if link not in home and link != mechanism.frame:
+        if link not in poses_given and link != mechanism.frame:
             raise LinkageError("home: the position of {link!r} is missing", link=link)
-        line = read_element(tuple(home.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
+        line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
         if not isinstance(line, Line):
             raise LinkageError("home, {link}: expected x, y and an angle", link=link)
         poses[link] = Pose2D(*line)
-    for link in home:
+    for link in poses_given:
         _link(mechanism, link, "home")
     if any(abs(v) > 1e-12 for v in (*poses[mechanism.frame][:2], poses[mechanism.frame].angle % (2 * pi))):
         raise LinkageError("home: the frame lies at 0, 0, 0; its coordinates are those of the plane")
@@ -428,21 +428,21 @@ def _from_drawing(
 ) -> Linkage:
     """See `Linkage.from_drawing`."""
     drawn = _drawn_elements(mechanism, places)
-    home = {link: _link_coordinates(mechanism, link, drawn) for link in mechanism.chain.links}
+    reference_pose = {link: _link_coordinates(mechanism, link, drawn) for link in mechanism.chain.links}
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
-        x, y = home[link].to_local(element.x, element.y)
+        x, y = reference_pose[link].to_local(element.x, element.y)
         seen_there = element._replace(x=x, y=y)
         if not isinstance(seen_there, Pin | RoundElement):
-            seen_there = seen_there._replace(angle=seen_there.angle - home[link].angle)
+            seen_there = seen_there._replace(angle=seen_there.angle - reference_pose[link].angle)
         elements[link][number] = seen_there
     seen = {}
     for name, (link, x, y) in points.items():
-        if link not in home:
+        if link not in reference_pose:
             raise LinkageError("the point {name!r}: there is no link {link!r}", name=name, link=link)
         pin = read_element([x, y], message("the point {name!r}", name=name))
-        seen[name] = (link, *home[link].to_local(pin.x, pin.y))
-    return Linkage(mechanism, elements, seen, unit=unit, reference_pose=home, outputs=outputs)
+        seen[name] = (link, *reference_pose[link].to_local(pin.x, pin.y))
+    return Linkage(mechanism, elements, seen, unit=unit, reference_pose=reference_pose, outputs=outputs)
 
 
 def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:

@@ -62,10 +62,10 @@ def _planar(linkage: Linkage) -> Closing:
     for number, joint in enumerate(chain.joints):
         first = joint.links[0]
         for other in joint.links[1:]:
-            one, two = linkage.elements[number, first], linkage.elements[number, other]
-            radii = (inf if isinstance(one, Line) else 0.0, inf if isinstance(two, Line) else 0.0)
+            element, other_element = linkage.elements[number, first], linkage.elements[number, other]
+            radii = (inf if isinstance(element, Line) else 0.0, inf if isinstance(other_element, Line) else 0.0)
             place = JointPlace(radii=radii if joint.pair.is_roll_slide else None)
-            ends = _frame(one, size), _frame(two, size)
+            ends = _frame(element, size), _frame(other_element, size)
             ties.append(JointFrames(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
     return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
 
@@ -88,15 +88,15 @@ def _home(linkage: Linkage) -> Reals:
     return np.array([_matrix(p.x / linkage.size, p.y / linkage.size, p.angle) for p in places])
 
 
-def _settled(closing: Closing, home: Reals) -> Reals:
+def _settled(closing: Closing, reference: Reals) -> Reals:
     """The pose near home in which the joints are closed."""
-    pose = closing.settled(home)
-    if abs(closing.residual(pose)).max() > CLOSED or abs(pose - home).max() > NEAR_REFERENCE:
-        gap = abs(closing.residual(home)).max()
+    pose = closing.settled(reference)
+    if abs(closing.residual(pose)).max() > CLOSED or abs(pose - reference).max() > NEAR_REFERENCE:
+        gap = abs(closing.residual(reference)).max()
         raise LinkageError(
             "the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size", gap=gap
         )
-    inexact = (pose != home).any() or abs(closing.residual(pose)).max() > _EXACT
+    inexact = (pose != reference).any() or abs(closing.residual(pose)).max() > _EXACT
     return refined_at_double_root(closing, pose) if inexact else pose
 
 
@@ -115,9 +115,9 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
         raise LinkageError("an assembly mode is one of several at a drive value, which is missing")
     _check_count(at, len(drives))
     if linkage.reference_pose is not None and branch is None:
-        home = _settled(closing, _home(linkage))
+        reference = _settled(closing, _home(linkage))
         sided = [_sided(linkage, k, value) for k, value in enumerate(at)]
-        return _centred(closing, _driven(closing, home, sided, linkage.size))
+        return _centred(closing, _driven(closing, reference, sided, linkage.size))
     from gruebler.kinematics import move
 
     motion = move(linkage, [tuple(at)], branch=branch)
@@ -152,18 +152,18 @@ def _sided(linkage: Linkage, drive: int, value: float) -> float:
     return value if first == mechanism.chain.joints[mechanism.drives[drive].joint].links[0] else -value
 
 
-def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> Reals:
+def _driven(closing: Closing, reference: Reals, at: Sequence[float], size: float) -> Reals:
     """The pose at the values of all drives, which are followed from home together."""
     mechanism = closing.mechanism
     _check_count(at, len(mechanism.drives))
     joints, values = [drive.joint for drive in mechanism.drives], []
     for joint, value in zip(joints, at, strict=True):
         if mechanism.chain.joints[joint].pair.is_revolute:
-            now = joint_value(closing, home, joint)
+            now = joint_value(closing, reference, joint)
             values.append(now + (value - now + np.pi) % (2 * np.pi) - np.pi)
         else:
             values.append(value / size)
-    return follow_joints(closing, home, joints, np.array([values]))[0]
+    return follow_joints(closing, reference, joints, np.array([values]))[0]
 
 
 def _assembled(closing: Closing) -> Reals:

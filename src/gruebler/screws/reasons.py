@@ -57,11 +57,12 @@ def _parts(s: JointGeometry, ends: tuple[str, ...]) -> list[tuple[str, ...]]:
     root = {link: link for link in s.chain.links if link not in ends}
     for joint in s.chain.joints:
         left = [link for link in joint.links if link in root]
-        for second in left[1:]:
-            here, there = root[left[0]], root[second]
+        for link_of_part in left[1:]:
+            here, there = root[left[0]], root[link_of_part]
             root = {link: here if old_root == there else old_root for link, old_root in root.items()}
     return [
-        tuple(link for link, old_root in root.items() if old_root == first) for first in dict.fromkeys(root.values())
+        tuple(link for link, old_root in root.items() if old_root == group_root)
+        for group_root in dict.fromkeys(root.values())
     ]
 
 

@@ -225,7 +225,7 @@ class DesignClosure:
         good[open_] = False
         return q, good
 
-    def with_sizes(self, p: Reals, points: dict[str, tuple[str, float, float]], home: Reals) -> Linkage:
+    def with_sizes(self, p: Reals, points: dict[str, tuple[str, float, float]], pose: Reals) -> Linkage:
         """The linkage of other dimensions, standing in a pose."""
         elements: dict[str, dict[str | int, object]] = {link: {} for link in self.linkage.mechanism.chain.links}
         for key in self.keys:
@@ -234,7 +234,7 @@ class DesignClosure:
             x, y = float(p[at]), float(p[at + 1])
             changed: Element = Line(x, y, float(p[at + 2])) if isinstance(element, Line) else Pin(x, y)
             elements[key[1]][key[0]] = changed
-        places = {link: Pose2D(*(float(v) for v in home[c : c + 3])) for link, c in self.column.items()}
+        places = {link: Pose2D(*(float(v) for v in pose[c : c + 3])) for link, c in self.column.items()}
         places[self.linkage.mechanism.frame] = Pose2D(0.0, 0.0, 0.0)
         return Linkage(
             self.linkage.mechanism,

@@ -63,10 +63,10 @@ def _halton(count: int, base: int) -> Reals:
 def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
     """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
     count = count or (90_000 if kind is FOUR_BAR else 12_000)
-    first, second, three, four, five = (_halton(count, base) for base in (2, 3, 5, 7, 11))
+    first, second, third, fourth, fifth = (_halton(count, base) for base in (2, 3, 5, 7, 11))
     spread = np.log(6.0)
     if kind is FOUR_BAR:
-        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (first, second, three))
+        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (first, second, third))
         zero = 0 * b
         rows = np.stack([zero, zero, d, zero, zero + 1, b, c, zero, zero])
     else:
@@ -74,7 +74,7 @@ def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
         zero = 0 * b
         rows = np.stack([zero, zero, zero, h, zero + 1, b, zero, zero])
     reach = np.maximum(rows[kind.unknowns.index("b")], 1.0)
-    w = reach * (0.5 + 2.0 * np.sqrt(four) * np.exp(2j * np.pi * five))
+    w = reach * (0.5 + 2.0 * np.sqrt(fourth) * np.exp(2j * np.pi * fifth))
     rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
     rows = rows[:, _turns(kind, rows)]
     branch = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)

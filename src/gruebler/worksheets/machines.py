@@ -123,10 +123,10 @@ def _lengths(linkage: Linkage, lang: str) -> Iterator[tuple[str, str, str]]:
     for link in chain.links:
         pins = [(names[k], e) for (k, holder), e in linkage.elements.items() if holder == link and isinstance(e, Pin)]
         points = [(name, Pin(point.x, point.y)) for name, point in linkage.points.items() if point.link == link]
-        for k, (first, one) in enumerate(pins):
+        for k, (first, pin) in enumerate(pins):
             others = [*pins[k + 1 :], *(points if k == 0 else [])]
-            for second, other in others:
-                distance = hypot(other.x - one.x, other.y - one.y)
+            for second, other_pin in others:
+                distance = hypot(other_pin.x - pin.x, other_pin.y - pin.y)
                 yield link, f"{first} – {second}", number(distance, lang, ".6g")
 
 
