@@ -65,7 +65,7 @@ def rotatability(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | N
     """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
 
     They turn fully if there is a net turn over the closed circuit, or if the relative angle takes all values. The
-    answer holds for one circuit: that of the branch, or of the linkage's home.
+    answer holds for one circuit: that of the branch, or of the linkage's reference pose.
 
     >>> from gruebler.fourbar import FourBar
     >>> for row in rotatability(FourBar(25, 70, 40, 70).linkage()):

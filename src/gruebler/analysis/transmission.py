@@ -156,8 +156,8 @@ class _Lines(NamedTuple):
 
     force: Complexes
     force_rate: Complexes
-    way: Complexes
-    way_rate: Complexes
+    direction: Complexes
+    direction_rate: Complexes
 
 
 def _lines(motion: Motion, leg: PushingLink) -> _Lines:
@@ -211,7 +211,7 @@ def _pace(motion: Motion) -> Reals:
 
 
 def _folded(lines: _Lines) -> Reals:
-    product = np.conj(lines.force) * lines.way
+    product = np.conj(lines.force) * lines.direction
     return np.asarray(np.arctan2(np.abs(product.real), np.abs(product.imag)))
 
 
@@ -272,12 +272,12 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
 
     def product(motion: Motion) -> Complexes:
         lines = _lines(motion, leg)
-        normed: Complexes = np.conj(lines.force) * lines.way / (np.abs(lines.force) * np.abs(lines.way))
+        normed: Complexes = np.conj(lines.force) * lines.direction / (np.abs(lines.force) * np.abs(lines.direction))
         return normed
 
     def turning(drives: Reals) -> Reals:
         lines = _lines(cycle.at(drives, 2), leg)
-        return np.imag(lines.force_rate / lines.force - lines.way_rate / lines.way)[None]
+        return np.imag(lines.force_rate / lines.force - lines.direction_rate / lines.direction)[None]
 
     def sine(drives: Reals) -> Reals:
         return product(cycle.at(drives, 2)).imag[None]
@@ -288,8 +288,8 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
     def unnormed(motion: Motion) -> Complexes:
         """As `product`, but smooth where the driven point is slow next to a limit: of a speed by that of all joints."""
         lines = _lines(motion, leg)
-        pace = np.abs(lines.way) if leg.guide is not None else _pace(motion)
-        return np.asarray(np.conj(lines.force) * lines.way / (np.abs(lines.force) * pace))
+        pace = np.abs(lines.direction) if leg.guide is not None else _pace(motion)
+        return np.asarray(np.conj(lines.force) * lines.direction / (np.abs(lines.force) * pace))
 
     slow = _LEAST / cycle.drive_size
     angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))

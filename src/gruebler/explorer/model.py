@@ -97,7 +97,7 @@ def model_of(
         ],
         "program": program_record(plan),
         "sources": [_source(plan, linkage, keys, number) for number in range(len(plan.keys))],
-        "homes": _reference_records(plan),
+        "reference": _reference_records(plan),
         "groups": [
             {
                 "dyad": isinstance(part, Dyad),

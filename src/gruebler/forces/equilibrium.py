@@ -21,11 +21,11 @@ _BLOCK = 2048  # rows solved at once
 
 
 class JointConnection(NamedTuple):
-    """Two links that a joint holds together, by number: ``force`` and ``couple`` are those on the other one."""
+    """Two links that a joint holds together, by number: ``force`` and ``couple`` are those on the second."""
 
     joint: int
-    one: int
-    other: int
+    first: int
+    second: int
     slides: bool
 
 
@@ -105,7 +105,7 @@ def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> 
     acts = _Actions(z / lower.size, np.zeros((len(z), 3 * len(links), 2 * len(held) + len(lower.mechanism.drives))))
     directions = np.ones((len(z), len(held)), np.complex128)
     for k, contact in enumerate(held):
-        at, line = _meeting(motion, contact.joint, links[contact.one], links[contact.other], rows)
+        at, line = _meeting(motion, contact.joint, links[contact.first], links[contact.second], rows)
         if contact.slides:
             directions[:, k] = 1j * line
             acts.force(contact, 2 * k, 1j * line, at)
@@ -131,15 +131,15 @@ class _Actions(NamedTuple):
     columns: Reals
 
     def force(self, pair: JointConnection, column: int, direction: Complexes, at: Complexes) -> None:
-        for link, sign in ((pair.other, 1), (pair.one, -1)):
+        for link, sign in ((pair.second, 1), (pair.first, -1)):
             self.columns[:, 3 * link, column] += sign * direction.real
             self.columns[:, 3 * link + 1, column] += sign * direction.imag
             arm = at - self.places[:, link]
             self.columns[:, 3 * link + 2, column] += sign * (np.conj(arm) * direction).imag
 
     def couple(self, pair: JointConnection, column: int) -> None:
-        self.columns[:, 3 * pair.other + 2, column] += 1
-        self.columns[:, 3 * pair.one + 2, column] -= 1
+        self.columns[:, 3 * pair.second + 2, column] += 1
+        self.columns[:, 3 * pair.first + 2, column] -= 1
 
 
 def _meeting(motion: Motion, joint: int, first: str, second: str, rows: slice) -> tuple[Complexes, Complexes]:

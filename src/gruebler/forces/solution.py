@@ -147,9 +147,9 @@ class Statics(Brief):
         lower = range(first, first + freedoms[number])
         k = self.motion.link_index(link)
         return [
-            (at, 1 if contact.other == k else -1)
+            (at, 1 if contact.second == k else -1)
             for at, contact in enumerate(self._contacts)
-            if contact.joint in lower and k in (contact.one, contact.other)
+            if contact.joint in lower and k in (contact.first, contact.second)
         ]
 
     @cached_property

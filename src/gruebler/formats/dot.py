@@ -47,7 +47,7 @@ class _Reader:
     def __init__(self, text: str) -> None:
         import networkx
 
-        self._tokens = _TOKEN.findall(_COMMENT.sub(lambda found: found[1] or " ", text))
+        self._tokens = _TOKEN.findall(_COMMENT.sub(lambda match: match[1] or " ", text))
         if len(self._tokens) > _MOST:
             raise GrueblerError("has more than {most:,} words and signs", most=_MOST)
         self._place = 0

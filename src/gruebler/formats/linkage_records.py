@@ -103,7 +103,9 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
 
     unit: str
     elements: dict[str, Any] | None = None
+    reference_pose: dict[str, Any] | None = None
     home: dict[str, Any] | None = None
+    """The former name of `reference_pose`; still read."""
     places: dict[str, Any] | None = None
     four_bar: FourBarLengths | None = None
     slider_crank: SliderCrankLengths | None = None
@@ -113,6 +115,7 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
 
 _DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
 _WAYS = ("elements", "places", *_DOORS)
+_POSES = ("reference_pose", "home")
 
 
 def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
@@ -128,9 +131,14 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
             found=joined_by_and(given) if given else message("none"),
         )
     form = given[0]
-    if sizes.home is not None and form != "elements":
+    poses = {key: pose for key in _POSES if (pose := getattr(sizes, key)) is not None}
+    if len(poses) > 1:
+        raise LinkageError("home is the former name of reference_pose: give one of them")
+    if poses and form != "elements":
         raise LinkageError(
-            "home is allowed with elements only; {way} itself decides how the linkage is assembled", way=form
+            "{key} is allowed with elements only; {form} itself decides how the linkage is assembled",
+            key=next(iter(poses)),
+            form=form,
         )
     if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
         raise LinkageError(
@@ -157,8 +165,8 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
                 "elements.{link}: expected a table of joints, but found {found}", link=link, found=_short(values)
             )
         elements[link] = _by_joint(mechanism, values, f"elements.{link}")
-    home = None if sizes.home is None else _home(sizes.home, mechanism.chain.links)
-    return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=home, outputs=chosen)
+    pose = next((_reference_pose(key, raw, mechanism.chain.links) for key, raw in poses.items()), None)
+    return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
 
 
 def _door(
@@ -314,14 +322,14 @@ def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]
         ) from None
 
 
-def _home(home: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
-    for link in home:
-        _check_link(link, links, "home")
-    return {link: Pose2D(*_numbers(raw, f"home.{link}", (3,))) for link, raw in home.items()}
+def _reference_pose(key: str, pose: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
+    for link in pose:
+        _check_link(link, links, key)
+    return {link: Pose2D(*_numbers(raw, f"{key}.{link}", (3,))) for link, raw in pose.items()}
 
 
 def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
-    out = {}
+    places = {}
     for name, raw in points.items():
         where = f"points.{name}"
         if not name.strip() or not name.isprintable():
@@ -329,8 +337,8 @@ def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tupl
         point = convert_document(raw, PointRecord, LinkageError, where)
         _check_link(point.link, links, where)
         x, y = _numbers(point.at, f"{where}.at", (2,))
-        out[name] = (point.link, x, y)
-    return out
+        places[name] = (point.link, x, y)
+    return places
 
 
 def _check_link(link: str, links: tuple[str, ...], where: str) -> None:

@@ -130,7 +130,7 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
         },
     }
     if linkage.reference_pose is not None:
-        document["home"] = {link: _plain(place) for link, place in linkage.reference_pose.items()}
+        document["reference_pose"] = {link: _plain(place) for link, place in linkage.reference_pose.items()}
     return document
 
 
@@ -174,7 +174,7 @@ def linkage_to_toml(linkage: Linkage) -> str:
     tables = {
         "points": document.pop("points"),
         **{f"elements.{_key(link)}": elements for link, elements in document.pop("elements").items()},
-        "home": document.pop("home", {}),
+        "reference_pose": document.pop("reference_pose", {}),
     }
     lines = [f"{key} = {_value(value)}" for key, value in document.items()]
     for name, table in tables.items():

@@ -25,7 +25,7 @@ __all__ = ["ScrewsRecord", "read_any_linkage", "screws_to_json", "spatial_from_j
 
 
 class JointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A joint at home."""
+    """A joint in the reference pose."""
 
     at: list[float] | None = None
     x: list[float] | None = None

@@ -50,11 +50,11 @@ __all__ = ["SliderCrank", "StrokeMidpoint", "slider_crank_linkage"]
 class StrokeMidpoint(NamedTuple):
     """The middle of the way against the middle of the time, from the outer to the inner dead centre."""
 
-    way: float
+    displacement: float
     """The slider's way s halfway between the dead centres."""
     time: float
     """The slider's way s when half the time of the travel is over."""
-    phi_way: float
+    phi_displacement: float
     """The crank angle from the outer dead centre to the middle of the way."""
     phi_time: float
     """The crank angle from the outer dead centre to the middle of the time."""
@@ -62,12 +62,12 @@ class StrokeMidpoint(NamedTuple):
     @property
     def offset(self) -> float:
         """How far the middle of the way lies outside the middle of the time."""
-        return self.way - self.time
+        return self.displacement - self.time
 
     @property
     def time_fraction(self) -> float:
         """The part of the travel's time that the outer half of the way takes; 1/2 for an endless rod."""
-        return self.phi_way / (2 * self.phi_time)
+        return self.phi_displacement / (2 * self.phi_time)
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,11 +40,11 @@ _Step = Callable[[Complexes, Complexes], tuple[Reals, Reals]]
 class _Pairs(NamedTuple):
     """Two parameters of each candidate."""
 
-    one: Reals
-    other: Reals
+    first: Reals
+    second: Reals
 
     def pick(self, which: Flags) -> _Pairs:
-        return _Pairs(self.one[which], self.other[which])
+        return _Pairs(self.first[which], self.second[which])
 
 
 def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tuple[DoublePoint, ...] | None:
@@ -59,17 +59,17 @@ def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tu
     within it may be missed. Error: of crossings some roundings by the sine of their angle; of touches the root of that.
     """
     near = _near_sides(samples, point_path.closed, pad)
-    if not len(near.one):
+    if not len(near.first):
         return ()
     crossing, crossed = _newton(point_path, near, _crossing_step)
-    z, w = point_path.at(crossing.one, 1), point_path.at(crossing.other, 1)
+    z, w = point_path.at(crossing.first, 1), point_path.at(crossing.second, 1)
     sine = np.abs(_cross(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
     crossed &= (np.abs(z[0] - w[0]) <= _CLOSED * point_path.size) & (sine > _FLAT) & _apart(point_path, crossing)
     points = _double_points(point_path, crossing.pick(crossed), touching=False)
     rest = near.pick(~crossed)
-    if len(rest.one):
+    if len(rest.first):
         touch, touched = _newton(point_path, rest, _touching_step)
-        gap = np.abs(point_path.at(touch.one, 0)[0] - point_path.at(touch.other, 0)[0])
+        gap = np.abs(point_path.at(touch.first, 0)[0] - point_path.at(touch.second, 0)[0])
         touched &= (gap <= _TOUCH * point_path.size) & _apart(point_path, touch)
         touches = _double_points(point_path, touch.pick(touched), touching=True)
         if len(touches) > _MOST_TOUCHES:
@@ -133,7 +133,7 @@ def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Re
 
 def _newton(point_path: PointPath, start: _Pairs, step: _Step) -> tuple[_Pairs, Flags]:
     """Where it arrives, and whether it has come to rest."""
-    s, t = start.one.copy(), start.other.copy()
+    s, t = start.first.copy(), start.second.copy()
     still = np.zeros(len(s), bool)
     for _ in range(_ROUNDS):
         ds, dt = step(point_path.at(s, 2), point_path.at(t, 2))
@@ -181,7 +181,7 @@ def _kept(point_path: PointPath, s: Reals) -> Reals:
 
 
 def _apart(point_path: PointPath, pairs: _Pairs) -> Flags:
-    gap = np.abs(pairs.one - pairs.other)
+    gap = np.abs(pairs.first - pairs.second)
     if point_path.closed:
         gap = np.minimum(gap, point_path.end - point_path.start - gap)
     return np.asarray(gap > _APART)
@@ -189,12 +189,12 @@ def _apart(point_path: PointPath, pairs: _Pairs) -> Flags:
 
 def _double_points(point_path: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
     """Each once."""
-    if not len(pairs.one):
+    if not len(pairs.first):
         return []
-    z, w = point_path.at(pairs.one, 1), point_path.at(pairs.other, 1)
+    z, w = point_path.at(pairs.first, 1), point_path.at(pairs.second, 1)
     angle = np.abs(np.arctan2(_cross(z[1], w[1]), _dot(z[1], w[1])))
     angle = np.minimum(angle, np.pi - angle)
-    drives = np.sort(np.stack([point_path.drive(pairs.one), point_path.drive(pairs.other)]), axis=0)
+    drives = np.sort(np.stack([point_path.drive(pairs.first), point_path.drive(pairs.second)]), axis=0)
     points: list[DoublePoint] = []
     for k in np.lexsort(drives[::-1]):
         both = (float(drives[0, k]), float(drives[1, k]))

@@ -1,4 +1,4 @@
-"""Closing conditions of wheels and circles, their numbers taken from the home position; docs/theory/wheels.md."""
+"""Closing conditions of wheels and circles, their numbers taken from the reference pose; docs/theory/wheels.md."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from gruebler.linkages import CamDisc, Circle, Element, GenevaDriver, Line, Link
 from gruebler.linkages.elements import INVERSE, RoundElement, direction
 from gruebler.linkages.wheels import rolling_factors
 
-__all__ = ["Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
+__all__ = ["Condition", "contact_conditions", "law_tables", "reference_angles", "side_of"]
 
 Keys = tuple[tuple[int, str], ...]
 _MESHES = 1e-6  # radians: angles of a drawing with six digits fit
@@ -86,7 +86,7 @@ def _rank(element: Element) -> int:
 
 
 def _check_phase(lower: Linkage, keys: Keys, condition: Condition) -> None:
-    """Refuse non-circular wheels whose curves do not touch at home; the second may start in any of its equal parts."""
+    """Refuse non-circular wheels that do not touch there; the second may start in any of its equal parts."""
     first, second = (lower.elements[keys[side]] for side in condition.sides)
     assert isinstance(first, NonCircular)
     assert isinstance(second, NonCircular)
@@ -102,9 +102,9 @@ def _check_phase(lower: Linkage, keys: Keys, condition: Condition) -> None:
 
 
 def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
-    """The condition as it holds at home."""
+    """The condition as it holds in the reference pose."""
     a, b, _ = raw.values
-    first, second = home_angles(lower, keys, raw)
+    first, second = reference_angles(lower, keys, raw)
     if raw.kind == RACK:
         second = _way(lower, keys, raw.sides).real
     elif raw.law.pieces:
@@ -123,8 +123,8 @@ def law_at(law: PiecewiseLaw, angle: float) -> float:
     return value + turns * law.advance
 
 
-def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
-    """The angles of a condition that counts whole turns, at home."""
+def reference_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
+    """The angles of a condition that counts whole turns, in the reference pose."""
     angles = [
         lower.required_pose[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides
     ]
@@ -146,12 +146,12 @@ def law_tables(laws: Sequence[PiecewiseLaw]) -> tuple[list[tuple[float, float, f
 
 
 def side_of(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> int:
-    """On which side of a line a centre lies at home: 1 if on the left, seen along the line."""
+    """On which side of a line a centre lies in the reference pose: 1 if on the left, seen along the line."""
     return -1 if _way(lower, keys, sides).imag < 0 else 1
 
 
 def _way(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> complex:
-    """A centre at home, seen from a line: along it, and to the left of it."""
+    """A centre in the reference pose, seen from a line: along it, and to the left of it."""
     number, link = keys[sides[0]]
     line = lower.elements[number, link]
     assert isinstance(line, Line)

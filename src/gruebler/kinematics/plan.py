@@ -40,8 +40,8 @@ class Dyad:
     group: int
     """Its number in the decomposition."""
     form: str
-    one: str
-    two: str
+    first: str
+    second: str
     number: int
     """Its number among the dyads."""
 
@@ -63,7 +63,7 @@ class HigherGroup:
     base: str
     """The link that stands for what it is found against."""
     contacts: bool = False
-    """Whether wheels or circles are in it: then its modes are not searched for, and it is followed from the home."""
+    """Whether wheels or circles are in it: its modes are not searched for, it is followed from the reference pose."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -97,7 +97,7 @@ class Plan(Brief):
 
     @property
     def wheels(self) -> bool:
-        """Whether wheels or circles are in it, so that every motion is followed from the home."""
+        """Whether wheels or circles are in it, so that every motion is followed from the reference pose."""
         return any(part.contacts for part in self.higher_groups)
 
     @cached_property
@@ -215,7 +215,7 @@ def plan(linkage: Linkage) -> Plan:
     lower = with_lower_pairs(linkage)
     if lower.reference_pose is None and round_joints(lower.mechanism, lower.elements):
         raise LinkageError(
-            "wheels roll from a known position: the linkage needs a reference pose (home) or a drawing "
+            "wheels roll from a known position: the linkage needs a reference pose or a drawing "
             "(Linkage.from_drawing, places)"
         )
     parts = decompose(lower.mechanism)

@@ -71,7 +71,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         poses = {link: tuple(at) for link, at in linkage.reference_pose.items()}
         for number in split:
             block = f"block {names[number]}"
-            poses[block] = _block_home(linkage, number)
+            poses[block] = _block_pose(linkage, number)
     points = {name: tuple(point) for name, point in linkage.points.items()}
     return Linkage(
         Mechanism(lower_chain, mechanism.frame, drives),
@@ -134,8 +134,8 @@ def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element,
     ]
 
 
-def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:
-    """Where the block of a split joint lies at home: on the line, at the pin or where the lines cross."""
+def _block_pose(linkage: Linkage, number: int) -> tuple[float, float, float]:
+    """Where the block of a split joint lies in the reference pose: on the line, at the pin or where the lines cross."""
     first, second = linkage.mechanism.chain.joints[number].links
     element, other_element = linkage.elements[number, first], linkage.elements[number, second]
     lined, line = (first, element) if isinstance(element, Line) else (second, other_element)

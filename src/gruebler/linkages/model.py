@@ -115,7 +115,7 @@ class Linkage:
         object.__setattr__(
             self,
             "reference_pose",
-            None if reference_pose is None else MappingProxyType(_home(mechanism, reference_pose)),
+            None if reference_pose is None else MappingProxyType(_checked_pose(mechanism, reference_pose)),
         )
         object.__setattr__(self, "outputs", tuple(outputs))
 
@@ -271,7 +271,7 @@ class Linkage:
         return self._changed(mechanism=mechanism, reference_pose=pose, outputs=())
 
     def with_reference_pose(self, reference_pose: Mapping[str, tuple[float, float, float]] | None) -> Linkage:
-        """The same sizes with another home position: x, y and angle of every link, in radians; or without one."""
+        """The same sizes with another reference pose: x, y and angle of every link, in radians; or without one."""
         return self._changed(reference_pose=reference_pose)
 
     def renamed(self, names: Mapping[str, str]) -> Linkage:
@@ -402,19 +402,19 @@ def _refuse_point(name: str) -> LinkPoint:
     raise LinkageError("the point {name!r} needs a link and two coordinates", name=name)
 
 
-def _home(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
+def _checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
     poses = {}
     for link in mechanism.chain.links:
         if link not in poses_given and link != mechanism.frame:
-            raise LinkageError("home: the position of {link!r} is missing", link=link)
-        line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
+            raise LinkageError("reference pose: the position of {link!r} is missing", link=link)
+        line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), message("reference pose, {link}", link=link))
         if not isinstance(line, Line):
-            raise LinkageError("home, {link}: expected x, y and an angle", link=link)
+            raise LinkageError("reference pose, {link}: expected x, y and an angle", link=link)
         poses[link] = Pose2D(*line)
     for link in poses_given:
-        _link(mechanism, link, "home")
+        _link(mechanism, link, message("reference pose"))
     if any(abs(v) > 1e-12 for v in (*poses[mechanism.frame][:2], poses[mechanism.frame].angle % (2 * pi))):
-        raise LinkageError("home: the frame lies at 0, 0, 0; its coordinates are those of the plane")
+        raise LinkageError("reference pose: the frame lies at 0, 0, 0; its coordinates are those of the plane")
     return poses
 
 

@@ -1,7 +1,8 @@
 """The closing conditions of a pair, as functions of the second link's joint frame seen from the first link's.
 
-Let E be that 4 x 4 matrix, the identity at home. A row is a function of E that is zero on the motions of the pair and
-has, at home, independent differentials with the others: u rows for u motions taken away. Most rows are linear in E:
+Let E be that 4 x 4 matrix, the identity in the reference pose. A row is a function of E that is zero on the motions of
+the pair and has, in the reference pose, independent differentials with the others: u rows for u motions taken away.
+Most rows are linear in E:
 
 - a shift along d taken away: the component d of the translation;
 - all turns taken away: the skew part of the rotation; all but the turn about d: d keeps its direction; the turn about

@@ -1,4 +1,4 @@
-"""Where a joint lies at home: its point, its axes, and what else its pair needs."""
+"""Where a joint lies in the reference pose: its point, its axes, and what else its pair needs."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _ROUND = ("rolling", "roll_slide")
 
 @dataclass(frozen=True, slots=True)
 class JointPlace:
-    """A joint at home, in coordinates common to all links.
+    """A joint in the reference pose, in coordinates common to all links.
 
     Attributes:
         at: a point of the joint: of its axis, the centre of a ball, the point of contact. On a sphere its centre.
