@@ -94,8 +94,8 @@ def independent_part(linkage: Linkage) -> Independent:
     if linkage.reference_pose is None:
         raise LinkageError(
             "Only with special sizes does it move: with a position in which its joints close ([reference_pose] or "
-            "[places]) it is moved along the conditions that are independent there. `gruebler check --explain` says what its "
-            "sizes allow."
+            "[places]) it is moved along the conditions that are independent there. `gruebler check --explain` says "
+            "what its sizes allow."
         )
     conditions = ReferenceConditions(linkage)
     x = conditions.settled()
