@@ -15,7 +15,7 @@ ROWS = [(0, 0, 0), (2.1, 0.9, 0.35), (3.2, 1.0, 0.8), (4.0, 0.2, 1.5)]
 
 @pytest.fixture(scope="module")
 def result():
-    return synthesise(PositionTask(ROWS), number=5)
+    return synthesise(PositionTask(ROWS), number=6)
 
 
 VALUES = {
@@ -50,7 +50,7 @@ def test_the_default_is_a_full_turn_then_the_transmission_angle(result):
 
 
 def test_the_second_order_decides_among_equal_ones(result):
-    by_form = synthesise(PositionTask(ROWS), number=5, sort=["full-turn", "size"]).designs
+    by_form = synthesise(PositionTask(ROWS), number=6, sort=["full-turn", "size"]).designs
     turning = [design for design in by_form if design.verdict.turns_fully]
     assert 0 < len(turning) < len(by_form)
     assert by_form[: len(turning)] == tuple(turning)

@@ -32,7 +32,7 @@ from gruebler.synthesis import (
     synthesise_path,
     synthesise_positions,
 )
-from gruebler.synthesis.results import ORDERS, in_order_of
+from gruebler.synthesis.results import in_order_of
 from gruebler.synthesis.structural_error import Minimax
 from gruebler.text import joined, message, number, numbers, plural, translate
 
@@ -71,17 +71,25 @@ def add(parser: Parser) -> None:
         "angle: up to five exactly, more by least squares.",
     )
     positions.add_argument("task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y,angle")
-    for side, place in (("moving", "on the body in its first position"), ("fixed", "on the frame")):
-        positions.add_argument(
-            f"--{side}-pivot",
-            type=float,
-            nargs=2,
-            action="append",
-            default=[],
-            metavar=("X", "Y"),
-            help=f"choose a pivot {place}, for two to four positions; with four the nearest point of Burmester's "
-            "curve; repeatable",
-        )
+    positions.add_argument(
+        "--moving-pivot",
+        type=float,
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("X", "Y"),
+        help="choose a pivot on the body in its first position, for two to four positions; with four the nearest "
+        "point of Burmester's curve; repeatable",
+    )
+    positions.add_argument(
+        "--fixed-pivot",
+        type=float,
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("X", "Y"),
+        help="choose a pivot on the frame, likewise; repeatable",
+    )
     positions.add_argument(
         "--curve-parameter",
         type=float,
@@ -155,14 +163,18 @@ def add(parser: Parser) -> None:
             "--sort",
             default="",
             metavar="KEY[,KEY]",
-            help=f"sort the designs by {', '.join(ORDERS)}; of equal ones the second key decides",
+            help="sort the designs by error, transmission, range-transmission, size, size-ratio, links, full-turn; of "
+            "equal ones the second key decides",
         )
         kind.add_argument("--number", type=int, metavar="N", help="number of dyads or designs, if infinitely many")
         kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
         kind.add_argument("--json", action="store_true", help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
         kind.add_argument(
-            "--draw", type=Path, metavar="FILE", help="draw the designs: .html all; .svg, .png or .pdf the best one"
+            "--draw",
+            type=Path,
+            metavar="FILE",
+            help="draw the designs: .html all, moving; .svg, .png or .pdf the best six",
         )
 
 
@@ -381,14 +393,14 @@ def _check_picture(path: Path) -> None:
 
 
 def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
-    """The best design, or all on a page."""
-    from gruebler.synthesis.pictures import design_figure, designs_page
+    """The best designs side by side, or all on a page."""
+    from gruebler.synthesis.pictures import designs_figure, designs_page
 
     suffix = suffix_of(path, (*SUFFIXES, "html"))
     if suffix == "html":
         content = designs_page(found, lang=lang).encode("utf-8")
     else:
-        content = picture_bytes(design_figure(found.task, found.designs[0], lang=lang), suffix)
+        content = picture_bytes(designs_figure(found, lang=lang), suffix)
     write_file(path, content, lang)
 
 

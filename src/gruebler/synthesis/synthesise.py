@@ -57,6 +57,8 @@ def _solved(
     task: Task, structures: Iterable[Mechanism] | None, demands: Demands | None, options: dict[str, Any]
 ) -> SynthesisResult:
     if structures is not None:
+        if not isinstance(task, PathTask):
+            raise SynthesisError("structures are fitted to a path, not to a {kind}", kind=type(task).__name__)
         return synthesise_structures(task, structures, demands, **options)
     match task:
         case PositionTask():
