@@ -229,6 +229,13 @@ def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:
         for _ in range(2)
     ]
     assert said == ["False 0 1\n", "True 1 0\n"]
+    other = tmp_path / "another installation of the same sources"
+    shutil.copytree(tmp_path / "gruebler", other / "gruebler", ignore=shutil.ignore_patterns("__pycache__"))
+    kept = {"NUMBA_CACHE_DIR": str(tmp_path / "gruebler" / "_numeric" / "__pycache__")}
+    done = subprocess.run(
+        [sys.executable, "-c", ask], cwd=other, capture_output=True, text=True, check=True, env=os.environ | kept
+    )
+    assert done.stdout == "True 1 0\n"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="elsewhere files have no owners and modes of POSIX")
