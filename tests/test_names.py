@@ -2,10 +2,11 @@
 
 import ast
 from collections import defaultdict
+from functools import cache
 
 import pytest
 
-from tests.test_floors import FILES, room
+from tests.test_floors import FILES, room, tree
 
 # Names that several files define, with the reason why a reader is not led astray.
 SHARED = {
@@ -19,11 +20,22 @@ SHARED = {
 }
 
 
+# Names that say nothing of what they name. Arrays that a kernel fills are `out`, as in numpy.
+EMPTY = {"found", "made", "mine", "one", "out", "told", "way"}
+ALLOWED = {
+    ("synthesis.dyads", "found"),  # fields of results: how many were found
+    ("synthesis.results", "found"),
+    ("text", "one"),  # the singular of `plural(one, many)`
+    ("cli.coverage", "out"),  # standard output, beside err
+}
+
+
+@cache
 def definitions(kinds):
     """The public classes or functions at the top of all files, each with the files that define it."""
     places = defaultdict(list)
-    for module, path in FILES.items():
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for module in FILES:
+        for node in tree(module).body:
             if isinstance(node, kinds) and not node.name.startswith("_"):
                 places[node.name].append(module)
     return places
@@ -39,6 +51,20 @@ def test_a_class_has_its_name_alone():
 
 def test_a_public_function_has_its_name_alone():
     assert {name: modules for name, modules in repeated(ast.FunctionDef).items() if name not in SHARED} == {}
+
+
+def bound_names(module):
+    for node in ast.walk(tree(module)):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.arg):
+            yield node.arg
+
+
+def test_local_names_say_what_they_name():
+    kernels = {name for name in FILES if "kernels" in name or room(name) == "_numeric"}
+    empty = {(module, name) for module in FILES.keys() - kernels for name in EMPTY & set(bound_names(module))}
+    assert empty == ALLOWED
 
 
 def test_no_class_has_the_name_of_a_function_but_for_capitals():

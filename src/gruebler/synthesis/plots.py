@@ -139,7 +139,7 @@ def output_of(design: Design, inputs: Reals) -> Reals:
         for number, joint in enumerate(linkage.mechanism.chain.joints)
         if joint.pair.is_prismatic and {link, linkage.mechanism.frame} <= set(joint.links)
     ]
-    out = np.full(len(inputs), np.nan)
+    outputs = np.full(len(inputs), np.nan)
     order = np.argsort(inputs)
     for sign in (1, -1):
         rows = order[::sign]
@@ -151,8 +151,8 @@ def output_of(design: Design, inputs: Reals) -> Reals:
             continue
         value = motion.displacement(slides[0]) if slides else np.unwrap(motion.angle(link))
         done = rows[: len(value) - 1]
-        out[done] = value[1:] - value[0]
-    return out
+        outputs[done] = value[1:] - value[0]
+    return outputs
 
 
 def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Figure:
