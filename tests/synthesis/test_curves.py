@@ -139,7 +139,7 @@ def test_poses_change_with_dimensions_as_derived(text):
         across = (moved - q)[0] - by_sizes[0] @ step
         weights = np.tile([1 / size, 1 / size, 1], len(closure.links))
         assert np.abs(weights * across).max() < 1e-8  # of second order in the step
-    moved = closure.joined(q + 1e-6 * derivatives.motion, p)
+    moved = closure.joined(q + 1e-6 * derivatives.motion[:, :, 0], p)
     assert closure.gaps(moved) == pytest.approx(0, abs=1e-9 * size)
 
 

@@ -68,7 +68,9 @@ class Design:
     form: str
     """The two connections of coupler and frame, such as ``RR-RR``, or the kind of linkage, such as ``four-bar``."""
     drives: tuple[float, ...] = ()
-    """The drive value at each target."""
+    """The drive value at each target; empty with several drives."""
+    drive_rows: tuple[tuple[float, ...], ...] = ()
+    """With several drives their values at each target."""
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
@@ -121,9 +123,16 @@ class Design:
             "size_ratio": _or_none(verdict.size_ratio),
             "inside": verdict.inside,
             "error": _or_none(verdict.error),
-            "drives": [degrees(value) if turning else value for value in self.drives],
+            "drives": [degrees(value) if turning else value for value in self.drives] or self._drive_rows(),
             "linkage": linkage_to_json(self.linkage),
         }
+
+    def _drive_rows(self) -> list[list[float]]:
+        drives = self.linkage.mechanism.drives
+        return [
+            [degrees(value) if drive.turning else value for value, drive in zip(row, drives, strict=True)]
+            for row in self.drive_rows
+        ]
 
 
 def _or_none(value: float) -> float | None:
