@@ -25,8 +25,9 @@ from gruebler.synthesis.fitting import FitState, FitTargets, output_links
 __all__ = ["first_state"]
 
 _SAMPLES = 96  # poses along a circuit
-_WALKS, _STRIDE = 600, 0.25  # poses of several drives: so many, at random, so far apart (of a turn or a size)
+_WALKERS, _WALKS, _STRIDE = 10, 30, 0.25  # walks at random of several drives, of so many steps (radians or sizes)
 _PROPOSALS = 600
+_DEPENDENT = 1e-9  # of a determinant: below it two columns are one
 _SWEEPS = 4  # over all targets, exchanging poses
 _FEW = 12  # targets: the poses of fewer are proposed at random, too
 _FARTHEST = 2.0  # sizes: a point of a link lies no farther from it
@@ -96,15 +97,16 @@ def _course(closure: DesignClosure, rng: np.random.Generator) -> _Course:
         poses = course.at(arcs)
         return _Course(closure.poses(poses), poses.drive(), course.closed, ordered=True)
     pose = linkage.required_pose
-    q = np.concatenate([[[pose[link].x, pose[link].y, pose[link].angle] for link in closure.links]]).reshape(1, -1)
-    rows = [q]
+    home = np.array([value for link in closure.links for value in pose[link]])
+    q = np.repeat(home[None], _WALKERS, axis=0)
+    rows = [home[None]]
     for _ in range(_WALKS):
         motion = closure.derivatives(q, closure.sizes, size=linkage.size).motion
-        step = _STRIDE * rng.normal(size=motion.shape[2])
-        moved, good = closure.closed(q + motion @ step, closure.sizes, size=linkage.size)
-        if good.all() and np.abs(moved - q)[:, 2::3].max() < 1.0:  # no jump to another assembly mode
-            q = moved
-            rows.append(q)
+        step = motion @ (_STRIDE * rng.normal(size=(_WALKERS, motion.shape[2], 1)))
+        moved, good = closure.closed(q + step[:, :, 0], closure.sizes, size=linkage.size)
+        good &= np.abs(moved - q)[:, 2::3].max(axis=1) < 1.0  # no jump to another assembly mode
+        q = np.where(good[:, None], moved, q)
+        rows.append(q[good])
     return _Course(np.concatenate(rows), np.zeros(0), closed=False, ordered=False)
 
 
@@ -203,16 +205,23 @@ def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Int
     """
     assert targets.z is not None
     c = closure.column[link]
-    origin, turn = (q[:, c] + 1j * q[:, c + 1])[rows], np.exp(1j * q[:, c + 2])[rows]
-    matrix = np.stack([origin, turn, np.ones_like(turn)], axis=2)
-    scale = np.abs(matrix).max(axis=(0, 1))
-    scale[scale == 0] = 1.0  # an origin that does not move from 0
-    factors = (np.linalg.pinv(matrix / scale, rcond=1e-6) @ targets.z[:, None])[:, :, 0] / scale
-    rest = np.abs((matrix @ factors[:, :, None])[:, :, 0] - targets.z) ** 2
-    cost = rest.sum(axis=1)
-    along, arm, shift = factors.T
+    every, each = q[:, c] + 1j * q[:, c + 1], np.exp(1j * q[:, c + 2])
+    origin, turn = every[rows], each[rows]
+    o, e = origin - origin.mean(axis=1, keepdims=True), turn - turn.mean(axis=1, keepdims=True)
+    z = targets.z - targets.z.mean()
+
+    def inner(u: Complexes, v: Complexes) -> Complexes:
+        return np.asarray(np.sum(np.conj(u) * v, axis=1))
+
+    oo, ee, oe, oz, ez = inner(o, o).real, inner(e, e).real, inner(o, e), inner(o, z[None]), inner(e, z[None])
+    det = oo * ee - np.abs(oe) ** 2
+    both = det > _DEPENDENT * oo * ee  # else the link turns about a fixed point, or does not turn: the point is no help
     with np.errstate(divide="ignore", invalid="ignore"):
+        along = np.where(both, (ee * oz - oe * ez) / det, oz / oo)
+        arm = np.where(both, (oo * ez - np.conj(oe) * oz) / det, 0)
         point = arm / along
+        cost = np.sum(np.abs(along[:, None] * o + arm[:, None] * e - z) ** 2, axis=1)
+    shift = targets.z.mean() - along * origin.mean(axis=1) - arm * turn.mean(axis=1)
     if targets.angles is not None:
         given = ~np.isnan(targets.angles)
         gaps = turn[:, given] * np.exp(-1j * targets.angles[given])
@@ -222,7 +231,7 @@ def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Int
     # A linkage that is far larger or smaller than the task fits anything by its rounding.
     bad = ~np.isfinite(cost) | ~(np.abs(point) <= _FARTHEST * reach)
     bad |= (np.abs(along) * reach < _SMALLEST * targets.size) | (np.abs(along) * reach > _LARGEST * targets.size)
-    return _Placements(np.where(bad, np.inf, cost), along, point, shift)
+    return _Placements(np.where(bad, np.inf, cost), along, np.asarray(point, np.complex128), shift)
 
 
 def _similar(closure: DesignClosure, q: Reals, turn: complex, shift: complex, *, mirrored: bool) -> tuple[Reals, Reals]:

@@ -20,7 +20,8 @@ from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, Pos
 __all__ = ["FitState", "FitTargets", "fit_stages", "fit_targets", "improved", "output_links"]
 
 _STEPS = 150
-_MOTIONS = 3  # of the poses to their targets after each step
+_MOTIONS = 4  # of the poses to their targets after each step
+_LEAST = 1e-12  # damping of the motion of poses, of their mean square rate: a pose may stand at a dead centre
 _FARTHEST = 0.2  # radians or sizes: how far a pose moves at once
 _ASIDE = (0.1, 0.01, 1e-3)
 """Radians: a dead centre lies where the output is the same so far before and after it, but for the square of this."""
@@ -210,13 +211,17 @@ def improved(closure: DesignClosure, state: FitState, targets: FitTargets, *, st
     damping, dimensions = 1e-3, len(state.p)
     units = _units(closure, targets, state, size)
     for _ in range(steps):
-        slopes = np.concatenate([now.derivatives.gradient(now.own.by_pose) + now.own.by_sizes, now.own.by_free], axis=2)
-        value = (now.rest @ now.own.errors[:, :, None])[:, :, 0].ravel()
-        matrix = (now.rest @ slopes).reshape(-1, slopes.shape[2]) * units
-        gram = matrix.T @ matrix
+        slopes = now.derivatives.gradient(now.own.by_pose) + now.own.by_sizes
+        slopes = np.concatenate([slopes, now.own.by_free], axis=2) * units
+        back = now.motion_against(damping)
+        errors = now.own.errors[:, :, None]
+        left = slopes - now.by_motion @ (back @ slopes)  # what the motion of the poses does not make up for
+        gram = np.sum(slopes.transpose(0, 2, 1) @ left, axis=0)
+        right = np.sum(left.transpose(0, 2, 1) @ errors, axis=0)[:, 0]
         weight = np.diag(gram).mean() + 1e-30
-        step = -units * np.linalg.solve(gram + damping * weight * np.eye(len(gram)), matrix.T @ value)
-        slide = now.slide(now.own.errors + slopes @ step)
+        step = -np.linalg.solve(gram + damping * weight * np.eye(len(gram)), right)
+        slide = now.slide(back @ (errors + slopes @ step[:, None]))
+        step = units * step
         state = now.state
         q, good = closure.closed(state.q + slide, state.p + step[:dimensions], size=size)
         trial = None
@@ -248,49 +253,50 @@ def _units(closure: DesignClosure, targets: FitTargets, state: FitState, size: f
 
 
 class _Nearest(NamedTuple):
-    """A state with its errors, and what of them the motion of the poses changes."""
+    """A state with its errors, and how they change when the poses move."""
 
     state: FitState
     derivatives: PoseDerivatives
     own: _Compared
-    left: Reals
-    """(targets, errors, freedoms) orthonormal directions of errors that the motion changes."""
-    inverse: Reals
-    """(targets, freedoms, errors) the motion that makes up for an error."""
+    by_motion: Reals
+    """(targets, errors, freedoms)"""
     cost: float
 
-    @property
-    def rest(self) -> Reals:
-        """(targets, errors, errors) what is left of an error by the best motion."""
-        return np.asarray(np.eye(self.left.shape[1]) - self.left @ self.left.transpose(0, 2, 1))
+    def motion_against(self, damping: float) -> Reals:
+        """(targets, freedoms, errors) the motion whose negative makes up for errors, as far as damping lets it."""
+        square = self.by_motion.transpose(0, 2, 1) @ self.by_motion
+        freedoms = square.shape[1]
+        weight = float(np.einsum("nkk->", square)) / (len(square) * freedoms) + 1e-300
+        return np.asarray(
+            np.linalg.solve(
+                square + max(damping, _LEAST) * weight * np.eye(freedoms), self.by_motion.transpose(0, 2, 1)
+            )
+        )
 
-    def slide(self, errors: Reals) -> Reals:
-        """(targets, unknowns) the motion that makes up for errors, not too far at once."""
-        along = -(self.inverse @ errors[:, :, None])
-        return np.asarray((self.derivatives.motion @ np.clip(along, -_FARTHEST, _FARTHEST))[:, :, 0])
+    def slide(self, along: Reals) -> Reals:
+        """(targets, unknowns) the poses moved against (targets, freedoms, 1), not too far at once."""
+        return -np.asarray((self.derivatives.motion @ np.clip(along, -_FARTHEST, _FARTHEST))[:, :, 0])
 
 
 def _at(closure: DesignClosure, targets: FitTargets, state: FitState, size: float) -> _Nearest:
     derivatives = closure.derivatives(state.q, state.p, size=size)
     own = compared(closure, targets, state)
-    left, values, right = np.linalg.svd(own.by_pose @ derivatives.motion, full_matrices=False)
-    moving = values > 1e-9 * max(float(values.max()), 1e-300)
-    left = left * moving[:, None, :]
-    inverse = right.transpose(0, 2, 1) @ (
-        (moving / np.where(moving, values, 1.0))[:, :, None] * left.transpose(0, 2, 1)
-    )
-    return _Nearest(state, derivatives, own, left, inverse, float(np.sum(own.errors**2)))
+    return _Nearest(state, derivatives, own, own.by_pose @ derivatives.motion, float(np.sum(own.errors**2)))
 
 
 def _nearest(closure: DesignClosure, targets: FitTargets, state: FitState, size: float) -> _Nearest:
     """The state with each pose moved to where it is nearest to its target."""
     now = _at(closure, targets, state, size)
+    damping = _LEAST
     for _ in range(_MOTIONS):
-        q, good = closure.closed(now.state.q + now.slide(now.own.errors), state.p, size=size)
-        if not good.all():
-            break
-        trial = _at(closure, targets, replace(now.state, q=q), size)
-        if not trial.cost < now.cost * (1 - 1e-4):
-            break
-        now = trial
+        along = now.motion_against(damping) @ now.own.errors[:, :, None]
+        q, good = closure.closed(now.state.q + now.slide(along), state.p, size=size)
+        trial = _at(closure, targets, replace(now.state, q=q), size) if good.all() else now
+        if trial.cost < now.cost:
+            settled = trial.cost > now.cost * (1 - 1e-4)
+            now = trial
+            if settled:
+                break
+        else:
+            damping = max(100 * damping, 1e-2)
     return now

@@ -6,11 +6,10 @@ like the targets are chosen, and all dimensions are improved together.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from math import isnan
 from typing import NamedTuple
 
 import numpy as np
@@ -26,38 +25,16 @@ from gruebler.synthesis.first_states import first_state
 from gruebler.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
 from gruebler.synthesis.judging import Demands, Probe, Targets, judge_design, judge_with_drives
 from gruebler.synthesis.positions import ranked
-from gruebler.synthesis.results import FITTED, Design, SolutionCount, SynthesisResult, in_order_of
+from gruebler.synthesis.results import FITTED, Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
 from gruebler.synthesis.tasks import PathTask, Task
 from gruebler.text import message
 
-__all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
+__all__ = ["fit_structure", "synthesise_structures"]
 
 
 _NEIGHBOURS, _REALISATIONS = 24, 4  # starts of one mechanism
 ACCEPTED = 0.05
-
-
-@dataclass(frozen=True)
-class ParetoRow:
-    """A design by what counts: the smaller error, size and number of links, the larger transmission angle."""
-
-    structure: str
-    error: float
-    transmission: float
-    size: float
-    links: int
-    design: Design
-
-    def dominates(self, other: ParetoRow) -> bool:
-        """Whether it is nowhere worse and somewhere better."""
-        own, its = self._costs, other._costs
-        return all(a <= b for a, b in zip(own, its, strict=True)) and own != its
-
-    @property
-    def _costs(self) -> tuple[float, ...]:
-        mu = 0.0 if isnan(self.transmission) else self.transmission
-        return self.error, -mu, self.size, float(self.links)
 
 
 def synthesise_structures(
@@ -68,7 +45,7 @@ def synthesise_structures(
     starts: int | None = None,
     link: str = "",
     executor: Executor | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> SynthesisResult:
     """Every mechanism fitted to a task: positions or points of one of its links, a function, dead centres.
 
@@ -154,23 +131,6 @@ def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
 def _limit(demands: Demands) -> float:
     """How far a path may be missed, relative to its size: what the caller demands, if it is no exact task."""
     return demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
-
-
-def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
-    """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
-    rows = [
-        ParetoRow(
-            design.linkage.mechanism.text(),
-            design.verdict.error,
-            design.verdict.transmission,
-            design.linkage.size,
-            len(design.linkage.mechanism.chain.links),
-            design,
-        )
-        for design in found.designs
-    ]
-    best = [row for row in rows if not any(other.dominates(row) for other in rows)]
-    return tuple(sorted(best, key=lambda row: row.error))
 
 
 class _AtlasStart(NamedTuple):
