@@ -59,8 +59,8 @@ def test_rules_of_calculation(text, value):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "column 1: expected a number, but found the end"),
-        ("3 4", "column 3: expected a sign of calculation, but found '4'"),
+        ("", "column 1: expected a number, but the text ends"),
+        ("3 4", "column 3: expected an operator, but found '4'"),
         ("(1+2", "column 5: expected a closing parenthesis"),
         ("__import__('os')", "column 1: unknown name '__import__'"),
         ("2^3", r"powers are written \*\*"),

@@ -182,7 +182,7 @@ def test_a_name_stays_text(tmp_path):
         ("at = 180", "at = nan", "quantities near: at: expected a drive value"),
         ("less_at = 180", "less_at = 1e300", "quantities h: less_at: expected a drive value"),
         ("pose = 60", "pose = inf", "picture.pose: expected a drive value"),
-        ('axis_through = "B0"', 'axis_through = "K"', "picture.axis_through: K is no joint of the frame"),
+        ('axis_through = "B0"', 'axis_through = "K"', "picture.axis_through: K is not a joint of the frame"),
         ('of = ["A", "B"]', 'of = ["A", "B0"]', "dimensions l₂: A and B0 are on no common link"),
         ('id = "h"', 'id = "near"', "quantities near: this id is given twice"),
         ('machine = "mzc"', 'machine = "mzk"', "machine: "),

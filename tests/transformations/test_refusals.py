@@ -56,7 +56,7 @@ SPATIAL = Chain.parse("spatial: R(0-1) R(1-2) R(2-0)")
         (lambda: remove_coupler(WATT, "2"), "carries 3 joints"),
         (lambda: remove_coupler(GEARS, "1"), "one freedom each, and they are revolute and roll_slide"),
         (lambda: remove_coupler(Chain.parse("R(0-1) R(0-1) R(1-2) R(2-0)"), "9"), "no link '9'"),
-        (lambda: insert_group(FOUR_BAR, "RRR", ["0"]), "2 places outside; 1 were given"),
+        (lambda: insert_group(FOUR_BAR, "RRR", ["0"]), "2 outer joints; 1 places were given"),
         (lambda: insert_group(FOUR_BAR, "RRR", ["0", "0"]), "rigid against it"),
         (lambda: insert_group(FOUR_BAR, "PPP", ["0", "1"]), "PPP"),
         (lambda: remove_group(WATT, ["2", "3"]), "no Assur group"),
