@@ -55,13 +55,14 @@ slow: $(READY)
 torture: $(READY)
 	$(BIN)/python -m tests.torture --inputs 5000 --kills 300
 
+# Kernels are the same wherever the sources lie: those of `make test` are loaded.
 wheel-test: $(READY)
 	rm -rf build/wheel
 	$(BIN)/python -m build --wheel --outdir build/wheel . >/dev/null
 	$(PYTHON) -m venv build/wheel/venv
 	build/wheel/venv/bin/python -m pip install --quiet --disable-pip-version-check \
 		"$$(ls build/wheel/*.whl)[test]"
-	cd build/wheel && venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
+	cd build/wheel && NUMBA_CACHE_DIR=$(CURDIR)/src/gruebler/_numeric/__pycache__ venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
 		$(addprefix ../../tests/,cli/test_cli.py cli/test_coverage.py cli/test_languages.py cli/test_synthesise.py catalog \
 		exercises/test_tables.py sheets test_chain.py test_front_door.py)
 

@@ -215,6 +215,39 @@ def test_values_of_rows():
     assert atlas.dataset("mechanisms").count_rows() == atlas.manifest["tables"]["mechanisms"]["rows"]
 
 
+def test_rows_as_structures(tmp_path, capsys):
+    """Every driven mechanism of six links with groups above class 2, and what the gallery makes of the lines."""
+    sql = "select chain, frame, drives from driven where links = 6 and highest_class > 2"
+    assert main(["atlas", "query", sql, "--structures"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    read = [gr.Mechanism.parse(line) for line in lines]
+    assert lines
+    known = {
+        driven.mechanism.code()
+        for chain in gr.chains(6)
+        for driven in gr.driven_mechanisms(chain, fixed_only=True)
+        if max(group.class_number for group in gr.decompose(driven.mechanism).groups) > 2
+    }
+    assert {mechanism.code() for mechanism in read} == known
+    (tmp_path / "lines.txt").write_text("\n".join(lines), encoding="utf-8")
+    page = tmp_path / "page.html"
+    assert main(["gallery", str(tmp_path / "lines.txt"), "-o", str(page)]) == 0
+    assert page.read_text(encoding="utf-8").count("<svg") >= len(lines)
+    rows = list(gr.atlas.open().structures("select code, links from chains where links = 6 and mobility = 1"))
+    assert [gr.code(chain) for chain in rows] == [gr.code(chain) for chain in gr.chains(6)]
+    capsys.readouterr()
+    assert main(["atlas", "query", "select links from chains", "--structures"]) == 2
+    assert "a query selects code, or chain" in capsys.readouterr().err
+
+
+def test_commands_that_make_no_atlas():
+    task = AtlasTask("4-8", "1-2", "link", "any", "0-1", inversions=True, drives="any")
+    assert AtlasTask.of_command(task.command()) == task
+    for text in ("", "gruebler atlas build DIR", "gruebler atlas build --links 4 --colour 3 DIR", "None"):
+        with pytest.raises(GrueblerError, match="is no command that builds an atlas"):
+            AtlasTask.of_command(text)
+
+
 def test_questions_of_the_small_atlas():
     atlas = gr.atlas.open()
     from gruebler.enumeration import contracted_graphs

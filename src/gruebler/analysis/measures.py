@@ -353,6 +353,7 @@ class Measures(Brief):
 def measures(
     linkage: LinkageLike,
     speed_rpm: float | None = None,
+    *,
     branch: str | Iterable[str] | None = None,
     output: str | None = None,
 ) -> Measures:

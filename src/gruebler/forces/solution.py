@@ -14,7 +14,6 @@ from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connec
 from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
 from gruebler.forces.motion_rates import drive_speed, with_velocities
 from gruebler.kinematics import Motion
-from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
 from gruebler.text import Message, joined, message
 
@@ -128,7 +127,7 @@ class Statics(Brief):
 
     def _of(self, joint: str | int, link: str | None) -> tuple[int, str]:
         mechanism = self.motion.linkage.mechanism
-        number = joint_number(mechanism, joint)
+        number = mechanism.chain.joint_number(joint, LinkageError)
         links = mechanism.chain.joints[number].links
         if link is None:
             return number, next(one for one in reversed(links) if one != mechanism.frame)
