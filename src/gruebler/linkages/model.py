@@ -89,14 +89,14 @@ class Linkage:
     ) -> None:
         chain = mechanism.chain
         if chain.space is not Space.PLANAR:
-            raise LinkageError("dimensions are those of planar mechanisms; this one is {space}", space=chain.space)
+            raise LinkageError("only planar mechanisms have dimensions; this one is {space}", space=chain.space)
         made: dict[tuple[int, str], Element] = {}
         names = chain.joint_names()
         for link, mine in elements.items():
             for joint, raw in mine.items():
                 number = chain.joint_number(joint, LinkageError)
                 if link not in chain.joints[number].links:
-                    raise LinkageError("{joint} is no joint of {link!r}", joint=names[number], link=link)
+                    raise LinkageError("{joint} is not a joint of {link!r}", joint=names[number], link=link)
                 made[number, link] = read_element(raw, f"{link}, {names[number]}")
         self._check_joints(mechanism, made)
         made = resolve_wheels(mechanism, made)
@@ -177,7 +177,7 @@ class Linkage:
         number = self.mechanism.chain.joint_number(joint, LinkageError)
         if (number, link) not in self.elements:
             raise LinkageError(
-                "{joint} is no joint of {link!r}",
+                "{joint} is not a joint of {link!r}",
                 joint=self.mechanism.chain.joint_names()[number],
                 link=link,
             )
