@@ -81,8 +81,8 @@ def synthesise_structures(
     accepted, rejected = ranked(candidates)
     accepted = in_order_of(accepted, ["error"])
     note = message(
-        "{count} starts were improved by least squares; designs that come nearer than {limit:g} of the size are "
-        "accepted.",
+        "{count} initial designs were improved by least squares; designs that come nearer than {limit:g} of the "
+        "size are accepted.",
         count=len(jobs),
         limit=_limit(wanted),
     )
