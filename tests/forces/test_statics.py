@@ -204,7 +204,7 @@ def test_wrong_loads(loads, message):
 def test_wrong_questions():
     motion = move(FourBar(25, 70, 40, 70).linkage(), [0.1, 0.2])
     held = statics(motion, Loads(moments={"rocker": 1}))
-    with pytest.raises(LinkageError, match="is no joint of 'crank'"):
+    with pytest.raises(LinkageError, match="is not a joint of 'crank'"):
         held.force("R(frame-rocker)", "crank")
     with pytest.raises(LinkageError, match="is not one of the joints"):
         held.force("R(frame-rokker)")

@@ -25,7 +25,7 @@ _SINGULAR = message(
 )
 _UNKNOWN = message(
     "At {values} virtual work has no answer either: the drive stands at its limit, or the effort depends on the "
-    "branch, which a change point alone does not tell."
+    "branch, which a change point alone does not determine."
 )
 _MOST_VALUES = 6
 
@@ -133,7 +133,7 @@ class Statics(Brief):
             return number, next(candidate for candidate in reversed(links) if candidate != mechanism.frame)
         if link not in links:
             raise LinkageError(
-                "{joint} is no joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
+                "{joint} is not a joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
             )
         return number, link
 
@@ -178,7 +178,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released:
-        raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on how they yield")
+        raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on their stiffness")
     wrenches = loads_over_rows(motion, loads)
     if not len(motion):
         raise LinkageError("the motion has no rows. {reason}", reason=motion.reason)

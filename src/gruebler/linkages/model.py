@@ -87,14 +87,14 @@ class Linkage:
     ) -> None:
         chain = mechanism.chain
         if chain.space is not Space.PLANAR:
-            raise LinkageError("dimensions are those of planar mechanisms; this one is {space}", space=chain.space)
+            raise LinkageError("only planar mechanisms have dimensions; this one is {space}", space=chain.space)
         checked: dict[tuple[int, str], Element] = {}
         names = chain.joint_names()
         for link, by_joint in elements.items():
             for joint, raw in by_joint.items():
                 number = chain.joint_number(joint, LinkageError)
                 if link not in chain.joints[number].links:
-                    raise LinkageError("{joint} is no joint of {link!r}", joint=names[number], link=link)
+                    raise LinkageError("{joint} is not a joint of {link!r}", joint=names[number], link=link)
                 checked[number, link] = read_element(raw, f"{link}, {names[number]}")
         self._check_joints(mechanism, checked)
         checked = resolve_wheels(mechanism, checked)
@@ -175,7 +175,7 @@ class Linkage:
         number = self.mechanism.chain.joint_number(joint, LinkageError)
         if (number, link) not in self.elements:
             raise LinkageError(
-                "{joint} is no joint of {link!r}",
+                "{joint} is not a joint of {link!r}",
                 joint=self.mechanism.chain.joint_names()[number],
                 link=link,
             )

@@ -260,7 +260,7 @@ def _check_pair(name: str, rolling: bool, first: RoundElement, second: RoundElem
     if first.belt != second.belt:
         raise LinkageError("{name}: both wheels of a belt are 'open' or both 'crossed'", name=name)
     if first.belt and rolling:
-        raise LinkageError("{name}: a belt is no rolling contact; write it as a roll-slide joint G", name=name)
+        raise LinkageError("{name}: a belt is not a rolling contact; write it as a roll-slide joint G", name=name)
     if bool(first.teeth) != bool(second.teeth):
         raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
     if first.teeth and abs(first.radius / first.teeth - second.radius / second.teeth) > _SAME * abs(

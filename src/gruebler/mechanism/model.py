@@ -105,7 +105,7 @@ class Mechanism:
                     chain.index(output)
                 case _:
                     raise NotationError(
-                        "{mark!r} is no mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK",
+                        "{mark!r} is not a mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK",
                         mark=mark.strip(),
                     )
         if output == frame:
@@ -230,7 +230,7 @@ def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
         direction = freedoms[0]
     if direction not in freedoms:
         raise ChainError(
-            "{direction!r} is no freedom of {joint}; it has {freedoms}",
+            "{direction!r} is not a freedom of {joint}; it has {freedoms}",
             direction=direction,
             joint=joint,
             freedoms=", ".join(freedoms),

@@ -246,7 +246,7 @@ def _from_csv(text: str) -> Task:
     try:
         lines = [row for row in csv.reader(io.StringIO(text)) if any(cell.strip() for cell in row)]
     except csv.Error as error:
-        raise SynthesisError("is no table: {reason}", reason=error) from None
+        raise SynthesisError("is not a table: {reason}", reason=error) from None
     if not lines:
         raise SynthesisError("is empty")
     header = [cell.strip().lower() for cell in lines[0]]
