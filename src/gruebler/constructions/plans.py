@@ -707,9 +707,7 @@ def accelerations_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: fl
     tip = lines_meet(begin, arm, plan.pole, 1 + 0j)
     a_b = (tip - plan.pole) / plan.scale
     board.step(
-        message(
-            "They meet in b: a_B = {a_b:.5g}, a_rel = {rel:.5g}.", a_b=abs(a_b), rel=abs(tip - begin) / plan.scale
-        ),
+        message("They meet in b: a_B = {a_b:.5g}, a_rel = {rel:.5g}.", a_b=abs(a_b), rel=abs(tip - begin) / plan.scale),
         Arrow(begin, tip, "a_rel", "acceleration"),
         Arrow(plan.pole, tip, "a_B", "acceleration"),
         Dot(tip, "b"),
