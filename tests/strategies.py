@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from hypothesis import strategies as st
 
 from gruebler import Chain
 from gruebler.chain.pairs import PAIRS, Space
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 REVOLUTE = ("revolute",)
@@ -97,3 +99,17 @@ def built_mechanisms(draw: st.DrawFn, *, most_groups: int = 4, groups: tuple[str
         parts.append(frozenset(names.values()))
     chain = Chain(joints)
     return Built(Mechanism(chain, "frame", range(len(cranks))), frozenset(cranks), tuple(parts))
+
+
+def parallelograms(cranks: list[float], frames: list[float], bends: list[float]) -> Linkage:
+    """Parallelograms in a row: each follower is the crank of the next, by an arm turned by its bend."""
+    foot, arm, driven = 0.0, cranks[0] * np.exp(1j), "0"
+    places = {"R(frame-0)": complex(foot)}
+    for k, (crank, frame, bend) in enumerate(zip(cranks[1:], frames, bends, strict=True), 1):
+        places[f"R({driven}-rod{k})"] = foot + arm
+        places[f"R(rod{k}-{k})"] = foot + frame + arm
+        foot, driven = foot + frame, str(k)
+        places[f"R(frame-{k})"] = complex(foot)
+        arm = crank * np.exp(1j * (1 + bend))
+    mechanism = Mechanism.parse(" ".join(places) + "; frame=frame; drive=R(frame-0)")
+    return Linkage.from_drawing(mechanism, {joint: (z.real, z.imag) for joint, z in places.items()})

@@ -19,6 +19,7 @@ const NEAR = 1e-3;
 const LEAST = 1e-14;
 const NEAREST = 1e-8;
 const NOISE = 1e-14;
+const KNOWN = 1e-3; // of the way: the least step on where nothing farther is known
 
 /** Where a motion starts: the signs of its dyads and the unknowns of its larger groups. */
 export interface State {
@@ -198,6 +199,7 @@ export class Kernel {
     const unit = (this.unit = this.unitOf(row));
     let at = this.at[0]!;
     const longest = Math.min(1, unit);
+    step = Math.min(step, longest); // it is measured in rows, and this row may be longer than the last one
     if (!this.remembered(row)) {
       this.filled = 1;
       step = Math.min(step, 0.01 * unit * this.leastRoot());
@@ -950,13 +952,13 @@ export class Kernel {
 
   private squareAt(at: number, wanted: number): number {
     this.setDrives(at);
+    this.roots[3]![wanted] = NaN;
     const verdict = this.tryPose(0, at);
     if ((verdict === Verdict.APPROACH || verdict === Verdict.APART) && this.which === wanted) {
       for (const operation of this.p.operations)
         if (operation[0]! >= 2 && operation[0]! < Code.GROUP && operation[9] === wanted) return this.dyadSquare(operation[0]!);
     }
-    if (verdict === Verdict.GOOD || (verdict === Verdict.MEET && this.which === wanted)) return this.roots[3]![wanted]! ** 2;
-    return NaN;
+    return this.roots[3]![wanted]! ** 2; // it is known if only something behind it cannot be placed
   }
 
   private foundChange = { place: 0, negative: false };
@@ -971,13 +973,17 @@ export class Kernel {
     let inner = high - ratio * (high - low), outer = low + ratio * (high - low);
     let atInner = this.squareAt(inner, number), atOuter = this.squareAt(outer, number);
     let at = reach, least = Infinity;
+    let far = low, beyond = -Infinity; // the farthest place at which all before this dyad is placed, and the square there
     for (let k = 0; k < 200; k++) {
       if (atInner < least) [at, least] = [inner, atInner];
       if (atOuter < least) [at, least] = [outer, atOuter];
+      if (inner > far && !Number.isNaN(atInner)) [far, beyond] = [inner, atInner];
+      if (outer > far && !Number.isNaN(atOuter)) [far, beyond] = [outer, atOuter];
       if (atInner < -FLAT) return found(inner, true);
       if (atOuter < -FLAT) return found(outer, true);
       if (high - low < 1e-9 * (reach - this.at[0]!) || high - low < 1e-15 * (1 + Math.abs(high))) break;
-      if (atInner <= atOuter || Number.isNaN(atInner)) {
+      if (!(atInner > atOuter)) {
+        // or one of them is NaN: what cannot be placed lies farther on
         [high, outer, atOuter] = [outer, inner, atInner];
         inner = high - ratio * (high - low);
         atInner = this.squareAt(inner, number);
@@ -988,7 +994,10 @@ export class Kernel {
       }
     }
     const end = this.squareAt(reach, number);
-    if (least === Infinity || end <= 1.5 * least + NOISE)
+    if (Number.isNaN(end)) {
+      if (beyond <= 1.5 * least + NOISE) // nothing is decided as far as anything is known
+        return found(Math.max(far, this.at[0]! + KNOWN * (reach - this.at[0]!)), false);
+    } else if (end <= 1.5 * least + NOISE)
       return found(reach === turn ? reach : this.at[0]! + 0.9 * (reach - this.at[0]!), false);
     this.change[number] = at;
     this.after[number] = least < FLAT ? -this.signs[number]! : this.signs[number]!;

@@ -21,7 +21,7 @@ from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
-from tests.strategies import GROUPS
+from tests.strategies import GROUPS, parallelograms
 
 BUILT = Path(__file__).parents[2] / "src/gruebler/explorer/static/explorer.js"
 AGREED = 1e-9
@@ -120,3 +120,18 @@ def test_a_thousand_random_linkages(tmp_path):
     assert sum(count for form, count in forms.items() if len(form) > 3) > 100
     stopped = sum(record["status"] != 0 for record in records)
     assert 100 < stopped < 900  # ranges that end are among them
+
+
+def test_trains_of_parallelograms_pass_their_change_points_together(tmp_path):
+    """Long rows and short ones, and change points at the same place, near one another or apart."""
+    random = np.random.default_rng(20_261_122)
+    records = []
+    for bends in [(0, 0, 0), (1e-3, 0, 1e-3), (1e-2, 1.5, 0), (pi / 2, pi, 0.5)] * 10:
+        linkage = parallelograms(random.uniform(0.5, 2, 4).tolist(), random.uniform(2.1, 4, 3).tolist(), list(bends))
+        before, behind = 10 ** random.uniform(-6, -1, 2)
+        rows = np.array([1, 2.5, 3, pi - before, pi + behind, pi + behind + 0.1, 5.5, 2 * pi + before, 7.5, 4, 1])
+        begin = pose_at_reference(cached_plan(linkage), np.ones(1))
+        records.append(golden_record(linkage, rows[:, None], begin.signs, begin.unknowns))
+        assert records[-1]["status"] == 0
+    for number, pair in enumerate(zip(records, compared(records, tmp_path), strict=True)):
+        check(f"train {number}", *pair)

@@ -15,6 +15,7 @@ from gruebler.kinematics import from_degrees, move
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from tests.strategies import parallelograms
 
 lengths = st.floats(0.2, 5).map(lambda x: round(x, 3))
 branches = st.sampled_from("+-")
@@ -411,20 +412,6 @@ def test_rows_of_very_different_lengths_do_not_jump_at_a_change_point():
         motion = move(made, path, branch="-")
         assert motion.complete
         assert np.abs(np.exp(1j * (motion.angle("rocker") - path)) - 1).max() < 1e-6
-
-
-def parallelograms(cranks: list[float], frames: list[float], bends: list[float]) -> Linkage:
-    """Parallelograms in a row: each follower is the crank of the next, by an arm turned by its bend."""
-    foot, arm, driven = 0.0, cranks[0] * np.exp(1j), "0"
-    places = {"R(frame-0)": complex(foot)}
-    for k, (crank, frame, bend) in enumerate(zip(cranks[1:], frames, bends, strict=True), 1):
-        places[f"R({driven}-rod{k})"] = foot + arm
-        places[f"R(rod{k}-{k})"] = foot + frame + arm
-        foot, driven = foot + frame, str(k)
-        places[f"R(frame-{k})"] = complex(foot)
-        arm = crank * np.exp(1j * (1 + bend))
-    mechanism = Mechanism.parse(" ".join(places) + "; frame=frame; drive=R(frame-0)")
-    return Linkage.from_drawing(mechanism, {joint: (z.real, z.imag) for joint, z in places.items()})
 
 
 @pytest.mark.parametrize("bends", [(0, 0, 0), (1e-3, 0, 1e-3), (1e-2, 1.5, 0), (pi / 2, pi, 0.5)], ids=str)
