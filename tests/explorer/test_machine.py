@@ -7,6 +7,7 @@ from math import pi
 from pathlib import Path
 
 import msgspec
+import numpy as np
 import pytest
 
 from gruebler.analysis.measures import Measures, measures
@@ -14,7 +15,10 @@ from gruebler.catalog import entries
 from gruebler.explorer.model import model_of
 from gruebler.formats import linkage_from_json
 from gruebler.fourbar import FourBar
+from gruebler.kinematics import move
 from gruebler.linkages import Linkage
+from gruebler.linkages.elements import Wheel
+from gruebler.mechanism import Mechanism
 
 BUILT = Path(__file__).parents[2] / "src/gruebler/explorer/static/explorer.js"
 NODE = pytest.mark.skipif(shutil.which("node") is None, reason="the page's kernel needs node to be executed here")
@@ -77,6 +81,48 @@ def cached_is_overconstrained(linkage: Linkage) -> bool:
     from gruebler.kinematics.solve import cached_plan
 
     return bool(cached_plan(linkage).released)
+
+
+@NODE
+def test_the_centre_of_a_wheel_goes_around_those_that_it_meshes_with(tmp_path):
+    """The distances of the wheels stay, and the dragged train moves on as the library moves its document."""
+    machines = {id: entries()[id].linkage() for id in ("geartrain", "belt", "diff", "friction_rigid")}
+    machines["geared crank"] = geared_crank()
+    centres = {}
+    for (name, linkage), found in zip(machines.items(), measured(list(machines.values()), tmp_path), strict=True):
+        names = linkage.mechanism.chain.joint_names()
+        for drag in found["drags"]:
+            assert "refused" not in drag, (name, drag)
+            assert max(drag["missed"], drag["moved"]) < 1e-9, name
+            other = linkage_from_json(drag["document"])
+            later = drag["later"]
+            free = [k for k, _ in enumerate(linkage.mechanism.drives)]
+            motion = move(other, [[later["drives"][k] for k in free]] if len(free) > 1 else [later["drives"][0]])
+            for k, joint in enumerate(linkage.mechanism.chain.joints):
+                if joint.pair.is_revolute:
+                    np.testing.assert_allclose(motion.point(names[k])[0], later["joints"][k], atol=1e-7 * other.size)
+            for link, (x, y) in zip(linkage.mechanism.chain.links, later["turns"], strict=True):
+                assert abs(np.exp(1j * motion.angle(link)[0]) - complex(x, y)) < 1e-7, (name, link)
+            centres.setdefault(name, set()).add(names[drag["joint"]])
+    both = {"R(frame-gear1)", "R(frame-gear2)"}
+    assert centres["geartrain"] == both
+    assert centres["belt"] == {"R(frame-pulley1)", "R(frame-pulley2)"}
+    assert centres["diff"] == {"R(carrier-planet)"}
+    assert centres["geared crank"] == {*both, "R(gear2-rod)", "R(rod-slider)"}
+
+
+def geared_crank() -> Linkage:
+    """A pair of gears, the second of which is the crank of a slider-crank."""
+    chain = "R(frame-gear1) G(gear1-gear2) R(frame-gear2) R(gear2-rod) R(rod-slider) P(frame-slider)"
+    places = {
+        "R(frame-gear1)": (-50, 0),
+        "G(gear1-gear2)": {"gear1": Wheel(-50, 0, 20.0, 20), "gear2": Wheel(0, 0, 30.0, 30)},
+        "R(frame-gear2)": (0, 0),
+        "R(gear2-rod)": (15, 15),
+        "R(rod-slider)": (90, 5),
+        "P(frame-slider)": (90, 5, 0),
+    }
+    return Linkage.from_drawing(Mechanism.parse(f"{chain}; frame=frame; drive=R(frame-gear1)"), places)
 
 
 @NODE
