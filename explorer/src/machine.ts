@@ -1,7 +1,7 @@
 /** A linkage on the page: its sizes, its pose, its cycle, and what changes them. */
 
 import { Kernel, Status, type Rows, type State } from "./kernel";
-import type { Leg, LinkageDocument, Model, Place, PointRecord } from "./model";
+import type { Leg, LinkageDocument, Model, Place, PointRecord, ShapeRecord } from "./model";
 import { Code, Kind, programOf, type Program } from "./program";
 import { unwoundAngle } from "./closure";
 import { currentLanguage } from "./language";
@@ -336,6 +336,30 @@ export class Machine {
     const pin = mine.find((k) => this.model.elements[k]!.kind === "pin");
     const moving = mine.find((k) => this.model.elements[k]!.link !== this.model.frame);
     return this.elementAt(pin ?? moving ?? mine[0]!, rows, row);
+  }
+
+  /** The lines of a shape on its link; those of a belt between the centres where they are now. */
+  linesOf(shape: ShapeRecord): number[][] {
+    const { lines = [], between } = shape;
+    if (!between) return lines;
+    const [ax, ay, bx, by] = between;
+    const nearest = (x: number, y: number) => { // the pin of the frame that was there
+      let best = -1, least = Infinity;
+      this.model.elements.forEach((e, k) => {
+        if (e.link !== shape.link || e.kind !== "pin") return;
+        const off = Math.hypot(e.at[0] - x, e.at[1] - y);
+        if (off < least) [best, least] = [k, off];
+      });
+      return best;
+    };
+    const one = nearest(ax, ay), two = nearest(bx, by);
+    const [cx, cy, dx, dy] = [this.at[2 * one]!, this.at[2 * one + 1]!, this.at[2 * two]!, this.at[2 * two + 1]!];
+    const wide = (bx - ax) ** 2 + (by - ay) ** 2;
+    const c = ((bx - ax) * (dx - cx) + (by - ay) * (dy - cy)) / wide, s = ((bx - ax) * (dy - cy) - (by - ay) * (dx - cx)) / wide;
+    return lines.map((line) => line.map((_, k) => {
+      const u = line[k - (k % 2)]! - ax, v = line[k - (k % 2) + 1]! - ay;
+      return k % 2 ? cy + s * u + c * v : cx + c * u - s * v;
+    }));
   }
 
   toLocal(link: number, x: number, y: number): [number, number] {

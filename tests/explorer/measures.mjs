@@ -32,6 +32,7 @@ for await (const line of createInterface({ input: createReadStream(process.argv[
         result.moved = Math.max(result.moved, Math.hypot(a - before[k][0], b - before[k][1]) / machine.size);
       });
       result.document = machine.document();
+      result.belts = machine.model.shapes.filter((shape) => shape.between).flatMap((shape) => machine.linesOf(shape));
       result.least = machine.leastTransmission();
       result.low = machine.cycle.low;
       result.high = machine.cycle.high;

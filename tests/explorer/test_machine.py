@@ -135,3 +135,19 @@ def test_the_law_of_grashof(tmp_path):
         assert found["full"] == crank
         if crank:
             assert found["least"]["mu"] == pytest.approx(bar.transmission_angle.smallest.mu, abs=1e-9)
+
+
+@NODE
+def test_a_belt_goes_with_its_wheels(tmp_path):
+    """Its runs touch the wheels wherever these are dragged to."""
+    linkage = entries()["belt"].linkage()
+    (found,) = measured([linkage], tmp_path)
+    assert len(found["drags"]) == 2
+    for drag in found["drags"]:
+        other = linkage_from_json(drag["document"])
+        centres = [complex(e.x, e.y) for (_, link), e in other.elements.items() if link == "frame"]
+        radii = [e.radius for e in other.elements.values() if isinstance(e, Wheel)]
+        for x, y, u, v in drag["belts"]:
+            along = (complex(u, v) - complex(x, y)) / abs(complex(u, v) - complex(x, y))
+            for centre, radius in zip(centres, radii, strict=True):
+                assert abs(((centre - complex(x, y)) * along.conjugate()).imag) == pytest.approx(radius, rel=1e-5)
