@@ -3,7 +3,6 @@
 import json
 import os
 import random
-import signal
 import subprocess
 import sys
 import time
@@ -80,7 +79,7 @@ def _killed_and_resumed(task, directory, moments):
     for moment in moments:
         running = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(moment)
-        running.send_signal(signal.SIGKILL)
+        running.kill()
         running.wait()
     subprocess.run(command, check=True, capture_output=True)
 
@@ -138,7 +137,7 @@ def test_manifests_that_cannot_be_used(whole, tmp_path, change, problem):
 
 
 def test_what_is_missing_is_named(whole, tmp_path):
-    with pytest.raises(RunError, match="is no atlas"):
+    with pytest.raises(RunError, match="is not an atlas"):
         gr.atlas.open(tmp_path)
     (tmp_path / "manifest.json").write_bytes((whole / "manifest.json").read_bytes())
     with pytest.raises(RunError, match=r"part-00000\.parquet is missing"):
@@ -214,6 +213,39 @@ def test_values_of_rows():
     assert all(gr.decompose(each.mechanism).groups[-1].class_number >= 2 for each in driven)
     assert all(max(g.class_number for g in gr.decompose(each.mechanism).groups) > 2 for each in driven)
     assert atlas.dataset("mechanisms").count_rows() == atlas.manifest["tables"]["mechanisms"]["rows"]
+
+
+def test_rows_as_structures(tmp_path, capsys):
+    """Every driven mechanism of six links with groups above class 2, and what the gallery makes of the lines."""
+    sql = "select chain, frame, drives from driven where links = 6 and highest_class > 2"
+    assert main(["atlas", "query", sql, "--structures"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    read = [gr.Mechanism.parse(line) for line in lines]
+    assert lines
+    known = {
+        driven.mechanism.code()
+        for chain in gr.chains(6)
+        for driven in gr.driven_mechanisms(chain, fixed_only=True)
+        if max(group.class_number for group in gr.decompose(driven.mechanism).groups) > 2
+    }
+    assert {mechanism.code() for mechanism in read} == known
+    (tmp_path / "lines.txt").write_text("\n".join(lines), encoding="utf-8")
+    page = tmp_path / "page.html"
+    assert main(["gallery", str(tmp_path / "lines.txt"), "-o", str(page)]) == 0
+    assert page.read_text(encoding="utf-8").count("<svg") >= len(lines)
+    rows = list(gr.atlas.open().structures("select code, links from chains where links = 6 and mobility = 1"))
+    assert [gr.code(chain) for chain in rows] == [gr.code(chain) for chain in gr.chains(6)]
+    capsys.readouterr()
+    assert main(["atlas", "query", "select links from chains", "--structures"]) == 2
+    assert "a query selects code, or chain" in capsys.readouterr().err
+
+
+def test_commands_that_make_no_atlas():
+    task = AtlasTask("4-8", "1-2", "link", "any", "0-1", inversions=True, drives="any")
+    assert AtlasTask.of_command(task.command()) == task
+    for text in ("", "gruebler atlas build DIR", "gruebler atlas build --links 4 --colour 3 DIR", "None"):
+        with pytest.raises(GrueblerError, match="is no command that builds an atlas"):
+            AtlasTask.of_command(text)
 
 
 def test_questions_of_the_small_atlas():

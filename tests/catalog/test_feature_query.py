@@ -1,5 +1,6 @@
 """Searching by access features: the sheet of seed 001, known counts, and a brute force against the enumeration."""
 
+from collections import Counter
 from functools import cache
 
 import pytest
@@ -7,6 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler import GrueblerError
+from gruebler.assur import decompose
+from gruebler.atlas import open as open_atlas
 from gruebler.catalog import entries
 from gruebler.catalog.feature_query import (
     FeatureQuery,
@@ -19,6 +22,7 @@ from gruebler.catalog.feature_query import (
 from gruebler.catalog.features import access_features
 from gruebler.chain.pairs import pair
 from gruebler.enumeration import count_chains
+from gruebler.isomorphism import symmetry
 from gruebler.mechanism.inversion import inversions
 from gruebler.type_synthesis import JointRequirement, Requirements, typed_chains, variants
 
@@ -67,6 +71,67 @@ def test_against_the_variants():
     ):  # fmt: skip
         asked = {"links": 6, "drive_joints": 1, "drive_joints_at_frame": 1} | features
         assert number(**asked) == sum(1 for _ in variants(wanted)) > 0
+
+
+@pytest.mark.parametrize(
+    "features",
+    [
+        {"links": 8},
+        {"links": 8, "drive_joints": 1, "drive_joints_at_frame": 1},
+        {"links": 6, "drive_joints": 1},
+        {"links": 6, "drive_joints": 1, "drive_joints_at_frame": 1, "output_links_at_frame": 0},
+        {"links": 7, "mobility": 2, "drive_joints": 2},
+        {"links": 8, "kinds": ((2, 4), (3, 4))},
+    ],
+    ids=str,
+)
+def test_an_atlas_has_the_same_structures(features):
+    pytest.importorskip("duckdb")
+    atlas = open_atlas()
+    query = FeatureQuery(**features)
+
+    def codes(found):
+        outputs = [() if driven.output is None else (driven.output,) for driven in found]
+        return Counter(
+            (driven.mechanism.code(), access_features(driven.mechanism, chosen))
+            for driven, chosen in zip(found, outputs, strict=True)
+        )
+
+    known = codes(list(structures(query)))
+    assert known
+    assert codes(list(structures(query, atlas))) == known
+    assert codes(list(structures(query, atlas, "true"))) == known
+
+
+def test_conditions_on_columns_are_what_the_mechanisms_have():
+    pytest.importorskip("duckdb")
+    query = FeatureQuery(links=8, drive_joints=1, drive_joints_at_frame=1)
+    dyads = [
+        driven.mechanism.code()
+        for driven in structures(query)
+        if all(len(group.bodies) == 2 for group in decompose(driven.mechanism).groups)
+        and symmetry(driven.mechanism.chain).order == 2
+    ]
+    found = structures(query, open_atlas(), "dyads_only and group_order = 2 -- a remark")
+    assert sorted(driven.mechanism.code() for driven in found) == sorted(dyads)
+    assert dyads
+
+
+@pytest.mark.parametrize(
+    ("features", "words"),
+    [
+        ({"links": 11, "mobility": 2}, "does not have all these chains"),
+        ({"links": 6, "multiple_joints": 1}, "does not have all these chains"),
+        ({"links": 6, "pairs": read_pairs("S:1")}, "does not have all these chains"),
+        ({"links": 5, "pairs": read_pairs("G:1")}, "does not have all these chains"),
+    ],
+)
+def test_an_atlas_without_these_chains_is_refused(features, words):
+    pytest.importorskip("duckdb")
+    with pytest.raises(GrueblerError, match=words):
+        list(structures(FeatureQuery(**features), open_atlas()))
+    with pytest.raises(GrueblerError, match="needs an atlas"):
+        structures(FeatureQuery(**features), where="planar")
 
 
 @cache

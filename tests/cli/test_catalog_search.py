@@ -124,3 +124,18 @@ def test_guide_mechanisms_name_the_guided_link_and_no_transfer_function(capsys):
     assert "Transfer function:" in out
     assert "Guide mechanism" not in out
     assert "Guide mechanism" not in run(capsys, "show", "friction_forced", "--full")[1]
+
+
+def test_conditions_on_the_atlas(capsys):
+    pytest.importorskip("duckdb")
+    words = ("search", "--enumerate", "--links", "6", "--drives", "1", "--drives-at-frame", "1")
+    status, out, err = run(capsys, *words, "--where", "highest_class = 3 and family = 'Stephenson III'")
+    assert (status, err) == (0, "")
+    assert out.splitlines()[0].endswith("; frame=0; drive=R(0-4)  (Stephenson III)")
+    assert out.splitlines()[1:] == ["1 found."]
+    assert run(capsys, *words, "--atlas", "--count")[1] == "9\n"
+    status, _, err = run(capsys, *words, "--where", "colour")
+    assert status == 2
+    assert "cannot be answered" in err
+    status, _, err = run(capsys, "search", "--where", "planar")
+    assert (status, err) == (2, "--where needs --enumerate")

@@ -9,11 +9,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from hashlib import sha256
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -103,6 +103,38 @@ class AtlasTask:
             for links in range(max(first, 3), last + 1):
                 if loop_count(links, mobility) is not None:
                     yield Request(links, mobility, self.fractionated, None, self.multiple_joints)
+
+    def covers(self, links: int, mobility: int, prismatic: int, multiple_joints: int) -> bool:
+        """Whether the atlas has all chains of these numbers, fractionated ones included.
+
+        >>> AtlasTask("4-8", "1-2").covers(7, 2, 0, 0), AtlasTask("4-8", "1-2", "all").covers(7, 2, 0, 0)
+        (False, True)
+        """
+        every = [request for request in self.requests() if (request.links, request.mobility) == (links, mobility)]
+        for request in every:
+            whole = request.classes == replace(request, fractionated="all").classes
+            fewest, most = request.joints_range
+            if whole and prismatic in self.sliding and fewest <= multiple_joints <= (links if most is None else most):
+                return True
+        return False
+
+    @staticmethod
+    def of_command(text: str) -> AtlasTask:
+        """The task of a command that makes an atlas.
+
+        Raises `GrueblerError` for another text.
+
+        >>> AtlasTask.of_command(AtlasTask("4-8", inversions=True).command()) == AtlasTask("4-8", inversions=True)
+        True
+        """
+        pattern = r"gruebler atlas build((?: --[a-z-]+(?: [\w-]+)?)*) DIR"
+        if (match := re.fullmatch(pattern, text)) is None:
+            raise GrueblerError("{text!r} is no command that builds an atlas", text=text)
+        found = re.findall(r"--([a-z-]+)(?: (\w[\w-]*))?", match[1])
+        options: dict[str, Any] = {name.replace("-", "_"): value or True for name, value in found}
+        if not {"links"} <= set(options) <= {field.name for field in fields(AtlasTask)}:
+            raise GrueblerError("{text!r} is no command that builds an atlas", text=text)
+        return AtlasTask(**options)
 
     def command(self) -> str:
         """The command that makes the atlas."""

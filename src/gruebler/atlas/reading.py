@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gruebler.atlas.building import manifest_of
+from gruebler.atlas.parts import AtlasTask
 from gruebler.atlas.schema import arrow
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError, RunError, nearest
@@ -123,19 +124,58 @@ class Atlas:
             raise GrueblerError("this needs pandas: pip install pandas") from None
         return self.query(sql).to_pandas()
 
+    def structures(self, sql: str) -> Iterator[Chain | DrivenMechanism]:
+        """The rows of a query as values: chains, or mechanisms if it selects a frame, with drives if it selects them.
+
+        Args:
+            sql: selects ``code`` or ``chain``, perhaps ``frame`` and ``drives``; other columns are not used.
+
+        Raises `GrueblerError` for a query that selects neither a code nor a chain, and as `query` does.
+
+        >>> rows = open_atlas().structures("select chain, frame, drives from driven where links = 4 and mobility = 1")
+        >>> [str(each) for each in rows]
+        ['R(0-1) R(0-2) R(1-3) R(2-3); frame=0; drive=R(0-1)']
+        """
+        table = self.query(sql)
+        names = table.column_names
+        code = next((name for name in ("chain", "code") if name in names), None)
+        if code is None:
+            raise GrueblerError(
+                "to give chains or mechanisms, a query selects code, or chain, perhaps frame and drives"
+            )
+        for batch in table.to_batches():
+            for row in batch.to_pylist():
+                chain = decode(row[code]).chain
+                if "frame" not in names:
+                    yield chain
+                else:
+                    drives = _drives(chain, row["drives"]) if "drives" in names else ()
+                    yield DrivenMechanism(Mechanism(chain, str(row["frame"]), drives))
+
+    def covers(self, links: int, mobility: int, prismatic: int = 0, multiple_joints: int = 0) -> bool:
+        """Whether it has all chains of these numbers, fractionated ones included.
+
+        >>> open_atlas().covers(10, 1), open_atlas().covers(10, 1, prismatic=1)
+        (True, False)
+        """
+        tasks = map(AtlasTask.of_command, str(self.manifest.get("command")).split("; "))
+        return any(task.covers(links, mobility, prismatic, multiple_joints) for task in tasks)
+
     def chains(self, where: str = "true") -> Iterator[Chain]:
         """The chains that satisfy a condition in SQL, in the order of the atlas.
 
         >>> next(open_atlas().chains("links = 6 and mobility = 1")).n
         6
         """
-        for code in self.query(f"select code from chains where {where}")["code"].to_pylist():
-            yield decode(code).chain
+        for chain in self.structures(f"select code from chains where {where}"):
+            assert isinstance(chain, Chain)
+            yield chain
 
     def mechanisms(self, where: str = "true") -> Iterator[Mechanism]:
         """The mechanisms that satisfy a condition in SQL, in the order of the atlas."""
-        for row in self.query(f"select chain, frame from mechanisms where {where}").to_pylist():
-            yield Mechanism(decode(row["chain"]).chain, str(row["frame"]))
+        for each in self.structures(f"select chain, frame from mechanisms where {where}"):
+            assert isinstance(each, DrivenMechanism)
+            yield each.mechanism
 
     def driven_mechanisms(self, where: str = "true") -> Iterator[DrivenMechanism]:
         """The driven mechanisms that satisfy a condition in SQL, in the order of the atlas.
@@ -143,9 +183,9 @@ class Atlas:
         >>> [str(each) for each in open_atlas().driven_mechanisms("links = 4 and mobility = 1")]
         ['R(0-1) R(0-2) R(1-3) R(2-3); frame=0; drive=R(0-1)']
         """
-        for row in self.query(f"select chain, frame, drives from driven where {where}").to_pylist():
-            chain = decode(row["chain"]).chain
-            yield DrivenMechanism(Mechanism(chain, str(row["frame"]), _drives(chain, row["drives"])))
+        for each in self.structures(f"select chain, frame, drives from driven where {where}"):
+            assert isinstance(each, DrivenMechanism)
+            yield each
 
     @cached_property
     def _connection(self) -> Any:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import count
-from typing import Any
+from itertools import count, groupby
+from typing import TYPE_CHECKING, Any
 
 from gruebler.catalog.features import AccessFeatures, access_features
 from gruebler.chain import Chain
@@ -20,6 +20,9 @@ from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inv
 from gruebler.mobility import counted
 from gruebler.text import Text, arity, in_every_language
 from gruebler.type_synthesis import Requirements, expected_seconds_of_variants, typed_chains
+
+if TYPE_CHECKING:
+    from gruebler.atlas import Atlas
 
 __all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
 
@@ -149,14 +152,22 @@ def features_to_json(features: AccessFeatures) -> dict[str, Any]:
 # --- every structure ---------------------------------------------------------------------------------
 
 
-def structures(query: FeatureQuery) -> Iterator[DrivenMechanism]:
+def structures(query: FeatureQuery, atlas: Atlas | None = None, where: str = "") -> Iterator[DrivenMechanism]:
     """Every planar mechanism that satisfies the query, each once, lazily.
 
     Inversions if the query has no requirement on drives and outputs; else mechanisms with as many drives as their
     mobility (1 by default) that fix the motion, and with an output link if the query has one. Only revolutes and the
     kinds of joints named in the query occur, and joints of more than two links only if the query has them.
 
-    Raises `GrueblerError` with the reason if no mechanism can satisfy the query.
+    Args:
+        query: the features.
+        atlas: where to take the chains from; without one they are enumerated. The structures are the same,
+            with links numbered as in the canonical codes of the chains.
+        where: a condition in SQL on the columns of the atlas: of its chains and its mechanisms, or of its driven
+            mechanisms if the drives of the query are at the frame.
+
+    Raises `GrueblerError` with the reason if no mechanism can satisfy the query, if the atlas does not have all these
+    chains, and for a condition without an atlas.
 
     >>> query = FeatureQuery(links=4, drive_joints=1, output_links=1, output_links_at_frame=0, pairs=read_pairs("D:4"))
     >>> [str(driven.mechanism.chain) for driven in structures(query)]
@@ -164,12 +175,61 @@ def structures(query: FeatureQuery) -> Iterator[DrivenMechanism]:
     """
     requirements = _requirements(query)
     _check_roles(query, requirements.mobility)
-    return (
-        driven
-        for chain in typed_chains(requirements)
-        for driven in _mechanisms(chain, query, requirements.mobility)
-        if query.fits(driven.mechanism, access_features(driven.mechanism, _outputs(driven)))
+    if atlas is not None:
+        return _structures_of_atlas(query, requirements, atlas, where)
+    if where:
+        raise GrueblerError("a condition on columns needs an atlas")
+    return (driven for chain in typed_chains(requirements) for driven in _fitting(chain, query, requirements.mobility))
+
+
+def _fitting(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[DrivenMechanism]:
+    """The mechanisms of a chain that satisfy the query."""
+    for driven in _mechanisms(chain, query, mobility):
+        if query.fits(driven.mechanism, access_features(driven.mechanism, _outputs(driven))):
+            yield driven
+
+
+def _structures_of_atlas(
+    query: FeatureQuery, requirements: Requirements, atlas: Atlas, where: str
+) -> Iterator[DrivenMechanism]:
+    links, mobility = requirements.links, requirements.mobility
+    numbers = (links, mobility, requirements.prismatic, requirements.multiple_joints)
+    if requirements.rolling or requirements.roll_slide or not atlas.covers(*numbers):
+        raise GrueblerError("the atlas in {directory} does not have all these chains", directory=atlas.directory)
+    columns = ("links", "mobility", "prismatic", "multiple_joints")
+    conditions = [f"chains.{name} = {number}" for name, number in zip(columns, numbers, strict=True)]
+    if requirements.assortment is not None:
+        conditions.append(f"assortment = '{','.join(map(str, requirements.assortment))}'")
+    if where:
+        conditions.append(f"({where}\n)")
+    text = " and ".join(conditions)
+    table = _mechanisms_in(atlas, query, requirements)
+    if not where or table is None:
+        for chain in atlas.chains(text):
+            yield from _fitting(chain, query, mobility)
+        return
+    # which mechanisms of a chain meet the condition: the atlas and `_mechanisms` take the same one of each orbit
+    drives = ", drives" if table == "driven" else ""
+    sql = (
+        f"select chain, frame{drives} from (select code as chain, * exclude (drives) from chains) as chains "
+        f"join {table} using (chain, links, mobility) where {text} order by chain"
     )
+    rows = (each.mechanism for each in atlas.structures(sql) if isinstance(each, DrivenMechanism))
+    for chain, mechanisms in groupby(rows, key=lambda mechanism: mechanism.chain):
+        wanted = set(mechanisms)
+        for driven in _fitting(chain, query, mobility):
+            if driven.mechanism in wanted:
+                yield driven
+
+
+def _mechanisms_in(atlas: Atlas, query: FeatureQuery, requirements: Requirements) -> str | None:
+    """The table of the atlas that has all mechanisms of the query, or None."""
+    table = "driven" if _about_drives(query) else "mechanisms"
+    if table not in atlas.tables or (table == "driven" and query.drive_joints_at_frame != requirements.mobility):
+        return None
+    partitions = atlas.manifest["tables"][table]["partitions"]
+    numbers = (requirements.links, requirements.mobility)
+    return table if any((row["links"], row["mobility"]) == numbers for row in partitions) else None
 
 
 def structures_time(query: FeatureQuery) -> float:
@@ -208,13 +268,13 @@ def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[Dr
 def _check_roles(query: FeatureQuery, mobility: int) -> None:
     if query.drive_joints not in (None, 0, mobility):
         raise GrueblerError(
-            "mobility {mobility} takes as many drives, which {drive_joints} drive joints are not",
+            "mobility {mobility} needs as many drives, not {drive_joints} drive joints",
             mobility=mobility,
             drive_joints=query.drive_joints,
         )
     if (query.drive_joints_at_frame or 0) > mobility:
         raise GrueblerError(
-            "mobility {mobility} takes as many drives; {drive_joints} are too many",
+            "mobility {mobility} needs as many drives; {drive_joints} are too many",
             mobility=mobility,
             drive_joints=query.drive_joints_at_frame,
         )

@@ -79,6 +79,12 @@ def add(parser: Parser) -> None:
     query.add_argument(
         "words", nargs="+", metavar="[DIR] SQL", help="the folder of an atlas (default: the small one), and the query"
     )
+    query.add_argument(
+        "--structures",
+        action="store_true",
+        help="print each row as a chain or mechanism that other commands read; the query selects code, or chain and "
+        "frame, perhaps drives",
+    )
     columns = parser.add_command("columns", help="list the columns of all tables, with their units and definitions")
     for action in (query, columns):
         action.add_argument("--json", action="store_true", help="print JSON")
@@ -143,11 +149,17 @@ def _expected(task: Any) -> tuple[int, float]:
 
 def _query(arguments: argparse.Namespace) -> int:
     from gruebler.atlas import open as open_atlas
+    from gruebler.atlas.schema import arrow
 
     *folder, sql = arguments.words
     if len(folder) > 1:
         raise GrueblerError("expected a folder and a query; put the query in quotes")
-    _answer(open_atlas(*folder).query(sql), arguments)
+    atlas = open_atlas(*folder)
+    if arguments.structures:
+        texts = [str(each) for each in atlas.structures(sql)]
+        _answer(arrow().table({"structure": texts}), arguments)
+    else:
+        _answer(atlas.query(sql), arguments)
     return 0
 
 

@@ -6,7 +6,7 @@ import argparse
 import json
 import sys
 from itertools import islice
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -33,6 +33,9 @@ from gruebler.mechanism.inversion import DrivenMechanism, family
 from gruebler.mobility import counted, mobility_report
 from gruebler.text import message, translate
 
+if TYPE_CHECKING:
+    from gruebler.atlas import Atlas
+
 __all__ = ["add", "run"]
 
 _PROGRESS = message("{n} mechanisms, {seconds:.0f} s")
@@ -54,6 +57,19 @@ def add(parser: Parser) -> None:
     parser.replaced("--drive", "--drive-pair")
     parser.add_argument("--claims", action="store_true", help="only machines whose mobility differs from the count")
     parser.add_argument("--enumerate", action="store_true", help="list all structures, not only those of the catalog")
+    parser.add_argument(
+        "--atlas",
+        nargs="?",
+        const="",
+        metavar="DIR",
+        help="with --enumerate: take the chains from an atlas (default: the one that comes with the library)",
+    )
+    parser.add_argument(
+        "--where",
+        metavar="SQL",
+        help='with --enumerate: a condition on the columns of the atlas, such as "not planar and dyads_only"; '
+        "gruebler atlas columns lists them",
+    )
     parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
     parser.add_argument("--limit", type=int, metavar="N", help="with --enumerate: stop after N structures")
     parser.add_argument("--count", action="store_true", help="print only the number")
@@ -85,8 +101,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.enumerate:
         _enumerate(query, arguments)
     else:
-        if arguments.limit is not None:
-            raise GrueblerError("--limit needs --enumerate")
+        for option in ("limit", "atlas", "where"):
+            if getattr(arguments, option) is not None:
+                raise GrueblerError("--{option} needs --enumerate", option=option)
         _look_up(query, arguments)
     return 0
 
@@ -209,9 +226,10 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
     if arguments.limit is not None and arguments.limit < 1:
         raise GrueblerError("--limit: expected a number from 1, but found {limit}", limit=arguments.limit)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
-    if arguments.limit is None:
+    if arguments.limit is None and not arguments.where:
         ask_before(structures_time(query), arguments.yes)
-    drivens = progress(structures(query), _PROGRESS.in_language(arguments.lang) if quiet else "")
+    found = structures(query, _atlas(arguments), arguments.where or "")
+    drivens = progress(found, _PROGRESS.in_language(arguments.lang) if quiet else "")
     listed = drivens if arguments.limit is None else islice(drivens, arguments.limit)
     items: list[dict[str, object]] = []
     number = 0
@@ -232,6 +250,15 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
         print(translate("{count} found.", arguments.lang, count=number))
     else:
         print(translate("No mechanism has these features.", arguments.lang))
+
+
+def _atlas(arguments: argparse.Namespace) -> Atlas | None:
+    """The atlas to search in: the one named, else for a condition the one that comes with the library."""
+    if arguments.atlas is None and not arguments.where:
+        return None
+    from gruebler.atlas import open as open_atlas
+
+    return open_atlas(arguments.atlas or None)
 
 
 def _text(driven: DrivenMechanism, lang: str) -> str:

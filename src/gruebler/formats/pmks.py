@@ -7,7 +7,9 @@ about its pin unless it is welded, its slot is fixed, or runs through two joints
 ``flag kind id,name,mass,inertia,x,y,colour,joints,,parts``; parts of a welded link follow it and are not links.
 
 Version 1: ``j=id,x,y,links|,type,ground,angle,friction,input`` in lines, and ``l=id,mass,inertia,x,y,joints|,...``.
-Masses, forces and colours are not part of a linkage. Sources: the program's transcoder and its published addresses.
+PMKS-Refactor: ``data=`` and compressed tables (`pmks_tables`); a slider is a block on the frame with a pin.
+
+Masses, forces and colours are not part of a linkage. Sources: the programs' transcoders and published addresses.
 """
 
 from __future__ import annotations
@@ -15,12 +17,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import repeat
-from math import atan2, cos, pi, remainder, sin
+from math import atan2, cos, pi, radians, remainder, sin
 from typing import NamedTuple
 from urllib.parse import parse_qs, unquote
 
 from gruebler.errors import GrueblerError
 from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, one_drive_a_joint
+from gruebler.formats.pmks_tables import tables_of_address
 from gruebler.formats.text_files import read_number
 from gruebler.text import Message, message
 
@@ -56,7 +59,11 @@ def drawing_from_pmks(text: str, left_out: list[Message]) -> PinDrawing:
     if len(address.split("\n", 1)) > 1:
         raise GrueblerError("expected one line with an address of PMKS+")
     query = address.partition("?")[2] if "?" in address else address
-    return _version_1(query, left_out) if query.startswith("j=") else _version_2(unquote(query), left_out)
+    if query.startswith("j="):
+        return _version_1(query, left_out)
+    if query.startswith("data="):
+        return _tables(unquote(query.removeprefix("data=")), left_out)
+    return _version_2(unquote(query), left_out)
 
 
 def _version_2(query: str, left_out: list[Message]) -> PinDrawing:
@@ -81,10 +88,10 @@ def _checked(query: str) -> str:
     body, mark, digest = query.rpartition("*")
     if mark and len(digest) == _DIGEST:
         if digest != _digest(body):
-            raise GrueblerError("the digest at the end of the address does not fit: it was changed or cut off")
+            raise GrueblerError("the digest at the end of the address does not match: it was changed or cut off")
         query = body
     if not query or query[-1] != _CHECKS[(len(query) - 1) % 62]:
-        raise GrueblerError("the checking character at the end of the address does not fit: it was changed or cut off")
+        raise GrueblerError("the check character at the end of the address does not match: it was changed or cut off")
     return query[:-1]
 
 
@@ -188,6 +195,20 @@ def _version_1(query: str, left_out: list[Message]) -> PinDrawing:
             left_out.append(message("the force {name}", name=line.split(",")[0]))
     settings = parts.get("s", [""])[0].split(",")
     return _drawing(joints, links, _UNITS_OF_VERSION_1.get(settings[-1], "cm"), left_out)
+
+
+def _tables(compressed: str, left_out: list[Message]) -> PinDrawing:
+    tables = tables_of_address(compressed)
+    joints = []
+    for name, x, y, slides, angle, grounded, driven in tables.joints:
+        flags = _SLIDER * slides + _INPUT * driven + _GROUND * grounded
+        joints.append(_Joint(flags, name, x, y, radians(angle), "", ("", "")))
+    left_out += (message("the force {name}", name=force) for force in tables.forces)
+    if tables.positions:
+        left_out.append(message("positions of a synthesis"))
+    links = [_Link(name, members) for name, members in tables.links]
+    rigid = tuple((first, other) for first, *others in tables.welded for other in others)
+    return replace(_drawing(joints, links, "cm", left_out), rigid=rigid)
 
 
 def _drawing(joints: list[_Joint], links: list[_Link], unit: str, left_out: list[Message]) -> PinDrawing:

@@ -22,7 +22,7 @@ from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
 from gruebler.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.tasks import PathTask
 from gruebler.text import message
 
@@ -338,7 +338,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
         if sum(design.verdict.accepted for design in designs) == number:
             break
     accepted, rejected = ranked(designs)
-    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    accepted = in_order_of(accepted, ["error"])
     note = message(
         "So many points are met by least squares; designs that come nearer than {limit:g} of the size are accepted.",
         limit=limit,

@@ -21,7 +21,7 @@ from gruebler.kinematics import Circuit, Poses, circuit, move
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import Line
-from gruebler.synthesis.results import Design, DesignVerdict
+from gruebler.synthesis.results import EXACT, Design, DesignVerdict
 from gruebler.text import Message, joined, message
 
 __all__ = [
@@ -37,8 +37,6 @@ __all__ = [
 ]
 
 
-EXACT = 1e-9
-"""A target is met if it is missed by less than this part of the task's size."""
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
 _REFINEMENTS = 8
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import combinations
-from math import atan2, isnan
+from math import atan2
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ from gruebler.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.synthesis.judging import Demands, Targets, best_of, position_targets
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.tasks import PositionTask
 from gruebler.text import Message, message
 
@@ -74,7 +74,12 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
         return tuple(dyad.moved(size, origin) for dyad in all_dyads(displacements).real)
     if count == 4:
         curves = burmester_curves(task)
-        return curves.dyads(number) if curves.pieces else curves.sliding
+        if not curves.pieces:
+            return curves.sliding
+        picked = [curves.nearest(complex(*p)) for p in task.moving_pivots]
+        picked += [curves.nearest(complex(*p), fixed=True) for p in task.fixed_pivots]
+        picked += [curves.at(place) for place in task.curve_parameters]
+        return tuple(picked) or curves.dyads(number)
     if count > 5:
         return tuple(dyad.moved(size, origin) for dyad in _fitted_dyads(displacements))
     chosen: list[tuple[Callable[[Displacements, complex], GuidingDyad], complex]]
@@ -139,6 +144,8 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
         complex_dyads = all_dyads(displacements).found
     else:
         notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
+    if len(task) == 4 and (task.moving_pivots or task.fixed_pivots):
+        notes.append(message("For each pivot that was chosen the nearest point of its curve was taken."))
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
@@ -149,17 +156,9 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
 
 def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
     """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
-
-    def worth(design: Design) -> tuple[bool, float, float]:
-        verdict = design.verdict
-        mu = verdict.transmission
-        return not verdict.turns_fully, 0.0 if isnan(mu) else -mu, verdict.size_ratio
-
-    candidates = list(candidates)
-    accepted = sorted((d for d in candidates if d.verdict.accepted), key=worth)
-    rejected = sorted(
-        (d for d in candidates if not d.verdict.accepted), key=lambda d: (len(d.verdict.reasons), worth(d))
-    )
+    usual = in_order_of(candidates, ("full-turn", "transmission", "size-ratio"))
+    accepted = [design for design in usual if design.verdict.accepted]
+    rejected = sorted((d for d in usual if not d.verdict.accepted), key=lambda design: len(design.verdict.reasons))
     return tuple(accepted), tuple(rejected)
 
 
@@ -290,7 +289,7 @@ def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDy
     tolerance = demands.tolerance if demands.tolerance > 1e-6 else NEAR
     designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads)
     accepted, rejected = ranked(designs)
-    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    accepted = in_order_of(accepted, ["error"])
     note = message(
         "More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted.",
         tolerance=tolerance,

@@ -25,7 +25,7 @@ from gruebler.synthesis.closure import DesignClosure
 from gruebler.synthesis.curve_matching import best_matches, drive_angles, resampled
 from gruebler.synthesis.judging import Demands, judge_design, point_targets
 from gruebler.synthesis.positions import ranked
-from gruebler.synthesis.results import FITTED, Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import FITTED, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
 from gruebler.synthesis.tasks import PathTask
 from gruebler.text import message
@@ -102,10 +102,10 @@ def synthesise_structures(
     results = list(map(work, jobs) if executor is None else executor.map(work, jobs))
     candidates = [design for designs in results for design in designs]
     accepted, rejected = ranked(candidates)
-    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    accepted = in_order_of(accepted, ["error"])
     note = message(
-        "{count} starts were improved by least squares; designs that come nearer than {limit:g} of the size are "
-        "accepted.",
+        "{count} initial designs were improved by least squares; designs that come nearer than {limit:g} of the "
+        "size are accepted.",
         count=len(jobs),
         limit=_limit(wanted),
     )

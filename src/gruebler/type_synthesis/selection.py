@@ -63,7 +63,7 @@ def variants(requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
 def _driven(chain: Chain, requirements: Requirements) -> Iterator[DrivenMechanism]:
     if requirements.drives and len(requirements.drives) != requirements.mobility:
         raise GrueblerError(
-            "mobility {mobility} takes as many drives, not {count}",
+            "mobility {mobility} needs as many drives, not {count}",
             mobility=requirements.mobility,
             count=len(requirements.drives),
         )
