@@ -26,13 +26,15 @@ from gruebler.synthesis import (
     PositionTask,
     SynthesisResult,
     Task,
+    pareto,
     read_task,
     synthesise_dead_centres,
     synthesise_function,
     synthesise_path,
     synthesise_positions,
+    synthesise_structures,
 )
-from gruebler.synthesis.results import in_order_of
+from gruebler.synthesis.results import FITTED, in_order_of
 from gruebler.synthesis.structural_error import Minimax
 from gruebler.text import joined, message, number, numbers, plural, translate
 
@@ -47,6 +49,10 @@ _COLUMNS = (
 _ANGLES = message(
     "µ: the minimum transmission angle on the way through the targets, and over the whole range of the drive as "
     "`analyse` gives it."
+)
+_PARETO = (
+    *(message("design"), message("error"), message("µ at targets"), message("size"), message("links")),
+    message("structure"),
 )
 _TASKS: dict[str, type[Task]] = {
     "positions": PositionTask,
@@ -130,8 +136,6 @@ def add(parser: Parser) -> None:
         "task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y or x,y,crank or x,y,angle"
     )
     path.add_argument("--closed", action="store_true", help="the points are a closed curve")
-    path.add_argument("--structure", metavar="MECHANISM", help="fit this mechanism: a text or a catalog entry")
-    path.add_argument("--link", default="", metavar="LINK", help="with --structure: the link that carries the point")
     dead = parser.add_command(
         "dead-centres",
         help="crank-rockers and slider-cranks with given dead centres",
@@ -147,6 +151,16 @@ def add(parser: Parser) -> None:
     for kind in (positions, function, path, dead):
         kind.add_argument(
             "--region", type=float, nargs=4, metavar=("X1", "Y1", "X2", "Y2"), help="region for the fixed pivots"
+        )
+        kind.add_argument(
+            "--structure",
+            action="append",
+            default=[],
+            metavar="MECHANISM",
+            help="fit this mechanism instead: a text or a catalog entry; several are compared",
+        )
+        kind.add_argument(
+            "--link", default="", metavar="LINK", help="with --structure: the link that is guided, or the output"
         )
         kind.add_argument("--crank", action="store_true", help="only designs whose drive turns fully")
         kind.add_argument(
@@ -282,39 +296,41 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
 
 
 def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> SynthesisResult:
+    progress = _progress(arguments.lang)
+    if arguments.structure:
+        return _fitted(arguments, task, demands, progress)
     more = {} if arguments.number is None else {"number": arguments.number}
     match task:
         case PositionTask():
-            return synthesise_positions(task, demands, **more)
+            return synthesise_positions(task, demands, progress=progress, **more)
         case FunctionTask():
             return synthesise_function(task, demands, **more)
         case DeadCentreTask():
             return synthesise_dead_centres(task, demands, **more)
         case PathTask():
-            if arguments.structure is not None:
-                return _fitted(arguments, task, demands)
-            return synthesise_path(task, demands, progress=_progress(arguments.lang), **more)
+            return synthesise_path(task, demands, progress=progress, **more)
     raise AssertionError(task)
 
 
-def _fitted(arguments: argparse.Namespace, task: PathTask, demands: Demands) -> SynthesisResult:
-    """A mechanism of any structure, from several starts."""
+def _fitted(
+    arguments: argparse.Namespace, task: Task, demands: Demands, progress: Callable[[int, int], None] | None
+) -> SynthesisResult:
+    """Mechanisms of any structure, each from several starts."""
     from gruebler.cli.inputs import mechanism_of
     from gruebler.realisation.realise import with_drives
-    from gruebler.synthesis.structures import synthesise_structures
 
-    mechanism = mechanism_of(arguments.structure, None, [])
-    driven = mechanism if mechanism.drives else with_drives(mechanism)
-    return synthesise_structures(task, [driven], demands, starts=arguments.number, link=arguments.link)
+    mechanisms = [mechanism_of(text, None, []) for text in arguments.structure]
+    driven = [mechanism if mechanism.drives else with_drives(mechanism) for mechanism in mechanisms]
+    return synthesise_structures(task, driven, demands, starts=arguments.number, link=arguments.link, progress=progress)
 
 
 def _progress(lang: str) -> Callable[[int, int], None] | None:
-    """A line on a terminal that counts paths; None elsewhere."""
+    """A line on a terminal that counts paths, verdicts or starts; None elsewhere."""
     if not sys.stderr.isatty():
         return None
 
     def show(done: int, count: int) -> None:
-        line = translate("{done:,} / {count:,} paths", lang, done=done, count=count)
+        line = translate("{done:,} of {count:,}", lang, done=done, count=count)
         print(f"\r{line}", end="\n" if done >= count else "", file=sys.stderr, flush=True)
 
     return show
@@ -344,6 +360,8 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
     if result.designs:
         print_table(_COLUMNS, [_row(k, design, lang) for k, design in enumerate(result.designs, 1)], lang=lang)
         print(_ANGLES.in_language(lang))
+        if any(design.form == FITTED for design in result.designs):
+            _print_pareto(result, lang)
     else:
         print(translate("None of the designs examined meets the task.", lang))
     if (rejected or not result.designs) and result.rejected:
@@ -362,11 +380,30 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
             )
 
 
+def _print_pareto(result: SynthesisResult, lang: str) -> None:
+    """The designs that no other one beats in everything."""
+    numbers_of = {id(design): number for number, design in enumerate(result.designs, 1)}
+    rows: list[list[Cell]] = [
+        [
+            str(numbers_of[id(row.design)]),
+            number(row.error, lang, ".1e"),
+            "" if isnan(row.transmission) else number(degrees(row.transmission), lang, ".1f") + "°",
+            number(row.size, lang, ".5g"),
+            str(row.links),
+            row.structure,
+        ]
+        for row in pareto(result)
+    ]
+    print()
+    print(translate("Not beaten in error, transmission angle, size and number of links at once:", lang))
+    print_table(_PARETO, rows, numbers=[0, 1, 2, 3, 4], lang=lang)
+
+
 def _row(position: int, design: Design, lang: str) -> list[Cell]:
     verdict = design.verdict
     return [
         f"{position} {design.form_in_language(lang)}",
-        design.linkage.mechanism.drive_names("german" if lang == "de" else "international")[0],
+        ", ".join(design.linkage.mechanism.drive_names("german" if lang == "de" else "international")),
         message("yes") if verdict.turns_fully else message("no"),
         *(
             "" if isnan(mu) else number(degrees(mu), lang, ".1f") + "°"

@@ -6,7 +6,6 @@ mirror image; least squares with exact derivatives makes the best of each. docs/
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
@@ -22,13 +21,11 @@ from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
 from gruebler.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult, in_order_of
+from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.tasks import PathTask
 from gruebler.text import message
 
 __all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
-
-Progress = Callable[[int, int], None]
 
 _STEPS = 300
 ACCEPTED = 0.05

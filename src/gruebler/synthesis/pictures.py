@@ -21,7 +21,7 @@ from gruebler.linkages import Linkage, LinkPoint
 from gruebler.synthesis.alt_construction import STRAIGHT, alt_steps
 from gruebler.synthesis.dead_centres import DeadCentreFamily, FamilyMember, dead_centre_family
 from gruebler.synthesis.plots import burmester_plot, function_plot
-from gruebler.synthesis.results import Design, SynthesisResult
+from gruebler.synthesis.results import FITTED, Design, SynthesisResult
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.text import Message, joined, message, translate
 
@@ -82,9 +82,14 @@ def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:
     True
     """
     linkage = _marked(task, design)
-    curves = ["P"] if "P" in linkage.points else []
-    drive = design.drives[0] if design.drives else None
-    return draw_linkage(linkage, drive, curves=curves, lang=lang)
+    several = len(linkage.mechanism.drives) > 1
+    drive = design.drive_rows[0] if several else design.drives[0] if design.drives else None
+    return draw_linkage(linkage, drive, curves=_path_of(linkage), lang=lang)
+
+
+def _path_of(linkage: Linkage) -> list[str]:
+    """The point whose path is drawn; with several drives it has no path of its own."""
+    return ["P"] if "P" in linkage.points and len(linkage.mechanism.drives) == 1 else []
 
 
 def designs_figure(result: SynthesisResult, *, lang: str = "en", most: int = 6) -> Figure:
@@ -130,7 +135,7 @@ def _plots(result: SynthesisResult, lang: str) -> list[tuple[Figure, str]]:
     """What is plotted of a task, with its caption: Burmester's curves, or the function with its structural error."""
     best = next(iter(result.designs or result.rejected), None)
     task = result.task
-    if isinstance(task, PositionTask) and len(task) == 4:
+    if isinstance(task, PositionTask) and len(task) == 4 and (best is None or best.form != FITTED):
         try:
             figure = burmester_plot(task, best, lang=lang)
         except SynthesisError:
@@ -162,9 +167,9 @@ def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24) -
 
 def _moving(task: Task, design: Design, lang: str) -> str:
     """A design that moves through its whole range, as SVG; empty where it cannot be followed."""
-    curves = ["P"] if "P" in design.linkage.points else []
     try:
-        return animated_svg(_marked(task, design), curves=curves, lang=lang)
+        drives = design.drive_rows or None
+        return animated_svg(_marked(task, design), curves=_path_of(design.linkage), lang=lang, drives=drives)
     except LinkageError:
         return ""
 

@@ -30,7 +30,7 @@ from gruebler.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.synthesis.judging import Demands, Targets, best_of, position_targets
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult, in_order_of
+from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.tasks import PositionTask
 from gruebler.text import Message, message
 
@@ -39,7 +39,6 @@ __all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of_dyads", "ranked", "
 
 _SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
 """What the link between frame and coupler is called: the first of its kind, the second."""
-
 NEAR = 0.05
 """More than five positions are met if they are missed by less than this part of the size."""
 
@@ -115,13 +114,16 @@ def _halved(given: Displacements) -> complex:
     return t * 0.5 + 0.25j * t if abs(t) > 0 else 0.25 + 0j * q
 
 
-def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, number: int = 16) -> SynthesisResult:
+def synthesise_positions(
+    task: PositionTask, demands: Demands | None = None, *, number: int = 16, progress: Progress | None = None
+) -> SynthesisResult:
     """All linkages of two dyads that carry a body through positions.
 
     Args:
         task: the positions.
         demands: what a design has to do besides; by default one branch and the order of the task.
         number: of dyads that are taken from each infinite family (two to four positions).
+        progress: called with the pairs of dyads that are judged, and their number.
 
     Raises `SynthesisError` for positions that infinitely many dyads of no known family serve. Cost: 1 ms for the dyads
     of five positions and about 10 ms for the verdict on each design.
@@ -135,8 +137,8 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
     wanted = demands or Demands()
     dyads = guiding_dyads(task, number)
     if len(task) > 5:
-        return _approximate(task, wanted, dyads)
-    candidates = _judged_pairs(task, wanted, dyads)
+        return _approximate(task, wanted, dyads, progress)
+    candidates = _judged_pairs(task, wanted, dyads, progress)
     notes: list[Message] = []
     complex_dyads = len(dyads)
     if len(task) == 5:
@@ -162,9 +164,14 @@ def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Desi
     return tuple(accepted), tuple(rejected)
 
 
-def _judged_pairs(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> list[Design]:
+def _judged_pairs(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], progress: Progress | None
+) -> list[Design]:
     designs = []
-    for guiding_dyad, two in combinations(dyads, 2):
+    pairs = list(combinations(dyads, 2))
+    for done, (guiding_dyad, two) in enumerate(pairs, 1):
+        if progress is not None:
+            progress(done, len(pairs))
         form = f"{guiding_dyad.form}-{two.form}"
         try:
             linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
@@ -284,10 +291,12 @@ def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:
     return one.form != other.form or gap > 1e-3 * (1 + abs(one.moving) + abs(one.fixed))
 
 
-def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> SynthesisResult:
+def _approximate(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], progress: Progress | None
+) -> SynthesisResult:
     """More than five positions: the pairs of fitted dyads, judged by how near they come to each position."""
     tolerance = demands.tolerance if demands.tolerance > 1e-6 else NEAR
-    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads)
+    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads, progress)
     accepted, rejected = ranked(designs)
     accepted = in_order_of(accepted, ["error"])
     note = message(

@@ -17,7 +17,16 @@ from gruebler.notebook import html_table
 from gruebler.synthesis.tasks import Task
 from gruebler.text import Message, message, plural
 
-__all__ = ["ORDERS", "Design", "DesignVerdict", "SolutionCount", "SynthesisResult", "in_order_of"]
+__all__ = [
+    "ORDERS",
+    "Design",
+    "DesignVerdict",
+    "ParetoRow",
+    "SolutionCount",
+    "SynthesisResult",
+    "in_order_of",
+    "pareto",
+]
 
 
 @dataclass(frozen=True)
@@ -50,6 +59,8 @@ class DesignVerdict:
         return not self.reasons
 
 
+Progress = Callable[[int, int], None]
+"""Called with how much is done, and of how much."""
 FITTED = "fitted structure"
 """The form of a design whose structure is neither that of a four-bar nor of a slider-crank."""
 _FORMS = {
@@ -68,7 +79,9 @@ class Design:
     form: str
     """The two connections of coupler and frame, such as ``RR-RR``, or the kind of linkage, such as ``four-bar``."""
     drives: tuple[float, ...] = ()
-    """The drive value at each target."""
+    """The drive value at each target; empty with several drives."""
+    drive_rows: tuple[tuple[float, ...], ...] = ()
+    """With several drives their values at each target."""
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
@@ -121,9 +134,16 @@ class Design:
             "size_ratio": _or_none(verdict.size_ratio),
             "inside": verdict.inside,
             "error": _or_none(verdict.error),
-            "drives": [degrees(value) if turning else value for value in self.drives],
+            "drives": [degrees(value) if turning else value for value in self.drives] or self._drive_rows(),
             "linkage": linkage_to_json(self.linkage),
         }
+
+    def _drive_rows(self) -> list[list[float]]:
+        drives = self.linkage.mechanism.drives
+        return [
+            [degrees(value) if drive.turning else value for value, drive in zip(row, drives, strict=True)]
+            for row in self.drive_rows
+        ]
 
 
 def _or_none(value: float) -> float | None:
@@ -248,5 +268,56 @@ class SynthesisResult:
             },
             "notes": [str(note) for note in self.notes],
             "designs": [design.to_json() for design in self.designs],
+            "pareto": [
+                {
+                    "design": next(k for k, design in enumerate(self.designs) if design is row.design),
+                    "error": row.error,
+                    "transmission_through_targets": _or_none(degrees(row.transmission)),
+                    "size": row.size,
+                    "links": row.links,
+                    "structure": row.structure,
+                }
+                for row in pareto(self)
+            ],
             "rejected": [design.to_json() for design in self.rejected],
         }
+
+
+@dataclass(frozen=True)
+class ParetoRow:
+    """A design by what counts: the smaller error, size and number of links, the larger transmission angle."""
+
+    structure: str
+    error: float
+    transmission: float
+    size: float
+    links: int
+    design: Design
+
+    def dominates(self, other: ParetoRow) -> bool:
+        """Whether it is nowhere worse and somewhere better."""
+        own, its = self._costs, other._costs
+        return all(a <= b for a, b in zip(own, its, strict=True)) and own != its
+
+    @property
+    def _costs(self) -> tuple[float, ...]:
+        mu = 0.0 if isnan(self.transmission) else self.transmission
+        error = 0.0 if self.error < EXACT else self.error
+        return error, -mu, self.size, float(self.links)
+
+
+def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
+    """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
+    rows = [
+        ParetoRow(
+            design.linkage.mechanism.text(),
+            design.verdict.error,
+            design.verdict.transmission,
+            design.linkage.size,
+            design.links,
+            design,
+        )
+        for design in found.designs
+    ]
+    best = [row for row in rows if not any(other.dominates(row) for other in rows)]
+    return tuple(sorted(best, key=lambda row: row.error))

@@ -40,7 +40,7 @@ def synthesise(
         options: those of `synthesise_positions`, `synthesise_path`, `synthesise_function`, `synthesise_dead_centres`
             or `synthesise_structures`.
 
-    Raises `SynthesisError` for a task that contradicts itself, and for structures with a task of dead centres.
+    Raises `SynthesisError` for a task that contradicts itself, and for structures that cannot do it.
 
     >>> from gruebler.synthesis import DeadCentreTask
     >>> result = synthesise(DeadCentreTask(stroke=50, time_ratio=1.2))
@@ -57,8 +57,6 @@ def _solved(
     task: Task, structures: Iterable[Mechanism] | None, demands: Demands | None, options: dict[str, Any]
 ) -> SynthesisResult:
     if structures is not None:
-        if not isinstance(task, PathTask):
-            raise SynthesisError("structures are fitted to a path, not to a {kind}", kind=type(task).__name__)
         return synthesise_structures(task, structures, demands, **options)
     match task:
         case PositionTask():
