@@ -40,6 +40,8 @@ export interface ShapeRecord {
   circle?: [number, number, number];
   lines?: number[][];
   closed?: boolean;
+  /** Of a belt: where the centres of its wheels were; its lines go with them. */
+  between?: [number, number, number, number];
 }
 
 export interface GroupRecord {

@@ -130,7 +130,7 @@ def draw(value: Any, **options: Any) -> Picture:
 
 
 def animate(value: Any, *, seconds: float = 4.0, **options: Any) -> Animation:
-    """A moving picture of a linkage, cam, Geneva drive or gear train, a turn of the drive in so many seconds.
+    """A moving picture of a linkage, cam, Geneva drive or gear train, one turn of the drive in the given time.
 
     Args:
         value: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.

@@ -30,6 +30,8 @@ def test_answers_are_taken_by_the_printed_symbols(task):
             (by_symbol,) = grade(task, {result.symbol: answer})
             assert replace(by_symbol, name=key) == by_key
             assert by_symbol.name == result.symbol
+            assert by_symbol.name == result.symbol
+            assert replace(by_symbol, name=key) == by_key
         elif result.symbol not in solution.results:
             with pytest.raises(GrueblerError, match=r"stands for several results") as caught:
                 grade(task, {result.symbol: answer})

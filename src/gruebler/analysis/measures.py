@@ -363,9 +363,9 @@ def measures(
 
     Args:
         linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
-        speed_rpm: the drive's speed in turns a minute, for the times; not zero.
-        branch: as for `move`; without it that of the reference pose, else all ``+`` and 1. It is understood where the
-            motion is begun: `gruebler.analysis.drive_cycle.drive_cycle`.
+        speed_rpm: the drive's speed in revolutions per minute, for the times; not zero.
+        branch: as for `move`; without it that of the reference pose, else all ``+`` and 1. It applies where the motion
+            starts: `gruebler.analysis.drive_cycle.drive_cycle`.
         output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
 
     Cost: some 60 ms for a dyad, 0.2 s for a group of four links.

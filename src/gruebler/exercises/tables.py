@@ -243,7 +243,7 @@ def _kinds_of_transfer(columns: list[_Column]) -> TeachingTable:
     fine = np.radians(np.arange(0, 360, 0.25) + 0.125)
     step = radians(0.05)
     rows: list[tuple[Value, ...]] = []
-    for mechanism, _, function in columns:
+    for mechanism, quantity, function in columns:
         slope = (function(fine + step) - function(fine - step)) / (2 * step)
         steady = float(np.ptp(slope)) <= 1e-6 * float(np.abs(slope).max())
         still = float(np.mean(np.abs(slope) < 1e-9 * np.abs(slope).max()))
@@ -254,13 +254,16 @@ def _kinds_of_transfer(columns: list[_Column]) -> TeachingTable:
         else:
             forward = float(slope.max()) > -float(slope.min())
             sense = message("always with the drive") if forward else message("always against the drive")
-        rows.append((mechanism, kind, sense, f"{still:.0%}"))
+        turns = quantity.startswith("ψ")
+        motions = message("rotation to rotation") if turns else message("rotation to translation")
+        rows.append((mechanism, kind, sense, f"{still:.0%}", motions))
     title = message("Properties of the transfer function")
     headers = (
         message("mechanism"),
         message("transmission"),
         message("output"),
         message("dwell"),
+        message("motions"),
     )
     return TeachingTable(title, headers, tuple(rows))
 

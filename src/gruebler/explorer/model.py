@@ -272,7 +272,10 @@ def _shapes(posed: PosedLinkage) -> Iterator[dict[str, Any]]:
                 yield {"link": index(part.link), "style": shape.style, "circle": circle}
             elif isinstance(shape, Polylines):
                 lines = [[c for p in line for c in (_short(p.x / scale), _short(-p.y / scale))] for line in shape.parts]
-                yield {"link": index(part.link), "style": shape.style, "lines": lines, "closed": shape.closed}
+                record = {"link": index(part.link), "style": shape.style, "lines": lines, "closed": shape.closed}
+                yield record | (
+                    {} if part.between is None else {"between": [c for z in part.between for c in (z.real, z.imag)]}
+                )
 
 
 def _short(value: float) -> float:

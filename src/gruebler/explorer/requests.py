@@ -72,6 +72,8 @@ class DescribeStructure(_Params):
     text: ChainText
     at_frame: bool = True
     """Whether only drives at the frame are listed."""
+    document: dict[str, Any] = {}
+    """A linkage of this chain, which says what its higher pairs are."""
 
 
 class ListModes(_Params):
@@ -240,8 +242,10 @@ def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
 
 def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.explorer.structures import structure_record
+    from gruebler.formats import linkage_from_json
 
-    return structure_record(asked.text, lang, at_frame=asked.at_frame)
+    linkage = linkage_from_json(asked.document) if asked.document else None
+    return structure_record(asked.text, lang, at_frame=asked.at_frame, linkage=linkage)
 
 
 def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import PAIRS, Alphabet, Space
 from gruebler.drawing.canvas.figure import figure_of
 from gruebler.drawing.canvas.shapes import Point, bounds
+from gruebler.drawing.linkage.contact_shapes import contact_shapes
 from gruebler.drawing.structure import PlacedChain, draw_structure, paint, place_joints
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.drives import check_drives
 from gruebler.mechanism.inversion import driven_mechanisms, family, inversions
@@ -30,10 +32,11 @@ def mechanism_of_text(text: str) -> Mechanism:
     return Mechanism.parse(text)
 
 
-def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str, Any]:
+def structure_record(text: str, lang: str, *, at_frame: bool = True, linkage: Linkage | None = None) -> dict[str, Any]:
     """Picture, mobility, inversions, driven mechanisms and other joint types of a text, as plain data.
 
-    The driven mechanisms are those with a drive at the frame, or all with one drive.
+    The driven mechanisms are those with a drive at the frame, or all with one drive. A linkage of the same chain says
+    what its higher pairs are: gears, cams, belts, ... have signs of their own in the pictures.
 
     Raises `GrueblerError` for a text that is no chain; what it says names the place.
 
@@ -43,7 +46,8 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
     """
     mechanism = mechanism_of_text(text)
     chain = mechanism.chain
-    placed = place_joints(mechanism)
+    contacts = contact_shapes(linkage) if linkage is not None and linkage.mechanism.chain == chain else {}
+    placed = place_joints(mechanism, contacts)
     shapes = paint(placed)
     corner, _ = bounds(shapes, 10.0)
     report = mobility_report(chain, frame=mechanism.frame)
@@ -59,8 +63,8 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
         "verdict": str(report.verdict),
         "lines": report.explain(lang).splitlines(),
         "drives": check_drives(mechanism).explain(lang) if mechanism.drives else "",
-        "inversions": [_choice(inversion, lang) for inversion in inversions(chain)] if few else [],
-        "driven": [_choice(inversion.mechanism, lang) for inversion in _driven(chain, at_frame)]
+        "inversions": [_choice(inversion, lang, contacts) for inversion in inversions(chain)] if few else [],
+        "driven": [_choice(driven.mechanism, lang, contacts) for driven in _driven(chain, at_frame)]
         if few and chain.space is Space.PLANAR
         else [],
     }
@@ -76,13 +80,13 @@ def _driven(chain: Chain, at_frame: bool) -> list[Any]:
     return rows
 
 
-def _choice(mechanism: Mechanism, lang: str) -> dict[str, Any]:
+def _choice(mechanism: Mechanism, lang: str, contacts: Mapping[tuple[int, str], str]) -> dict[str, Any]:
     return {
         "text": mechanism.text(),
         "frame": mechanism.frame,
         "drives": list(mechanism.drive_names()),
         "family": family(mechanism, lang) or "",
-        "picture": draw_structure(mechanism, lang=lang).svg(styled=False),
+        "picture": draw_structure(mechanism, lang=lang, contacts=contacts).svg(styled=False),
     }
 
 

@@ -63,7 +63,7 @@ class Circuit(Brief):
     """All positions of a linkage on one curve.
 
     Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle
-    counting as the way of a point at that distance. On a closed circuit arcs below 0 or above `length` go round again.
+    counting as the way of a point at that distance. On a closed circuit arcs below 0 or above `length` wrap around.
     """
 
     linkage: Linkage

@@ -49,7 +49,7 @@ class Stop:
 class Motion(LinkPoses, Brief):
     """Poses of a linkage along a path of its drives, with derivatives.
 
-    Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows behind a `stop` are not there:
+    Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows after a `stop` are missing:
     ``len(motion)`` says how many are.
     """
 

@@ -55,8 +55,8 @@ def move(
 
     Args:
         linkage: a linkage whose drives fix the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
-        drives: (rows,) for one drive, (rows, drives) for several: angles in radians, ways in the linkage's unit.
-            Between rows the drives move on straight lines.
+        drives: (rows,) for one drive, (rows, drives) for several: angles in radians, displacements in the linkage's
+            unit. Between rows the drives move on straight lines.
         speed: the drives' velocity, one number or like ``drives``; 1 if only an order is given.
         acceleration: likewise.
         jerk: likewise.
@@ -228,7 +228,7 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
 
     Args:
         linkage: whose drives fix the motion.
-        drives: a value for each drive: angles in radians, ways in the linkage's unit.
+        drives: a value for each drive: angles in radians, displacements in the linkage's unit.
 
     Cost: one solution for each mode. Raises `LinkageError` as `move`.
 

@@ -233,7 +233,7 @@ def freedoms(
             hundredth of that times the way as closed.
 
     Raises:
-        LinkageError: no such pose, or a tolerance that is no positive number below 0.01.
+        LinkageError: no such pose, or a tolerance that is not a positive number below 0.01.
 
     Cost: a few milliseconds for ten links; up to a second where motions branch.
 

@@ -168,7 +168,7 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
     frame = posed.lower.mechanism.frame
     links = [link for link in posed.lower.mechanism.chain.links if link != frame]
     bodies = {link: _body(posed, link, joint_slides) for link in links}
-    parts = [BodyPart(FRAME, *part) for part in round_parts(posed)]
+    parts = [BodyPart(FRAME, part.link, part.shapes) for part in round_parts(posed)]
     parts += [BodyPart(FRAME, frame, tuple(_ground(posed, joint_slides)))]
     parts += [
         BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))

@@ -26,6 +26,8 @@ class RoundPart(NamedTuple):
 
     link: str
     shapes: tuple[Shape, ...]
+    between: tuple[complex, complex] | None = None
+    """Of a belt: the centres of its wheels, in the unit of the linkage; its shapes go with them."""
 
 
 def round_parts(posed: PosedLinkage) -> Iterator[RoundPart]:
@@ -195,4 +197,4 @@ def _belts(posed: PosedLinkage) -> Iterator[RoundPart]:
         for side in (1, -1):
             touch = along * cmath.rect(1, side * lean)
             runs.append((posed.local(a + r * touch), posed.local(b + (-s if crossed else s) * touch)))
-        yield RoundPart(mechanism.frame, (Polylines(tuple(runs), "rail"),))
+        yield RoundPart(mechanism.frame, (Polylines(tuple(runs), "rail"),), (a, b))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
 
@@ -93,9 +93,7 @@ def draw_structure(
     """
     from gruebler.drawing.canvas.labels import labels_or_numbers, note_near
 
-    placed = place_joints(structure)
-    if contacts:
-        placed = replace(placed, contacts=_renumbered(chain_of(structure), placed.chain, contacts))
+    placed = place_joints(structure, contacts)
     shapes = paint(placed)
     for link in outputs:
         shapes += _output(placed, link, shapes)
@@ -115,8 +113,11 @@ def chain_of(structure: Chain | Mechanism) -> Chain:
     return structure if isinstance(structure, Chain) else structure.chain
 
 
-def place_joints(structure: Chain | Mechanism) -> PlacedChain:
-    """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure."""
+def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str], str] | None = None) -> PlacedChain:
+    """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure.
+
+    ``contacts`` are those of `draw`.
+    """
     frame, drives = (None, ()) if isinstance(structure, Chain) else (structure.frame, structure.drives)
     chain, number = _ordered(chain_of(structure), frame, {drive.joint for drive in drives})
     plain, places = _ordered(chain)
@@ -135,6 +136,7 @@ def place_joints(structure: Chain | Mechanism) -> PlacedChain:
         tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
         frozenset(plain.links[max(pair)] for pair in layout.crossings),
         tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
+        _renumbered(chain_of(structure), chain, contacts or {}),
     )
 
 
