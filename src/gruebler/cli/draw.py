@@ -23,7 +23,7 @@ from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops
+from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops, draw_side_view
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.formats.structures import is_structure_text
@@ -46,6 +46,7 @@ _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
     "contracted": draw_contracted,
     "loops": draw_loops,
+    "side": draw_side_view,
 }
 
 
@@ -61,7 +62,7 @@ def add(parser: Parser) -> None:
         description="Draw the structure of a chain or mechanism: links as bodies, joints by their symbols, the frame "
         "hatched, drives as arrows. Linkages, and catalog entries with --at, --curve, --show or --ghosts, are drawn to "
         "scale.",
-        epilog="Examples: gruebler draw planetary -o planetary.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
+        epilog="Examples: gruebler draw geartrain -o geartrain.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
         "poles. Without -o, the SVG is printed. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
     parser.add_argument(
@@ -118,6 +119,7 @@ def add(parser: Parser) -> None:
     view.add_argument("--graph", action="store_true", help="draw the link graph instead")
     view.add_argument("--contracted", action="store_true", help="draw the contracted graph instead")
     view.add_argument("--loops", action="store_true", help="draw the independent loops instead")
+    view.add_argument("--side", action="store_true", help="draw a gear train from the side, its axes as lines")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -160,10 +162,13 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
     if view is not None and asked:
         raise GrueblerError(
-            "{option} needs a drawing to scale and does not go with --graph, --contracted and --loops", option=asked[0]
+            "{option} needs a drawing to scale and does not go with --graph, --contracted, --loops and --side",
+            option=asked[0],
         )
     if view is not None and arguments.labels:
-        raise GrueblerError("--labels does not go with --graph, --contracted and --loops, which always label the links")
+        raise GrueblerError(
+            "--labels does not go with --graph, --contracted, --loops and --side, which always label the links"
+        )
     if moving["output"] is not None and not set(moving["show"]) & set(_OF_A_LINK):
         raise GrueblerError("--output needs --show {views}", views=joined_by_or(_OF_A_LINK))
     has_sizes = _has_sizes(arguments.chain)

@@ -2,6 +2,7 @@
 
 from gruebler.drawing.structure.graphs import draw_contracted, draw_graph, draw_loops
 from gruebler.drawing.structure.picture import PlacedChain, draw, paint, place_joints
+from gruebler.drawing.structure.side_view import draw_side_view
 
 __all__ = [
     "PlacedChain",
@@ -9,6 +10,7 @@ __all__ = [
     "draw_contracted",
     "draw_graph",
     "draw_loops",
+    "draw_side_view",
     "paint",
     "place_joints",
 ]
