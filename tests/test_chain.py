@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler import Chain, GrueblerError
+from gruebler import Chain, GrueblerError, Linkage, Mechanism, SpatialLinkage, code
 from gruebler.chain.notation import link_text
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import ChainError, NotationError, PairError
@@ -201,3 +201,23 @@ def test_joints_are_found_as_they_are_written():
     for wrong in ("P(0-1-2)", "nonsense", "R(1-3)#3", "R(1-3)#0", "R(1-3)#x", "R()", ""):
         assert chain.find_joint(wrong) is None
     assert [chain.find_joint(name) for name in chain.joint_names()] == [0, 1, 2, 3, 4]
+
+
+def test_a_missing_joint_has_one_message_everywhere():
+    quad = Chain.parse("R(0-1) R(1-2) P(2-3) R(3-0)")
+    assert [quad.joint_number(name) for name in ("D(1-0)", "P(2-3)", 3)] == [0, 2, 3]
+    mechanism = Mechanism(quad, "0")
+    calls = [
+        lambda: quad.joint_number("R(0-2)"),
+        lambda: Mechanism(quad, "0", ["R(0-2)"]),
+        lambda: SpatialLinkage(mechanism, {"R(0-2)": {}}),
+        lambda: Linkage(mechanism, {"0": {"R(0-2)": (0, 0)}}),
+    ]
+    for call in calls:
+        with pytest.raises(
+            GrueblerError, match=r"'R\(0-2\)' is not one of the joints \(did you mean 'R\([01]-[12]\)'\?\)"
+        ):
+            call()
+    for call in (lambda: quad.without_joint(4), lambda: Mechanism(quad, "0", [4]), lambda: code(quad, drives=[4])):
+        with pytest.raises(ChainError, match="there is no joint number 4; the chain has joints 0 to 3"):
+            call()

@@ -136,6 +136,21 @@ def test_mistakes_are_one_sentence(call, words):
     assert error_in_language(caught.value, "de")
 
 
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: gr.Geneva(4, 100),
+        lambda: gr.Requirements(8, 1, 2),
+        lambda: gr.measures(CRANK_ROCKER, 60, "+"),
+        lambda: gr.Loads({}, {}, {"K": 1}),
+    ],
+    ids=["Geneva", "Requirements", "measures", "Loads"],
+)
+def test_what_is_easily_misplaced_has_its_name(call):
+    with pytest.raises(TypeError, match="positional"):
+        call()
+
+
 def test_values_of_many_numbers_are_printed_in_a_line():
     motion = gr.move(CRANK_ROCKER, gr.from_degrees(0, 360, 1))
     for value in (motion, gr.circuit(CRANK_ROCKER), gr.draw(CRANK_ROCKER), gr.measures(CRANK_ROCKER)):

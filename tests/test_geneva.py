@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gruebler.geneva import Geneva, GenevaError
 
-DRIVES = [Geneva(n, internal, 1) for n, internal in product((3, 4, 5, 6, 8, 12, 40), (False, True))]
+DRIVES = [Geneva(n, internal=internal) for n, internal in product((3, 4, 5, 6, 8, 12, 40), (False, True))]
 DRIVES += [Geneva(3, pins=6), Geneva(4, pins=3), Geneva(5, pins=3), Geneva(6, pins=2), Geneva(6, pins=3)]
 
 
@@ -123,6 +123,7 @@ def test_sizes_close_the_right_angle():
         (lambda: Geneva("4"), "whole number of slots"),
         (lambda: Geneva(4, pins=0), "whole number of pins"),
         (lambda: Geneva(4, pins=5), "at most 4 pins, not 5"),
+        (lambda: Geneva(4, internal=100), "internal is True or False, not 100"),
         (lambda: Geneva(4, internal=True, pins=2), "an internal Geneva drive with 4 slots takes at most 1"),
         (lambda: Geneva(4).move([0.0, math.nan]), "finite"),
         (lambda: Geneva(4).move("now"), "finite"),

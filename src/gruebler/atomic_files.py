@@ -42,7 +42,7 @@ def _target(path: Path) -> Path:
         target = path.resolve()
         if not target.is_symlink():
             return target
-    raise RunError("{path} cannot be written: its links lead nowhere", path=path)
+    raise RunError("{path} cannot be written: a symbolic link in it leads nowhere", path=path)
 
 
 @contextmanager

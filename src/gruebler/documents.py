@@ -108,7 +108,7 @@ def convert_document(data: object, kind: type[Record], fail: Failing, where: str
 
 
 _PROBLEMS = (
-    (r"Expected `(?P<wanted>[^`]*)`, got `(?P<found>[^`]*)`", message("expected {wanted}, got {found}")),
+    (r"Expected `(?P<wanted>[^`]*)`, got `(?P<found>[^`]*)`", message("expected {wanted}, but found {found}")),
     (r"Object missing required field `(?P<key>[^`]*)`", message("the key {key!r} is missing")),
 )
 """What msgspec says most often."""

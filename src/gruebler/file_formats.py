@@ -177,7 +177,7 @@ def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
 
     del left_out
     if not isinstance(value, Task):
-        raise GrueblerError("{path}: expected a task of synthesis", path=path)
+        raise GrueblerError("{path}: expected a synthesis task", path=path)
     write_task(path, value)
 
 
@@ -273,7 +273,7 @@ def _json_of_others(name: str, title: Message, carries: Message) -> Format:
     def read(path: Path, left_out: list[Message]) -> Linkage:
         data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
         if not form.shows(data):
-            raise GrueblerError("{path}: is no document of {program}", path=path, program=title)
+            raise GrueblerError("{path}: is not a document of {program}", path=path, program=title)
         return _linkage(path, lambda: form.read(data, left_out), left_out)
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -369,7 +369,7 @@ def _chains_of(value: Any, left_out: list[Message]) -> Iterable[Chain]:
         return [mechanism.chain]
     if isinstance(value, Sequence) and all(isinstance(each, Chain) for each in value):
         return value
-    raise GrueblerError("a {kind} is no chain", kind=type(value).__name__)
+    raise GrueblerError("a {kind} is not a chain", kind=type(value).__name__)
 
 
 _PINS = message("one position of a linkage of pins, slides and slots, points, drives of pins on the frame; no wheels")
@@ -396,13 +396,18 @@ FORMATS: tuple[Format, ...] = (
         "csv",
         (".csv",),
         message("gruebler, CSV; curves of four-bar-rs are recognised"),
-        message("tasks of synthesis, completely; tables of motions with units in their headers (written)"),
+        message("synthesis tasks, completely; tables of motions with units in their headers (written)"),
         _task,
         _write_csv,
     ),
-    _lines("text", ".txt", message("gruebler, texts of chains"), message("chains one a line, with any joints")),
-    _lines("graph6", ".g6", message("nauty, House of Graphs"), message("chains one a line: revolute, one between two")),
-    _lines("sparse6", ".s6", message("nauty"), message("chains one a line: simple revolute joints")),
+    _lines("text", ".txt", message("gruebler, texts of chains"), message("chains, one per line, with any joints")),
+    _lines(
+        "graph6",
+        ".g6",
+        message("nauty, House of Graphs"),
+        message("chains, one per line: revolute joints, at most one between two links"),
+    ),
+    _lines("sparse6", ".s6", message("nauty"), message("chains, one per line: simple revolute joints")),
     _graph("graphml", (".graphml",), message("GraphML"), _ANY_CHAIN),
     _graph("gml", (".gml",), message("GML"), _ANY_CHAIN),
     _graph("dot", (".dot", ".gv"), message("Graphviz"), _ANY_CHAIN),
@@ -458,7 +463,7 @@ FORMATS: tuple[Format, ...] = (
         "dxf-links",
         (),
         message("CAD, laser cutters (DXF), a file for each link"),
-        message("a folder of plates with holes and slots, one link a file, with its plane in the name"),
+        message("a folder of plates with holes and slots, one file per link, with its plane in the name"),
         None,
         _write_dxf_of_links,
     ),

@@ -181,7 +181,7 @@ def convert(
     source, target = Path(source), Path(target)
     from_form, to_form = format_of(source, source_format), format_of(target, target_format)
     if source.exists() and target.exists() and source.samefile(target):
-        raise GrueblerError("{path}: would be written over itself", path=source)
+        raise GrueblerError("{path}: would overwrite itself", path=source)
     left_out: list[Message] = []
     if from_form.name in LINES and to_form.name in LINES:
         write_lines(read_lines(source, from_form.name), target, to_form.name)

@@ -8,7 +8,7 @@ squared times the second.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -68,6 +68,7 @@ class Geneva:
     """
 
     slots: int
+    _: KW_ONLY
     internal: bool = False
     pins: int = 1
 
@@ -78,6 +79,8 @@ class Geneva:
                 most=_MOST,
                 slots=self.slots,
             )
+        if not isinstance(self.internal, bool):
+            raise GenevaError("internal is True or False, not {internal!r}", internal=self.internal)
         if not _whole(self.pins, 1):
             raise GenevaError(
                 "a Geneva drive has a whole number of pins from 1 to {most:,}, not {pins!r}", most=_MOST, pins=self.pins

@@ -224,11 +224,20 @@ def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:
         kernel(np.zeros((3, 2)), np.array([[0, 1]]), np.array([[0, 2]]))
         print(before, sum(kernel.stats.cache_hits.values()), sum(kernel.stats.cache_misses.values()))
         """
-    said = [
-        subprocess.run([sys.executable, "-c", ask], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
-        for _ in range(2)
-    ]
-    assert said == ["False 0 1\n", "True 1 0\n"]
+
+    def run(folder: Path, kernels: Path | None) -> str:
+        environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+        if kernels is not None:
+            environment["NUMBA_CACHE_DIR"] = str(kernels)
+        command = [sys.executable, "-c", ask]
+        return subprocess.run(
+            command, cwd=folder, capture_output=True, text=True, check=True, env=environment
+        ).stdout.strip()
+
+    assert [run(tmp_path, None), run(tmp_path, None)] == ["False 0 1", "True 1 0"]
+    other = tmp_path / "another installation of the same sources"
+    shutil.copytree(tmp_path / "gruebler", other / "gruebler", ignore=shutil.ignore_patterns("__pycache__"))
+    assert run(other, tmp_path / "gruebler" / "_numeric" / "__pycache__") == "True 1 0"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="elsewhere files have no owners and modes of POSIX")

@@ -147,5 +147,5 @@ def test_a_motion_is_written_and_other_values_are_no_tables(tmp_path):
     assert lines[0] == "R(frame-crank) [°],slider [mm]"
     with pytest.raises(GrueblerError, match="holds motions and tables, not a Linkage"):
         gr.write(SIZE, tmp_path / "m.parquet")
-    with pytest.raises(GrueblerError, match="a task of synthesis"):
+    with pytest.raises(GrueblerError, match="a synthesis task"):
         gr.write(SIZE, tmp_path / "m.csv")

@@ -218,18 +218,18 @@ def test_known_mechanisms(text, formula, number):
     assert is_the_mechanism(found) or found.overconstrained
 
 
-def test_drives_that_work_against_one_another():
+def test_drives_that_conflict():
     found = decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1); drive=R(1-2)"))
     assert not found.complete
     assert found.overconstrained
     assert "no. 1, 2" in found.explain()
     braced = decompose(Mechanism(Chain.from_graph6("C~"), "0"))
     assert braced.message() == (
-        "Constraints or drives work against one another: there are no Assur groups. "
-        "Overconstrained: 0, 1, 2, 3 (constraints too many: 3)."
+        "Constraints or drives conflict: there are no Assur groups. "
+        "Overconstrained: 0, 1, 2, 3 (redundant constraints: 3)."
     )
-    assert "zu viel: 3" in braced.message("de")
-    assert "gegeneinander" in found.explain("de")
+    assert "überzählige Bindungen: 3" in braced.message("de")
+    assert "widersprechen" in found.explain("de")
 
 
 def test_a_rigid_part_of_the_chain_counts_as_one_body():

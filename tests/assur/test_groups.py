@@ -143,10 +143,10 @@ def test_the_canonical_form_is_the_same_group_and_stays(text):
     ("text", "words"),
     [
         ("P(a-1) P(1-2) P(2-b)", "not rigid"),
-        ("R(a-1) R(1-2) R(2-3) R(3-b)", "9 freedoms, but the joints take 8"),
+        ("R(a-1) R(1-2) R(2-3) R(3-b)", "9 freedoms, but the joints remove 8"),
         ("R(a-1) R(1-2) R(2-b) R(1-3) R(3-4) R(4-c)", "the links 1, 2 can be solved without the others"),
         ("R(a-1) R(1-2) R(2-3) R(3-1) R(3-4) R(4-b)", "can be solved without the others"),
-        ("R(0-1) R(1-2) R(2-0)", "no places outside"),
+        ("R(0-1) R(1-2) R(2-0)", "no outer joints"),
         ("R(a-b-1) R(1-2) R(2-c)", "more than one place"),
         ("spherical: R(a-1) R(1-2) R(2-b)", "spherical"),
     ],

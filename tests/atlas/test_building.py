@@ -3,7 +3,6 @@
 import json
 import os
 import random
-import signal
 import subprocess
 import sys
 import time
@@ -80,7 +79,7 @@ def _killed_and_resumed(task, directory, moments):
     for moment in moments:
         running = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(moment)
-        running.send_signal(signal.SIGKILL)
+        running.kill()
         running.wait()
     subprocess.run(command, check=True, capture_output=True)
 
@@ -138,7 +137,7 @@ def test_manifests_that_cannot_be_used(whole, tmp_path, change, problem):
 
 
 def test_what_is_missing_is_named(whole, tmp_path):
-    with pytest.raises(RunError, match="is no atlas"):
+    with pytest.raises(RunError, match="is not an atlas"):
         gr.atlas.open(tmp_path)
     (tmp_path / "manifest.json").write_bytes((whole / "manifest.json").read_bytes())
     with pytest.raises(RunError, match=r"part-00000\.parquet is missing"):

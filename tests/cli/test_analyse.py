@@ -173,7 +173,7 @@ REFUSED = [
     ),
     (["R(0-1) R(1-2) R(2-0)"], "has no dimensions; give a file"),
     (["none.toml"], "none.toml: cannot be read"),
-    (["/dev/null"], "a linkage is in a .toml or .json file"),
+    ([__file__], "a linkage is in a .toml or .json file"),
     ([CRANK_ROCKER, "--output", "rokcer"], "did you mean 'rocker'?"),
     ([CRANK_ROCKER, "--point", "K"], "there is no point 'K'"),
     ([CRANK_ROCKER, "--branch", "++"], "a branch of this linkage is + or - for RRR {coupler, rocker}; found '++'"),

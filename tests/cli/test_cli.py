@@ -162,7 +162,8 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["check", "--space", "sphere"], "did you mean 'spherical'?"),
         (["check", "."], "'.' is a folder; expected a file"),
         (["analyse", "."], "'.' is a folder; expected a file"),
-        (["check", "a" * 3000], "cannot be opened: File name too long"),
+        # from Python 3.14 on, such a name is one of no file
+        (["check", "a" * 3000], "File name too long" if sys.version_info < (3, 14) else "no entry 'aaa"),
         (["catalog"], "required"),
         (["catalog", "show", "nothing"], "no entry 'nothing'"),
         (["catalog", "search", "--pair", "revolut"], "did you mean 'revolute'"),

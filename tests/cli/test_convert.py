@@ -47,7 +47,7 @@ def test_a_file_is_not_written_over_itself(tmp_path, capsys):
     path = tmp_path / "a.txt"
     path.write_text("R(0-1) R(1-2) R(2-3) R(3-0)\n", encoding="utf-8")
     assert main(["convert", str(path), str(path)]) == 2
-    assert "over itself" in capsys.readouterr().err
+    assert "overwrite itself" in capsys.readouterr().err
     assert path.read_text(encoding="utf-8").startswith("R(0-1)")
 
 

@@ -77,6 +77,14 @@ def test_check_as_json(capsys):
     assert "Doppelgelenk" in found["answers"][0]["hint"]["de"]
 
 
+@pytest.mark.parametrize("name", ["k", "time_ratio"])
+def test_an_answer_has_the_name_under_which_it_was_given(capsys, name):
+    status, out, _ = run(capsys, "exercise", "check", "exercise-17", f"{name}=2.39")
+    assert (status, out.splitlines()[0]) == (0, f"{name} = 2.39: right (2.38791)")
+    answer = json.loads(run(capsys, "exercise", "check", "exercise-17", f"{name}=2.39", "--json")[1])["answers"][0]
+    assert (answer["key"], answer["name"]) == ("time_ratio", name)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

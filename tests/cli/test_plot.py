@@ -66,7 +66,7 @@ def test_the_speed_is_in_turns_a_minute(capsys):
         (["mzc", "--output", "frame"], "the frame does not move"),
         (["mzc", "--kind", "family", "--link", "frame"], "'frame' is the frame"),
         (["mzc", "--kind", "hodograph", "--speed", "0"], "a speed that is not 0"),
-        (["mzc", "--kind", "ratio", "--point", "K", "--point", "B"], "of one point"),
+        (["mzc", "--kind", "ratio", "--point", "K", "--point", "B"], "shows one point"),
         ([FOUR_BAR, "--dark"], "--dark does not go with SVG"),
     ],
 )

@@ -6,6 +6,8 @@ import pytest
 
 from gruebler.cli import main
 from gruebler.formats import read_linkage
+from gruebler.synthesis import task_from_json
+from gruebler.synthesis.positions import guiding_dyads
 
 FIVE = """x,y,angle
 1.167361074190,1.604268422500,49.038042711511
@@ -43,6 +45,37 @@ def test_json_has_counts_verdicts_and_linkages(five, capsys):
     assert design["turns_fully"]
     assert design["drives"] == pytest.approx([10, 35, 60, 85, 110], abs=1e-6)
     assert design["linkage"]["frame"] == "frame"
+
+
+FOUR = "0,0,0\n2.1,0.9,20\n3.2,1.0,46\n4.0,0.2,86\n"
+
+
+def test_pivots_of_four_positions_are_picked_and_designs_sorted(tmp_path, capsys):
+    task = tmp_path / "four.csv"  # without a header
+    task.write_text(FOUR, encoding="utf-8")
+    words = ["synthesise", "positions", str(task), "--json"]
+    assert main([*words, "--number", "5", "--sort", "size"]) == 0
+    designs = json.loads(capsys.readouterr().out)["designs"]
+    assert [d["size"] for d in designs] == sorted(d["size"] for d in designs)
+    for design in designs:
+        assert design["transmission_over_range"] <= design["transmission_through_targets"] + 1e-6
+    main([*words, "--curve-parameter", "0.21", "--curve-parameter", "0.4"])
+    by_parameter = json.loads(capsys.readouterr().out)
+    assert by_parameter["task"]["curve_parameters"] == [0.21, 0.4]
+    assert by_parameter["count"]["found"] == 2
+    (design,) = [*by_parameter["designs"], *by_parameter["rejected"]]
+    one, two = guiding_dyads(task_from_json(by_parameter["task"]))
+    places = [f"{v:.12f}" for v in (one.moving.real, one.moving.imag, two.fixed.real, two.fixed.imag)]
+    main([*words, "--moving-pivot", *places[:2], "--fixed-pivot", *places[2:]])
+    by_pivot = json.loads(capsys.readouterr().out)
+    (again,) = [*by_pivot["designs"], *by_pivot["rejected"]]
+    assert again["size"] == pytest.approx(design["size"], rel=1e-9)
+    assert again["size_ratio"] == pytest.approx(design["size_ratio"], rel=1e-9)
+
+
+def test_an_unknown_order_is_refused_with_those_there_are(five, capsys):
+    assert main(["synthesise", "positions", str(five), "--sort", "size,beauty"]) == 2
+    assert "sorted by error, transmission, range-transmission, size" in capsys.readouterr().err
 
 
 def test_a_region_without_designs_is_status_1_with_the_reason(five, capsys):

@@ -346,7 +346,7 @@ def test_files():
         ("dead-centre", {}, "did you mean 'dead-centres'"),
         ("dead-centres", {"q": 1}, "no quantity 'q'"),
         ("dead-centres", {"a": "long"}, "a: expected a number"),
-        ("dead-centres", {"a": 70}, "no crank-rocker"),
+        ("dead-centres", {"a": 70}, "not a crank-rocker"),
         ("central-crank-rocker", {"a": 80}, "a < b"),
         ("coupler-curve", {"step": 7}, "step must divide"),
         ("meyer-zur-capellen", {"ratio": 2}, "lambda must lie"),

@@ -199,7 +199,7 @@ def test_so_many_positions_are_not_drawn(count):
 def test_a_motion_has_a_picture():
     motion = move(WITH_POINT, from_degrees(0, 90, 5))
     figure = draw_motion(motion)
-    assert figure.description.endswith("A motion of 19 poses; 5 of them thinly.")
+    assert figure.description.endswith("A motion of 19 poses; 5 of them in thin lines.")
     path = np.conj(posed_along_motion(motion).scale * motion.complex_point("K"))
     found = points(figure, "curve")
     assert abs(found[-1] - found[0]) == pytest.approx(abs(path[-1] - path[0]))

@@ -22,6 +22,7 @@ from gruebler.enumeration.worker_pool import ProcessPools, Progress, run_work
 from gruebler.errors import RunError
 
 CHAINS_14 = 318162
+kills = pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="Windows has no SIGKILL")
 
 
 def square(number):
@@ -76,6 +77,7 @@ def test_known_pieces_are_not_done_again(processes):
         assert sorted(told) == [0, 1, 3, 4, 5, 6, 7]
 
 
+@kills
 def test_a_lost_worker_changes_nothing(processes, tmp_path):
     told = []
     found = list(run_work(partial(dies_once, tmp_path), range(20), processes, finished=lambda k, _: told.append(k)))
@@ -102,6 +104,7 @@ class DiesWriting:
         return number * number
 
 
+@kills
 def test_what_a_lost_worker_was_writing_goes_with_the_run(processes, tmp_path):
     store = Checkpoint(tmp_path / "kept", {}, "1")
     assert list(run_work(DiesWriting(store), range(5), processes)) == [0, 1, 4, 9, 16]
@@ -111,12 +114,14 @@ def test_what_a_lost_worker_was_writing_goes_with_the_run(processes, tmp_path):
     assert store.head(2) == {"square": 4}
 
 
+@kills
 def test_a_broken_executor_that_was_given_is_replaced(tmp_path):
     with ProcessPoolExecutor(2) as pool:
         found = list(run_work(partial(dies_once, tmp_path), range(12), pool))
     assert found == [k * k for k in range(12)]
 
 
+@kills
 def test_a_piece_that_kills_every_worker_ends_the_run(processes):
     with pytest.raises(RunError, match="lost 3 times in a row"):
         list(run_work(dies_always, range(8), processes, retries=2))
@@ -150,6 +155,7 @@ class OneDeath:
         return self.counter(work)
 
 
+@kills
 def test_a_lost_worker_changes_no_count(processes, tmp_path):
     request = Request(12)
     work = list(work_units(request, size=10_000))
@@ -188,6 +194,7 @@ print(number)
 """
 
 
+@kills
 def test_a_killed_run_goes_on_with_the_same_result(tmp_path):
     """Killed whenever two more pieces are finished, until nothing is left to do."""
     store = tmp_path / "kept"
@@ -236,7 +243,7 @@ def test_a_directory_of_another_task_is_refused(tmp_path):
     (tmp_path / "c" / "letter.txt").write_text("dear")
     with pytest.raises(RunError, match="holds other files"):
         run_count(Request(8), checkpoint=tmp_path / "c")
-    with pytest.raises(RunError, match="cannot keep pieces"):
+    with pytest.raises(RunError, match="cannot hold the finished parts"):
         run_count(Request(8), checkpoint=tmp_path / "c" / "letter.txt")
 
 
@@ -247,7 +254,7 @@ MANIFESTS = ["", "{", "[]", "null", '"text"', "[" * 100_000, "1" * 10_000, '{"ta
 def test_a_broken_manifest_is_one_sentence(tmp_path, content):
     run_count(Request(8), checkpoint=tmp_path)
     (tmp_path / "manifest.json").write_text(content)
-    with pytest.raises(RunError, match=r"manifest\.json cannot be read; remove|keeps pieces of another task") as caught:
+    with pytest.raises(RunError, match=r"manifest\.json cannot be read; remove|holds parts of another task") as caught:
         run_count(Request(8), checkpoint=tmp_path)
     assert len(str(caught.value)) < 1500
 

@@ -97,7 +97,7 @@ def test_fresh_chains_grow_with_the_level():
         ("exercise-14", "μ_min", "90", "worse side"),
         ("exercise-15", "difference", "9.4", "2·Δφ"),
         ("exercise-15", "H", "70", "eccentric"),
-        ("exercise-11", "phi_H2", "90", "middle of the time"),
+        ("exercise-11", "phi_H2", "90", "half of the time"),
         ("exercise-11", "phi_H2", "1.3694", "radians"),
         ("exercise-11", "H", "4", "factor of 10"),
         ("exercise-15", "difference", "18.4", "the printed answer. Read off a drawing"),

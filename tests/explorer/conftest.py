@@ -8,10 +8,20 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
+if TYPE_CHECKING:
+    from playwright.sync_api import BrowserType
+
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+
+
+def find_browser(chromium: "BrowserType") -> str | None:
+    """The path of a browser: one that is installed, otherwise what `playwright install chromium` brought."""
+    installed = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+    return installed or (chromium.executable_path if Path(chromium.executable_path).exists() else None)
 
 
 class Server:
@@ -64,10 +74,10 @@ def server(tmp_path_factory) -> Iterator[Server]:
 @pytest.fixture(scope="session")
 def browser():
     playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    path = next((found for name in BROWSERS if (found := shutil.which(name))), None)
-    if path is None:
-        pytest.skip(f"no browser is here: {', '.join(BROWSERS)}")
     with playwright.sync_playwright() as play:
+        path = find_browser(play.chromium)
+        if path is None:
+            pytest.skip(f"no browser is here: {', '.join(BROWSERS)}, or that of `playwright install chromium`")
         made = play.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
         yield made
         made.close()

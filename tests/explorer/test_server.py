@@ -63,8 +63,8 @@ def test_a_socket_from_another_origin_is_closed(server):
 @pytest.mark.parametrize(
     ("frame", "words"),
     [
-        ("{", "no message"),
-        ('{"id": 1, "method": "measures", "params": {"document": {"a": NaN}}}', "no message"),
+        ("{", "not a message"),
+        ('{"id": 1, "method": "measures", "params": {"document": {"a": NaN}}}', "not a message"),
         ('{"id": 1, "method": "measures", "params": {"document": ' + "[" * 9000 + "]" * 9000 + "}}", ""),
         ('{"id": 1, "method": "measures", "params": {"document": ' + '{"a":' * 9000 + "1" + "}" * 9000 + "}}", ""),
         ('{"id": "one", "method": "catalog"}', "id"),

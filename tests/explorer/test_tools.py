@@ -6,7 +6,7 @@ from importlib.util import find_spec
 
 import pytest
 
-from tests.explorer.conftest import BROWSERS
+from tests.explorer.conftest import find_browser
 
 
 @pytest.mark.skipif("CI" not in os.environ, reason="elsewhere a missing tool skips the tests that need it")
@@ -15,5 +15,8 @@ def test_nothing_that_the_page_is_tested_with_is_missing():
     packages = [
         name for name in ("starlette", "uvicorn", "websockets", "anywidget", "playwright") if not find_spec(name)
     ]
-    browser = any(shutil.which(name) for name in BROWSERS)
-    assert (programs, packages, browser) == ([], [], True)
+    assert (programs, packages) == ([], [])
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as play:
+        assert find_browser(play.chromium)

@@ -37,7 +37,7 @@ def moved(name):
 def test_rivals(name, fx, fy, one_moment, other_moment, mass):
     """Equilibrium of every link and virtual work give one effort of the drive."""
     motion, one, other = moved(name)
-    loads = Loads({"K": (fx, fy)}, {one: one_moment, other: other_moment}, {"K": mass})
+    loads = Loads({"K": (fx, fy)}, {one: one_moment, other: other_moment}, masses={"K": mass})
     held = statics(motion, loads)
     scale = (abs(fx) + abs(fy) + 10 * mass) * motion.linkage.size + abs(one_moment) + abs(other_moment)
     assert not held.singular.any()
@@ -204,7 +204,7 @@ def test_wrong_loads(loads, message):
 def test_wrong_questions():
     motion = move(FourBar(25, 70, 40, 70).linkage(), [0.1, 0.2])
     held = statics(motion, Loads(moments={"rocker": 1}))
-    with pytest.raises(LinkageError, match="is no joint of 'crank'"):
+    with pytest.raises(LinkageError, match="is not a joint of 'crank'"):
         held.force("R(frame-rocker)", "crank")
     with pytest.raises(LinkageError, match="is not one of the joints"):
         held.force("R(frame-rokker)")

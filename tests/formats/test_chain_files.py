@@ -194,5 +194,5 @@ def test_damaged_texts_are_a_chain_or_one_sentence(form, damages):
 def test_more_joints_than_a_chain_has_are_refused(name, text, tmp_path):
     path = tmp_path / name
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(GrueblerError, match=r"joints is more than 50,000"):
+    with pytest.raises(GrueblerError, match=r"at most 50,000 joints"):
         files.read(path)

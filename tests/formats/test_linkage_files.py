@@ -198,7 +198,7 @@ piston = { "R(rod-piston)" = [0, 0], "P(frame-piston)" = [0, 0, 0] }
 MISTAKES = [
     ('unit = "mm"', 'unti = "mm"', "unknown key 'unti'; did you mean 'unit'?"),
     ('unit = "mm"', "", "unit"),
-    ('unit = "mm"', "unit = 3", "unit: expected str, got int"),
+    ('unit = "mm"', "unit = 3", "unit: expected str, but found int"),
     ('unit = "mm"', 'unit = " "', "unit: expected the name of a unit"),
     ("R(crank-rod) ", "Q(crank-rod) ", "joints: unknown joint symbol 'Q'"),
     ('frame = "frame"\n', 'frame = "fram"\n', "frame: the chain has no link 'fram'"),
@@ -259,7 +259,7 @@ BAD_DOORS = [
     ({"four_bar": {"a": math.nan, "b": 70, "c": 40, "d": 70}}, "four_bar: a must be a finite number"),
     ({"four_bar": {"a": 1, "b": 70, "c": 40}}, "four_bar: the key 'd' is missing"),
     ({"four_bar": {"a": 1, "b": 2, "c": 2, "d": 2, "branch": 2}}, "four_bar.branch: expected 1 or -1, but found 2"),
-    ({"slider_crank": {"a": "2", "b": 3}}, "slider_crank.a: expected float, got str"),
+    ({"slider_crank": {"a": "2", "b": 3}}, "slider_crank.a: expected float, but found str"),
     ({"slider_crank": {"a": 10**400, "b": 3}}, "slider_crank.a: number out of range"),
     ({"four_bar": 3}, "four_bar: expected object"),
     ({}, "expected one of elements, places, four_bar, slider_crank, inverted_slider_crank, but found none"),
@@ -332,7 +332,7 @@ def test_what_is_no_file(tmp_path):
         ('unit = "mm"\nfour_baar = {}', "unknown key 'four_baar'; did you mean", "unbekannter Schlüssel 'four_baar'"),
         (
             "unit = 3\nfour_bar = {a=1, b=1, c=1, d=1}",
-            "unit: expected str, got int",
+            "unit: expected str, but found int",
             "unit: erwartet wird str, nicht int",
         ),
         ('unit = "mm"\nfour_bar = {a=1, b=1, c=1}', "the key 'd' is missing", "der Schlüssel 'd' fehlt"),

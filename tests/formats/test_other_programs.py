@@ -385,7 +385,7 @@ HOSTILE = {
         ("M[] x", "expected the end"),
     ],
     "a.pmks": [
-        ("https://app.pmksplus.com/?", "checking character"),
+        ("https://app.pmksplus.com/?", "check character"),
         (
             "2v.Ay,1E8.5,0.1011.6A,A,0,VG,0.0B,B,Fe,VG,0.5C,C,oa,0,0..YRAB,AB,Fe,Fe,7q,VG,c5cae9,A,B,,...N_3*000000",
             "digest",
@@ -408,7 +408,7 @@ HOSTILE = {
         ('{"B": [], "p": [[0, 0]]}', "rows of 0 and 1"),
         ('{"B": [[2]], "p": [[0, 0]]}', "rows of 0 and 1"),
         ('{"B": [[1]], "p": [[0, 0]], "S": [[0, 7, 0, 0]]}', "is not there"),
-        ('{"B": [[1]], "p": [["a", 0]]}', "no mechanism of MotionGen"),
+        ('{"B": [[1]], "p": [["a", 0]]}', "not a mechanism of MotionGen"),
         ('{"solutions": []}', "at least one"),
         ('{"joints": [{"type": "Crank"}]}', "expected a name"),
         ('{"joints": [{"type": "Revolute", "name": "a", "joint0": {"ref": "a"}}]}', "is missing"),

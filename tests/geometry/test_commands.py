@@ -130,7 +130,7 @@ def test_wrong_lengths(lengths, message):
     [
         (LENKER, "1", ["--cognates"], "there is no point '1'"),
         (LENKER, "crank:1,2", ["--cognates"], "expected a point of the coupler"),
-        ("inverted-slider-crank:30,50", "90,0", ["--cognates"], "not of its inversion"),
+        ("inverted-slider-crank:30,50", "90,0", ["--cognates"], "not for its inversion"),
         (LENKER, K, ["--straight"], "give one of --ratio Q"),
         (LENKER, K, ["--straight", "--band", "0.1", "--direction", "3"], "does not go with --band"),
         (LENKER, K, ["--cognates", "--branch", "++"], "--branch: expected + or -"),

@@ -143,7 +143,7 @@ def test_wrong_calls():
         poles(moving).of("cupler", "frame")
     with pytest.raises(LinkageError, match="no link 'cupler'"):
         poles(moving, ["cupler"])
-    with pytest.raises(LinkageError, match="no links were named"):
+    with pytest.raises(LinkageError, match="none was named"):
         poles(moving, [])
     with pytest.raises(LinkageError, match="against itself"):
         centrodes(moving, "crank", "crank")

@@ -77,7 +77,7 @@ def test_geneva_drives(slots, pins, internal):
     pins = 1 if internal else pins
     motion = move(geneva(slots, pins, internal), from_degrees(-500, 900, 1.7), speed=1, order=3)
     assert motion.complete
-    drive = Geneva(slots, internal, pins)
+    drive = Geneva(slots, internal=internal, pins=pins)
     wanted = drive.move(motion.drives[:, 0])
     local = np.mod(motion.drives[:, 0] + pi / pins, 2 * pi / pins) - pi / pins
     smooth = np.abs(np.abs(local) - drive.engaged) > 1e-9  # the acceleration jumps at entry and exit
@@ -235,7 +235,7 @@ def test_dwells_are_seen_through_linkages():
 def test_dwells_of_geneva_drives(slots, pins, internal):
     """The wheel rests while no pin is in a slot; begins of dwells are no dead centres."""
     found, centres, rests = turning_point(geneva(slots, pins, internal))
-    drive = Geneva(slots, internal, pins)
+    drive = Geneva(slots, internal=internal, pins=pins)
     assert centres == []
     assert len(rests) == slots
     assert found.dwell_share == pytest.approx(drive.dwell_fraction)

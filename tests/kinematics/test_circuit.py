@@ -312,7 +312,7 @@ def test_roots_and_touches():
     assert top <= 25
     touches = made.roots(lambda poses, order: poses.point("R(crank-coupler)", order)[:, 1] - 25 * (order == 0))
     assert np.cos(made.at(touches).angle("crank")) == pytest.approx([0], abs=1e-6)
-    with pytest.raises(LinkageError, match="finite places"):
+    with pytest.raises(LinkageError, match="finite positions"):
         made.at(float("nan"))
 
 

@@ -357,7 +357,7 @@ def test_unknown_names_are_answered_with_the_nearest():
         motion.point("L")
     with pytest.raises(LinkageError, match="solved up to order 1"):
         motion.point("K", 2)
-    with pytest.raises(LinkageError, match="no sliding joint"):
+    with pytest.raises(LinkageError, match="not a sliding joint"):
         motion.displacement("R(frame-crank)")
 
 

@@ -81,7 +81,7 @@ def test_roles_of_the_seeds_machines():
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("R(0-1) R(1-2) R(2-0); drive=R(0-5)", "not one of the joints; they are R(0-1)"),
+        ("R(0-1) R(1-2) R(2-0); drive=R(0-5)", "not one of the joints (did you mean 'R(0-1)'?); they are R(0-1)"),
         ("R(0-1-2) R(1-3) R(3-0); drive=R(0-1-2)", "say which two"),
         ("R(0-1-2) R(1-3) R(3-0); drive=R(0-1-2):0-3", "between two of its links"),
         ("G(0-1) R(1-2) R(2-0); drive=G(0-1)", "say which is driven: G(0-1):Rz"),

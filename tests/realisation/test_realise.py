@@ -188,9 +188,9 @@ def test_the_range_is_that_of_the_measures(text):
     assert found.span[:2] == span[:2]
     (low, high), *_ = found.ranges
     assert span.low <= low < high <= span.high
-    assert f"moves from {span.low:.7g} to {span.high:.7g} mm. Well conditioned" in found.message()
+    assert f"moves from {span.low:.7g} to {span.high:.7g} mm. It is well conditioned" in found.message()
     ends = [number(end, "de", ".7g") for end in (span.low, span.high)]
-    assert f"von {ends[0]} bis {ends[1]} mm. Mit guter Kondition" in found.message("de")
+    assert f"von {ends[0]} bis {ends[1]} mm. Gut konditioniert" in found.message("de")
 
 
 def test_processes_realise_the_same():

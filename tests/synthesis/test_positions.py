@@ -204,10 +204,47 @@ def test_burmesters_curves_pass_through_the_dyads_of_five_positions(seed):
     assert np.median(wrong) < 1e-9
     for dyad in guiding_dyads(PositionTask(rows)):
         if max(abs(dyad.moving), abs(dyad.fixed)) < 20:
-            assert abs(curves.nearest(dyad.moving).moving - dyad.moving) < 0.05 * (1 + abs(dyad.moving))
+            assert abs(curves.nearest(dyad.moving).moving - dyad.moving) < 1e-6 * (1 + abs(dyad.moving))
+            assert abs(curves.nearest(dyad.fixed, fixed=True).fixed - dyad.fixed) < 1e-6 * (1 + abs(dyad.fixed))
     assert len(curves.sliding) == 2
     for dyad in curves.sliding:
         assert misfit(given_, dyad.moved(1 / size, -origin / size)) < 1e-8 * (1 + abs(dyad.moving) / size)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(0, 10**6), st.floats(0, 1), st.floats(0, 1))
+def test_any_pair_of_burmesters_curves_can_be_picked(seed, one, two):
+    """By its places along the curve, and then by its pivots: the same exact dyads."""
+    rng = np.random.default_rng(seed)
+    rows = [tuple(r) for r in np.column_stack([rng.uniform(-2, 2, (4, 2)), rng.uniform(-2, 2, 4)])]
+    curves = burmester_curves(PositionTask(rows))
+    picked = guiding_dyads(PositionTask(rows, curve_parameters=[one, two]))
+    given_, origin, size = Displacements.of(curves.task.origins, curves.task.turns)
+    spans = curves.parameters()
+    assert (spans[0][0], spans[-1][-1]) == (0, pytest.approx(1))
+    for at, dyad in zip((one, two), picked, strict=True):
+        unit = dyad.moved(1 / size, -origin / size)
+        reach = 1 + abs(unit.moving) + abs(unit.fixed)
+        assert misfit(given_, unit) < 1e-9 * reach
+        piece = next(k for k, span in enumerate(spans) if at <= span[-1] + 1e-12)
+        near = np.abs(curves.pieces[piece].moving - dyad.moving).min()
+        assert near < 0.1 * size * (1 + abs(unit.moving)) ** 2
+        if reach < 30:
+            chosen = [(dyad.moving.real, dyad.moving.imag)], [(dyad.fixed.real, dyad.fixed.imag)]
+            again = guiding_dyads(PositionTask(rows, moving_pivots=chosen[0], fixed_pivots=chosen[1]))
+            assert abs(again[0].moving - dyad.moving) < 1e-7 * size * reach
+            assert abs(again[1].fixed - dyad.fixed) < 1e-7 * size * reach
+
+
+def test_a_place_beside_the_curve_takes_the_nearest_point_of_it():
+    rows = [(0, 0, 0), (2.1, 0.9, 0.35), (3.2, 1.0, 0.8), (4.0, 0.2, 1.5)]
+    curves = burmester_curves(PositionTask(rows), points=4000)
+    for place in (1 + 1j, -2j, 3 - 1j):
+        for fixed in (False, True):
+            nearest = curves.nearest(place, fixed=fixed)
+            all_ = np.concatenate([piece[fixed] for piece in curves.pieces])
+            own = nearest.fixed if fixed else nearest.moving
+            assert abs(own - place) == pytest.approx(np.abs(all_ - place).min(), abs=1e-4)
 
 
 def test_chosen_pivots_of_three_positions():

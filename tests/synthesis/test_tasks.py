@@ -20,6 +20,7 @@ from gruebler.synthesis import (
     write_task,
 )
 
+FIVE = [(k, k * k, 0.3 * k) for k in range(5)]
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 angles = st.floats(-math.pi, math.pi)
 swings = st.floats(0.1, 2)
@@ -34,7 +35,10 @@ def tasks(draw):
     turned = draw(st.lists(angles, min_size=count, max_size=count))
     points = list(zip(xs, ys, strict=True))
     if kind == 0:
-        return PositionTask([(x, y, a) for (x, y), a in zip(points, turned, strict=True)])
+        picks = {"moving_pivots": points[:1], "fixed_pivots": points[:2]} if count < 5 and draw(st.booleans()) else {}
+        places = draw(st.lists(st.floats(0, 1), max_size=3)) if picks and count == 4 else []
+        rows = [(x, y, a) for (x, y), a in zip(points, turned, strict=True)]
+        return PositionTask(rows, **picks, curve_parameters=places)
     if kind == 1:
         return PathTask(points, angles=tuple(a if k % 2 else None for k, a in enumerate(turned)))
     if kind == 2:
@@ -51,13 +55,29 @@ def tasks(draw):
 @given(tasks(), st.sampled_from(["toml", "json", "csv"]))
 def test_files_give_the_task_back(tmp_path_factory, task, form):
     path = tmp_path_factory.mktemp("task") / f"task.{form}"
-    if form == "csv" and getattr(task, "law", None) is not None:
-        with pytest.raises(SynthesisError, match="a CSV file has no columns for function"):
+    more = {"function"} & task_to_json(task).keys() | {"moving_pivots", "curve_parameters"} & task_to_json(task).keys()
+    if form == "csv" and more:
+        with pytest.raises(SynthesisError, match=f"a CSV file has no columns for .*{more.pop()}"):
             write_task(path, task)
         return
     write_task(path, task)
     assert read_task(path) == task
     assert task_from_json(task_to_json(task)) == task
+
+
+def test_a_csv_file_without_a_header_is_points_or_positions(tmp_path):
+    """Two columns are points, three positions; an empty angle is free."""
+    for text, header in (
+        ("0,1\n2,3\n5,4\n", "x,y"),
+        ("0,1,0\n2,3,20\n", "x,y,angle"),
+        ("0,1,0\n2,3,\n4,4,9\n", "x,y,angle"),
+    ):
+        bare, named = tmp_path / "bare.csv", tmp_path / "named.csv"
+        bare.write_text(text, encoding="utf-8")
+        named.write_text(f"{header}\n{text}", encoding="utf-8")
+        assert read_task(bare) == read_task(named)
+    assert isinstance(read_task(bare), PathTask)
+    assert read_task(bare).angles[1] is None
 
 
 @pytest.mark.parametrize(
@@ -66,6 +86,9 @@ def test_files_give_the_task_back(tmp_path_factory, task, form):
         (lambda: PositionTask([(0, 0, 0), (1, 1, 1), (0, 0, 2 * math.pi)]), "positions 1 and 3 are equal"),
         (lambda: PositionTask([(0, 0, 0)]), "at least two"),
         (lambda: PathTask([(0, 0), (1, 1), (0, 1e-12)]), "points 1 and 3 are equal"),
+        (lambda: PositionTask(FIVE, moving_pivots=[(0, 0)]), "two to four positions, not for 5"),
+        (lambda: PositionTask(FIVE[:3], curve_parameters=[0.5]), "belong to four positions, not to 3"),
+        (lambda: PositionTask(FIVE[:4], curve_parameters=[0.5, 1.5]), "curve_parameters 2: expected 0 to 1"),
         (lambda: PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 0.5, 0.4)), "contradictory"),
         (lambda: PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 4, 7)), "within one turn"),
         (lambda: PathTask([(0, 0), (1, 1)], fixed_pivots=[(1, 1), (1, 1)]), "coincide"),
@@ -91,6 +114,10 @@ def test_bad_tasks_are_refused_in_one_sentence(make, sentence):
         ("a.csv", "x,y,angle\n0,0,0\n1,two,3\n", "line 3, y: expected a number, but found 'two'"),
         ("a.csv", "x,y,angle\n0,0\n", "line 2: expected 3 columns, but found 2"),
         ("a.csv", "p,q\n1,2\n", "line 1: expected the columns"),
+        ("a.csv", "0,0,0,0\n1,2,3,4\n", "line 1: expected the names of the columns"),
+        ("a.csv", "7\n8\n", "(positions) without them, but found 1 numbers"),
+        ("a.csv", "0,0,0\n1,2\n", "line 2: expected 3 columns, but found 2"),
+        ("a.csv", "0,0\n1,2\n2,x\n", "line 3, y: expected a number, but found 'x'"),
         ("a.toml", "position = [[0,0,0]]", "a task has positions, points"),
         ("a.toml", "positions = [[0,0,0],[1,1]]", "positions 2"),
         ("a.json", '{"points": [[0, 0], [1, 1]], "closd": true}', "did you mean 'closed'"),

@@ -17,6 +17,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache, wraps
+from pathlib import Path
 from threading import RLock
 from types import FunctionType
 from typing import Any, NamedTuple, TypeVar
@@ -212,20 +213,48 @@ def _dispatcher(kernel: Callable[..., Any]) -> Any:
 def _jitted(function: Callable[..., Any], recipe: _Recipe) -> Any:
     """The dispatcher of numba, with its cache in the folder of `kernel_cache`."""
     import numba
+    from numba.core import caching
 
     options = dict(recipe.options)
-    config: Any = numba.config  # its attributes are made at run time
     signature = [make() for make in recipe.signature]
-    before: str = config.CACHE_DIR
     folder = prepared_folder()
     if folder is None:
         options.pop("cache", None)
-    else:
-        config.CACHE_DIR = str(folder)
+    asked: Any = caching.CacheImpl  # it asks a list of classes where a function is kept
+    before = asked._locator_classes
+    asked._locator_classes = [_Place, *before]
     try:
         return numba.njit(*signature, **options)(function)
     finally:
-        config.CACHE_DIR = before
+        asked._locator_classes = before
+
+
+class _Place:
+    """Where numba keeps a kernel: in the folder of `kernel_cache`, by names that are the same in every installation.
+
+    The folder is named after the sources, so that nothing else has to say whether what lies there is fresh.
+    """
+
+    def __init__(self, folder: Path, line: int) -> None:
+        self.folder = folder
+        self.line = line
+
+    @classmethod
+    def from_function(cls, function: Callable[..., Any], file: str) -> _Place | None:
+        folder = prepared_folder()
+        return None if folder is None else cls(folder / Path(file).parent.name, function.__code__.co_firstlineno)
+
+    def ensure_cache_path(self) -> None:
+        self.folder.mkdir(mode=0o700, exist_ok=True)
+
+    def get_cache_path(self) -> str:
+        return str(self.folder)
+
+    def get_source_stamp(self) -> str:
+        return self.folder.parent.name
+
+    def get_disambiguator(self) -> str:
+        return str(self.line)
 
 
 class _Listener:

@@ -261,7 +261,7 @@ def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> 
     plan = cached_plan(linkage)
     count = len(plan.linkage.mechanism.drives)
     if count != 1:
-        raise LinkageError("measures are those of linkages with one drive; this one has {count}", count=count)
+        raise LinkageError("measures need a linkage with one drive; this one has {count}", count=count)
     start = _begun(plan, branch)
     span = _span(plan, start)
     for stop in span.stops:
@@ -272,7 +272,9 @@ def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> 
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
         at = f"{round(degrees(middle), 4) + 0:g}°" if _turns(plan) else f"{middle:.9g} {linkage.unit}"
-        raise LinkageError("the drive cannot move: all that can be assembled is one position, drive = {at}", at=at)
+        raise LinkageError(
+            "the drive cannot move: the linkage can be assembled in one position only, drive = {at}", at=at
+        )
     cycle = DriveCycle(plan, start, span, np.array([span.low, span.high]))
     return replace(cycle, grid=_grid(cycle))
 
@@ -372,7 +374,7 @@ def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
     assert best is not None
     if not len(best):
         raise LinkageError(
-            "there is no position of the drive in which it can be assembled so. {reason}", reason=best.reason
+            "the linkage cannot be assembled in this way at any drive value. {reason}", reason=best.reason
         )
     return best
 

@@ -353,6 +353,7 @@ class Measures(Brief):
 def measures(
     linkage: LinkageLike,
     speed_rpm: float | None = None,
+    *,
     branch: str | Iterable[str] | None = None,
     output: str | None = None,
 ) -> Measures:
@@ -379,7 +380,7 @@ def measures(
     speed = _speed(speed_rpm)
     cycle = drive_cycle(linkage, branch)
     if speed is not None and not cycle.turning_drive:
-        raise LinkageError("a speed in turns a minute is that of a turning drive; this linkage has a sliding one")
+        raise LinkageError("a speed in revolutions per minute needs a turning drive; this linkage has a sliding one")
     span = cycle.span
     ends = None
     if not span.full:
@@ -425,7 +426,7 @@ def _speed(rpm: float | None) -> float | None:
     if rpm is None:
         return None
     if isinstance(rpm, bool) or not isinstance(rpm, (int, float, np.number)) or not isfinite(rpm) or rpm == 0:
-        raise LinkageError("the speed is a number of turns a minute other than 0, not {rpm!r}", rpm=rpm)
+        raise LinkageError("the speed is a number of revolutions per minute other than 0, not {rpm!r}", rpm=rpm)
     return float(rpm)
 
 

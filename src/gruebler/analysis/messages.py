@@ -144,7 +144,7 @@ def time_lines(rpm: float | None, times: StrokeTimes | None, at_rest: float | No
     """How long strokes and dwells take at a speed."""
     if times is not None:
         yield message(
-            "At {rpm:g} turns a minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
+            "At {rpm:g} revolutions per minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
             rpm=rpm,
             forward=times.forward,
             back=times.back,

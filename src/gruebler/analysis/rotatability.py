@@ -83,7 +83,7 @@ def _circuit(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None)
     if not isinstance(linkage, Circuit):
         return circuit(linkage, branch=branch)
     if branch is not None:
-        raise LinkageError("a circuit has its branch already")
+        raise LinkageError("a circuit already has a branch")
     return linkage
 
 

@@ -82,7 +82,7 @@ def motion_table(
     orders = range(1, motion.order + 1) if motion.order >= 2 else ()
     solved = _drive_rates(motion) if orders and len(mechanism.drives) == 1 else None
     if rates is not None and solved is not None:
-        raise LinkageError("rates of the drive go with a motion that was solved for speed 1")
+        raise LinkageError("rates of the drive need a motion that was solved for speed 1")
     timed = len(mechanism.drives) > 1 or rates is not None or solved is not None
     v, a, j = (1.0, 0.0, 0.0) if rates is None else rates
 

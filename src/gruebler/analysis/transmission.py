@@ -71,7 +71,7 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
     if plan.released:
         raise NoTransmissionAngleError(
             "there is no transmission angle: the linkage is overconstrained, and how its joints share the force "
-            "depends on how they yield"
+            "depends on their stiffness"
         )
     group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
     if group is None:

@@ -264,8 +264,8 @@ def _open_groups_message(decomposition: Decomposition) -> list[Message]:
         return []
     lines = [message("Not determined: {links}.", links=_names(decomposition.rest))]
     if decomposition.overconstrained:
-        lines = [message("Constraints or drives work against one another: there are no Assur groups.")]
-        text = message("Overconstrained: {links} (constraints too many: {count}).")
+        lines = [message("Constraints or drives conflict: there are no Assur groups.")]
+        text = message("Overconstrained: {links} (redundant constraints: {count}).")
         lines += [
             text.filled(links=_names(part.links), count=part.redundancy)
             for part in overconstrained(generic(decomposition.mechanism.chain))

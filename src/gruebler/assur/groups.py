@@ -150,8 +150,8 @@ def _check(group: AssurGroup) -> None:
         raise AssurError("Assur groups are planar; this chain is {space}", space=chain.space)
     if not group.links or not group.places:
         raise AssurError(
-            "{chain} shows no places outside: a group is written with one link of a single joint for each, "
-            "as in R(a-1) R(1-2) R(2-b)",
+            "{chain} has no outer joints: a group is written with a link of a single joint at each of them, as in "
+            "R(a-1) R(1-2) R(2-b)",
             chain=chain,
         )
     shared = next((j for j in chain.joints if sum(link in group.places for link in j.links) > 1), None)
@@ -161,18 +161,21 @@ def _check(group: AssurGroup) -> None:
     constraints = sum(j.pair.u(Space.PLANAR) * (len(j.links) - 1 + j.outer) for j in group.joints)
     if freedoms != constraints:
         raise AssurError(
-            "{chain} is no Assur group: {count} links have {freedoms} freedoms, but the joints take {constraints}",
+            "{chain} is not an Assur group: {count} links have {freedoms} freedoms, but the joints remove "
+            "{constraints}",
             chain=chain,
             count=len(group.links),
             freedoms=freedoms,
             constraints=constraints,
         )
     if not _rigid(group):
-        raise AssurError("{chain} is no Assur group: with its places fixed it is not rigid", chain=chain)
+        raise AssurError(
+            "{chain} is not an Assur group: with its outer joints on fixed links it is not rigid", chain=chain
+        )
     part = _first_part(group)
     if len(part) < len(group.links):
         raise AssurError(
-            "{chain} is no Assur group: the links {part} can be solved without the others",
+            "{chain} is not an Assur group: the links {part} can be solved without the others",
             chain=chain,
             part=", ".join(part),
         )

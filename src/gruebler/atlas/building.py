@@ -149,7 +149,7 @@ def manifest_of(directory: Path) -> dict[str, Any]:
     try:
         manifest = json.loads(path.read_bytes())
     except FileNotFoundError:
-        raise RunError("{directory} is no atlas: it has no {name}", directory=directory, name=MANIFEST) from None
+        raise RunError("{directory} is not an atlas: it has no {name}", directory=directory, name=MANIFEST) from None
     except OSError as error:
         raise RunError("{path} cannot be read: {reason}", path=path, reason=reason_of(error)) from None
     except (ValueError, RecursionError):

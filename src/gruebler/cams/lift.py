@@ -106,7 +106,7 @@ class Lift:
             raise CamError("the parts of a lift fill 360 degrees, not {turn:.6g}", turn=math.degrees(turn))
         remainder = sum(segment.change for segment in self.segments)
         if abs(remainder) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
-            raise CamError("the lift ends where it began; {left:+.6g} is left over", left=remainder)
+            raise CamError("the lift must end where it began; {left:+.6g} is left over", left=remainder)
 
     def scaled(self, factor: float) -> Lift:
         """Every lift times a factor, as from degrees to radians."""
@@ -189,7 +189,9 @@ def read_lift(text: str) -> Lift:
         if statement:
             parts.append(_read_part(statement))
     if not parts:
-        raise CamError("expected a lift such as 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell', got nothing")
+        raise CamError(
+            "expected a lift such as 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell', but found nothing"
+        )
     if parts.count(None) > 1:
         raise CamError("only one dwell may leave out its angle")
     remaining = math.tau - sum(part.angle for part in parts if part)
@@ -222,7 +224,9 @@ def _read_part(statement: str) -> LiftSegment | None:
         return LiftSegment(_angle(angle), 1.0, _bounded(change, angle, arguments[2:], statement))
     if len(arguments) > 3:
         raise CamError(
-            "'{statement}': one law is enough, not {rest!r}", statement=statement, rest=" ".join(arguments[2:])
+            "'{statement}': expected nothing after the law, but found {rest!r}",
+            statement=statement,
+            rest=" ".join(arguments[2:]),
         )
     return motion(change, angle, arguments[2] if len(arguments) > 2 else "3-4-5")
 

@@ -268,13 +268,13 @@ def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[Dr
 def _check_roles(query: FeatureQuery, mobility: int) -> None:
     if query.drive_joints not in (None, 0, mobility):
         raise GrueblerError(
-            "mobility {mobility} takes as many drives, which {drive_joints} drive joints are not",
+            "mobility {mobility} needs as many drives, not {drive_joints} drive joints",
             mobility=mobility,
             drive_joints=query.drive_joints,
         )
     if (query.drive_joints_at_frame or 0) > mobility:
         raise GrueblerError(
-            "mobility {mobility} takes as many drives; {drive_joints} are too many",
+            "mobility {mobility} needs as many drives; {drive_joints} are too many",
             mobility=mobility,
             drive_joints=query.drive_joints_at_frame,
         )

@@ -241,7 +241,7 @@ _TEXTS = {
     "unit": message("Unit of length: {unit}."),
     "range": message("Shown between {low:g}{unit} and {high:g}{unit}."),
     "shown": message("In the range shown the transmission angle is {small:.4g}° to {large:.4g}°."),
-    "partial": message("As drawn, {output} goes by {ratio:.6g} for each unit of {drive} (angles in radians)."),
+    "partial": message("As drawn, {output} moves by {ratio:.6g} for each unit of {drive} (angles in radians)."),
     "guides": message("Guide mechanism. Guided link: {guided}; guiding links: {guides}."),
     "rest": message("As drawn, {output} rests while {drive} moves."),
     "closed": message("{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high."),

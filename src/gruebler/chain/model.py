@@ -19,7 +19,7 @@ from gruebler.chain.documents import read_document, read_graph6
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Alphabet, Pair, Space
 from gruebler.chain.soundness import check_connected, checked_joint, checked_links
-from gruebler.errors import ChainError, expect, nearest
+from gruebler.errors import ChainError, GrueblerError, expect, nearest
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -284,6 +284,31 @@ class Chain:
         place = int(again or 1) - 1
         return numbers[place] if 0 <= place < len(numbers) else None
 
+    def joint_number(self, joint: int | str, error: type[GrueblerError] = ChainError) -> int:
+        """The number of the joint that a number or a text names; an error of this kind if the chain has none.
+
+        >>> Chain.parse("R(0-1) R(1-2) P(2-0)").joint_number("R(0-2)")
+        Traceback (most recent call last):
+            ...
+        gruebler.errors.ChainError: 'R(0-2)' is not one of the joints (did you mean 'R(1-2)'?); they are R(0-1),
+        R(1-2), P(2-0)
+        """
+        if isinstance(joint, int):
+            if 0 <= joint < len(self.joints):
+                return joint
+            count = len(self.joints) - 1
+            raise error("there is no joint number {joint}; the chain has joints 0 to {count}", joint=joint, count=count)
+        number = self.find_joint(joint)
+        if number is None:
+            names = self.joint_names()
+            raise error(
+                "{joint!r} is not one of the joints{suggestion}; they are {joints}",
+                joint=joint,
+                suggestion=nearest(joint, names),
+                joints=", ".join(names),
+            )
+        return number
+
     # --- other chains ------------------------------------------------------------------------------
 
     def renamed(self, names: Mapping[str, str | int]) -> Chain:
@@ -308,10 +333,7 @@ class Chain:
 
     def without_joint(self, number: int) -> Chain:
         """The chain without its joint of this number; `ChainError` if the remainder is not a chain."""
-        if not 0 <= number < len(self.joints):
-            raise ChainError(
-                "the chain has joints 0 to {count}, not {number}", count=len(self.joints) - 1, number=number
-            )
+        number = self.joint_number(number)
         remaining = self.joints[:number] + self.joints[number + 1 :]
         return Chain(remaining, links=self.links, space=self.space)
 

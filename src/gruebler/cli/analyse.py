@@ -227,7 +227,7 @@ def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argpar
     from gruebler.analysis.measures import measures
 
     rpm = (arguments.speed[0] or None) if turning and arguments.speed else None
-    return measures(linkage, rpm, arguments.branch, output.name)
+    return measures(linkage, rpm, branch=arguments.branch, output=output.name)
 
 
 def _moved(linkage: Linkage, measures: Measures, rows: Reals, branch: str | None, order: int) -> tuple[Motion, int]:

@@ -97,7 +97,7 @@ def run(arguments: argparse.Namespace) -> int:
         example = "'rise 20 60; dwell 30; fall 20 90; dwell'"
         raise GrueblerError("expected one of: a lift such as {example}, --laws, --contour FILE", example=example)
     if arguments.lift is None:
-        refuse_picture(arguments, message("a picture is drawn of a cam for a lift"))
+        refuse_picture(arguments, message("a picture needs a cam given by its lift"))
     if arguments.laws:
         return _laws(arguments.json, arguments.lang)
     follower = _follower(arguments)
@@ -147,7 +147,7 @@ def _follower(arguments: argparse.Namespace) -> Follower:
     arm, distance = arguments.swing or (0.0, 0.0)
     if arguments.flat is not None:
         if arguments.offset:
-            raise GrueblerError("--offset changes nothing for a flat follower and is not taken")
+            raise GrueblerError("--offset has no effect on a flat follower; leave it out")
         if arm:
             raise GrueblerError("a swinging flat face has no arm: give --swing 0 DISTANCE, and --flat FACE")
         return Flat(distance, arguments.flat)

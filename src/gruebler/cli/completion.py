@@ -18,7 +18,7 @@ def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="Print a script that completes commands, options, their values and catalog entries in a shell. "
-        "Write it to a file that the shell reads at its start.",
+        "Write it to a file that the shell reads at startup.",
         epilog="Examples: gruebler completion bash > ~/.local/share/bash-completion/completions/gruebler; "
         "gruebler completion zsh > ~/.zfunc/_gruebler; "
         "gruebler completion fish > ~/.config/fish/completions/gruebler.fish",

@@ -13,14 +13,14 @@ from gruebler.text import message
 
 __all__ = ["add", "run"]
 
-_HEADERS = (message("format"), message("endings"), message("program"), message("what it carries"))
+_HEADERS = (message("format"), message("endings"), message("program"), message("what it holds"))
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="Read a file in one format and write it in another: linkages of other programs, chains as graphs. "
-        "What a format cannot carry is said on standard error.",
+        "What a format cannot hold is listed on standard error.",
         epilog="Example: gruebler convert leg.linkage2 leg.toml; gruebler convert chains.g6.gz chains.txt; "
         "gruebler convert --formats. Exit status: 0, 2 wrong usage or a file that cannot be read.",
     )
@@ -28,7 +28,7 @@ def add(parser: Parser) -> None:
     parser.add_argument("target", nargs="?", metavar="OUT", help="the file to write")
     parser.add_argument("--from", dest="source_format", metavar="FORMAT", help="the format of IN (default: its ending)")
     parser.add_argument("--to", dest="target_format", metavar="FORMAT", help="the format of OUT (default: its ending)")
-    parser.add_argument("--formats", action="store_true", help="list the formats, their endings and what they carry")
+    parser.add_argument("--formats", action="store_true", help="list the formats, their endings and what they hold")
 
 
 def run(arguments: argparse.Namespace) -> int:

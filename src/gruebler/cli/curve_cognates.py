@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     elif isinstance(size, SliderCrank):
         found = slider_cognates(size, u, v, branch=branch, phi=phi)
     else:
-        raise GrueblerError("cognates are known of the four-bar and the slider-crank, not of its inversion")
+        raise GrueblerError("cognates are known for the four-bar and the slider-crank, not for its inversion")
     if arguments.json:
         print_json({"cognates": [_item(cognate) for cognate in found]})
     else:

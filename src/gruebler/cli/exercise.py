@@ -13,7 +13,6 @@ from gruebler.exercises import (
     Grade,
     Mark,
     all_exercises,
-    ascii_key,
     exercise,
     generate,
     grade,
@@ -204,7 +203,7 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
 
 def _print_marks(task: Exercise, marks: list[Grade], lang: str) -> None:
     for each in marks:
-        line = f"{ascii_key(each.key)} = {each.answer}: {_MARKS[each.mark].in_language(lang)}"
+        line = f"{each.name} = {each.answer}: {_MARKS[each.mark].in_language(lang)}"
         if each.mark is Mark.RIGHT:
             line += f" ({value_text(each.result.value, each.result.unit, lang)})"
         print(line + (f". {each.hint.in_language(lang)}" if each.hint else ""))

@@ -37,8 +37,13 @@ def add(parser: Parser) -> None:
         "copied from the page (default: crankrocker)",
     )
     parser.add_out(help="one file .html instead of a server", endings=("html", "htm"))
-    parser.add_argument("--port", type=int, metavar="N", help="where it listens (default: 8117, or any free one)")
-    parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help="who may reach it (default: 127.0.0.1)")
+    parser.add_argument("--port", type=int, metavar="N", help="the port (default: 8117, or any free one)")
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        metavar="ADDRESS",
+        help="the address that the server listens on (default: 127.0.0.1)",
+    )
     parser.add_argument("--no-browser", action="store_true", help="only print the address")
 
 
@@ -96,7 +101,7 @@ def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
     token = server.kept_token()
     address = f"http://{shown}:{port}/{token}/"
     print(translate("The page is at {address}", arguments.lang, address=address))
-    print(translate("Stop it with Ctrl C.", arguments.lang), flush=True)
+    print(translate("Stop it with Ctrl+C.", arguments.lang), flush=True)
     if not arguments.no_browser and sys.stdout.isatty():
         import webbrowser
 

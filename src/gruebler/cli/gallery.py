@@ -100,7 +100,7 @@ def _poster(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
     from gruebler.worksheets import poster
 
     if arguments.ids:
-        raise GrueblerError("--poster draws no chains, mechanisms or entries given beside it")
+        raise GrueblerError("--poster takes no chains, mechanisms or entries")
     title, sections = poster(arguments.poster, arguments.links, arguments.lang)
     pictures = sum(len(section.items) for section in sections)
     return title, plural("{count} picture.", "{count} pictures.", pictures, arguments.lang), list(sections)
@@ -218,7 +218,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         if arguments.inversions:
             extent = message("{pictures} from {chains} chains", pictures=len(items), chains=len(numbered))
         heading = translate(
-            "Links binary, ternary, ...: {assortment} ({extent})", lang, assortment=assortment, extent=extent
+            "Binary, ternary, ... links: {assortment} ({extent})", lang, assortment=assortment, extent=extent
         )
         if joints:
             heading += "; " + translate("multiple joints: {count}", lang, count=joints)

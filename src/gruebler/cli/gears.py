@@ -58,7 +58,9 @@ def add(parser: Parser) -> None:
         metavar="TRAIN|FILE|search",
         help="a text, a file of statements (.txt) or a table (.toml); search: tooth numbers for --ratio",
     )
-    parser.add_argument("--ratio", metavar="I", help="search: speed of the driving shaft by that of the driven one")
+    parser.add_argument(
+        "--ratio", metavar="I", help="search: speed of the driving shaft divided by that of the driven one"
+    )
     parser.add_argument("--planets", type=int, metavar="N", help="search: number of planets (default: 3)")
     parser.add_argument("--number", type=int, metavar="K", help="search: how many trains are listed (default: 10)")
     parser.add_printed(help="print an object; numbers as exact fractions and decimals", pictures=True)

@@ -77,7 +77,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the figures, and the motion over a turn of the driver if a step is given."""
-    drive = Geneva(arguments.slots, arguments.internal, arguments.pins)
+    drive = Geneva(arguments.slots, internal=arguments.internal, pins=arguments.pins)
     figures = _figures(drive, arguments.distance, arguments.speed)
     table = _table(drive, arguments.step) if arguments.step is not None else None
     _picture(arguments, drive)

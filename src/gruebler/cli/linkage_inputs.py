@@ -140,7 +140,7 @@ def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float
             )
         raise GrueblerError(
             "the catalog entry {word!r} has the screws of its joints in one position, not the dimensions of its "
-            "links: `gruebler check {word} --explain` says how it moves; these have dimensions: {sized}",
+            "links: `gruebler check {word} --explain` shows how it moves; these have dimensions: {sized}",
             word=word,
             sized=sized,
         )

@@ -61,7 +61,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument("--ratio", type=float, metavar="Q", help="ratio: mark the window with this Q_G")
     add_branch(parser)
-    parser.add_argument("--dark", action="store_true", help="dark background for PNG and PDF; SVG follows the reader")
+    parser.add_argument("--dark", action="store_true", help="dark background for PNG and PDF; SVG follows the viewer")
     parser.add_out(help="a file: .svg, .png or .pdf", endings=("svg", "png", "pdf"))
 
 
@@ -107,7 +107,7 @@ def _check(arguments: argparse.Namespace) -> None:
         if isinstance(value, float) and not math.isfinite(value):
             raise GrueblerError("{option}: expected a finite number, but found {value}", option=option, value=value)
     if arguments.kind == "ratio" and len(arguments.point) > 1:
-        raise GrueblerError("--kind ratio is of one point, but found {point}", point=", ".join(arguments.point))
+        raise GrueblerError("--kind ratio shows one point, but found {point}", point=", ".join(arguments.point))
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,7 @@ def add(parser: Parser) -> None:
     listing = parser.add_command("list", help="list all sheets")
     show = parser.add_command("show", help="explain a sheet: features, dimensions, printed and computed values")
     show.add_argument("id", metavar="ID", help="id of a sheet")
-    draw = parser.add_command("draw", help="draw a sheet as a page of A4")
+    draw = parser.add_command("draw", help="draw a sheet as an A4 page")
     draw.add_argument(
         "id",
         metavar="ID|FILE|LENGTHS",

@@ -6,6 +6,7 @@ import argparse
 import math
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from math import degrees, isnan, radians
 from pathlib import Path
 
@@ -25,12 +26,15 @@ from gruebler.synthesis import (
     PositionTask,
     SynthesisResult,
     Task,
+    pareto,
     read_task,
     synthesise_dead_centres,
     synthesise_function,
     synthesise_path,
     synthesise_positions,
+    synthesise_structures,
 )
+from gruebler.synthesis.results import FITTED, in_order_of
 from gruebler.synthesis.structural_error import Minimax
 from gruebler.text import joined, message, number, numbers, plural, translate
 
@@ -38,9 +42,17 @@ __all__ = ["add", "run"]
 
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
 _COLUMNS = (
-    *(message("design"), message("drive"), message("full turn"), message("transmission angle")),
+    *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),
     message("pin distances, link by link"),
     message("error"),
+)
+_ANGLES = message(
+    "µ: the minimum transmission angle on the way through the targets, and over the whole range of the drive as "
+    "`analyse` gives it."
+)
+_PARETO = (
+    *(message("design"), message("error"), message("µ at targets"), message("size"), message("links")),
+    message("structure"),
 )
 _TASKS: dict[str, type[Task]] = {
     "positions": PositionTask,
@@ -65,6 +77,34 @@ def add(parser: Parser) -> None:
         "angle: up to five exactly, more by least squares.",
     )
     positions.add_argument("task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y,angle")
+    positions.add_argument(
+        "--moving-pivot",
+        type=float,
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("X", "Y"),
+        help="choose a pivot on the body in its first position, for two to four positions; with four the nearest "
+        "point of Burmester's curve; repeatable",
+    )
+    positions.add_argument(
+        "--fixed-pivot",
+        type=float,
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("X", "Y"),
+        help="choose a pivot on the frame, likewise; repeatable",
+    )
+    positions.add_argument(
+        "--curve-parameter",
+        type=float,
+        action="append",
+        default=[],
+        metavar="T",
+        help="choose a pivot of four positions by its place along the circle-point curve, 0 to 1 as in the picture; "
+        "repeatable",
+    )
     function = parser.add_command(
         "function",
         help="coordinate input and output",
@@ -96,8 +136,6 @@ def add(parser: Parser) -> None:
         "task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y or x,y,crank or x,y,angle"
     )
     path.add_argument("--closed", action="store_true", help="the points are a closed curve")
-    path.add_argument("--structure", metavar="MECHANISM", help="fit this mechanism: a text or a catalog entry")
-    path.add_argument("--link", default="", metavar="LINK", help="with --structure: the link that carries the point")
     dead = parser.add_command(
         "dead-centres",
         help="crank-rockers and slider-cranks with given dead centres",
@@ -114,17 +152,43 @@ def add(parser: Parser) -> None:
         kind.add_argument(
             "--region", type=float, nargs=4, metavar=("X1", "Y1", "X2", "Y2"), help="region for the fixed pivots"
         )
+        kind.add_argument(
+            "--structure",
+            action="append",
+            default=[],
+            metavar="MECHANISM",
+            help="fit this mechanism instead: a text or a catalog entry; several are compared",
+        )
+        kind.add_argument(
+            "--link", default="", metavar="LINK", help="with --structure: the link that is guided, or the output"
+        )
         kind.add_argument("--crank", action="store_true", help="only designs whose drive turns fully")
-        kind.add_argument("--transmission", type=float, default=0.0, metavar="DEG", help="minimum transmission angle")
+        kind.add_argument(
+            "--transmission",
+            type=float,
+            default=0.0,
+            metavar="DEG",
+            help="minimum transmission angle on the way through the targets",
+        )
         kind.add_argument(
             "--size-ratio", type=float, default=1e4, metavar="R", help="limit of longest to shortest length"
+        )
+        kind.add_argument(
+            "--sort",
+            default="",
+            metavar="KEY[,KEY]",
+            help="sort the designs by error, transmission, range-transmission, size, size-ratio, links, full-turn; of "
+            "equal ones the second key decides",
         )
         kind.add_argument("--number", type=int, metavar="N", help="number of dyads or designs, if infinitely many")
         kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
         kind.add_argument("--json", action="store_true", help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
         kind.add_argument(
-            "--draw", type=Path, metavar="FILE", help="draw the designs: .html all; .svg, .png or .pdf the best one"
+            "--draw",
+            type=Path,
+            metavar="FILE",
+            help="draw the designs: .html all, moving; .svg, .png or .pdf the best six",
         )
 
 
@@ -134,7 +198,11 @@ def run(arguments: argparse.Namespace) -> int:
         _check_picture(arguments.draw)
     demands = _demands(arguments)
     task = _task(arguments)
+    orders = [name.strip() for name in arguments.sort.split(",") if name.strip()]
+    in_order_of((), orders)  # a wrong name is refused before the work
     result = _solved(arguments, task, demands)
+    if orders:
+        result = result.sorted_by(*orders)
     best = result.designs[0] if result.designs else None
     optimum = _minimax(result) if arguments.action == "function" and arguments.minimax else None
     if best is not None and arguments.out is not None:
@@ -187,10 +255,15 @@ def _task(arguments: argparse.Namespace) -> Task:
     if not isinstance(task, _TASKS[arguments.action]):
         kind = next(name for name, made in _TASKS.items() if isinstance(task, made))
         raise SynthesisError("{task}: this is a task for 'synthesise {kind}'", task=arguments.task, kind=kind)
-    if arguments.action == "path" and arguments.closed and isinstance(task, PathTask):
-        from dataclasses import replace
-
-        task = replace(task, closed=True)
+    if isinstance(task, PathTask):
+        return replace(task, closed=task.closed or arguments.closed)
+    if isinstance(task, PositionTask):
+        return replace(
+            task,
+            moving_pivots=(*task.moving_pivots, *arguments.moving_pivot),
+            fixed_pivots=(*task.fixed_pivots, *arguments.fixed_pivot),
+            curve_parameters=(*task.curve_parameters, *arguments.curve_parameter),
+        )
     return task
 
 
@@ -223,39 +296,41 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
 
 
 def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> SynthesisResult:
+    progress = _progress(arguments.lang)
+    if arguments.structure:
+        return _fitted(arguments, task, demands, progress)
     more = {} if arguments.number is None else {"number": arguments.number}
     match task:
         case PositionTask():
-            return synthesise_positions(task, demands, **more)
+            return synthesise_positions(task, demands, progress=progress, **more)
         case FunctionTask():
             return synthesise_function(task, demands, **more)
         case DeadCentreTask():
             return synthesise_dead_centres(task, demands, **more)
         case PathTask():
-            if arguments.structure is not None:
-                return _fitted(arguments, task, demands)
-            return synthesise_path(task, demands, progress=_progress(arguments.lang), **more)
+            return synthesise_path(task, demands, progress=progress, **more)
     raise AssertionError(task)
 
 
-def _fitted(arguments: argparse.Namespace, task: PathTask, demands: Demands) -> SynthesisResult:
-    """A mechanism of any structure, from several starts."""
+def _fitted(
+    arguments: argparse.Namespace, task: Task, demands: Demands, progress: Callable[[int, int], None] | None
+) -> SynthesisResult:
+    """Mechanisms of any structure, each from several starts."""
     from gruebler.cli.inputs import mechanism_of
     from gruebler.realisation.realise import with_drives
-    from gruebler.synthesis.structures import synthesise_structures
 
-    mechanism = mechanism_of(arguments.structure, None, [])
-    driven = mechanism if mechanism.drives else with_drives(mechanism)
-    return synthesise_structures(task, [driven], demands, starts=arguments.number, link=arguments.link)
+    mechanisms = [mechanism_of(text, None, []) for text in arguments.structure]
+    driven = [mechanism if mechanism.drives else with_drives(mechanism) for mechanism in mechanisms]
+    return synthesise_structures(task, driven, demands, starts=arguments.number, link=arguments.link, progress=progress)
 
 
 def _progress(lang: str) -> Callable[[int, int], None] | None:
-    """A line on a terminal that counts paths; None elsewhere."""
+    """A line on a terminal that counts paths, verdicts or starts; None elsewhere."""
     if not sys.stderr.isatty():
         return None
 
     def show(done: int, count: int) -> None:
-        line = translate("{done:,} / {count:,} paths", lang, done=done, count=count)
+        line = translate("{done:,} of {count:,}", lang, done=done, count=count)
         print(f"\r{line}", end="\n" if done >= count else "", file=sys.stderr, flush=True)
 
     return show
@@ -284,6 +359,9 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
     )
     if result.designs:
         print_table(_COLUMNS, [_row(k, design, lang) for k, design in enumerate(result.designs, 1)], lang=lang)
+        print(_ANGLES.in_language(lang))
+        if any(design.form == FITTED for design in result.designs):
+            _print_pareto(result, lang)
     else:
         print(translate("None of the designs examined meets the task.", lang))
     if (rejected or not result.designs) and result.rejected:
@@ -302,13 +380,35 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
             )
 
 
+def _print_pareto(result: SynthesisResult, lang: str) -> None:
+    """The designs that no other one beats in everything."""
+    numbers_of = {id(design): number for number, design in enumerate(result.designs, 1)}
+    rows: list[list[Cell]] = [
+        [
+            str(numbers_of[id(row.design)]),
+            number(row.error, lang, ".1e"),
+            "" if isnan(row.transmission) else number(degrees(row.transmission), lang, ".1f") + "°",
+            number(row.size, lang, ".5g"),
+            str(row.links),
+            row.structure,
+        ]
+        for row in pareto(result)
+    ]
+    print()
+    print(translate("Not beaten in error, transmission angle, size and number of links at once:", lang))
+    print_table(_PARETO, rows, numbers=[0, 1, 2, 3, 4], lang=lang)
+
+
 def _row(position: int, design: Design, lang: str) -> list[Cell]:
     verdict = design.verdict
     return [
         f"{position} {design.form_in_language(lang)}",
-        design.linkage.mechanism.drive_names("german" if lang == "de" else "international")[0],
+        ", ".join(design.linkage.mechanism.drive_names("german" if lang == "de" else "international")),
         message("yes") if verdict.turns_fully else message("no"),
-        "" if isnan(verdict.transmission) else number(degrees(verdict.transmission), lang, ".1f") + "°",
+        *(
+            "" if isnan(mu) else number(degrees(mu), lang, ".1f") + "°"
+            for mu in (verdict.transmission, design.transmission_over_range)
+        ),
         _lengths(design, lang),
         number(verdict.error, lang, ".1e"),
     ]
@@ -330,14 +430,14 @@ def _check_picture(path: Path) -> None:
 
 
 def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
-    """The best design, or all on a page."""
-    from gruebler.synthesis.pictures import design_figure, designs_page
+    """The best designs side by side, or all on a page."""
+    from gruebler.synthesis.pictures import designs_figure, designs_page
 
     suffix = suffix_of(path, (*SUFFIXES, "html"))
     if suffix == "html":
         content = designs_page(found, lang=lang).encode("utf-8")
     else:
-        content = picture_bytes(design_figure(found.task, found.designs[0], lang=lang), suffix)
+        content = picture_bytes(designs_figure(found, lang=lang), suffix)
     write_file(path, content, lang)
 
 

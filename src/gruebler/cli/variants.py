@@ -94,7 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.count and arguments.prismatic and _only_sliding(wanted):
         return _count_sliding(wanted, arguments)
     if arguments.prismatic == "any":
-        raise GrueblerError("--prismatic any goes with --count and with numbers of links, freedoms and multiple joints")
+        raise GrueblerError("--prismatic any goes with --count and with --links, --mobility and --multiple-joints only")
     seconds = expected_seconds_of_variants(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
     ask_before(seconds / max(1, arguments.jobs), arguments.yes)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()

@@ -344,9 +344,9 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
     cut = line_meets_circle(height, -1 + 0j, top / 2, D / 2)[1]
     board.step(
         message(
-            "A six-point tangent needs sin² φ₀ = (1 + 2λ)/4. The level line at the height D(1 + 2λ)/4 cuts the circle "
-            "in "
-            "J: by Thales PJ² = PK · height, and PJ = D sin φ₀. The ray PJ makes the angle φ₀ = {phi:.4g}° with t.",
+            "A six-point tangent needs sin² φ₀ = (1 + 2λ)/4. The horizontal line at the height D(1 + 2λ)/4 cuts the "
+            "circle in J: by Thales PJ² = PK · height, and PJ = D sin φ₀. The ray PJ makes the angle φ₀ = {phi:.4g}° "
+            "with t.",
             phi=degrees_between(cut - pole, -1 + 0j),
         ),
         Line(height, 1 + 0j),

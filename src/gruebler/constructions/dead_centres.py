@@ -51,7 +51,7 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
     """Both dead centres: the circles b - a and b + a about A0 meet the circle of the rocker."""
     if FourBar(a, b, c, d).dead_centres is None:
         raise LinkageError(
-            "the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is no crank-rocker", a=a, b=b, c=c, d=d
+            "the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is not a crank-rocker", a=a, b=b, c=c, d=d
         )
     board = Board(message("Dead centres of a crank-rocker"))
     a0, b0 = _crank_rocker_given(board, a, b, c, d)
@@ -229,7 +229,7 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
         )
     board.step(
         message(
-            "An obtuse angle counts as 180° less it. The smallest transmission angle is μ_min = {least:.4g}°, the "
+            "An obtuse angle counts as its supplement. The smallest transmission angle is μ_min = {least:.4g}°, the "
             "largest deviation angle 90° - μ_min = {deviation:.4g}°.",
             least=min(folded),
             deviation=90 - min(folded),

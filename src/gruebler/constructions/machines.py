@@ -49,7 +49,7 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
     crank = abs(pin - driver)
     board.step(
         message(
-            "Without a jerk the pin enters along the slot: the crank is perpendicular to it. The foot of the "
+            "To enter without impact, the pin moves along the slot: the crank is perpendicular to it. The foot of the "
             "perpendicular "
             "from O₁ is the pin; crank r₁ = {crank:.4g}, mouth of the slot r₂ = {wheel:.4g}.",
             crank=crank,

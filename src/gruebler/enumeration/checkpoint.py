@@ -120,7 +120,7 @@ class Checkpoint(PieceFiles):
                     file.write(json.dumps(manifest, indent=2).encode())
         except OSError as error:
             raise RunError(
-                "{directory} cannot keep pieces of work: {reason}", directory=directory, reason=reason_of(error)
+                "{directory} cannot hold the finished parts: {reason}", directory=directory, reason=reason_of(error)
             ) from None
         except RunError:
             raise
@@ -136,14 +136,14 @@ def _compare(directory: Path, manifest: object, expected: Mapping[str, Any]) -> 
         raise ValueError("no manifest")
     if manifest.get("task") == expected["task"]:
         raise RunError(
-            "{directory} keeps pieces of version {other} of gruebler, this is version {version}; give another "
+            "{directory} holds parts from version {other} of gruebler, this is version {version}; give another "
             "directory or remove this one",
             directory=directory,
             other=manifest.get("version"),
             version=expected["version"],
         )
     raise RunError(
-        "{directory} keeps pieces of another task, {task}; give another directory or remove this one",
+        "{directory} holds parts of another task, {task}; give another directory or remove this one",
         directory=directory,
         task=json.dumps(manifest.get("task")),
     )

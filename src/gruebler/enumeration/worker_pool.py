@@ -66,7 +66,7 @@ class ProcessPools:
 
     def __init__(self, jobs: int) -> None:
         if jobs < 1:
-            raise RunError("the work is done by at least one process, not by {jobs}", jobs=jobs)
+            raise RunError("the work needs at least one process, not {jobs}", jobs=jobs)
         self.jobs = jobs
         self._line: Connection | None = None
 

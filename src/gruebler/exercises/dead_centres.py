@@ -68,7 +68,7 @@ def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
     builder.mistake(
         "H",
         sqrt((a + b) ** 2 + e**2) - sqrt((b - a) ** 2 + e**2),
-        message("e is a side of the right triangle at the slider's line, so e² is taken off, not added."),
+        message("e is a side of the right triangle at the slider's line, so e² is subtracted, not added."),
     )
     if e:
         _add_division(builder, a, b, e, measured)
@@ -149,7 +149,7 @@ def stroke_table(
     begin = first.drive if first.drive < pi or not from_outer else first.drive - 2 * pi
     low = "" if not e else " - e" if e > 0 else " + e"
     builder.say(
-        message("The slider's way at every crank angle, counted from below the crank's pivot:"),
+        message("The slider's travel at every crank angle, measured from below the crank's pivot:"),
         f"s = a·cos φ + √(b² - (a·sin φ{low})²)",
     )
     rows = []
@@ -242,7 +242,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
 def _add_middle_of_time(builder: SolutionBuilder, size: SliderCrank, phi: float) -> None:
     name = message("slider in the middle of the time, at φ = 90°")
     at_time = builder.find("s_T", name, "√(b² - a²)", sqrt(size.b**2 - size.a**2), a=size.a, b=size.b)
-    name = message("middle of the way less middle of the time")
+    name = message("mid-stroke minus mid-time")
     offset = builder.find("offset", name, "s_H2 - s_T", size.b - at_time, symbol="Δs", s_H2=size.b, s_T=at_time)
     name = message("the same as a part of the stroke")
     builder.find("offset_H", name, "Δs/H", offset / (2 * size.a), unit="", symbol="δ", Δs=offset, H=2 * size.a)
@@ -254,7 +254,7 @@ def _add_middle_mistakes(builder: SolutionBuilder, phi: float, alpha: float) -> 
     builder.mistake(
         "φ_H2",
         90.0,
-        message("At 90° the crank is in the middle of the time, not of the way: the slider is already beyond H/2."),
+        message("At 90° half of the time has passed, but not half of the stroke: the slider is already beyond H/2."),
     )
     builder.mistake("φ_H2", 180 - phi, message("Counted from the inner dead centre; the answer counts from the outer."))
     builder.mistake("φ_i_H2", phi, message("Counted from the outer dead centre; the answer counts from the inner."))
@@ -271,7 +271,7 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     size = FourBar(a, b, c, d)
     if size.dead_centres is None:
         raise LinkageError(
-            "the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is no crank-rocker: {type}",
+            "the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is not a crank-rocker: {type}",
             a=a,
             b=b,
             c=c,
@@ -409,7 +409,7 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
         hypot(b, c),
         message("b² + c² is still a² too much: the triangle has its right angle elsewhere."),
     )
-    builder.mistake("d", sqrt(a**2 + b**2 + c**2), message("a² is taken off, not added."))
+    builder.mistake("d", sqrt(a**2 + b**2 + c**2), message("a² is subtracted, not added."))
     builder.mistake("μ_min", 180 - mu, message("μ is folded to at most 90°."))
-    builder.mistake("λ", b / a, message("λ is the crank by the connecting rod."))
+    builder.mistake("λ", b / a, message("λ is the crank divided by the connecting rod."))
     return builder.done()

@@ -78,7 +78,7 @@ def coupler(chain: str) -> Solution:
     builder.mistake(
         "F_after",
         before + 1,
-        message("The coupler has two joints, and each takes two freedoms: 3 - 4 = -1."),
+        message("The coupler has two joints, and each removes two freedoms: 3 - 4 = -1."),
     )
     _add_places(builder, sound)
     return builder.done()

@@ -310,8 +310,8 @@ def _dead_centre(random: Random, level: int) -> _Draft:
     given = _until(lambda: _any_four_bar(random), lambda g: _good_rocker(g) and not _four_bar(g).is_central)
     rpm = random.choice((60, 120, 150, 200, 240, 300, 400))
     task = message(
-        "A crank-rocker has {lengths}; the crank makes {rpm} turns a minute. Find the swing of the rocker, the larger "
-        "crank angle between the dead centres and the times of both strokes.",
+        "A crank-rocker has {lengths}; the crank makes {rpm} revolutions per minute. Find the swing of the rocker, "
+        "the larger crank angle between the dead centres and the times of both strokes.",
         lengths=_given_lengths(given),
         rpm=rpm,
     )
@@ -346,12 +346,12 @@ def _velocity(random: Random, level: int) -> _Draft:
     if level < 3:
         given = _slider(random, level == 2) | {"phi": phi, "omega": omega, "unit": "mm"}
         task = message(
-            "A central slider-crank has {lengths}. The crank turns left at ω = {omega} rad/s and stands at φ = "
-            "{phi}° to the slider's way. Find velocity of the slider."
+            "A central slider-crank has {lengths}. The crank turns counter-clockwise at ω = {omega} rad/s and "
+            "stands at φ = {phi}° to the slider's path. Find the velocity of the slider."
             if level == 1
-            else "An eccentric slider-crank has {lengths} (e above the crank's pivot). The crank turns left at ω = "
-            "{omega} rad/s and stands at φ = {phi}° to the slider's way. Find velocity and acceleration of the "
-            "slider.",
+            else "An eccentric slider-crank has {lengths} (e above the crank's pivot). The crank turns "
+            "counter-clockwise at ω = {omega} rad/s and stands at φ = {phi}° to the slider's path. Find the "
+            "velocity and acceleration of the slider.",
             lengths=_given_lengths(given, "abe"),
             omega=omega,
             phi=phi,
@@ -359,7 +359,7 @@ def _velocity(random: Random, level: int) -> _Draft:
         return _Draft("velocities.slider_crank", given, ("v_B",) if level == 1 else ("v_B", "a_B"), task)
     given = _until(lambda: _any_four_bar(random), _good_rocker)
     task = message(
-        "A crank-rocker has {lengths}, B above the line A-B0. The crank turns left at ω = {omega} rad/s "
+        "A crank-rocker has {lengths}, B above the line A-B0. The crank turns counter-clockwise at ω = {omega} rad/s "
         "and stands at φ = {phi}° to the frame. Find the velocity of B, the transmission ratio and the "
         "acceleration of B.",
         lengths=_given_lengths(given),

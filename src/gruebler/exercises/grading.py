@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from gruebler.errors import GrueblerError, nearest
@@ -40,6 +40,8 @@ class Grade:
     mark: Mark
     hint: Readable | None = None
     """A hint at the likely mistake."""
+    name: str = ""
+    """The name under which it was answered: the key, or the symbol that the solution prints."""
 
 
 # Mistakes possible with any measured number: the answer as a function of the right one, the unit, the hint.
@@ -97,7 +99,7 @@ def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
         mistakes = [*printed, *(m for m in solution.mistakes if m.key == key)]
         result = solution.results[key]
         scales = [1.0, *(scale_of(question, result) for question in exercise.asked if question.key == key)]
-        grades.append(_marked(mistakes, result, answer.strip(), scales))
+        grades.append(replace(_marked(mistakes, result, answer.strip(), scales), name=name.strip()))
     return grades
 
 

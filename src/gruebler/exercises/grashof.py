@@ -84,7 +84,7 @@ def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
             f"{number(ends)} {grashof.condition} {number(others)}",
         )
     )
-    builder.mistake("sum_ends", low + second, message("The longest link was not taken."))
+    builder.mistake("sum_ends", low + second, message("This is not the sum with the longest link."))
 
 
 def length_range(
@@ -145,8 +145,8 @@ def length_range(
     builder.find(f"{free}_max", name, f"{longer} + {shorter} - a", high, text=text, values=values)
     builder.say(
         message(
-            "So {low} {unit} ≤ {free} ≤ {high} {unit}. At both ends the sums are equal: the linkage is then at a "
-            "change point, safely rotatable it is only in between.",
+            "So {low} {unit} ≤ {free} ≤ {high} {unit}. At both ends the sums are equal: there the linkage is at a "
+            "change point; the crank turns fully without doubt only in between.",
             low=figure(low),
             unit=unit,
             free=free,
@@ -217,12 +217,12 @@ def _add_range_mistakes(builder: SolutionBuilder, free: str, crank: float, long:
     builder.mistake(
         f"{free}_max",
         long + short,
-        message("That only closes the chain; for a full turn the crank a is taken off."),
+        message("That only closes the chain; for a full turn the crank a is subtracted."),
     )
     builder.mistake(
         f"{free}_max",
         long + short + crank,
-        message("l_max stands on the side of l_min: a is taken off."),
+        message("l_max stands on the side of l_min: a is subtracted."),
     )
     builder.mistake(f"{free}_max", long, wrong)
     builder.mistake(

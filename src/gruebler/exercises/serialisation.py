@@ -62,6 +62,7 @@ def grades_as_list(marks: Sequence[Grade]) -> list[dict[str, Any]]:
     return [
         {
             "key": ascii_key(grade.key),
+            "name": grade.name,
             "answer": grade.answer,
             "mark": grade.mark.value,
             "hint": None if grade.hint is None else _value(grade.hint),

@@ -248,7 +248,7 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
     """The straightness of the path of C, and the angles that the rocker can reach with a horizontal frame."""
     unit = builder.unit
     piece = path_piece(path, *ends)
-    name = message("width of the strip in which C keeps")
+    name = message("width of the strip in which C stays")
     builder.keep("band", name, piece.band, unit=unit, symbol="Δ")
     builder.keep(
         "length",
@@ -261,8 +261,8 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
     builder.keep("direction", message("direction of the strip"), direction, unit="°")
     builder.say(
         message(
-            "C keeps in a strip of {band} {unit} over {length} {unit}, at {direction}° to the horizontal. Turned "
-            "by a right angle that is the level way of the load.",
+            "C stays in a strip of {band} {unit} over {length} {unit}, at {direction}° to the horizontal. Turned by "
+            "a right angle that is the horizontal path of the load.",
             band=figure(piece.band),
             unit=unit,
             length=figure(piece.length),
@@ -320,7 +320,7 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     builder.say(
         message(
             "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line "
-            "through A0 at right angles to the slider's way."
+            "through A0 at right angles to the slider's path."
         ),
         "C = A - e·(B - A)/b, C_x = 0, C_y = 2·a·sin φ",
     )

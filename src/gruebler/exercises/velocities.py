@@ -117,7 +117,7 @@ def _four_bar_rates(
     builder.find("v_BA", name, "b·|ω_b|", b * abs(coupler), unit=f"{builder.unit}/s", b=b, ω_b=coupler)
     name = message("transmission ratio in this pose")
     ratio = builder.find("i", name, "ω/ω_c", omega / rocker, unit="", ω=omega, ω_c=rocker)
-    builder.mistake("i", 1 / ratio, message("i is the input speed by the output speed."))
+    builder.mistake("i", 1 / ratio, message("i is the input speed divided by the output speed."))
     builder.mistake("v_B", speed, message("v_A and v_B differ: the coupler turns."))
     builder.mistake("v_B", c * abs(omega), message("The rocker turns with ω_c, not with ω."))
     return coupler, rocker

@@ -56,7 +56,7 @@ def read_link(text: str) -> SharedLinkage:
         )
     if version != VERSION or not data or not checksum or len(text) > _LONGEST:
         raise GrueblerError("the link is not complete: expected #1.DATA.CHECKSUM")
-    damaged = GrueblerError("the link is damaged: its checksum does not fit")
+    damaged = GrueblerError("the link is damaged: its checksum does not match")
     try:
         packed = base64.b64decode(data + "=" * (-len(data) % 4), altchars=b"-_", validate=True)
         if f"{zlib.crc32(packed):08x}" != checksum:

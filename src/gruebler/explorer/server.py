@@ -226,7 +226,7 @@ def _read(text: str | None) -> _Message:
     try:
         return msgspec.json.decode(text.encode("utf-8"), type=_Message)
     except (msgspec.DecodeError, UnicodeEncodeError) as error:
-        raise GrueblerError("this is no message: {problem}", problem=str(error)) from None
+        raise GrueblerError("this is not a message: {problem}", problem=str(error)) from None
     except RecursionError:
         raise GrueblerError("the request is nested too deeply") from None
 

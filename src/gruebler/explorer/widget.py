@@ -17,7 +17,7 @@ from gruebler.text import LANGUAGES, Message, error_in_language, message, transl
 
 __all__ = ["Explorer"]
 
-_UNREADABLE: Message = message("this is no request of the page")
+_UNREADABLE: Message = message("this is not a request of the page")
 
 
 class Explorer(anywidget.AnyWidget):

@@ -49,7 +49,7 @@ def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     for number, joint in enumerate(chain.joints):
         if not joint.pair.is_basic:
             raise LinkageError(
-                "joint forces are those of turning and sliding joints, but {joint} is none",
+                "joint forces are known for turning and sliding joints; {joint} is neither",
                 joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:

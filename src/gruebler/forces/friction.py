@@ -12,7 +12,6 @@ from gruebler.errors import LinkageError
 from gruebler.forces.motion_rates import with_velocities
 from gruebler.forces.solution import Statics
 from gruebler.fourbar import SliderCrank
-from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
 
 __all__ = ["SlideFriction", "SliderFriction", "as_friction", "slide_friction", "slider_friction"]
@@ -80,7 +79,7 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
     Raises `LinkageError` for a joint that does not slide and for a linkage with several drives.
     """
     linkage = statics.motion.linkage
-    number, mu = joint_number(linkage.mechanism, joint), as_friction(coefficient)
+    number, mu = linkage.mechanism.chain.joint_number(joint, LinkageError), as_friction(coefficient)
     if linkage.mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
         raise LinkageError("{joint} does not slide along one line", joint=linkage.mechanism.chain.joint_names()[number])
     if len(linkage.mechanism.drives) != 1:

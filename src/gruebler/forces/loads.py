@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +36,7 @@ class Loads:
     """By point or joint: (x, y), or one for each row, (rows, 2)."""
     moments: Mapping[str, ArrayLike] = field(default_factory=dict)
     """By link, counter-clockwise, in force times the linkage's unit: a number, or (rows,)."""
+    _: KW_ONLY
     masses: Mapping[str | LinkPoint, ArrayLike] = field(default_factory=dict)
     """By point or joint: each weighs its mass times ``gravity``."""
     gravity: tuple[float, float] = (0.0, -_STANDARD)

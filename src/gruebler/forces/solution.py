@@ -14,7 +14,6 @@ from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connec
 from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
 from gruebler.forces.motion_rates import drive_speed, with_velocities
 from gruebler.kinematics import Motion
-from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
 from gruebler.text import Message, joined, message
 
@@ -26,7 +25,7 @@ _SINGULAR = message(
 )
 _UNKNOWN = message(
     "At {values} virtual work has no answer either: the drive stands at its limit, or the effort depends on the "
-    "branch, which a change point alone does not tell."
+    "branch, which a change point alone does not determine."
 )
 _MOST_VALUES = 6
 
@@ -128,13 +127,13 @@ class Statics(Brief):
 
     def _of(self, joint: str | int, link: str | None) -> tuple[int, str]:
         mechanism = self.motion.linkage.mechanism
-        number = joint_number(mechanism, joint)
+        number = mechanism.chain.joint_number(joint, LinkageError)
         links = mechanism.chain.joints[number].links
         if link is None:
             return number, next(one for one in reversed(links) if one != mechanism.frame)
         if link not in links:
             raise LinkageError(
-                "{joint} is no joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
+                "{joint} is not a joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
             )
         return number, link
 
@@ -179,7 +178,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released:
-        raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on how they yield")
+        raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on their stiffness")
     wrenches = loads_over_rows(motion, loads)
     if not len(motion):
         raise LinkageError("the motion has no rows. {reason}", reason=motion.reason)

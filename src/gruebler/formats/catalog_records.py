@@ -285,24 +285,17 @@ def _check(entry: Entry, path: Path | str) -> None:
         chain = entry.chain()
     except (ChainError, NotationError, PairError) as error:
         raise CatalogError("{path}: joints: {error}", path=path, error=error) from None
-    for key, links in (
-        ("frame", (entry.frame,) if entry.frame is not None else ()),
-        ("outputs", entry.outputs),
-        ("claims.idle", entry.claims.idle),
+    for key, names, number_of in (
+        ("frame", (entry.frame,) if entry.frame is not None else (), chain.index),
+        ("outputs", entry.outputs, chain.index),
+        ("claims.idle", entry.claims.idle, chain.index),
+        ("drives", entry.drives, chain.joint_number),
     ):
-        for link in links:
+        for name in names:
             try:
-                chain.index(link)
+                number_of(name)
             except ChainError as error:
                 raise CatalogError("{path}: {key}: {error}", path=path, key=key, error=error) from None
-    for drive in entry.drives:
-        if chain.find_joint(drive) is None:
-            raise CatalogError(
-                "{path}: drives: {drive!r} is not one of the joints; they are {joints}",
-                path=path,
-                drive=drive,
-                joints=", ".join(chain.joint_names()),
-            )
     if entry.screws is not None:
         if entry.screws.assumed == bool(entry.screws.source):
             raise CatalogError("{path}: screws: either assumed = true, or a source that prints them", path=path)

@@ -51,9 +51,9 @@ def chain_from_graph_text(text: str, form: str) -> Chain:
     except RecursionError:
         raise GrueblerError("is nested too deeply") from None
     except _unreadable() as error:
-        raise GrueblerError("is no {form} file: {reason}", form=form, reason=error or type(error).__name__) from None
+        raise GrueblerError("is not a {form} file: {reason}", form=form, reason=error or type(error).__name__) from None
     if graph.number_of_nodes() > _MOST:
-        raise GrueblerError("a chain of {count:,} links is more than {most:,}", count=len(graph), most=_MOST)
+        raise GrueblerError("a chain here has at most {most:,} links, not {count:,}", count=len(graph), most=_MOST)
     _check_number(graph.number_of_edges())
     return _chain(graph)
 
@@ -147,7 +147,7 @@ def _from_matrix(text: str) -> nx.Graph:
     ):
         raise GrueblerError("expected a square matrix of whole numbers")
     if len(rows) > _MOST:
-        raise GrueblerError("a chain of {count:,} links is more than {most:,}", count=len(rows), most=_MOST)
+        raise GrueblerError("a chain here has at most {most:,} links, not {count:,}", count=len(rows), most=_MOST)
     _check_number(sum(int(cell) for row in rows for cell in row) // 2)
     graph = networkx.MultiGraph()
     graph.add_nodes_from(range(len(rows)))
@@ -163,7 +163,7 @@ def _from_matrix(text: str) -> nx.Graph:
 
 def _check_number(joints: int) -> None:
     if joints > _MOST_JOINTS:
-        raise GrueblerError("a chain of {count:,} joints is more than {most:,}", count=joints, most=_MOST_JOINTS)
+        raise GrueblerError("a chain here has at most {most:,} joints, not {count:,}", count=joints, most=_MOST_JOINTS)
 
 
 def _to_matrix(chain: Chain, left_out: list[Message]) -> str:
@@ -210,7 +210,7 @@ def _from_sparse6(line: str) -> Chain:
     try:
         graph = networkx.from_sparse6_bytes(line.removeprefix(">>sparse6<<").encode("ascii"))
     except _unreadable() as error:
-        raise GrueblerError("is no sparse6 code: {reason}", reason=error or type(error).__name__) from None
+        raise GrueblerError("is not a sparse6 code: {reason}", reason=error or type(error).__name__) from None
     return _chain(networkx.MultiGraph(graph))
 
 

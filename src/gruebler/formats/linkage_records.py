@@ -20,7 +20,7 @@ from gruebler.fourbar.inverted_slider_crank import InvertedSliderCrank
 from gruebler.fourbar.length_forms import ClosedForm, linkage_on_mechanism
 from gruebler.fourbar.slider_crank import SliderCrank
 from gruebler.linkages.elements import CamDisc, Circle, Element, GenevaDriver, GenevaWheel, NonCircular, Pose2D, Wheel
-from gruebler.linkages.model import Linkage, joint_number
+from gruebler.linkages.model import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, joined, joined_by_and, joined_by_or, message
 
@@ -183,7 +183,7 @@ def _by_joint(
     out: dict[str | int, object] = {}
     for joint, raw in mine.items():
         try:
-            number = joint_number(mechanism, joint)
+            number = mechanism.chain.joint_number(joint, LinkageError)
         except LinkageError as error:
             raise LinkageError("{where}: {error}", where=where, error=error) from None
         if number in out:

@@ -55,7 +55,7 @@ def read_linkage(path: Path | str) -> Linkage:
     if isinstance(data, Mapping) and "screws" in data:
         raise LinkageError(
             "{path}: has the screws of its joints in one position, not the dimensions of its links: `gruebler check "
-            "{path} --explain` says how it moves",
+            "{path} --explain` shows how it moves",
             path=path,
         )
     try:

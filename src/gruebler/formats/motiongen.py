@@ -54,7 +54,7 @@ def drawing_from_motiongen(document: Any, left_out: list[Message]) -> PinDrawing
     try:
         record = msgspec.convert(document, _Record)
     except msgspec.ValidationError as error:
-        raise GrueblerError("is no mechanism of MotionGen: {reason}", reason=error) from None
+        raise GrueblerError("is not a mechanism of MotionGen: {reason}", reason=error) from None
     count = len(record.p)
     if not record.B or any(len(row) != count or not set(row) <= {0, 1} for row in record.B):
         raise GrueblerError("B: expected rows of 0 and 1, as many in each as places p: {count}", count=count)

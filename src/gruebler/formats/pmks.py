@@ -88,10 +88,10 @@ def _checked(query: str) -> str:
     body, mark, digest = query.rpartition("*")
     if mark and len(digest) == _DIGEST:
         if digest != _digest(body):
-            raise GrueblerError("the digest at the end of the address does not fit: it was changed or cut off")
+            raise GrueblerError("the digest at the end of the address does not match: it was changed or cut off")
         query = body
     if not query or query[-1] != _CHECKS[(len(query) - 1) % 62]:
-        raise GrueblerError("the checking character at the end of the address does not fit: it was changed or cut off")
+        raise GrueblerError("the check character at the end of the address does not match: it was changed or cut off")
     return query[:-1]
 
 

@@ -55,7 +55,7 @@ def assembly(train: Train, planet: str, number: int) -> Assembly:
     carriers = {mesh.carrier for mesh in meshes}
     if len(meshes) != 2 or len(carriers) != 1:
         raise GearError(
-            "{planet} is no planet between two gears on one moving carrier: no conditions of assembly are known",
+            "{planet} is not a planet between two gears on one moving carrier: no conditions of assembly are known",
             planet=planet,
         )
     if any(mesh.size_a.denominator != 1 or mesh.size_b.denominator != 1 for mesh in meshes):

@@ -109,7 +109,7 @@ def search_ratio(
     if planets < 1:
         raise GearError("planets: expected a whole number, at least 1, not {number!r}", number=planets)
     if wanted == 0:
-        raise GearError("a ratio of 0 would be a driving shaft at rest")
+        raise GearError("a ratio of 0 would mean a driving shaft at rest")
     best: list[PlanetaryDesign] = []
     for choices in _choices(low, high, stepped):
         good = choices.where(_can_be_assembled(choices, planets))

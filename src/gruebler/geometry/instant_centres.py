@@ -82,9 +82,9 @@ def poles(motion: Motion, links: Sequence[str] | None = None) -> Poles:
     chosen = tuple(motion.linkage.mechanism.chain.links if links is None else links)
     numbers = [motion.link_index(link) for link in chosen]
     if not numbers:
-        raise LinkageError("poles are those of at least one link, but no links were named")
+        raise LinkageError("poles need at least one link, but none was named")
     if motion.order < 1:
-        raise LinkageError("poles need velocities, but the motion has positions only: ask move(..., speed=...)")
+        raise LinkageError("poles need velocities, but the motion has positions only: call move(..., speed=...)")
     z, velocity, rate = motion.places[0][:, numbers], motion.places[1][:, numbers], motion.rates[0][:, numbers]
     middle = z.mean(axis=1, keepdims=True)
     # The velocities of the points of all links that are at the middle: the pole is as far from it as they differ.

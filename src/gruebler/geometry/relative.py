@@ -58,7 +58,7 @@ def relative_motion(motion: Motion, link: str, reference: str | None = None, ord
     """
     if motion.order < order:
         raise LinkageError(
-            "this needs {derivatives}, but the motion was solved up to order {solved}: ask move(..., speed=..., "
+            "this needs {derivatives}, but the motion was solved up to order {solved}: call move(..., speed=..., "
             "order={order})",
             derivatives=_ORDERS[order],
             solved=motion.order,

@@ -75,7 +75,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
         )
     lower = motion.lower_linkage
     if len(lower.mechanism.drives) != 1:
-        raise LinkageError("a series is by one drive, but this linkage has {count}", count=len(lower.mechanism.drives))
+        raise LinkageError("a series needs one drive, but this linkage has {count}", count=len(lower.mechanism.drives))
     roots = np.abs(motion.roots[:, [dyad.number for dyad in motion.plan.dyads if dyad.branching]])
     if roots.size and roots.min() < _SINGULAR:
         row = int(np.argmin(roots.min(axis=1)))
@@ -112,7 +112,7 @@ def _conditions(lower: Linkage) -> list[_Condition]:
     for number, joint in enumerate(chain.joints):
         if not joint.pair.is_basic:
             raise LinkageError(
-                "a series is that of turning and sliding joints, but {joint} is none",
+                "a series needs turning and sliding joints; {joint} is neither",
                 joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:

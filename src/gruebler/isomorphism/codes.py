@@ -115,7 +115,9 @@ def decode(text: str) -> MarkedChain:
         elif re.fullmatch(rf"drives={_DRIVE}(?:,{_DRIVE})*", mark):
             drives = tuple(_drive(chain, text) for text in mark.removeprefix("drives=").split(","))
         else:
-            raise NotationError("{mark!r} is no mark of a code: expected frame=LINK or drives=JOINT,JOINT", mark=mark)
+            raise NotationError(
+                "{mark!r} is not a mark of a code: expected frame=LINK or drives=JOINT,JOINT", mark=mark
+            )
     return MarkedChain(chain, frame, drives)
 
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import PAIRS
-from gruebler.errors import ChainError, expect
+from gruebler.errors import expect
 
 __all__ = ["ColouredGraph", "DriveMark", "coloured_graph"]
 
@@ -62,12 +62,7 @@ def coloured_graph(chain: Chain, frame: str | None = None, drives: Collection[in
     marks = [mark for mark in drives if isinstance(mark, DriveMark)]
     partly = {mark.joint for mark in marks}
     for number in (*partly, *(number for number in drives if isinstance(number, int))):
-        if not 0 <= number < len(chain.joints):
-            raise ChainError(
-                "there is no joint number {number}; the chain has joints 0 to {count}",
-                number=number,
-                count=len(chain.joints) - 1,
-            )
+        chain.joint_number(number)
     repeats = Counter(frozenset(joint.links) for joint in chain.joints)
     colours = [_LINK] * chain.n
     if frame is not None:

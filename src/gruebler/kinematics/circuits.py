@@ -111,7 +111,7 @@ class Circuit(Brief):
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
-            raise LinkageError("expected finite places on the circuit, but found {arcs!r}", arcs=arcs)
+            raise LinkageError("expected finite positions on the circuit, but found {arcs!r}", arcs=arcs)
         traced, laps = self.traced, np.zeros(len(given))
         if self.closed:
             laps = np.floor(given / self.length)

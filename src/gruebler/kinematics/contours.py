@@ -136,7 +136,7 @@ def turn_law(one: GenevaDriver | NonCircular, other: Element) -> PiecewiseLaw:
 
 def _geneva_law(driver: GenevaDriver, cross: GenevaWheel) -> PiecewiseLaw:
     try:
-        drive = Geneva(cross.slots, cross.internal, driver.pins)
+        drive = Geneva(cross.slots, internal=cross.internal, pins=driver.pins)
     except GrueblerError as error:
         raise LinkageError("Geneva drive: {error}", error=error) from None
     pitch = 2 * pi / driver.pins

@@ -95,7 +95,7 @@ class LinkPoses(ABC):
         if number is None or not sliding_joint(self.linkage, number):
             sliding = [name for k, name in enumerate(mechanism.chain.joint_names()) if sliding_joint(self.linkage, k)]
             raise LinkageError(
-                "{joint!r} is no sliding joint; there are {joints}",
+                "{joint!r} is not a sliding joint; there are {joints}",
                 joint=joint,
                 joints=", ".join(sliding) or message("none"),
             )

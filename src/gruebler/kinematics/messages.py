@@ -18,7 +18,7 @@ _STOPS = {
     "singular": message("The motion ends at {drives}: there two assembly modes of {form} {{{links}}} meet."),
     "open": message(
         "The motion ends at {drives}: there {form} is open. The sizes do not let this overconstrained linkage move on; "
-        "`gruebler check --explain` says what they allow."
+        "`gruebler check --explain` shows what they allow."
     ),
     "start": message("At the start, {drives}, {form} {{{links}}} cannot be assembled in this way."),
 }

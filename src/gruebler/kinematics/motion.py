@@ -165,7 +165,7 @@ class Motion(LinkPoses, Brief):
         if not 0 <= order <= self.order:
             if 0 <= order <= 3:
                 raise LinkageError(
-                    "this motion was solved up to order {solved}; for order {order} ask move(..., order={order})",
+                    "this motion was solved up to order {solved}; for order {order} call move(..., order={order})",
                     solved=self.order,
                     order=order,
                 )

@@ -226,8 +226,8 @@ def plan(linkage: Linkage) -> Plan:
         except LinkageError as error:
             assert parts.report is not None
             raise LinkageError(
-                "the linkage cannot be moved by its drives: constraints or drives work against one another. "
-                "Mobility {mobility}, drives {drives}, at almost all sizes. {error}",
+                "the linkage cannot be moved by its drives: constraints or drives conflict. Mobility {mobility}, "
+                "drives {drives}, at almost all sizes. {error}",
                 mobility=parts.report.mobility,
                 drives=parts.report.drives,
                 error=error,

@@ -93,8 +93,8 @@ def independent_part(linkage: Linkage) -> Independent:
         raise LinkageError("redundant conditions are sought among pins and slides only, not where wheels touch")
     if linkage.reference_pose is None:
         raise LinkageError(
-            "Only with special sizes does it move: with a position in which its joints close ([home] or [places]) it "
-            "is moved along the conditions that are independent there. `gruebler check --explain` says what its "
+            "Only with special sizes does it move: with a position in which its joints close ([home] or [places]) "
+            "it is moved along the conditions that are independent there. `gruebler check --explain` shows what its "
             "sizes allow."
         )
     conditions = ReferenceConditions(linkage)
@@ -194,7 +194,9 @@ class ReferenceConditions:
         if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < NEAR_REFERENCE:
             worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
             raise LinkageError(
-                "home: the joints are not closed there; {worst} is open by {gap:.1e} sizes", worst=worst, gap=far.max()
+                "home: the joints are not closed there; {worst} is open by {gap:.1e} of the linkage's size",
+                worst=worst,
+                gap=far.max(),
             )
         return x
 

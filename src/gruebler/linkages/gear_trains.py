@@ -58,7 +58,7 @@ def linkage_of_train(train: Train, drives: Iterable[str]) -> Linkage:
     for link in chosen:
         if layout.bearer.get(link, FRAME) != FRAME:
             raise LinkageError(
-                "{link} is a planet of {carrier}: drive a link that the frame bears",
+                "{link} is a planet of {carrier}: drive a link that the frame supports",
                 link=link,
                 carrier=layout.bearer[link],
             )

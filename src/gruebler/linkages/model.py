@@ -89,14 +89,14 @@ class Linkage:
     ) -> None:
         chain = mechanism.chain
         if chain.space is not Space.PLANAR:
-            raise LinkageError("dimensions are those of planar mechanisms; this one is {space}", space=chain.space)
+            raise LinkageError("only planar mechanisms have dimensions; this one is {space}", space=chain.space)
         made: dict[tuple[int, str], Element] = {}
         names = chain.joint_names()
         for link, mine in elements.items():
             for joint, raw in mine.items():
-                number = joint_number(mechanism, joint)
+                number = chain.joint_number(joint, LinkageError)
                 if link not in chain.joints[number].links:
-                    raise LinkageError("{joint} is no joint of {link!r}", joint=names[number], link=link)
+                    raise LinkageError("{joint} is not a joint of {link!r}", joint=names[number], link=link)
                 made[number, link] = read_element(raw, f"{link}, {names[number]}")
         self._check_joints(mechanism, made)
         made = resolve_wheels(mechanism, made)
@@ -174,10 +174,10 @@ class Linkage:
 
     def element(self, joint: str | int, link: str) -> Element:
         """What a joint is on one of its links."""
-        number = joint_number(self.mechanism, joint)
+        number = self.mechanism.chain.joint_number(joint, LinkageError)
         if (number, link) not in self.elements:
             raise LinkageError(
-                "{joint} is no joint of {link!r}",
+                "{joint} is not a joint of {link!r}",
                 joint=self.mechanism.chain.joint_names()[number],
                 link=link,
             )
@@ -382,29 +382,6 @@ def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, home: 
     return Linkage(mechanism, elements, points, unit=unit, reference_pose=home, outputs=outputs)
 
 
-def joint_number(mechanism: Mechanism, joint: str | int) -> int:
-    """The number of a joint given by number or text; `LinkageError` names the joints there are."""
-    chain = mechanism.chain
-    if isinstance(joint, int):
-        if 0 <= joint < len(chain.joints):
-            return joint
-        raise LinkageError(
-            "there is no joint number {joint}; the chain has joints 0 to {count}",
-            joint=joint,
-            count=len(chain.joints) - 1,
-        )
-    number = chain.find_joint(joint)
-    if number is None:
-        names = chain.joint_names()
-        raise LinkageError(
-            "{joint!r} is not one of the joints{suggestion}; they are {joints}",
-            joint=joint,
-            suggestion=nearest(joint, names),
-            joints=", ".join(names),
-        )
-    return number
-
-
 def _link(mechanism: Mechanism, link: str, where: str | Message) -> str:
     if link not in mechanism.chain.links:
         known = mechanism.chain.links
@@ -473,7 +450,7 @@ def _from_drawing(
 def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:
     """The elements in coordinates of the plane."""
     chain, names = mechanism.chain, mechanism.chain.joint_names()
-    given = {joint_number(mechanism, joint): raw for joint, raw in places.items()}
+    given = {mechanism.chain.joint_number(joint, LinkageError): raw for joint, raw in places.items()}
     drawn: dict[tuple[int, str], Element] = {}
     for number, joint in enumerate(chain.joints):
         if number not in given:

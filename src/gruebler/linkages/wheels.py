@@ -259,7 +259,7 @@ def _check_pair(name: str, rolling: bool, one: Wheel | Circle, other: Wheel | Ci
     if one.belt != other.belt:
         raise LinkageError("{name}: both wheels of a belt are 'open' or both 'crossed'", name=name)
     if one.belt and rolling:
-        raise LinkageError("{name}: a belt is no rolling contact; write it as a roll-slide joint G", name=name)
+        raise LinkageError("{name}: a belt is not a rolling contact; write it as a roll-slide joint G", name=name)
     if bool(one.teeth) != bool(other.teeth):
         raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
     if one.teeth and abs(one.radius / one.teeth - other.radius / other.teeth) > _SAME * abs(one.radius / one.teeth):

@@ -45,7 +45,7 @@ class DriveReport:
             sentences.append(text.filled(freedoms=self.remaining, links=", ".join(self.free_links)))
         if self.redundant_drives:
             numbers = ", ".join(str(k + 1) for k in self.redundant_drives)
-            sentences.append(message("Drives that work against one another: no. {numbers}.", numbers=numbers))
+            sentences.append(message("Drives that conflict: no. {numbers}.", numbers=numbers))
         return joined(sentences, " ")
 
 

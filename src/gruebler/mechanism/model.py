@@ -105,7 +105,7 @@ class Mechanism:
                     chain.index(output)
                 case _:
                     raise NotationError(
-                        "{mark!r} is no mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK",
+                        "{mark!r} is not a mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK",
                         mark=mark.strip(),
                     )
         if output == frame:
@@ -217,13 +217,7 @@ def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
         number, direction = raw, ""
     else:
         number, direction, links = _read_drive(chain, raw)
-    if not 0 <= number < len(chain.joints):
-        raise ChainError(
-            "there is no joint number {number}; the chain has joints 0 to {count}",
-            number=number,
-            count=len(chain.joints) - 1,
-        )
-    joint = chain.joints[number]
+    joint = chain.joints[chain.joint_number(number)]
     freedoms = joint.pair.freedoms[chain.space]
     if not direction:
         if len(freedoms) > 1:
@@ -236,7 +230,7 @@ def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
         direction = freedoms[0]
     if direction not in freedoms:
         raise ChainError(
-            "{direction!r} is no freedom of {joint}; it has {freedoms}",
+            "{direction!r} is not a freedom of {joint}; it has {freedoms}",
             direction=direction,
             joint=joint,
             freedoms=", ".join(freedoms),
@@ -264,13 +258,7 @@ def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
 
 def _read_drive(chain: Chain, text: str) -> tuple[int, str, tuple[str, ...]]:
     joint_text, *options = re.split(r":(?![^(]*\))", text)
-    number = chain.find_joint(joint_text)
-    if number is None:
-        raise ChainError(
-            "{joint!r} is not one of the joints; they are {joints}",
-            joint=joint_text,
-            joints=", ".join(chain.joint_names()),
-        )
+    number = chain.joint_number(joint_text)
     direction = ""
     links: tuple[str, ...] = ()
     for option in options:

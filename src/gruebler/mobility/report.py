@@ -109,7 +109,7 @@ class MobilityReport(Brief):
         Joints: g1 = 4, one independent loop
         Count: F = 3(n - 1) - 2 g1 = 3(4 - 1) - 2·4 = 1
         Criterion of constrained motion: 3n - 4 - 2 g1 = 12 - 4 - 8 = 0. It holds.
-        Generic mobility (almost all sizes): 1, proved. The count is true.
+        Generic mobility (almost all sizes): 1, proved. The count is correct.
         Verdict: constrained. One drive moves every link in one definite way.
         """
         names = self.chain.joint_names(Alphabet.of_language(lang))
@@ -251,7 +251,7 @@ def _count_and_rank(report: MobilityReport) -> Message:
         return text.filled(difference=report.redundancy)
     if report.generic and report.rigid_clusters:
         return message("The sum is right, but the chain is not sound: see below.")
-    return message("The count is true.")
+    return message("The count is correct.")
 
 
 def _details(report: MobilityReport, names: Sequence[str]) -> Iterator[Message]:

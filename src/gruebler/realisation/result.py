@@ -23,13 +23,13 @@ __all__ = ["Realisation"]
 _FULL = message("{drive} turns fully.")
 _TURNING = {
     "range": message("{drive} turns from {low:.7g}° to {high:.7g}°."),
-    "well conditioned": message("Well conditioned it turns from {low:.0f}° to {high:.0f}°."),
-    "all at once": message("{drive} turns well conditioned from {low:.0f}° to {high:.0f}°, all drives at once."),
+    "well conditioned": message("It is well conditioned from {low:.0f}° to {high:.0f}°."),
+    "all at once": message("{drive} is well conditioned from {low:.0f}° to {high:.0f}°, all drives at once."),
 }
 _SLIDING = {
     "range": message("{drive} moves from {low:.7g} to {high:.7g} {unit}."),
-    "well conditioned": message("Well conditioned it moves from {low:.6g} to {high:.6g} {unit}."),
-    "all at once": message("{drive} moves well conditioned from {low:.6g} to {high:.6g} {unit}, all drives at once."),
+    "well conditioned": message("It is well conditioned from {low:.6g} to {high:.6g} {unit}."),
+    "all at once": message("{drive} is well conditioned from {low:.6g} to {high:.6g} {unit}, all drives at once."),
 }
 
 

@@ -45,14 +45,7 @@ def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -
     [[0.877583, -0.479426], [0.479426, 0.877583]]
     """
     closing = Closing.of(linkage)
-    chain = linkage.mechanism.chain
-    number = joint if isinstance(joint, int) else chain.find_joint(joint)
-    if number is None or not 0 <= number < len(chain.joints):
-        raise LinkageError(
-            "{joint!r} is not one of the joints; they are {joints}",
-            joint=joint,
-            joints=", ".join(chain.joint_names()),
-        )
+    number = linkage.mechanism.chain.joint_number(joint, LinkageError)
     return follow_from_pose(closing, closing.home, number, np.atleast_1d(np.asarray(values, float)))
 
 

@@ -30,7 +30,7 @@ __all__ = ["Freedoms", "freedoms"]
 
 _FINITE = {
     "rigid": message("Finite: 0, for nothing moves even for an instant."),
-    "regular": message("Finite: {finite}, proved, for no constraint is redundant (theorem of implicit functions)."),
+    "regular": message("Finite: {finite}, proved, for no constraint is redundant (implicit function theorem)."),
     "blurred": message(
         "Finite: not decided, perhaps {finite}. The smallest singular value that counts is no larger than the error "
         "of the pose makes it: there may be one velocity more, and none of them a motion."
@@ -165,7 +165,7 @@ class Freedoms(Brief):
         Instant: 8 constraints of rank 8 on 9 velocities leave 1 at this pose. Singular values against the largest: the
         smallest that counts is 1.2e-01, none counts as zero (tolerance 1e-08).
         No constraint is redundant.
-        Finite: 1, proved, for no constraint is redundant (theorem of implicit functions).
+        Finite: 1, proved, for no constraint is redundant (implicit function theorem).
         """
         names = _joint_names(self, lang)
         lines = [_mobilities(self), *_instant(self, names), *_finite(self), *_reasons(self, names)]

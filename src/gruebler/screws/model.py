@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
-from gruebler.errors import LinkageError, nearest
+from gruebler.errors import LinkageError
 from gruebler.mechanism import Mechanism
 from gruebler.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 
@@ -53,15 +53,7 @@ class SpatialLinkage:
         given = self.joints if isinstance(self.joints, Mapping) else dict(enumerate(self.joints))
         raw: dict[int, object] = {}
         for key, value in given.items():
-            number = key if isinstance(key, int) else chain.find_joint(key)
-            if number is None or not 0 <= number < len(names):
-                raise LinkageError(
-                    "{key!r} is not one of the joints{suggestion}; they are {joints}",
-                    key=key,
-                    suggestion=nearest(str(key), names),
-                    joints=", ".join(names),
-                )
-            raw[number] = value
+            raw[chain.joint_number(key, LinkageError)] = value
         for number, name in enumerate(names):
             if number not in raw:
                 raise LinkageError("{name} has no place", name=name)

@@ -204,7 +204,7 @@ class _Reader:
     def whole(self) -> Iterator[_Step]:
         yield from self.sum()
         if self.tokens[0][0]:
-            raise self.unexpected(message("a sign of calculation"))
+            raise self.unexpected(message("an operator"))
 
     def sum(self) -> Iterator[_Step]:
         yield from self.products("+-", lambda: self.products("*/", self.signed))
@@ -279,7 +279,7 @@ class _Reader:
     def deeper(self) -> int:
         self.depth += 1
         if self.depth > _DEEPEST:
-            problem = message("more than {limit} levels within one another", limit=_DEEPEST)
+            problem = message("more than {limit} nested levels", limit=_DEEPEST)
             raise _wrong(self.text, self.tokens[0][1], problem)
         return self.taken()
 
@@ -290,5 +290,5 @@ class _Reader:
         elif token:
             problem = message("expected {wanted}, but found {found!r}", wanted=expected, found=token[:20])
         else:
-            problem = message("expected {wanted}, but found the end", wanted=expected)
+            problem = message("expected {wanted}, but the text ends", wanted=expected)
         return _wrong(self.text, at, problem)

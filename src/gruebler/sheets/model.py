@@ -275,7 +275,7 @@ def _contact(sheet: Sheet, at: float, _: float) -> float:
 def _cognate(sheet: Sheet, cognate: CognateLength, at: float) -> float:
     size, u, v, phi, branch = lever_pose(sheet.linkage, sheet.record.names[sheet.record.point], math.radians(at))
     if not isinstance(size, FourBar):
-        raise CatalogError("sheet {id}: cognates are those of four-bars", id=sheet.id)
+        raise CatalogError("sheet {id}: only four-bars have cognates", id=sheet.id)
     length = getattr(cognates(size, u, v, branch=branch, phi=phi)[cognate.number - 1].size, cognate.length)
     return float(length) / sheet.unit_length
 

@@ -241,7 +241,7 @@ def _wrong_places(record: SheetRecord) -> Iterator[Message]:
             yield apart.filled(where=where, first=first, second=second)
     axis = record.picture.axis_through
     if axis is not None and machine.mechanism.frame not in links[axis]:
-        yield message("picture.axis_through: {joint} is no joint of the frame", joint=axis)
+        yield message("picture.axis_through: {joint} is not a joint of the frame", joint=axis)
 
 
 def _expressions(record: SheetRecord) -> Iterator[tuple[str, str]]:
@@ -265,7 +265,7 @@ def _wrong_words(record: SheetRecord) -> Iterator[Message]:
             form = re.fullmatch(r"\{(\w+)(?::\.\df)?\}", place)
             if form is None or form[1] not in known:
                 yield message(
-                    "explanation: {place!r} is no place such as {{id:.3f}} with one of {known}",
+                    "explanation: {place!r} is not a place such as {{id:.3f}} with one of {known}",
                     place=place,
                     known=", ".join(known),
                 )

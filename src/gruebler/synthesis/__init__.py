@@ -11,9 +11,9 @@ from gruebler.synthesis.functions import synthesise_function
 from gruebler.synthesis.judging import Demands
 from gruebler.synthesis.paths import synthesise_path
 from gruebler.synthesis.positions import synthesise_positions
-from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
 from gruebler.synthesis.structural_error import minimax, structural_error
-from gruebler.synthesis.structures import pareto, synthesise_structures
+from gruebler.synthesis.structures import synthesise_structures
 from gruebler.synthesis.synthesise import synthesise
 from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task

@@ -8,7 +8,6 @@ Newton step, so that the answer says how many of how many are accounted for. doc
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -23,6 +22,7 @@ from gruebler.arrays import Complexes, Integers
 from gruebler.errors import SynthesisError
 from gruebler.synthesis.discs import certified
 from gruebler.synthesis.endgame import path_ends
+from gruebler.synthesis.results import Progress
 
 __all__ = ["PROBLEMS", "Problem", "Solutions", "load_generic_solutions", "parameters", "solutions"]
 
@@ -139,10 +139,6 @@ class Solutions(NamedTuple):
         z = np.concatenate([self.z, self.multiple])
         gaps = np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1)
         return np.asarray(z[gaps <= 1e-7 * (1 + np.abs(z).max(axis=1))])
-
-
-Progress = Callable[[int, int], None]
-"""Called with how many paths are done, and of how many."""
 
 
 def follow_from_generic(

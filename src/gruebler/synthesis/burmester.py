@@ -9,6 +9,7 @@ docs/theory/synthesis-positions.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,8 @@ from gruebler.synthesis.tasks import PositionTask
 __all__ = ["BurmesterCurves", "CurvePiece", "burmester_curves"]
 
 
+_STEPS = 30  # along a curve to the point nearest to a place
+_LONGEST = 0.05  # of the pivots' distances: the longest of these steps
 _NOTHING = 1e-13  # a cubic whose coefficients are all smaller is no condition
 
 
@@ -55,15 +58,62 @@ class BurmesterCurves:
         chosen = np.flatnonzero(near & apart)
         chosen = chosen[np.unique(np.linspace(0, len(chosen) - 1, min(number, len(chosen))).astype(int))]
         # A closed piece ends in its first point.
-        return (*dict.fromkeys(self.nearest(complex(moving[k])) for k in chosen), *self.sliding)
+        given, *_ = Displacements.of(self.task.origins, self.task.turns)
+        exact = (_sharpened(given, *(complex(side[k]) for side in self._points)) for k in chosen)
+        return (*dict.fromkeys(dyad.moved(size, origin) for dyad in exact), *self.sliding)
 
-    def nearest(self, pivot: complex) -> GuidingDyad:
-        """The dyad whose pivot on the body is nearest to a place, exact."""
-        displacements, origin, size = Displacements.of(self.task.origins, self.task.turns)
-        moving = np.concatenate([piece.moving for piece in self.pieces])
-        fixed = np.concatenate([piece.fixed for piece in self.pieces])
-        k = int(np.argmin(np.abs(moving - pivot)))
-        x, m = (moving[k] - origin) / size, (fixed[k] - origin) / size
+    @cached_property
+    def _points(self) -> CurvePiece:
+        """All pieces one after the other, in units of the task's size about the first origin."""
+        origin, size = self._unit
+        moving, fixed = (np.concatenate(side) for side in zip(*self.pieces, strict=True))
+        return CurvePiece((moving - origin) / size, (fixed - origin) / size)
+
+    @property
+    def _unit(self) -> tuple[complex, float]:
+        return complex(*self.task.positions[0][:2]), self.task.size
+
+    def nearest(self, pivot: complex, *, fixed: bool = False) -> GuidingDyad:
+        """The dyad whose pivot on the body, or on the frame, is nearest to a place, exact. Cost: 1 ms."""
+        origin, size = self._unit
+        side, target = int(fixed), (pivot - origin) / size
+        k = int(np.argmin(np.abs(self._points[side] - target)))
+        displacements, *_ = Displacements.of(self.task.origins, self.task.turns)
+        pivots = complex(self._points.moving[k]), complex(self._points.fixed[k])
+        return _nearest_dyad(displacements, *pivots, target, side).moved(size, origin)
+
+    def parameters(self) -> list[Reals]:
+        """Of each piece where its points lie along the circle-point curve: from 0 to 1 through all pieces.
+
+        The curve is measured on a sphere (stereographically, about the first origin, the radius half the task's size),
+        where it has a finite length.
+        """
+        origin, size = self._unit
+        lengths = []
+        for piece in self.pieces:
+            z = (piece.moving - origin) / size
+            near = np.sqrt(1 + np.abs(z) ** 2)
+            steps = np.abs(np.diff(z)) / (near[:-1] * near[1:])  # the chord on the sphere
+            lengths.append(np.concatenate([[0.0], np.cumsum(steps)]))
+        ends = np.cumsum([0.0, *(length[-1] for length in lengths)])
+        return [(length + begin) / ends[-1] for length, begin in zip(lengths, ends[:-1], strict=True)]
+
+    def at(self, parameter: float) -> GuidingDyad:
+        """The dyad at a place along the circle-point curve, from 0 to 1; exact.
+
+        Raises `SynthesisError` for another number.
+        """
+        if not 0 <= parameter <= 1:
+            raise SynthesisError(
+                "a place along the circle-point curve: expected 0 to 1, but found {found:g}", found=parameter
+            )
+        places = np.concatenate(self.parameters())
+        after = int(np.clip(np.searchsorted(places, parameter), 1, len(places) - 1))
+        width = float(places[after] - places[after - 1])
+        share = (parameter - float(places[after - 1])) / width if width > 0 else 0.0
+        x, m = (complex((1 - share) * side[after - 1] + share * side[after]) for side in self._points)
+        origin, size = self._unit
+        displacements, *_ = Displacements.of(self.task.origins, self.task.turns)
         return _sharpened(displacements, x, m).moved(size, origin)
 
 
@@ -234,14 +284,18 @@ def _centres(given: Displacements, x: Complexes) -> tuple[Complexes, NDArray[np.
     return m, good
 
 
+def _conditions(given: Displacements, x: complex, m: complex) -> tuple[Reals, Reals]:
+    """How far a dyad is from guiding the body, and the derivatives by both pivots: (3,), (3, 4)."""
+    gap = given.q * x + given.t - m
+    residual = np.abs(gap) ** 2 - abs(x - m) ** 2
+    by_x, by_m = 2 * (np.conj(given.q) * gap - (x - m)), -2 * (gap - (x - m))
+    return residual, np.stack([by_x.real, by_x.imag, by_m.real, by_m.imag], axis=1)
+
+
 def _sharpened(given: Displacements, x: complex, m: complex) -> GuidingDyad:
     """The nearest exact dyad of three displacements, by Gauss and Newton."""
-    q, t = given
     for _ in range(20):
-        gap = q * x + t - m
-        residual = np.abs(gap) ** 2 - abs(x - m) ** 2
-        by_x, by_m = 2 * (np.conj(q) * gap - (x - m)), -2 * (gap - (x - m))
-        matrix = np.stack([by_x.real, by_x.imag, by_m.real, by_m.imag], axis=1)
+        residual, matrix = _conditions(given, x, m)
         step, *_ = np.linalg.lstsq(matrix, -residual, rcond=1e-13)
         x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
         if np.abs(step).max() < 1e-15 * (1 + abs(x) + abs(m)):
@@ -250,3 +304,19 @@ def _sharpened(given: Displacements, x: complex, m: complex) -> GuidingDyad:
     if misfit(given, dyad) > 1e-10 * (1 + abs(x) + abs(m)):
         raise SynthesisError("no dyad of the four positions lies near this place")
     return dyad
+
+
+def _nearest_dyad(given: Displacements, x: complex, m: complex, target: complex, side: int) -> GuidingDyad:
+    """From a dyad along the curve to where its pivot (0: on the body, 1: on the frame) is nearest to a place."""
+    for _ in range(_STEPS):
+        tangent = np.linalg.svd(_conditions(given, x, m)[1])[2][-1]
+        own = complex(tangent[2 * side], tangent[2 * side + 1])
+        along = float(np.real(np.conj(own) * (target - (x, m)[side]))) / max(abs(own) ** 2, 1e-12)
+        longest = _LONGEST * (1 + abs(x) + abs(m))
+        along = float(np.clip(along, -longest, longest))
+        dyad = _sharpened(given, x + along * complex(*tangent[:2]), m + along * complex(*tangent[2:]))
+        moved = abs(dyad.moving - x) + abs(dyad.fixed - m)
+        x, m = dyad.moving, dyad.fixed
+        if moved < 1e-13 * (1 + abs(x) + abs(m)):
+            break
+    return GuidingDyad("RR", x, m)

@@ -48,7 +48,7 @@ class PoseDerivatives(NamedTuple):
     triangle: Reals
     """(poses, equations, equations) the rest of the factorisation."""
     motion: Reals
-    """(poses, unknowns) how the poses move by the one freedom."""
+    """(poses, unknowns, freedoms) how the poses move while no dimension changes."""
 
     def correction(self, gaps: Reals) -> Reals:
         """The least change of each pose that makes up for gaps: (poses, unknowns)."""
@@ -123,6 +123,32 @@ class DesignClosure:
             z = found.places[0, :, k]
             out[:, c], out[:, c + 1], out[:, c + 2] = z.real, z.imag, found.angles[:, k]
         return out
+
+    def drive_values(self, q: Reals, p: Reals) -> Reals:
+        """(poses, drives) the values of all drives as `move` takes them, turning ones without jumps from row to row."""
+        columns = []
+        chain = self.linkage.mechanism.chain
+        for number, drive in enumerate(self.linkage.mechanism.drives):
+            first, other = self.linkage.reference(number)
+            if drive.turning:
+                angles = [q[:, self.column[link] + 2] if link in self.column else 0.0 for link in (first, other)]
+                columns.append(np.unwrap(angles[1] - angles[0]))
+                continue
+            joint = chain.joints[drive.joint]
+            own, far = (self._line(q, p, drive.joint, link) for link in (first, other))
+            assert joint.pair.is_prismatic
+            columns.append(np.real(np.conj(own[1]) * (far[0] - own[0])))
+        return np.stack(columns, axis=1)
+
+    def _line(self, q: Reals, p: Reals, joint: int, link: str) -> tuple[Complexes, Complexes]:
+        """The point and the direction of a link's line in a sliding joint, at poses."""
+        at = self.start[joint, link]
+        point, direction = np.full(len(q), complex(p[at], p[at + 1])), np.full(len(q), np.exp(1j * p[at + 2]))
+        if link not in self.column:
+            return point, direction
+        c = self.column[link]
+        turn = np.exp(1j * q[:, c + 2])
+        return q[:, c] + 1j * q[:, c + 1] + turn * point, turn * direction
 
     def joined(self, q: Reals, p: Reals) -> _Joined:
         """Both sides of all joints. Cost: about 1 us a pose."""
@@ -206,9 +232,8 @@ class DesignClosure:
         diagonal = np.abs(np.einsum("nkk->nk", triangle))
         pose, row = np.nonzero(diagonal <= 1e-10 * diagonal.max(axis=1, keepdims=True))
         triangle[pose, row, row] = 1e10 * diagonal.max(axis=1)[pose]
-        return PoseDerivatives(
-            self, joined, weights, basis[:, :, : self.equations], triangle, weights * basis[:, :, -1]
-        )
+        free = basis[:, :, -max(1, self.unknowns - self.equations) :]
+        return PoseDerivatives(self, joined, weights, basis[:, :, : self.equations], triangle, weights[:, None] * free)
 
     def closed(self, q: Reals, p: Reals, *, size: float, steps: int = 12) -> tuple[Reals, NDArray[np.bool_]]:
         """The nearest closed poses, by Newton's method with least steps; and which of them were reached."""

@@ -6,7 +6,6 @@ mirror image; least squares with exact derivatives makes the best of each. docs/
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
@@ -22,13 +21,11 @@ from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
 from gruebler.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.tasks import PathTask
 from gruebler.text import message
 
 __all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
-
-Progress = Callable[[int, int], None]
 
 _STEPS = 300
 ACCEPTED = 0.05
@@ -338,7 +335,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
         if sum(design.verdict.accepted for design in designs) == number:
             break
     accepted, rejected = ranked(designs)
-    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    accepted = in_order_of(accepted, ["error"])
     note = message(
         "So many points are met by least squares; designs that come nearer than {limit:g} of the size are accepted.",
         limit=limit,

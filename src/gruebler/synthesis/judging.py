@@ -21,7 +21,7 @@ from gruebler.kinematics import Circuit, Poses, circuit, move
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import Line
-from gruebler.synthesis.results import Design, DesignVerdict
+from gruebler.synthesis.results import EXACT, Design, DesignVerdict
 from gruebler.text import Message, joined, message
 
 __all__ = [
@@ -31,16 +31,16 @@ __all__ = [
     "best_of",
     "faults_of_size",
     "judge_design",
+    "judge_with_drives",
     "point_targets",
     "position_targets",
     "transmission_fault",
 ]
 
 
-EXACT = 1e-9
-"""A target is met if it is missed by less than this part of the task's size."""
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
 _REFINEMENTS = 8
+_ROWS = 16  # poses from one target to the next, with several drives
 
 
 @dataclass(frozen=True)
@@ -199,6 +199,43 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         tuple(reasons),
     )
     return Design(linkage, verdict, form, drives)
+
+
+def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form: str, drives: Reals) -> Design:
+    """The verdict on a linkage with several drives, which `move` carries from target to target.
+
+    Args:
+        linkage: in the position of the first target.
+        targets: as for `judge_design`.
+        demands: of order and branch nothing is left, since the drives choose the way; a full turn is refused.
+        form: of the design.
+        drives: (targets, drives) their values at the targets; between two targets they go evenly.
+    """
+    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    reasons = faults_of_size(ratio, inside, demands)
+    between = np.linspace(0, len(drives) - 1, _ROWS * (len(drives) - 1) + 1)
+    rows = np.stack([np.interp(between, np.arange(len(drives)), column) for column in drives.T], axis=1)
+    error = np.inf
+    try:
+        motion = move(linkage, rows)
+        if motion.complete:
+            values = np.stack([probe.of_motion(motion)[::_ROWS] for probe in targets.probes], axis=1)
+            error = float(np.sqrt(np.nansum(np.abs(values - targets.values) ** 2, axis=1)).max() / targets.size)
+    except LinkageError as fault:
+        reasons.append(message("it cannot be followed from its first position: {error}", error=fault))
+    if not np.isfinite(error):
+        reasons.append(message("`move` does not lead through all targets"))
+    elif error > demands.tolerance + _ROUNDING * linkage.size / targets.size:
+        reasons.append(message("a target is missed by {error:.3g} of the size", error=error))
+    if demands.crank:
+        reasons.append(message("with several drives none has to turn fully"))
+    if demands.transmission > 0:
+        reasons.append(message("with several drives there is no transmission angle"))
+    moved = bool(np.isfinite(error))
+    verdict = DesignVerdict(
+        moved, moved, moved, moved, False, np.nan, ratio, inside, error if moved else np.nan, tuple(reasons)
+    )
+    return Design(linkage, verdict, form, drive_rows=tuple(tuple(map(float, row)) for row in drives))
 
 
 def faults_of_size(ratio: float, inside: bool, demands: Demands) -> list[Message]:

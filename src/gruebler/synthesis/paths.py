@@ -5,7 +5,7 @@ docs/theory/synthesis-points.md has the equations and the counts.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from itertools import combinations
 from typing import NamedTuple
@@ -19,14 +19,13 @@ from gruebler.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, param
 from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judge_design, point_targets, position_targets
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import SAME, PathTask, PositionTask
 from gruebler.text import Message, message
 
 __all__ = ["four_bars_through", "synthesise_path"]
 
 MOST_ON_CIRCLE = 6
-Progress = Callable[[int, int], None]
 
 
 def synthesise_path(
@@ -49,7 +48,7 @@ def synthesise_path(
         demands: what a design has to do besides.
         number: of dyads taken from an infinite family (crank angles), or of designs for a whole curve.
         threads: how many follow paths; as many as there are processors if None.
-        progress: called with the paths done and their number.
+        progress: called with the paths done and their number, then with the verdicts.
 
     Raises `SynthesisError` for combinations that no method serves. Cost: nine points about 3 s on one core, the others
     below 1 s, and 10 ms for each verdict.
@@ -68,7 +67,7 @@ def synthesise_path(
     if task.fixed_pivots and len(oriented) > 1:
         raise SynthesisError("fixed pivots go with points alone, without coupler angles")
     if len(oriented) == len(task) and len(task) > 1 and not task.closed:
-        return _as_positions(task, wanted)
+        return _as_positions(task, wanted, progress)
     poses = max(0, len(oriented) - 1)
     needed = 4 if task.fixed_pivots else 8 - 2 * poses
     free = len(task) - 1 - poses
@@ -84,10 +83,10 @@ def synthesise_path(
     return _exact(task, wanted, problem, oriented, threads, progress)
 
 
-def _as_positions(task: PathTask, demands: Demands) -> SynthesisResult:
+def _as_positions(task: PathTask, demands: Demands, progress: Progress | None) -> SynthesisResult:
     """Every point has its coupler angle: positions."""
     rows = [(*p, a) for p, a in zip(task.points, task.angles, strict=True) if a is not None]
-    result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), demands)
+    result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), demands, progress=progress)
     return SynthesisResult(task, result.designs, result.rejected, result.count, result.notes)
 
 
@@ -114,7 +113,10 @@ def _exact(
     _check_general(task)
     reduced, complete = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
-    for pair in _dyad_pairs(problem, complete):
+    pairs = list(_dyad_pairs(problem, complete))
+    for done, pair in enumerate(pairs, 1):
+        if progress is not None:
+            progress(done, len(pairs))
         first, second = (dyad.moved(reduced.size, reduced.origin) for dyad in pair)
         designs += _judged(task, demands, first, second, reduced.first)
     cognate = problem.poses == 0 and not problem.given_pivots

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import combinations
-from math import atan2, isnan
+from math import atan2
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ from gruebler.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.synthesis.judging import Demands, Targets, best_of, position_targets
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.tasks import PositionTask
 from gruebler.text import Message, message
 
@@ -39,7 +39,6 @@ __all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of_dyads", "ranked", "
 
 _SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
 """What the link between frame and coupler is called: the first of its kind, the second."""
-
 NEAR = 0.05
 """More than five positions are met if they are missed by less than this part of the size."""
 
@@ -74,7 +73,12 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
         return tuple(dyad.moved(size, origin) for dyad in all_dyads(displacements).real)
     if count == 4:
         curves = burmester_curves(task)
-        return curves.dyads(number) if curves.pieces else curves.sliding
+        if not curves.pieces:
+            return curves.sliding
+        picked = [curves.nearest(complex(*p)) for p in task.moving_pivots]
+        picked += [curves.nearest(complex(*p), fixed=True) for p in task.fixed_pivots]
+        picked += [curves.at(place) for place in task.curve_parameters]
+        return tuple(picked) or curves.dyads(number)
     if count > 5:
         return tuple(dyad.moved(size, origin) for dyad in _fitted_dyads(displacements))
     chosen: list[tuple[Callable[[Displacements, complex], GuidingDyad], complex]]
@@ -110,13 +114,16 @@ def _halved(given: Displacements) -> complex:
     return t * 0.5 + 0.25j * t if abs(t) > 0 else 0.25 + 0j * q
 
 
-def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, number: int = 16) -> SynthesisResult:
+def synthesise_positions(
+    task: PositionTask, demands: Demands | None = None, *, number: int = 16, progress: Progress | None = None
+) -> SynthesisResult:
     """All linkages of two dyads that carry a body through positions.
 
     Args:
         task: the positions.
         demands: what a design has to do besides; by default one branch and the order of the task.
         number: of dyads that are taken from each infinite family (two to four positions).
+        progress: called with the pairs of dyads that are judged, and their number.
 
     Raises `SynthesisError` for positions that infinitely many dyads of no known family serve. Cost: 1 ms for the dyads
     of five positions and about 10 ms for the verdict on each design.
@@ -130,8 +137,8 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
     wanted = demands or Demands()
     dyads = guiding_dyads(task, number)
     if len(task) > 5:
-        return _approximate(task, wanted, dyads)
-    candidates = _judged_pairs(task, wanted, dyads)
+        return _approximate(task, wanted, dyads, progress)
+    candidates = _judged_pairs(task, wanted, dyads, progress)
     notes: list[Message] = []
     complex_dyads = len(dyads)
     if len(task) == 5:
@@ -139,6 +146,8 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
         complex_dyads = all_dyads(displacements).found
     else:
         notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
+    if len(task) == 4 and (task.moving_pivots or task.fixed_pivots):
+        notes.append(message("For each pivot that was chosen the nearest point of its curve was taken."))
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
@@ -149,23 +158,20 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
 
 def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
     """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
-
-    def worth(design: Design) -> tuple[bool, float, float]:
-        verdict = design.verdict
-        mu = verdict.transmission
-        return not verdict.turns_fully, 0.0 if isnan(mu) else -mu, verdict.size_ratio
-
-    candidates = list(candidates)
-    accepted = sorted((d for d in candidates if d.verdict.accepted), key=worth)
-    rejected = sorted(
-        (d for d in candidates if not d.verdict.accepted), key=lambda d: (len(d.verdict.reasons), worth(d))
-    )
+    usual = in_order_of(candidates, ("full-turn", "transmission", "size-ratio"))
+    accepted = [design for design in usual if design.verdict.accepted]
+    rejected = sorted((d for d in usual if not d.verdict.accepted), key=lambda design: len(design.verdict.reasons))
     return tuple(accepted), tuple(rejected)
 
 
-def _judged_pairs(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> list[Design]:
+def _judged_pairs(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], progress: Progress | None
+) -> list[Design]:
     designs = []
-    for guiding_dyad, two in combinations(dyads, 2):
+    pairs = list(combinations(dyads, 2))
+    for done, (guiding_dyad, two) in enumerate(pairs, 1):
+        if progress is not None:
+            progress(done, len(pairs))
         form = f"{guiding_dyad.form}-{two.form}"
         try:
             linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
@@ -285,12 +291,14 @@ def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:
     return one.form != other.form or gap > 1e-3 * (1 + abs(one.moving) + abs(one.fixed))
 
 
-def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> SynthesisResult:
+def _approximate(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], progress: Progress | None
+) -> SynthesisResult:
     """More than five positions: the pairs of fitted dyads, judged by how near they come to each position."""
     tolerance = demands.tolerance if demands.tolerance > 1e-6 else NEAR
-    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads)
+    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads, progress)
     accepted, rejected = ranked(designs)
-    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    accepted = in_order_of(accepted, ["error"])
     note = message(
         "More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted.",
         tolerance=tolerance,

@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import degrees, isnan
 from typing import Any
 
+from gruebler.analysis.drive_cycle import drive_cycle
+from gruebler.analysis.outputs import find_output
+from gruebler.analysis.transmission import measure_transmission
+from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.notebook import html_table
 from gruebler.synthesis.tasks import Task
 from gruebler.text import Message, message, plural
 
-__all__ = ["Design", "DesignVerdict", "SolutionCount", "SynthesisResult"]
+__all__ = [
+    "ORDERS",
+    "Design",
+    "DesignVerdict",
+    "ParetoRow",
+    "SolutionCount",
+    "SynthesisResult",
+    "in_order_of",
+    "pareto",
+]
 
 
 @dataclass(frozen=True)
@@ -44,6 +59,8 @@ class DesignVerdict:
         return not self.reasons
 
 
+Progress = Callable[[int, int], None]
+"""Called with how much is done, and of how much."""
 FITTED = "fitted structure"
 """The form of a design whose structure is neither that of a four-bar nor of a slider-crank."""
 _FORMS = {
@@ -62,20 +79,41 @@ class Design:
     form: str
     """The two connections of coupler and frame, such as ``RR-RR``, or the kind of linkage, such as ``four-bar``."""
     drives: tuple[float, ...] = ()
-    """The drive value at each target."""
+    """The drive value at each target; empty with several drives."""
+    drive_rows: tuple[tuple[float, ...], ...] = ()
+    """With several drives their values at each target."""
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
         return self.linkage._repr_svg_()
 
+    @property
+    def links(self) -> int:
+        """The number of links, the frame included."""
+        return len(self.linkage.mechanism.chain.links)
+
+    @cached_property
+    def transmission_over_range(self) -> float:
+        """The minimum transmission angle over the whole range of the drive, in radians; NaN where there is none.
+
+        It is what `analyse` prints, and at most the one on the way through the targets. Cost: 70 ms, once.
+        """
+        try:
+            return float(measure_transmission(drive_cycle(self.linkage), find_output(self.linkage, None)).smallest.mu)
+        except LinkageError:
+            return float("nan")
+
     def form_in_language(self, lang: str = "en") -> str:
         """The form in words, that of a fitted structure by its number of links."""
         if self.form == FITTED:
-            return plural("{count} link", "{count} links", len(self.linkage.mechanism.chain.links), lang)
+            return plural("{count} link", "{count} links", self.links, lang)
         return _FORMS[self.form].in_language(lang) if self.form in _FORMS else self.form
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage."""
+        """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage.
+
+        The transmission angle over the whole range is only computed for accepted designs.
+        """
         from gruebler.formats import linkage_to_json
 
         turning = bool(self.linkage.mechanism.drives) and self.linkage.mechanism.drives[0].turning
@@ -89,17 +127,70 @@ class Design:
             "one_branch": verdict.one_branch,
             "in_order": verdict.in_order,
             "turns_fully": verdict.turns_fully,
-            "transmission": _or_none(degrees(verdict.transmission)),
+            "transmission_through_targets": _or_none(degrees(verdict.transmission)),
+            "transmission_over_range": _or_none(degrees(self.transmission_over_range)) if verdict.accepted else None,
+            "links": self.links,
+            "size": self.linkage.size,
             "size_ratio": _or_none(verdict.size_ratio),
             "inside": verdict.inside,
             "error": _or_none(verdict.error),
-            "drives": [degrees(value) if turning else value for value in self.drives],
+            "drives": [degrees(value) if turning else value for value in self.drives] or self._drive_rows(),
             "linkage": linkage_to_json(self.linkage),
         }
+
+    def _drive_rows(self) -> list[list[float]]:
+        drives = self.linkage.mechanism.drives
+        return [
+            [degrees(value) if drive.turning else value for value, drive in zip(row, drives, strict=True)]
+            for row in self.drive_rows
+        ]
 
 
 def _or_none(value: float) -> float | None:
     return None if isnan(value) else value
+
+
+EXACT = 1e-9
+"""A target is met if it is missed by less than this part of the task's size."""
+
+
+def _error(design: Design) -> float:
+    """Errors of exact designs are rounding, which orders nothing."""
+    error = design.verdict.error
+    return 0.0 if error < EXACT else error
+
+
+ORDERS: Mapping[str, Callable[[Design], float]] = {
+    "error": _error,
+    "transmission": lambda design: -design.verdict.transmission,
+    "range-transmission": lambda design: -design.transmission_over_range,
+    "size": lambda design: design.linkage.size,
+    "size-ratio": lambda design: design.verdict.size_ratio,
+    "links": lambda design: float(design.links),
+    "full-turn": lambda design: float(not design.verdict.turns_fully),
+}
+"""What designs can be sorted by, the better first: the smaller value."""
+
+
+def in_order_of(designs: Iterable[Design], orders: Iterable[str]) -> tuple[Design, ...]:
+    """Designs sorted by the first order, equal ones by the next; what has no value comes last.
+
+    Values that agree to nine digits are equal, since rounding tells such designs apart.
+
+    Raises `SynthesisError` for an order that there is not.
+    """
+    orders = tuple(orders)
+    for name in orders:
+        if name not in ORDERS:
+            raise SynthesisError(
+                "designs are sorted by {orders}, not by {name!r}", orders=", ".join(ORDERS), name=str(name)[:40]
+            )
+
+    def place(design: Design) -> list[tuple[bool, float]]:
+        values = [ORDERS[name](design) for name in orders]
+        return [(isnan(value), 0.0 if isnan(value) else float(f"{value:.9g}")) for value in values]
+
+    return tuple(sorted(designs, key=place))
 
 
 @dataclass(frozen=True)
@@ -138,6 +229,16 @@ class SynthesisResult:
     def __getitem__(self, number: int) -> Design:
         return self.designs[number]
 
+    def sorted_by(self, *orders: str) -> SynthesisResult:
+        """The same result with its designs, accepted and rejected, in another order: the names of `ORDERS`.
+
+        >>> from gruebler.synthesis import DeadCentreTask, synthesise
+        >>> found = synthesise(DeadCentreTask(stroke=50, time_ratio=1.2), number=4)
+        >>> [round(design.linkage.size, 1) for design in found.sorted_by("size").designs][:3]
+        [25.1, 64.0, 105.4]
+        """
+        return replace(self, designs=in_order_of(self.designs, orders), rejected=in_order_of(self.rejected, orders))
+
     def _repr_html_(self) -> str:
         """The accepted designs, for notebooks."""
         rows = (
@@ -150,7 +251,7 @@ class SynthesisResult:
             ]
             for number, each in enumerate(self.designs)
         )
-        headers = ["", "design", "full turn", "transmission angle", "error"]
+        headers = ["", "design", "full turn", "transmission angle through the targets", "error"]
         return html_table(headers, rows, len(self)) + f"<p>{len(self)} accepted, {len(self.rejected)} rejected</p>"
 
     def to_json(self) -> dict[str, Any]:
@@ -167,5 +268,56 @@ class SynthesisResult:
             },
             "notes": [str(note) for note in self.notes],
             "designs": [design.to_json() for design in self.designs],
+            "pareto": [
+                {
+                    "design": next(k for k, design in enumerate(self.designs) if design is row.design),
+                    "error": row.error,
+                    "transmission_through_targets": _or_none(degrees(row.transmission)),
+                    "size": row.size,
+                    "links": row.links,
+                    "structure": row.structure,
+                }
+                for row in pareto(self)
+            ],
             "rejected": [design.to_json() for design in self.rejected],
         }
+
+
+@dataclass(frozen=True)
+class ParetoRow:
+    """A design by what counts: the smaller error, size and number of links, the larger transmission angle."""
+
+    structure: str
+    error: float
+    transmission: float
+    size: float
+    links: int
+    design: Design
+
+    def dominates(self, other: ParetoRow) -> bool:
+        """Whether it is nowhere worse and somewhere better."""
+        own, its = self._costs, other._costs
+        return all(a <= b for a, b in zip(own, its, strict=True)) and own != its
+
+    @property
+    def _costs(self) -> tuple[float, ...]:
+        mu = 0.0 if isnan(self.transmission) else self.transmission
+        error = 0.0 if self.error < EXACT else self.error
+        return error, -mu, self.size, float(self.links)
+
+
+def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
+    """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
+    rows = [
+        ParetoRow(
+            design.linkage.mechanism.text(),
+            design.verdict.error,
+            design.verdict.transmission,
+            design.linkage.size,
+            design.links,
+            design,
+        )
+        for design in found.designs
+    ]
+    best = [row for row in rows if not any(other.dominates(row) for other in rows)]
+    return tuple(sorted(best, key=lambda row: row.error))

@@ -1,86 +1,64 @@
-"""Any structure made to follow a path: dimensions by least squares with exact derivatives, from several starts.
+"""Any structure made for a task: dimensions by least squares with exact derivatives, from several starts.
 
-docs/theory/synthesis-any.md. Each mechanism is realised, a point of one of its links whose path is like the target is
-chosen, and all dimensions are improved together.
+docs/theory/synthesis-any.md. Each mechanism is realised, or taken from the atlas of its structure, poses that are most
+like the targets are chosen, and all dimensions are improved together.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from math import isnan, pi
 from typing import NamedTuple
 
 import numpy as np
 
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
-from gruebler.kinematics import circuit
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
 from gruebler.synthesis.closure import DesignClosure
-from gruebler.synthesis.curve_matching import best_matches, drive_angles, resampled
-from gruebler.synthesis.judging import Demands, judge_design, point_targets
+from gruebler.synthesis.curve_matching import best_matches, drive_angles
+from gruebler.synthesis.first_states import first_state
+from gruebler.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
+from gruebler.synthesis.judging import Demands, Probe, Targets, judge_design, judge_with_drives
 from gruebler.synthesis.positions import ranked
-from gruebler.synthesis.results import FITTED, Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import FITTED, Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
-from gruebler.synthesis.tasks import PathTask
+from gruebler.synthesis.tasks import PathTask, Task
 from gruebler.text import message
 
-__all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
+__all__ = ["fit_structure", "synthesise_structures"]
 
 
-_SAMPLES = 48  # places along a target and along a circuit
-_POINTS = 60  # points of a link that are tried for the first likeness
-_STEPS = 150
 _NEIGHBOURS, _REALISATIONS = 24, 4  # starts of one mechanism
 ACCEPTED = 0.05
 
 
-@dataclass(frozen=True)
-class ParetoRow:
-    """A design by what counts: the smaller error, size and number of links, the larger transmission angle."""
-
-    structure: str
-    error: float
-    transmission: float
-    size: float
-    links: int
-    design: Design
-
-    def dominates(self, other: ParetoRow) -> bool:
-        """Whether it is nowhere worse and somewhere better."""
-        own, its = self._costs, other._costs
-        return all(a <= b for a, b in zip(own, its, strict=True)) and own != its
-
-    @property
-    def _costs(self) -> tuple[float, ...]:
-        mu = 0.0 if isnan(self.transmission) else self.transmission
-        return self.error, -mu, self.size, float(self.links)
-
-
 def synthesise_structures(
-    task: PathTask,
+    task: Task,
     structures: Iterable[Mechanism],
     demands: Demands | None = None,
     *,
     starts: int | None = None,
     link: str = "",
     executor: Executor | None = None,
+    progress: Progress | None = None,
 ) -> SynthesisResult:
-    """Every mechanism fitted to a path by a point of one of its links.
+    """Every mechanism fitted to a task: positions or points of one of its links, a function, dead centres.
 
     Args:
-        task: points of a path, open or closed.
-        structures: driven mechanisms of turning and sliding joints with one drive.
+        task: what is wanted. Of functions and dead centres only differences count, since a structure has no line from
+            which angles are measured.
+        structures: driven mechanisms of turning and sliding joints; with several drives for positions and points.
         demands: what a design has to do besides.
         starts: how many are improved of each mechanism: by default 24 neighbours from the atlas of its structure (a
-            crank and dyads of turning joints), or 4 realisations of any other.
-        link: that carries the point; for each start the one with the most similar path without it.
+            crank and dyads of turning joints, for a path), or 4 realisations of any other.
+        link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
         executor: shares the work among processes or threads; the answer is the same without.
+        progress: called with the starts done and their number.
 
     Cost: a six-bar with an atlas 1 s for the atlas and 0.4 s a start; others 1 to 3 s a start.
     """
@@ -90,22 +68,21 @@ def synthesise_structures(
         raise SynthesisError("structures: expected at least one mechanism")
     if starts is not None and starts < 1:
         raise SynthesisError("starts: expected at least 1, but found {count}", count=starts)
+    targets = fit_targets(task)
     for mechanism in mechanisms:
-        if len(mechanism.drives) > 1:
-            raise SynthesisError(
-                "a path is fitted with one drive, but {mechanism!r} has {count}",
-                mechanism=mechanism.text(),
-                count=len(mechanism.drives),
-            )
-    jobs = [job for mechanism in mechanisms for job in _jobs(task, mechanism, starts, link)]
+        _check(mechanism, targets, link)
+    jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
-    results = list(map(work, jobs) if executor is None else executor.map(work, jobs))
-    candidates = [design for designs in results for design in designs]
+    candidates: list[Design] = []
+    for done, designs in enumerate(map(work, jobs) if executor is None else executor.map(work, jobs), 1):
+        candidates += designs
+        if progress is not None:
+            progress(done, len(jobs))
     accepted, rejected = ranked(candidates)
-    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    accepted = in_order_of(accepted, ["error"])
     note = message(
-        "{count} starts were improved by least squares; designs that come nearer than {limit:g} of the size are "
-        "accepted.",
+        "{count} initial designs were improved by least squares; designs that come nearer than {limit:g} of the "
+        "size are accepted.",
         count=len(jobs),
         limit=_limit(wanted),
     )
@@ -113,26 +90,47 @@ def synthesise_structures(
     return SynthesisResult(task, accepted, rejected, count, (note,))
 
 
+def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
+    """Refuse what cannot be fitted: the drives, and the link that was asked for."""
+    drives, frame = mechanism.drives, mechanism.frame
+    chain = mechanism.chain
+    if targets.inputs is not None:
+        if len(drives) > 1:
+            raise SynthesisError(
+                "crank angles and functions have one drive, but {mechanism!r} has {count}",
+                mechanism=mechanism.text(),
+                count=len(drives),
+            )
+        if drives and not (drives[0].turning and frame in drives[0].between):
+            raise SynthesisError(
+                "crank angles and functions need a drive that turns at the frame, unlike that of {mechanism!r}",
+                mechanism=mechanism.text(),
+            )
+    if targets.z is None:
+        outputs = output_links(mechanism, targets.travel)
+        if not outputs:
+            raise (
+                SynthesisError(
+                    "no link of {mechanism!r} slides along the frame: there is no travel", mechanism=mechanism.text()
+                )
+                if targets.travel
+                else SynthesisError(
+                    "no link of {mechanism!r} but the driven one turns at the frame", mechanism=mechanism.text()
+                )
+            )
+        if link and link not in outputs:
+            raise SynthesisError("the output is one of {links}, not {link!r}", links=", ".join(outputs), link=link)
+    elif link and (link not in chain.links or link == frame):
+        raise SynthesisError(
+            "the link that carries the point is one of {links}, not {link!r}",
+            links=", ".join(other for other in chain.links if other != frame),
+            link=link,
+        )
+
+
 def _limit(demands: Demands) -> float:
     """How far a path may be missed, relative to its size: what the caller demands, if it is no exact task."""
     return demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
-
-
-def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
-    """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
-    rows = [
-        ParetoRow(
-            design.linkage.mechanism.text(),
-            design.verdict.error,
-            design.verdict.transmission,
-            design.linkage.size,
-            len(design.linkage.mechanism.chain.links),
-            design,
-        )
-        for design in found.designs
-    ]
-    best = [row for row in rows if not any(other.dominates(row) for other in rows)]
-    return tuple(sorted(best, key=lambda row: row.error))
 
 
 class _AtlasStart(NamedTuple):
@@ -153,9 +151,11 @@ class _Job(NamedTuple):
     """From the atlas; without one the mechanism is realised."""
 
 
-def _jobs(task: PathTask, mechanism: Mechanism, starts: int | None, link: str) -> list[_Job]:
+def _jobs(task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | None, link: str) -> list[_Job]:
     """The starts of one mechanism: from the atlas of its structure if it has one, else so many realisations."""
-    near = _atlas_starts(task, mechanism, starts or _NEIGHBOURS, link)
+    near: list[_AtlasStart] = []
+    if isinstance(task, PathTask) and targets.angles is None and targets.inputs is None:
+        near = _atlas_starts(task, mechanism, starts or _NEIGHBOURS, link)
     if near:
         return [_Job(mechanism, 0, start) for start in near]
     return [_Job(mechanism, seed, None) for seed in range(starts or _REALISATIONS)]
@@ -182,10 +182,11 @@ def _atlas_starts(task: PathTask, mechanism: Mechanism, number: int, link: str) 
     return starts
 
 
-def _fitted(task: PathTask, demands: Demands, link: str, job: _Job) -> list[Design]:
+def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
     if job.start is None:
         design = fit_structure(task, job.mechanism, demands, seed=job.seed, link=link)
     else:
+        assert isinstance(task, PathTask)
         design = _fitted_drawing(task, job.mechanism, demands, job.start)
     return [] if design is None else [design]
 
@@ -206,170 +207,82 @@ def _fitted_drawing(task: PathTask, mechanism: Mechanism, demands: Demands, star
         z = rotation * complex(pose.x, pose.y) + shift
         q[:, c], q[:, c + 1], q[:, c + 2] = z.real, z.imag, pose.angle + np.unwrap(np.angle(rotation))
     point = drawing.points["P"]
-    state = _State(closure.sizes, q, start.link, point.x, point.y)
-    return _judged(task, demands, closure, _improved(closure, state, task.z, _reach(task)), drawing.outputs)
-
-
-def _reach(task: PathTask) -> float:
-    return float(np.abs(task.z - task.z.mean()).max())
-
-
-def _judged(
-    task: PathTask, demands: Demands, closure: DesignClosure, state: _State, outputs: tuple[str, ...]
-) -> Design | None:
-    """The design of an improved state; None if its dimensions are none."""
-    try:
-        linkage = closure.with_sizes(state.p, {"P": (state.link, state.u, state.v)}, state.q[0]).with_outputs(outputs)
-    except LinkageError:
-        return None
-    targets = point_targets("P", task.z, float(max(np.ptp(task.z.real), np.ptp(task.z.imag))))
-    return judge_design(linkage, targets, replace(demands, tolerance=_limit(demands)), FITTED)
+    state = FitState(closure.sizes, q, start.link, free=np.array([point.x, point.y]))
+    targets = fit_targets(task)
+    return _judged(targets, demands, closure, improved(closure, state, targets), drawing.outputs)
 
 
 def fit_structure(
-    task: PathTask, mechanism: Mechanism, demands: Demands | None = None, *, seed: int = 0, link: str = ""
+    task: Task, mechanism: Mechanism, demands: Demands | None = None, *, seed: int = 0, link: str = ""
 ) -> Design | None:
-    """One mechanism fitted to a path from one realisation; None if it cannot be realised or started.
+    """One mechanism fitted to a task from one realisation; None if it cannot be realised or started.
 
     Args:
-        task: points of a path.
-        mechanism: with one drive, or none: then one is chosen.
+        task: positions, points, a function or dead centres.
+        mechanism: with its drives, or none: then they are chosen.
         demands: what the design has to do besides.
-        seed: of the realisation and the points that are tried.
-        link: that carries the point; the one with the most similar path without it.
+        seed: of the realisation and the poses that are tried.
+        link: that is guided, or whose motion is the output; the one that is most alike without it.
     """
     first = realise(mechanism, seed=seed, budget=300)
     if first.linkage is None:
         return None
+    stages = fit_stages(task)
+    closure = DesignClosure(first.linkage)
+    state = first_state(closure, stages[0], np.random.default_rng(seed), link)
+    if state is None:
+        return None
+    for targets in stages:
+        state = improved(closure, state, targets)
+    outputs = (state.output,) if state.output else first.linkage.outputs
+    return _judged(stages[-1], demands or Demands(), closure, state, outputs)
+
+
+def _judged(
+    targets: FitTargets,
+    demands: Demands,
+    closure: DesignClosure,
+    state: FitState,
+    outputs: tuple[str, ...],
+) -> Design | None:
+    """The design of an improved state; None if its dimensions are none."""
+    points = {} if targets.z is None else {"P": (state.link, state.point.real, state.point.imag)}
     try:
-        course = circuit(first.linkage)
+        linkage = closure.with_sizes(state.p, points, state.q[0]).with_outputs(outputs)
     except LinkageError:
         return None
-    closure = DesignClosure(first.linkage)
-    if link and link not in closure.column:
-        raise SynthesisError(
-            "the link that carries the point is one of {links}, not {link!r}", links=", ".join(closure.links), link=link
-        )
-    arcs = np.linspace(0, course.length, 2 * _SAMPLES + 1)[:-1]
-    q = closure.poses(course.at(arcs))
-    start = _start(closure, q, task.z, task.closed, np.random.default_rng(seed), (link,) if link else closure.links)
-    if start is None:
-        return None
-    state = _improved(closure, start, task.z, _reach(task))
-    return _judged(task, demands or Demands(), closure, state, first.linkage.outputs)
+    wanted = _wanted(closure, targets, state)
+    limits = replace(demands, tolerance=_limit(demands))
+    if len(linkage.mechanism.drives) < 2:
+        return judge_design(linkage, wanted, limits, FITTED)
+    return judge_with_drives(linkage, wanted, limits, FITTED, closure.drive_values(state.q, state.p))
 
 
-@dataclass
-class _State:
-    """Dimensions, the poses at all targets, and the point of the link."""
-
-    p: Reals
-    q: Reals
-    link: str
-    u: float
-    v: float
-
-
-def _start(
-    closure: DesignClosure, q: Reals, z: Complexes, closed: bool, rng: np.random.Generator, links: Sequence[str]
-) -> _State | None:
-    """The point whose path is most like the target, everything turned, scaled and shifted onto it."""
-    count = len(q)
-    lengths = [count] if closed else [count // 6, count // 4, count // 3, count // 2]
-    best: tuple[float, str, complex, int, int, bool, complex, complex] | None = None
-    reach = closure.linkage.size
-    for link in links:
-        c = closure.column[link]
-        origin, turn = q[:, c] + 1j * q[:, c + 1], np.exp(1j * q[:, c + 2])
-        for w in reach * rng.uniform(0, 1.2, _POINTS) ** 0.7 * np.exp(2j * pi * rng.uniform(0, 1, _POINTS)):
-            curve = origin + turn * w
-            for length in lengths:
-                target, _ = resampled(z, length, closed=closed)
-                for back in (False, True):
-                    wanted = target[::-1] if back else target
-                    for begin in range(0, count, 4):
-                        piece = np.take(curve, np.arange(begin, begin + length), mode="wrap")
-                        u, v = piece - piece.mean(), wanted - wanted.mean()
-                        energy = float(np.vdot(u, u).real * np.vdot(v, v).real)
-                        inner = complex(np.vdot(u, v))
-                        gap = 1 - abs(inner) ** 2 / max(energy, 1e-300)
-                        if best is None or gap < best[0]:
-                            turned = inner / float(np.vdot(u, u).real)
-                            shift = complex(wanted.mean() - turned * piece.mean())
-                            best = gap, link, complex(w), begin, length, back, turned, shift
-    if best is None:
-        return None
-    _, link, w, begin, length, back, turned, shift = best
-    _, parts = resampled(z, length, closed=closed)
-    along = (1 - parts) if back else parts
-    rows = (begin + np.round(along * (length if closed else length - 1)).astype(int)) % count
-    p, chosen = closure.sizes.copy(), q[rows].copy()
-    scale = abs(turned)
-    for key in closure.keys:
-        at = closure.start[key]
-        if key[1] in closure.column:
-            p[at : at + 2] *= scale
-            continue
-        place = turned * complex(p[at], p[at + 1]) + shift
-        p[at], p[at + 1] = place.real, place.imag
-        if len(closure.linkage.elements[key]) == 3:
-            p[at + 2] += float(np.angle(turned))
-    for c in closure.column.values():
-        place = turned * (chosen[:, c] + 1j * chosen[:, c + 1]) + shift
-        chosen[:, c], chosen[:, c + 1] = place.real, place.imag
-        chosen[:, c + 2] += float(np.angle(turned))
-    return _State(p, chosen, link, (scale * w).real, (scale * w).imag)
-
-
-def _improved(closure: DesignClosure, state: _State, z: Complexes, size: float) -> _State:
-    """Levenberg and Marquardt's method over all dimensions; the drive value of each target is eliminated."""
-    q, good = closure.closed(state.q, state.p, size=size)
-    state.q = q
-    cost = _cost(closure, state, z) if good.all() else float("inf")
-    damping = 1e-3
-    for _ in range(_STEPS):
-        c = closure.column[state.link]
-        derivatives = closure.derivatives(state.q, state.p, size=size)
-        turn = np.exp(1j * state.q[:, c + 2])
-        arm = turn * complex(state.u, state.v)
-        rest = state.q[:, c] + 1j * state.q[:, c + 1] + arm - z
-        by_pose = np.zeros((len(z), closure.unknowns), np.complex128)
-        by_pose[:, c], by_pose[:, c + 1], by_pose[:, c + 2] = 1.0, 1j, 1j * arm
-        along = np.einsum("nk,nk->n", by_pose, derivatives.motion)
-        tangent = along / np.maximum(np.abs(along), 1e-12 * size)
-        # Of each point the distance across the path and that along it, by dimensions and the point's place on the link.
-        sides = np.stack([np.conj(1j * tangent), np.conj(tangent)], axis=1)
-        by_point = np.real(sides[:, :, None] * np.stack([turn, 1j * turn], axis=1)[:, None, :])
-        by_sizes = derivatives.gradient(np.real(sides[:, :, None] * by_pose[:, None, :]))
-        slopes = np.concatenate([by_sizes, by_point], axis=2)
-        value, matrix = np.real(sides[:, 0] * rest), slopes[:, 0]
-        gram = matrix.T @ matrix
-        right = matrix.T @ value
-        weight = np.diag(gram).mean() + 1e-30
-        step = -np.linalg.solve(gram + damping * weight * np.eye(len(gram)), right)
-        slide = -(np.real(sides[:, 1] * rest) + slopes[:, 1] @ step) / np.maximum(np.abs(along), 1e-9 * size)
-        trial = _State(
-            state.p + step[:-2],
-            state.q + np.clip(slide, -0.2, 0.2)[:, None] * derivatives.motion,
-            state.link,
-            state.u + float(step[-2]),
-            state.v + float(step[-1]),
-        )
-        trial.q, good = closure.closed(trial.q, trial.p, size=size)
-        value_ = _cost(closure, trial, z) if good.all() else float("inf")
-        if value_ < cost:
-            gain, state, cost = cost - value_, trial, value_
-            damping = max(damping * 0.3, 1e-12)
-            if gain < 1e-9 * cost or cost < 1e-26 * size**2:
-                break
-        else:
-            damping *= 5
-            if damping > 1e8:
-                break
-    return state
-
-
-def _cost(closure: DesignClosure, state: _State, z: Complexes) -> float:
-    c = closure.column[state.link]
-    point = state.q[:, c] + 1j * state.q[:, c + 1] + np.exp(1j * state.q[:, c + 2]) * complex(state.u, state.v)
-    return float(np.sum(np.abs(point - z) ** 2))
+def _wanted(closure: DesignClosure, targets: FitTargets, state: FitState) -> Targets:
+    """What the verdict looks at: the targets with the constants that the fit has chosen."""
+    size, free = targets.size, list(state.free[2:] if targets.z is not None else state.free)
+    probes: list[Probe] = []
+    values: list[Complexes] = []
+    if targets.z is not None:
+        probes.append(Probe("P"))
+        values.append(targets.z)
+    turning = [
+        (targets.angles, state.link),
+        (targets.inputs, state.crank),
+        (None if targets.travel else targets.outputs, state.output),
+    ]
+    for wanted, link in turning:
+        if wanted is not None:
+            probes.append(Probe(link=link, length=size))
+            values.append(size * np.exp(1j * (wanted + free.pop(0))))
+    if targets.travel and targets.outputs is not None:
+        joint, frame = state.slide
+        own, far = closure.start[joint, frame], closure.start[joint, state.output]
+        along = np.exp(1j * state.p[own + 2])
+        c = closure.column[state.output]
+        # The displacement is measured between the points of both lines.
+        arm = np.exp(1j * state.q[0, c + 2]) * complex(state.p[far], state.p[far + 1])
+        between = float(np.real(np.conj(along) * (arm - complex(state.p[own], state.p[own + 1]))))
+        probes.append(Probe(joint=joint))
+        values.append((targets.outputs + free.pop(0) + between).astype(np.complex128))
+    return Targets(tuple(probes), np.stack(values, axis=1), size)

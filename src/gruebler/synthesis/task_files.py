@@ -32,6 +32,7 @@ class _Positions(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True)
     positions: list[list[Any]]
     moving_pivots: list[list[float]] = []
     fixed_pivots: list[list[float]] = []
+    curve_parameters: list[float] = []
 
 
 class _Path(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -165,6 +166,7 @@ def task_to_json(task: Task) -> dict[str, Any]:
         case PositionTask():
             document["positions"] = [[x, y, in_degrees(angle)] for x, y, angle in task.positions]
             more: dict[str, Any] = {name: [list(p) for p in getattr(task, name)] for name in _PIVOTS}
+            more["curve_parameters"] = list(task.curve_parameters)
         case PathTask():
             document["points"] = [list(point) for point in task.points]
             more = {
@@ -214,7 +216,8 @@ def read_task(path: Path | str) -> Task:
 
     The columns of a CSV file say what it is: ``x,y,angle`` positions (an empty angle is free: a mixed task), ``x,y``
     points, ``x,y,crank`` points with crank angles, ``input,output`` or ``input,travel`` a function, ``swing`` or
-    ``stroke`` with ``crank_angle`` or ``time_ratio`` dead centres.
+    ``stroke`` with ``crank_angle`` or ``time_ratio`` dead centres. Without a header two columns are points, three
+    positions.
 
     Raises `SynthesisError` with file and key or line of the first thing that does not fit.
     """
@@ -243,15 +246,18 @@ def _from_csv(text: str) -> Task:
     try:
         lines = [row for row in csv.reader(io.StringIO(text)) if any(cell.strip() for cell in row)]
     except csv.Error as error:
-        raise SynthesisError("is no table: {reason}", reason=error) from None
+        raise SynthesisError("is not a table: {reason}", reason=error) from None
     if not lines:
         raise SynthesisError("is empty")
     header = [cell.strip().lower() for cell in lines[0]]
+    first = 2  # the line of the first row of numbers
+    if all(map(_is_number, header)):
+        header, first, lines = _columns(len(header)), 1, [header, *lines]
     for k, row in enumerate(lines[1:]):
         if len(row) != len(header):
             raise SynthesisError(
                 "line {line}: expected {expected} columns, but found {count}",
-                line=k + 2,
+                line=k + first,
                 expected=len(header),
                 count=len(row),
             )
@@ -264,7 +270,10 @@ def _from_csv(text: str) -> Task:
                 values.append(float(cell))
             except ValueError:
                 raise SynthesisError(
-                    "line {line}, {name}: expected a number, but found {cell!r}", line=k + 2, name=name, cell=cell[:40]
+                    "line {line}, {name}: expected a number, but found {cell!r}",
+                    line=k + first,
+                    name=name,
+                    cell=cell[:40],
                 ) from None
         return values
 
@@ -294,6 +303,26 @@ def _from_csv(text: str) -> Task:
         "found {header}",
         header=",".join(header)[:60],
     )
+
+
+def _is_number(cell: str) -> bool:
+    """Whether the cell is one of a row of numbers, not of a header; an empty one is a free angle."""
+    try:
+        float(cell.removesuffix("°") or "0")
+    except ValueError:
+        return False
+    return True
+
+
+def _columns(count: int) -> list[str]:
+    """The columns of a file without a header: two numbers are a point, three a position."""
+    if count not in (2, 3):
+        raise SynthesisError(
+            "line 1: expected the names of the columns, or rows x,y (points) or x,y,angle (positions) without them, "
+            "but found {count} numbers",
+            count=count,
+        )
+    return ["x", "y", "angle"][:count]
 
 
 def _angle(cell: str) -> float | str | None:

@@ -61,8 +61,9 @@ def _size(z: Complexes) -> float:
 class PositionTask:
     """A body that is to be carried through positions: each ``(x, y, angle)``, the angle in radians.
 
-    With three positions pivots may be chosen: ``moving_pivots`` where they lie on the body in its first position,
-    ``fixed_pivots`` on the frame.
+    With two to four positions pivots may be chosen: ``moving_pivots`` where they lie on the body in its first position,
+    ``fixed_pivots`` on the frame. With four the nearest points of Burmester's curves are taken; ``curve_parameters``
+    are places along the circle-point curve, from 0 to 1.
 
     Raises `SynthesisError` for fewer than two positions and for two equal ones, naming them.
 
@@ -75,6 +76,7 @@ class PositionTask:
     moving_pivots: tuple[Pair, ...] = ()
     fixed_pivots: tuple[Pair, ...] = ()
     unit: str = "mm"
+    curve_parameters: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         rows = tuple(_row(row, message("position {number}", number=k + 1), 3) for k, row in enumerate(self.positions))
@@ -84,8 +86,21 @@ class PositionTask:
             object.__setattr__(self, name, pairs)
         if len(rows) < 2:
             raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
-        if (self.moving_pivots or self.fixed_pivots) and len(rows) > 3:
-            raise SynthesisError("pivots can be chosen for two or three positions, not for {count}", count=len(rows))
+        if (self.moving_pivots or self.fixed_pivots) and len(rows) > 4:
+            raise SynthesisError("pivots can be chosen for two to four positions, not for {count}", count=len(rows))
+        places = tuple(_number(v, _numbered("curve_parameters", k)) for k, v in enumerate(self.curve_parameters))
+        object.__setattr__(self, "curve_parameters", places)
+        if places and len(rows) != 4:
+            raise SynthesisError(
+                "curve_parameters: Burmester's curves belong to four positions, not to {count}", count=len(rows)
+            )
+        for k, place in enumerate(places):
+            if not 0 <= place <= 1:
+                raise SynthesisError(
+                    "{where}: expected 0 to 1, but found {value:g}",
+                    where=_numbered("curve_parameters", k),
+                    value=place,
+                )
         size = self.size
         for k, (z, turn) in enumerate(zip(self.origins, self.turns, strict=True)):
             for m in range(k):

@@ -57,7 +57,7 @@ def insert_dyad(chain: Chain, form: str, between: Sequence[Attachment], links: S
     first, middle, last = pairs_from_letters(form, 3, message("dyad"))
     letters = letters_of_pairs((first, middle, last))
     if letters not in DYADS and letters not in {dyad[::-1] for dyad in DYADS}:
-        raise TransformationError("{form!r} is no dyad; the forms are {dyads}", form=form, dyads=", ".join(DYADS))
+        raise TransformationError("{form!r} is not a dyad; the forms are {dyads}", form=form, dyads=", ".join(DYADS))
     start, end = _two(between)
     check_not_on_one_link(chain, [start, end], message("dyad"))
     x, y = new_link_names(chain, 2, links)
@@ -124,7 +124,7 @@ def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
     middle = [k for k in joints[x] if k in joints[y]]
     if len(middle) != 1 or chain.joints[middle[0]].count != 1:
         raise TransformationError(
-            "{x} and {y} are no dyad: they must have just one joint together, and it must be simple", x=x, y=y
+            "{x} and {y} are not a dyad: they must share just one joint, and it must be simple", x=x, y=y
         )
     (first,) = (k for k in joints[x] if k not in middle)
     (last,) = (k for k in joints[y] if k not in middle)
@@ -132,7 +132,7 @@ def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
     if letters not in DYADS and (letters or "")[::-1] not in DYADS:
         kinds = joined(chain.joints[k].pair.title for k in (first, middle[0], last))
         raise TransformationError(
-            "{x} and {y} are no dyad: its forms are {dyads}, these joints are {kinds}",
+            "{x} and {y} are not a dyad: its forms are {dyads}, these joints are {kinds}",
             x=x,
             y=y,
             dyads=", ".join(DYADS),
@@ -149,7 +149,9 @@ def coupler_at(chain: Chain, link: str) -> Insertion:
     if letters is None:
         kinds = joined_by_and([chain.joints[k].pair.title for k in (first, last)])
         raise TransformationError(
-            "{link} is no coupler: its joints must have one freedom each, and they are {kinds}", link=link, kinds=kinds
+            "{link} is not a coupler: its joints must have one freedom each, and they are {kinds}",
+            link=link,
+            kinds=kinds,
         )
     return _insertion(chain, letters, (link,), (first, last))
 
@@ -159,9 +161,9 @@ def _insertion(chain: Chain, letters: str, links: tuple[str, ...], ends: tuple[i
     shared = next((a for a in spread_links[0] if a in spread_links[1]), None)
     if shared is not None:
         raise TransformationError(
-            "{links} is no coupler between different links: both ends are on {shared!r}"
+            "{links} is not a coupler between different links: both ends are on {shared!r}"
             if len(links) == 1
-            else "{links} are no dyad between different links: both ends are on {shared!r}",
+            else "{links} are not a dyad between different links: both ends are on {shared!r}",
             links=joined_by_and(links),
             shared=shared,
         )

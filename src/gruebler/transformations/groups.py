@@ -42,7 +42,7 @@ def insert_group(
         group = AssurGroup.parse(group)
     if len(at) != len(group.places):
         raise TransformationError(
-            "the group has {count} places outside; {given} were given", count=len(group.places), given=len(at)
+            "the group has {count} outer joints; {given} places were given", count=len(group.places), given=len(at)
         )
     check_not_on_one_link(chain, at, message("group"))
     names = new_link_names(chain, len(group.links), links)
@@ -89,7 +89,9 @@ def remove_group(chain: Chain, links: Sequence[str]) -> Step:
     try:
         alone = Chain(joints, space=chain.space)
     except ChainError as error:
-        raise TransformationError("{links} are no Assur group: {error}", links=", ".join(links), error=error) from None
+        raise TransformationError(
+            "{links} are not an Assur group: {error}", links=", ".join(links), error=error
+        ) from None
     AssurGroup(alone)
     shared = set.intersection(*outside)
     if shared:

@@ -66,13 +66,7 @@ def links_at(chain: Chain, place: Attachment) -> tuple[str, ...]:
     if isinstance(place, str):
         chain.index(place)
         return (place,)
-    if not 0 <= place < len(chain.joints):
-        raise TransformationError(
-            "there is no joint number {place}; the chain has joints 0 to {count}",
-            place=place,
-            count=len(chain.joints) - 1,
-        )
-    return chain.joints[place].links
+    return chain.joints[chain.joint_number(place, TransformationError)].links
 
 
 def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], subject: Message) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from enum import StrEnum
 
 from gruebler.chain import Chain, Joint
@@ -62,6 +62,7 @@ class Requirements:
 
     links: int
     mobility: int = 1
+    _: KW_ONLY
     prismatic: int = 0
     """The exact number of sliding joints; the other counts likewise."""
     rolling: int = 0

@@ -98,7 +98,7 @@ def _variants(turning: Chain, requirements: Requirements) -> Iterator[Chain | Dr
 def _driven(chain: Chain, requirements: Requirements) -> Iterator[DrivenMechanism]:
     if requirements.drives and len(requirements.drives) != requirements.mobility:
         raise GrueblerError(
-            "mobility {mobility} takes as many drives, not {count}",
+            "mobility {mobility} needs as many drives, not {count}",
             mobility=requirements.mobility,
             count=len(requirements.drives),
         )

@@ -231,7 +231,7 @@ def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
         for question in exercise.asked:
             result = solution.results[question.key]
             rows.append((str(k), ascii_key(result.key), value_text(result.value, result.unit, lang), "1"))
-        rows.append((str(k), translate("way of solution", lang), "", "1"))
+        rows.append((str(k), translate("solution steps", lang), "", "1"))
         total += len(exercise.asked) + 1
     rows.append(("", translate("sum", lang), "", str(total)))
     yield Heading(translate("Marking key", lang), 1)

@@ -38,10 +38,10 @@ def construction_bytes(whole: Construction, suffix: str, lang: str = "en", *, st
     return picture_bytes(pictures_in_one(figures, whole.title.in_language(lang)), suffix)
 
 
-def pictures_in_one(figures: Sequence[Figure], title: str) -> Figure:
-    """Pictures of one size side by side, in reading order."""
+def pictures_in_one(figures: Sequence[Figure], title: str, columns: int = _COLUMNS) -> Figure:
+    """Pictures side by side in cells of one size, in reading order."""
     wide, high = max(figure.width for figure in figures), max(figure.height for figure in figures)
-    columns = min(_COLUMNS, len(figures))
+    columns = min(columns, len(figures))
     shapes: list[Shape] = []
     for k, figure in enumerate(figures):
         corner = Point(wide * (k % columns), high * (k // columns))

@@ -19,7 +19,7 @@ def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in known:
         raise GrueblerError(
-            "{path!r} does not say what kind of picture it is: end it with {endings}",
+            "{path!r} names no kind of picture: end it with {endings}",
             path=str(path),
             endings=joined_by_or([f".{ending}" for ending in known]),
         )

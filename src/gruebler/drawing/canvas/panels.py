@@ -50,6 +50,7 @@ class PointMarker(NamedTuple):
     y: float
     text: str
     right: bool = False
+    style: str = "dot"
 
 
 class Band(NamedTuple):
@@ -135,7 +136,7 @@ def _painted(panel: Panel) -> list[Shape]:
     margins = Polylines(tuple((Point(x, 0.0), Point(x, -panel.size.y)) for x in sides), "grid")
     for spot in panel.spots:
         at = panel.place(spot.x, spot.y, spot.right)
-        drawn.append(CircleShape(at, 3.2, "dot"))
+        drawn.append(CircleShape(at, 3.2, spot.style))
         drawn += [note_near(at, spot.text, "value", [*drawn, margins])] if spot.text else []
     shaded = [shape for band in panel.bands for shape in _shaded(panel, band, drawn)]
     dwells = [_dwell(panel, dwell) for dwell in panel.dwells]

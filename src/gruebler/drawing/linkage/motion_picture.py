@@ -53,5 +53,7 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
         *drive_arrows(posed),
     ]
     shapes += point_names(posed, shapes)
-    poses = translate("A motion of {poses} poses; {ghosts} of them thinly.", lang, poses=len(motion), ghosts=len(rows))
+    poses = translate(
+        "A motion of {poses} poses; {ghosts} of them in thin lines.", lang, poses=len(motion), ghosts=len(rows)
+    )
     return figure_of(shapes, title(mechanism, lang, name), f"{about} {poses} {motion.message(lang)}".rstrip(), MARGIN)

@@ -55,7 +55,7 @@ def _number(context: LayerContext) -> int:
         known = context.posed.linkage.mechanism.chain.links
         link_names = ", ".join(known)
         raise LinkageError(
-            "centrodes and inflection circles are those of a link{suggestion}; {output!r} is none of {links}",
+            "centrodes and the inflection circle belong to a link{suggestion}; {output!r} is none of {links}",
             suggestion=nearest(output, known),
             output=output,
             links=link_names,

@@ -79,7 +79,7 @@ class PosedLinkage:
         if self.cycle is None:
             count = len(self.linkage.mechanism.drives)
             if count == 1:
-                raise LinkageError("all that can be assembled is one position, so there is no motion to be drawn")
+                raise LinkageError("the linkage can be assembled in one position only, so there is no motion to draw")
             raise LinkageError(
                 "this is drawn for linkages with one drive only; this one has {count}: leave one of them driven, "
                 "or draw a path of all drives with draw_motion(move(linkage, path))",
