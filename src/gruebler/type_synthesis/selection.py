@@ -69,7 +69,7 @@ def variants(
         executor: see `enumeration.worker_pool.run_work`; a piece of work is what one chain of revolutes gives. The
             results and their order are the same.
 
-    Drives fix the motion: as many as the mobility, none against another.
+    Drives fix the motion: as many as the mobility, none of them in conflict.
     """
     expect(requirements, Requirements)
     turning = _turning_chains(requirements)
