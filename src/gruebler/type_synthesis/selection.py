@@ -48,7 +48,7 @@ def typed_chains(requirements: Requirements) -> Iterator[Chain]:
 def variants(requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
     """All results that satisfy the requirements: typed chains, or mechanisms where frame, drive or output matter.
 
-    Drives fix the motion: as many as the mobility, none against another.
+    Drives fix the motion: as many as the mobility, none of them in conflict.
     """
     expect(requirements, Requirements)
     for chain in typed_chains(requirements):

@@ -19,7 +19,7 @@ from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, LinkPoint, Pin
 from gruebler.linkages.conversion import LinkageLike, as_linkage
-from gruebler.linkages.elements import ROUND
+from gruebler.linkages.elements import Circle, Wheel
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, message
 
@@ -275,7 +275,7 @@ def _round_extent(lower: Linkage, path: Motion) -> float:
     rims = [
         (path.complex_point(LinkPoint(link, e.x, e.y)), abs(e.radius))
         for (_, link), e in lower.elements.items()
-        if isinstance(e, ROUND)
+        if isinstance(e, Wheel | Circle)
     ]
     sides = (
         max((float(part(z).max()) + r for z, r in rims), default=0.0)
