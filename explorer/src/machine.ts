@@ -736,14 +736,14 @@ export class Machine {
 
   /** Drive values, signs and unknowns of a pose, as `gruebler.kinematics.reference_pose` reads them. */
   private readState(poses: Rows): void {
-    const p = this.program, homes = this.model.homes;
+    const p = this.program, reference = this.model.reference;
     const point = (e: number) => this.place(poses, 0, p.links[e]!, p.points[2 * e]!, p.points[2 * e + 1]!);
     const line = (e: number): [number, number] => {
       const [c, s] = this.turn(poses, 0, p.links[e]!);
       const x = p.lines[2 * e]!, y = p.lines[2 * e + 1]!;
       return [c * x - s * y, c * y + s * x];
     };
-    homes.drives.forEach(([a, b, near, far], k) => {
+    reference.drives.forEach(([a, b, near, far], k) => {
       const [ax, ay] = this.turn(poses, 0, a!), [bx, by] = this.turn(poses, 0, b!);
       if (this.model.drives[k]?.turning ?? true) this.drives[k] = unwoundAngle(ax * bx + ay * by, ax * by - ay * bx, this.drives[k]!);
       else {
@@ -768,15 +768,15 @@ export class Machine {
       this.state.signs[operation[9]!] = side < 0 ? -1 : 1;
     }
     const y = this.state.unknowns;
-    homes.bodies.forEach(([root, base], k) => {
+    reference.bodies.forEach(([root, base], k) => {
       const [bx, by] = this.turn(poses, 0, base!), [rx, ry] = this.turn(poses, 0, root!);
       const dx = poses.places[2 * root!]! - poses.places[2 * base!]!, dy = poses.places[2 * root! + 1]! - poses.places[2 * base! + 1]!;
       y[3 * k] = bx * dx + by * dy;
       y[3 * k + 1] = bx * dy - by * dx;
       y[3 * k + 2] = unwoundAngle(bx * rx + by * ry, bx * ry - by * rx, y[3 * k + 2]!);
     });
-    homes.windings.forEach(([kind, one, two], k) => {
-      const at = 3 * homes.bodies.length + 2 * k;
+    reference.windings.forEach(([kind, one, two], k) => {
+      const at = 3 * reference.bodies.length + 2 * k;
       const [lx, ly] = line(one!), [ox, oy] = line(two!);
       if (kind === Kind.MESH) {
         const [px, py] = point(one!), [qx, qy] = point(two!);
@@ -865,7 +865,7 @@ export class Machine {
     this.points.push({ name, link, at: this.toLocal(link, x, y) });
   }
 
-  /** The linkage as `gruebler.formats` reads it, with the pose that is shown as its home. */
+  /** The linkage as `gruebler.formats` reads it, with the pose that is shown as its reference pose. */
   document(): LinkageDocument {
     const { model } = this;
     const out = structuredClone(model.document);
@@ -880,7 +880,8 @@ export class Machine {
       out.elements![model.links[e.link]!]![model.joints[e.joint]!.name] = place;
     });
     out.points = Object.fromEntries(this.points.map((p) => [p.name, { link: model.links[p.link]!, at: [...p.at] }]));
-    out.home = Object.fromEntries(model.links.slice(0, model.own).map((name, link) => {
+    delete out.home;
+    out.reference_pose = Object.fromEntries(model.links.slice(0, model.own).map((name, link) => {
       const [c, s] = this.turn(this.pose, 0, link);
       return [name, [this.pose.places[2 * link]!, this.pose.places[2 * link + 1]!, degrees(Math.atan2(s, c))]];
     }));
@@ -918,7 +919,7 @@ export class Machine {
         });
         this.writeSizes();
         model.links.slice(0, model.own).forEach((name, link) => {
-          const [x, y, angle] = numbers(document.home?.[name], 3) as [number, number, number];
+          const [x, y, angle] = numbers((document.reference_pose ?? document.home)?.[name], 3) as [number, number, number];
           poses.places[2 * link] = x;
           poses.places[2 * link + 1] = y;
           poses.turns[2 * link] = Math.cos(angle * degrees);

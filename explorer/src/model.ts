@@ -56,6 +56,8 @@ export type LinkageDocument = Record<string, unknown> & {
   joints?: string;
   elements?: Record<string, Record<string, unknown>>;
   points?: Record<string, { link: string; at: number[] }>;
+  reference_pose?: Record<string, unknown>;
+  /** The former name of reference_pose: links that were copied before. */
   home?: Record<string, unknown>;
 };
 
@@ -78,7 +80,7 @@ export interface Model {
   drives: { name: string; turning: boolean; joint: number }[];
   program: ProgramRecord;
   sources: number[];
-  homes: { drives: number[][]; bodies: number[][]; windings: number[][] };
+  reference: { drives: number[][]; bodies: number[][]; windings: number[][] };
   groups: GroupRecord[];
   shortest: [number, number][];
   released: number[];

@@ -28,6 +28,8 @@ def test_answers_are_taken_by_the_printed_symbols(task):
         assert (by_key.key, by_key.mark) == (key, Mark.RIGHT)
         if symbols[result.symbol] == 1:
             (by_symbol,) = grade(task, {result.symbol: answer})
+            assert replace(by_symbol, name=key) == by_key
+            assert by_symbol.name == result.symbol
             assert by_symbol.name == result.symbol
             assert replace(by_symbol, name=key) == by_key
         elif result.symbol not in solution.results:

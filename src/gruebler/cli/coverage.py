@@ -197,12 +197,12 @@ def find_function(name: str) -> object | None:
     parts = name.split(".")
     for k in range(len(parts), 0, -1):
         try:
-            found: Any = import_module(".".join(parts[:k]))
+            value: Any = import_module(".".join(parts[:k]))
         except ModuleNotFoundError:
             continue
         for part in parts[k:]:
-            found = getattr(found, part, None)
-        return found  # type: ignore[no-any-return]  # whatever stands there
+            value = getattr(value, part, None)
+        return value  # type: ignore[no-any-return]  # whatever stands there
     return None
 
 

@@ -18,12 +18,12 @@ from gruebler.catalog import entries
 from gruebler.chain import Chain
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
-from gruebler.cli.linkage_inputs import add_branch, add_curves, linkage_of, with_points
+from gruebler.cli.linkage_inputs import add_branch, add_curves, linkage_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.drawing.structure import draw, draw_block, draw_contracted, draw_graph, draw_loops
+from gruebler.drawing.structure import draw_block, draw_contracted, draw_graph, draw_loops, draw_structure
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.formats.structures import is_structure_text
@@ -179,7 +179,7 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     record = entry_of(arguments.chain, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
     if has_sizes:
-        thing: Chain | Mechanism = linkage_of(arguments.chain, arguments.lang)[0].mechanism
+        thing: Chain | Mechanism = linkage_of_word(arguments.chain, arguments.lang)[0].mechanism
     else:
         thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive, arguments.lang)
     names = german(record, arguments.lang)
@@ -188,7 +188,9 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     if view is not None:
         return view(thing, lang=arguments.lang, name=name)
     contacts = _contacts(record) if isinstance(thing, Mechanism) else None
-    return draw(thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names)
+    return draw_structure(
+        thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names
+    )
 
 
 def _block(
@@ -199,7 +201,7 @@ def _block(
         raise GrueblerError("--block needs a mechanism; give its frame by --frame LINK")
     outputs: Sequence[str] = [] if record is None else record.outputs
     if _has_sizes(arguments.chain):
-        outputs = linkage_of(arguments.chain, arguments.lang)[0].outputs
+        outputs = linkage_of_word(arguments.chain, arguments.lang)[0].outputs
     if arguments.output is not None:
         if arguments.output not in thing.chain.links:
             raise GrueblerError(
@@ -249,7 +251,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
 
 def linkage_and_range(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
-    linkage, shown = linkage_of(word, lang)
+    linkage, shown = linkage_of_word(word, lang)
     drives = linkage.mechanism.drives
     if shown is None or not drives or not drives[0].turning:
         return linkage, shown

@@ -12,7 +12,7 @@ import cmath
 from math import radians
 
 from gruebler.constructions.compass import Board, line_meets_circle, lines_meet, meet_left
-from gruebler.drawing.canvas.construction import Arrow, Construction, Dot, Line, Segment
+from gruebler.drawing.canvas.construction import Arrow, Construction, Dot, DrawnLine, Segment
 from gruebler.errors import LinkageError
 from gruebler.text import message
 
@@ -137,8 +137,8 @@ def instant_centres_of_four_bar(
     )
     board.step(
         message("P₁₃ lies on one line with P₁₂ and P₂₃, the polar ray of A, and on one with P₁₄ and P₃₄, that of B."),
-        Line(a0, pin - a0),
-        Line(b0, joint - b0),
+        DrawnLine(a0, pin - a0),
+        DrawnLine(b0, joint - b0),
     )
     pole = lines_meet(a0, pin - a0, b0, joint - b0)
     board.step(
@@ -160,8 +160,8 @@ def instant_centres_of_four_bar(
             x=relative.real,
             ratio=ratio,
         ),
-        Line(a0, b0 - a0),
-        Line(pin, joint - pin),
+        DrawnLine(a0, b0 - a0),
+        DrawnLine(pin, joint - pin),
         Dot(relative, "P₂₄"),
     )
     return board.done(x13=pole.real, y13=pole.imag, x24=relative.real, ratio=ratio)
@@ -179,7 +179,7 @@ def instant_centres_of_slider_crank(a: float = 20, b: float = 50, e: float = 0, 
         Dot(a0, "P₁₂"),
         Dot(pin, "P₂₃"),
         Dot(joint, "P₃₄"),
-        Line(joint, 1j, "dead"),
+        DrawnLine(joint, 1j, "dead"),
     )
     pole = lines_meet(a0, pin - a0, joint, 1j)
     board.step(
@@ -200,8 +200,8 @@ def instant_centres_of_slider_crank(a: float = 20, b: float = 50, e: float = 0, 
             "the crank: v_B = ω · A₀P₂₄ = ω · {arm:.4g}.",
             arm=abs(relative),
         ),
-        Line(a0, 1j),
-        Line(pin, joint - pin),
+        DrawnLine(a0, 1j),
+        DrawnLine(pin, joint - pin),
         Dot(relative, "P₂₄"),
     )
     return board.done(x13=pole.real, y13=pole.imag, arm=abs(relative))
@@ -232,8 +232,8 @@ def _four_bar_velocities(
             "v_BA is perpendicular to AB: its line goes through the tip a. v_B is perpendicular to B₀B: its line goes "
             "through the pole p_v."
         ),
-        Line(plan.at(v_a), across_coupler),
-        Line(plan.pole, across_rocker),
+        DrawnLine(plan.at(v_a), across_coupler),
+        DrawnLine(plan.pole, across_rocker),
     )
     tip = lines_meet(plan.at(v_a), across_coupler, plan.pole, across_rocker)
     v_b = (tip - plan.pole) / plan.scale
@@ -294,8 +294,8 @@ def _slider_crank_velocities(
             "v_BA is perpendicular to AB: its line goes through the tip a. v_B lies along the line of the slider, "
             "through the pole p_v."
         ),
-        Line(plan.at(v_a), across),
-        Line(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(v_a), across),
+        DrawnLine(plan.pole, 1 + 0j),
     )
     tip = lines_meet(plan.at(v_a), across, plan.pole, 1 + 0j)
     v_b = (tip - plan.pole) / plan.scale
@@ -326,8 +326,8 @@ def _lever_velocities(
             "C is the point of the lever under A. v_C is perpendicular to B₀A: its line goes through the pole p_v; the "
             "block slides along the lever: the line of v_rel goes through a."
         ),
-        Line(plan.pole, 1j * lever),
-        Line(plan.at(v_a), lever),
+        DrawnLine(plan.pole, 1j * lever),
+        DrawnLine(plan.at(v_a), lever),
     )
     tip = lines_meet(plan.pole, 1j * lever, plan.at(v_a), lever)
     v_c = (tip - plan.pole) / plan.scale
@@ -387,8 +387,8 @@ def _yoke_velocities(
             "C is the point of the yoke under A. The yoke does not turn: v_C lies along its guide, through the pole "
             "p_v; the block slides along the slot: the line of v_rel goes through a."
         ),
-        Line(plan.pole, 1 + 0j),
-        Line(plan.at(v_a), way),
+        DrawnLine(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(v_a), way),
     )
     tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_a), way)
     v_c = (tip - plan.pole) / plan.scale
@@ -460,8 +460,8 @@ def _tangent_velocities(
             "The slider moves along its guide: the line of v_B goes through the pole p_v. The block slides along the "
             "lever: the line of v_rel goes through c."
         ),
-        Line(plan.pole, 1 + 0j),
-        Line(plan.at(v_c), arm),
+        DrawnLine(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(v_c), arm),
     )
     tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_c), arm)
     v_b = (tip - plan.pole) / plan.scale
@@ -508,8 +508,8 @@ def accelerations_of_four_bar(
             "The tangential parts are perpendicular to AB, through the tip of a_BAn, and perpendicular to B₀B, "
             "through the tip of a_Bn."
         ),
-        Line(begin, ways[0]),
-        Line(foot, ways[1]),
+        DrawnLine(begin, ways[0]),
+        DrawnLine(foot, ways[1]),
     )
     a_b = (lines_meet(begin, ways[0], foot, ways[1]) - plan.pole) / plan.scale
     t_ba, t_b = a_b - a_a - n_ba, a_b - n_b
@@ -572,16 +572,16 @@ def accelerations_of_slider_crank(
     v_a, v_b = _slider_crank_velocities(board, _Plan(pins, abs(a * omega), 0.2), pins, omega)
     a_a, n_ba = _towards(pin - a0, v_a), _towards(joint - pin, v_b - v_a)
     plan = _acceleration_start(board, pins, a_a, n_ba)
-    begin, way = plan.at(a_a + n_ba), 1j * (joint - pin)
+    begin, direction = plan.at(a_a + n_ba), 1j * (joint - pin)
     board.step(
         message(
             "a_BAt is perpendicular to AB, through the tip of a_BAn; a_B lies along the line of the slider, through "
             "p_a."
         ),
-        Line(begin, way),
-        Line(plan.pole, 1 + 0j),
+        DrawnLine(begin, direction),
+        DrawnLine(plan.pole, 1 + 0j),
     )
-    a_b = (lines_meet(begin, way, plan.pole, 1 + 0j) - plan.pole) / plan.scale
+    a_b = (lines_meet(begin, direction, plan.pole, 1 + 0j) - plan.pole) / plan.scale
     t_ba = a_b - a_a - n_ba
     board.step(
         message("They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}.", a_b=abs(a_b), t_ba=abs(t_ba)),
@@ -620,8 +620,8 @@ def accelerations_of_inverted_slider_crank(
     begin = plan.at(n_c + coriolis)
     board.step(
         message("a_Ct is perpendicular to the lever, through the tip of a_Cor; a_rel lies along the lever, through a."),
-        Line(begin, 1j * lever),
-        Line(plan.at(a_a), lever),
+        DrawnLine(begin, 1j * lever),
+        DrawnLine(plan.at(a_a), lever),
     )
     tip = lines_meet(begin, 1j * lever, plan.at(a_a), lever)
     t_c, rel = (tip - begin) / plan.scale, (plan.at(a_a) - tip) / plan.scale
@@ -660,8 +660,8 @@ def accelerations_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 5
             "a_C lies along the guide, through p_a; a_rel lies along the slot, through a. The yoke does not turn: "
             "there is no Coriolis' acceleration."
         ),
-        Line(plan.pole, 1 + 0j),
-        Line(plan.at(a_a), way),
+        DrawnLine(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(a_a), way),
     )
     tip = lines_meet(plan.pole, 1 + 0j, plan.at(a_a), way)
     a_c = (tip - plan.pole) / plan.scale
@@ -701,8 +701,8 @@ def accelerations_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: fl
     )
     board.step(
         message("a_rel lies along the lever, through the tip of a_Cor; a_B lies along the guide, through p_a."),
-        Line(begin, arm),
-        Line(plan.pole, 1 + 0j),
+        DrawnLine(begin, arm),
+        DrawnLine(plan.pole, 1 + 0j),
     )
     tip = lines_meet(begin, arm, plan.pole, 1 + 0j)
     a_b = (tip - plan.pole) / plan.scale

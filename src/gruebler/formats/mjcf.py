@@ -59,8 +59,8 @@ class _Model(BodyTree):
         ]
         bodies = [*self._sites(self.frame, 2), *self._bodies()]
         closing = []
-        for number, one, other in self.closing:
-            body, partner = (other, one) if one == self.frame else (one, other)
+        for number, base, follower in self.closing:
+            body, partner = (follower, base) if base == self.frame else (base, follower)
             pin = self.lower.elements[number, body]
             second = "" if partner == self.frame else f" body2={quoteattr(partner)}"
             closing.append(f'    <connect body1={quoteattr(body)}{second} anchor="{self._at(pin.x, pin.y)}"/>')
@@ -120,11 +120,11 @@ class _Model(BodyTree):
     def _shape(self, link: str, depth: int) -> Iterator[str]:
         """A capsule from the first place of a link to each other one, a ball if there is only one."""
         pad = "  " * depth
-        for one, other in self.bars(link):
-            if one == other:
-                yield f'{pad}<geom type="sphere" pos="{self._at(*one)}"/>'
+        for first, second in self.bars(link):
+            if first == second:
+                yield f'{pad}<geom type="sphere" pos="{self._at(*first)}"/>'
             else:
-                yield f'{pad}<geom fromto="{self._at(*one)} {self._at(*other)}"/>'
+                yield f'{pad}<geom fromto="{self._at(*first)} {self._at(*second)}"/>'
 
     def _sites(self, link: str, depth: int) -> Iterator[str]:
         """The named points of a link."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.panels import ratio_diagram
 from gruebler.drawing.canvas.shapes import text_width
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.errors import CatalogError
 from gruebler.sheets.messages import (
     example_lines,
@@ -76,7 +76,7 @@ def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     high = 288.0
     links = sheet.entry.links if lang == "de" else {link: link for link in sheet.entry.links}
     names = {link: name.partition(f" {translate('with', lang)} ")[0] for link, name in links.items()}
-    structure = draw(
+    structure = draw_structure(
         sheet.linkage.mechanism, labels=True, symbols=True, outputs=sheet.entry.outputs, lang=lang, names=names
     )
     _fitted(items, scale_picture(sheet, lang), _LEFT, y, 400, high)

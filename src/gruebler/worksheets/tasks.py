@@ -13,10 +13,19 @@ from gruebler.constructions import construction
 from gruebler.drawing.canvas.construction import Construction
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.errors import GrueblerError
-from gruebler.exercises import KINDS, Result, Solution, Table, ascii_key, generate, solve, value_text
-from gruebler.exercises import Heading as PartHeading
+from gruebler.exercises import (
+    KINDS,
+    PartHeading,
+    Result,
+    Solution,
+    TeachingTable,
+    ascii_key,
+    generate,
+    solve,
+    value_text,
+)
 from gruebler.exercises.messages import asked_text, cells_of_table, step_lines
 from gruebler.formats import Exercise
 from gruebler.fourbar import FourBar, SliderCrank
@@ -114,7 +123,7 @@ def exercise_figure(exercise: Exercise, lang: str = "en") -> Figure | None:
     given = exercise.given
     if isinstance(given.get("chain"), str):
         # Names of the links would give away how many there are; a dyad is put between named links.
-        return draw(_chain(exercise), labels=exercise.method != "mobility.chain", lang=lang)
+        return draw_structure(_chain(exercise), labels=exercise.method != "mobility.chain", lang=lang)
     size = _size(exercise)
     if size is None:
         return None
@@ -200,7 +209,7 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         if isinstance(part, PartHeading):
             count = 0
             yield Heading(part.text.in_language(lang), 3)
-        elif isinstance(part, Table):
+        elif isinstance(part, TeachingTable):
             head, *rows = cells_of_table(part, lang)
             yield Paragraph(part.title.in_language(lang))
             yield Rows(tuple(head), tuple(map(tuple, rows)))
@@ -216,7 +225,7 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         ),
     )
     if number and isinstance(exercise.given.get("chain"), str):
-        yield Pictures((draw(_chain(exercise), labels=True, lang=lang),), height=170.0)
+        yield Pictures((draw_structure(_chain(exercise), labels=True, lang=lang),), height=170.0)
     whole = construction_of(exercise)
     if whole is not None:
         steps = " ".join(f"{k}. {step.text.in_language(lang)}" for k, step in enumerate(whole.steps, 1))

@@ -19,7 +19,7 @@ from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.errors import GrueblerError
 from gruebler.text import decimal_sign_in, translate
 
-__all__ = ["AxisMarker", "Band", "Curve", "DwellMarker", "Panel", "PointMarker", "draw_panels", "ratio_diagram"]
+__all__ = ["AxisMarker", "Band", "DwellMarker", "Panel", "PlottedCurve", "PointMarker", "draw_panels", "ratio_diagram"]
 
 
 _SIZE = Point(520.0, 300.0)
@@ -31,7 +31,7 @@ _BESIDE = 20.0  # from the panels to the list of lines
 _ROW, _SAMPLE = 22.0, 34.0  # of the list
 
 
-class Curve(NamedTuple):
+class PlottedCurve(NamedTuple):
     """A line through points; NaN breaks it."""
 
     x: Reals
@@ -81,7 +81,7 @@ class Panel(NamedTuple):
 
     across: Axis
     up: Axis
-    curves: tuple[Curve, ...]
+    curves: tuple[PlottedCurve, ...]
     right: Axis | None = None
     bands: tuple[Band, ...] = ()
     marks: tuple[AxisMarker, ...] = ()
@@ -238,7 +238,7 @@ def _marks(panel: Panel) -> Iterator[Shape]:
 # --- lines -----------------------------------------------------------------------------------------
 
 
-def _pieces(panel: Panel, curve: Curve) -> list[tuple[Point, ...]]:
+def _pieces(panel: Panel, curve: PlottedCurve) -> list[tuple[Point, ...]]:
     """The parts of a line within the panel, with fewer points."""
     axis = panel.right if curve.right and panel.right is not None else panel.up
     drawable = np.isfinite(curve.x) & np.isfinite(curve.y)
@@ -353,8 +353,8 @@ def ratio_diagram(
         axis(translate("φ_G in °", lang), across),
         axis("Q_G", decades(float(q.min()), float(q.max()))),
         (
-            Curve(degrees, q, "Q_G", "line-1"),
-            Curve(degrees, lengths, "L/l₁", "line-2", right=True),
+            PlottedCurve(degrees, q, "Q_G", "line-1"),
+            PlottedCurve(degrees, lengths, "L/l₁", "line-2", right=True),
         ),
         axis("L/l₁", decimals(0.0, float(lengths.max()))),
         marks=(AxisMarker(spots[0].x, ""),) if spots else (),

@@ -36,7 +36,7 @@ from gruebler.drawing.structure.orientation import upright
 from gruebler.isomorphism import canonical_order
 from gruebler.mechanism import Mechanism
 
-__all__ = ["PlacedChain", "chain_of", "draw", "letters", "mean_scale", "paint", "place_joints"]
+__all__ = ["PlacedChain", "chain_of", "draw_structure", "letters", "mean_scale", "paint", "place_joints"]
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
 _ASIDE = 17.0  # pixels between the middle of a link and its output arrow
@@ -61,7 +61,7 @@ class PlacedChain:
     """What the bodies of higher pairs are, by joint and link."""
 
 
-def draw(
+def draw_structure(
     structure: Chain | Mechanism,
     *,
     labels: bool = False,
@@ -241,7 +241,7 @@ def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
     sides = [middle.plus(along.across, side) for side in (_ASIDE, -_ASIDE)]
     free = Obstacles(shapes).free(complexes(sides), 2 * _ASIDE)
     at = sides[0] if free[0] >= free[1] else sides[1]
-    return [shape for way in (1, -1) for shape in arrow(at, at.plus(along, way * 11.0), "velocity", "velocity-head")]
+    return [shape for sign in (1, -1) for shape in arrow(at, at.plus(along, sign * 11.0), "velocity", "velocity-head")]
 
 
 def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:
