@@ -245,7 +245,7 @@ def test_commands_that_make_no_atlas():
     task = AtlasTask("4-8", "1-2", "link", "any", "0-1", inversions=True, drives="any")
     assert AtlasTask.of_command(task.command()) == task
     for text in ("", "gruebler atlas build DIR", "gruebler atlas build --links 4 --colour 3 DIR", "None"):
-        with pytest.raises(GrueblerError, match="is no command that builds an atlas"):
+        with pytest.raises(GrueblerError, match="is not a command that builds an atlas"):
             AtlasTask.of_command(text)
 
 
