@@ -633,12 +633,12 @@ export class Machine {
 
   /** Let wheels mesh in a pose: their turns are counted from it, as the library counts them from that of the document. */
   private setPhases(poses: Rows): void {
-    const p = this.program, homes = this.model.homes;
+    const p = this.program, reference = this.model.reference;
     for (const { condition, sides } of this.meshes) {
       const [one, two] = [p.sides[2 * condition]!, p.sides[2 * condition + 1]!];
-      const k = homes.windings.findIndex(([, a, b]) => a === one && b === two);
+      const k = reference.windings.findIndex(([, a, b]) => a === one && b === two);
       if (k < 0) continue;
-      const at = 3 * homes.bodies.length + 2 * k;
+      const at = 3 * reference.bodies.length + 2 * k;
       const [first, second, value] = p.values.subarray(6 * condition, 6 * condition + 3) as unknown as [number, number, number];
       const open = first * this.state.unknowns[at]! + second * this.state.unknowns[at + 1]! - value;
       this.angles[sides[1]]! -= open / second;
