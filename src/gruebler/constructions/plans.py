@@ -357,8 +357,8 @@ def velocities_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 55, 
 
 def _scotch_yoke(board: Board, a: float, slot: float, phi: float) -> tuple[complex, complex, complex]:
     """A0, the block A in the slot of the yoke, and the yoke's end, in a pose."""
-    pin, way = cmath.rect(a, radians(phi)), cmath.rect(1.0, radians(slot))
-    foot = lines_meet(pin, way, 0j, 1 + 0j)
+    pin, direction = cmath.rect(a, radians(phi)), cmath.rect(1.0, radians(slot))
+    foot = lines_meet(pin, direction, 0j, 1 + 0j)
     board.step(
         message(
             "Given: the crank a = {a:g} about A₀ drives a yoke by a block at its pin A, in the pose φ = {phi:g}°. The "
@@ -370,7 +370,7 @@ def _scotch_yoke(board: Board, a: float, slot: float, phi: float) -> tuple[compl
         Dot(0j, "A₀"),
         Dot(pin, "A"),
         Segment(0j, pin, "edge"),
-        Segment(foot - 1.3 * a * way, foot + 1.3 * a * way, "given"),
+        Segment(foot - 1.3 * a * direction, foot + 1.3 * a * direction, "given"),
         Segment(foot, foot + a, "given"),
         Segment(foot + (0.4 + 0.08j) * a, foot + (1 + 0.08j) * a, "dead"),
         Segment(foot + (0.4 - 0.08j) * a, foot + (1 - 0.08j) * a, "dead"),
@@ -381,16 +381,16 @@ def _scotch_yoke(board: Board, a: float, slot: float, phi: float) -> tuple[compl
 def _yoke_velocities(
     board: Board, plan: _Plan, pins: tuple[complex, complex, complex], slot: float, omega: float
 ) -> tuple[complex, complex]:
-    v_a, way = _crank(board, plan, pins[1] - pins[0], omega), cmath.rect(1.0, radians(slot))
+    v_a, direction = _crank(board, plan, pins[1] - pins[0], omega), cmath.rect(1.0, radians(slot))
     board.step(
         message(
             "C is the point of the yoke under A. The yoke does not turn: v_C lies along its guide, through the pole "
             "p_v; the block slides along the slot: the line of v_rel goes through a."
         ),
         DrawnLine(plan.pole, 1 + 0j),
-        DrawnLine(plan.at(v_a), way),
+        DrawnLine(plan.at(v_a), direction),
     )
-    tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_a), way)
+    tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_a), direction)
     v_c = (tip - plan.pole) / plan.scale
     board.step(
         message(
@@ -417,9 +417,9 @@ def velocities_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: float
 
 def _tangent_mechanism(board: Board, d: float, phi: float) -> tuple[complex, complex]:
     """A0 of the lever and the slider's pin B, in a pose."""
-    way = cmath.rect(1.0, radians(phi))
-    pin = lines_meet(0j, way, complex(0, d), 1 + 0j)
-    if (pin / way).real <= 0:
+    direction = cmath.rect(1.0, radians(phi))
+    pin = lines_meet(0j, direction, complex(0, d), 1 + 0j)
+    if (pin / direction).real <= 0:
         raise LinkageError("the lever does not reach the guide of the slider: phi must lie between 0° and 180°")
     board.step(
         message(
@@ -650,7 +650,7 @@ def accelerations_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 5
     """The polygon a_A = a_C + a_rel: the yoke does not turn, so there is no Coriolis' acceleration."""
     board = Board(message("Accelerations of a Scotch yoke"))
     pins = _scotch_yoke(board, a, slot, phi)
-    way = cmath.rect(1.0, radians(slot))
+    direction = cmath.rect(1.0, radians(slot))
     v_a, v_c = _yoke_velocities(board, _Plan(pins, abs(a * omega), 0.2), pins, slot, omega)
     a_a = _towards(pins[1] - pins[0], v_a)
     plan = _Plan(pins, abs(a_a), 1.5)
@@ -661,9 +661,9 @@ def accelerations_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 5
             "there is no Coriolis' acceleration."
         ),
         DrawnLine(plan.pole, 1 + 0j),
-        DrawnLine(plan.at(a_a), way),
+        DrawnLine(plan.at(a_a), direction),
     )
-    tip = lines_meet(plan.pole, 1 + 0j, plan.at(a_a), way)
+    tip = lines_meet(plan.pole, 1 + 0j, plan.at(a_a), direction)
     a_c = (tip - plan.pole) / plan.scale
     board.step(
         message(

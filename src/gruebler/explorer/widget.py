@@ -48,12 +48,12 @@ class Explorer(anywidget.AnyWidget):
 
     def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
         """The widget, with a picture for saved notebooks that are shown without its state, as on GitHub."""
-        made = super()._repr_mimebundle_(**kwargs)
-        if made is None:
+        bundle = super()._repr_mimebundle_(**kwargs)
+        if bundle is None:
             return None
         linkage = self.linkage
         picture = draw_linkage(linkage, curves=[*linkage.points], labels=True, lang=self.lang or "en")
-        return made[0] | {"image/svg+xml": picture.svg()}, made[1]
+        return bundle[0] | {"image/svg+xml": picture.svg()}, bundle[1]
 
     @property
     def linkage(self) -> Linkage:

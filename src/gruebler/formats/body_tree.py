@@ -75,3 +75,7 @@ class BodyTree:
         (x, y), *others = places
         far = [(a, b) for a, b in dict.fromkeys(others) if hypot(a - x, b - y) > 1e-9 * self.lower.size]
         return [((x, y), place) for place in far] or [((x, y), (x, y))]
+
+    def position(self, x: float, y: float) -> str:
+        """A point of the plane in metres, as XML files write it."""
+        return f"{x * self.scale!r} {y * self.scale!r} 0"

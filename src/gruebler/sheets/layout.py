@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.panels import ratio_diagram
-from gruebler.drawing.canvas.shapes import text_width
+from gruebler.drawing.canvas.shapes import wrapped_text
 from gruebler.drawing.structure import draw_structure
 from gruebler.errors import CatalogError
 from gruebler.sheets.messages import (
@@ -52,7 +52,7 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
     ]
     items.append(HorizontalRule(_LEFT, 57, _RIGHT - _LEFT, 1.2))
     y = 82.0
-    for line in _wrapped(sheet.record.title.in_language(lang), _RIGHT - _LEFT, 18 * 1.06):
+    for line in wrapped_text(sheet.record.title.in_language(lang), _RIGHT - _LEFT, 18 * 1.06):
         items.append(TextLine(_LEFT, y, line, 18, bold=True))
         y += 23
     for task in sheet.record.tasks:
@@ -185,24 +185,11 @@ def _paragraphs(items: list[Item], heading: str, texts: Iterable[str], x: float,
     """Wrapped texts under a heading, to the right margin; the y below them."""
     y = _heading(items, heading, x, y, _RIGHT)
     for text in texts:
-        for line in _wrapped(text, _RIGHT - x, _BODY):
+        for line in wrapped_text(text, _RIGHT - x, _BODY):
             items.append(TextLine(x, y, line, _BODY))
             y += _LEAD
         y += apart
     return y
-
-
-def _wrapped(text: str, wide: float, size: float) -> list[str]:
-    """Lines that are not wider, broken at spaces."""
-    lines, line = [], ""
-    for word in text.split(" "):
-        longer = f"{line} {word}".strip()
-        if line and text_width(longer, size) > wide:
-            lines.append(line)
-            line = word
-        else:
-            line = longer
-    return [*lines, line]
 
 
 def _fitted(items: list[Item], figure: Figure, x: float, y: float, wide: float, high: float) -> None:

@@ -79,8 +79,8 @@ def definition_picture(sheet: Sheet, lang: str = "en") -> tuple[Figure, float]:
     shapes += _dimension_line(Point(left, level), Point(right, level))
     shapes.append(TextShape(Point((left + right) / 2, level - 9.0), "L", "value"))
     beside = right + 1.4 * _BEYOND
-    shapes += _dimension_line(Point(beside, top - 24.0), Point(beside, top), one=True)
-    shapes += _dimension_line(Point(beside, bottom + 24.0), Point(beside, bottom), one=True)
+    shapes += _dimension_line(Point(beside, top - 24.0), Point(beside, top), single_arrow=True)
+    shapes += _dimension_line(Point(beside, bottom + 24.0), Point(beside, bottom), single_arrow=True)
     shapes.append(TextShape(Point(beside + 8.0, top - 16.0), "Δy", "value", "start"))
     shapes.append(TextShape(Point(left - 2 * _BEYOND - 9.0, 0.0), "g", "value"))
     name = sheet.record.point
@@ -90,11 +90,11 @@ def definition_picture(sheet: Sheet, lang: str = "en") -> tuple[Figure, float]:
     return figure_of(shapes, title, title), float(across / along)
 
 
-def _dimension_line(a: Point, b: Point, *, one: bool = False) -> list[Shape]:
+def _dimension_line(a: Point, b: Point, *, single_arrow: bool = False) -> list[Shape]:
     """A line with a head at its end, or at both."""
     forward = b.minus(a).unit
-    heads = arrow(a if one else a.plus(forward, 7.0), b.plus(forward, -7.0), "dimension", "dimension-head")
-    if one:
+    heads = arrow(a if single_arrow else a.plus(forward, 7.0), b.plus(forward, -7.0), "dimension", "dimension-head")
+    if single_arrow:
         return heads
     return [*heads, *arrow(a.plus(forward, 8.0), a.plus(forward, 7.0), "dimension", "dimension-head")]
 

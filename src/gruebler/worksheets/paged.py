@@ -6,9 +6,8 @@ import io
 from collections.abc import Iterator, Sequence
 from itertools import takewhile
 
-from gruebler.drawing.canvas.construction import wrapped_text
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.shapes import text_width
+from gruebler.drawing.canvas.shapes import text_width, wrapped_text
 from gruebler.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
 from gruebler.text import translate
 from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows

@@ -26,6 +26,7 @@ from gruebler.drawing.canvas.shapes import (
     TextShape,
     moved_shape,
     text_width,
+    wrapped_text,
 )
 from gruebler.drawing.canvas.styles import STYLES
 from gruebler.drawing.canvas.symbols import arrow
@@ -45,7 +46,6 @@ __all__ = [
     "DrawnLine",
     "Segment",
     "quantity",
-    "wrapped_text",
 ]
 
 _WIDE, _HIGH = 560.0, 400.0  # pixels of the drawing
@@ -191,19 +191,6 @@ def quantity(name: str, value: float, unit: str = "") -> Message:
     ('a = 12,35', 'φ = 55°')
     """
     return message("{name} = {value:.4g}{unit}", name=name, value=value, unit=unit)
-
-
-def wrapped_text(text: str, wide: float, size: float) -> list[str]:
-    """Lines that are not wider than so many pixels, broken at spaces."""
-    lines, line = [], ""
-    for word in text.split(" "):
-        longer = f"{line} {word}".strip()
-        if line and text_width(longer, size) > wide:
-            lines.append(line)
-            line = word
-        else:
-            line = longer
-    return [*lines, line]
 
 
 # --- from places to pixels ---------------------------------------------------------------------------

@@ -85,15 +85,15 @@ def _input_motion(mechanism: Mechanism, lang: str) -> tuple[str, str]:
 
 def _output_motion(mechanism: Mechanism, outputs: Sequence[str], lang: str) -> tuple[str, str]:
     """The motion of the outputs by their joints with the frame."""
-    found: dict[str, str] = {}
+    motions: dict[str, str] = {}
     for link in outputs:
         at_frame = {joint.pair.name for joint in mechanism.chain.joints if {link, mechanism.frame} <= {*joint.links}}
         if at_frame & {"prismatic"}:
-            found["s_a"] = translate("translation", lang)
+            motions["s_a"] = translate("translation", lang)
         elif at_frame & _TURNING:
-            found["ψ"] = translate("rotation", lang)
+            motions["ψ"] = translate("rotation", lang)
         else:
-            found[""] = translate("guided motion", lang)
+            motions[""] = translate("guided motion", lang)
     drive = _input_motion(mechanism, lang)[0]
-    symbols = [f"{symbol} = f({drive})" for symbol in found if symbol and drive]
-    return ", ".join(symbols), ", ".join(found.values())
+    symbols = [f"{symbol} = f({drive})" for symbol in motions if symbol and drive]
+    return ", ".join(symbols), ", ".join(motions.values())
