@@ -192,7 +192,7 @@ export class StructureView implements View {
 
   private async realise(): Promise<void> {
     const bar = h("span", {}, "…");
-    const request = this.app.ask<{ model: Model; message: string }>("realise", { text: this.text }, (text) => (bar.textContent = text));
+    const request = this.app.ask<{ model: Model; message: string }>("realise", { text: this.field.value }, (text) => (bar.textContent = text)); // as it stands, described or not yet
     const cancel = h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel"));
     const place = this.detail.querySelector('[data-act="realise"]')!.parentElement!;
     const waiting = h("span", { class: "form" }, h("progress", {}), bar, cancel);

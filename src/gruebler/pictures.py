@@ -93,8 +93,8 @@ class _Kind(NamedTuple):
 
 
 _KINDS: Mapping[str, _Kind] = {
-    "Chain": _Kind("drawing.structure.picture", "draw"),
-    "Mechanism": _Kind("drawing.structure.picture", "draw"),
+    "Chain": _Kind("drawing.structure.picture", "draw_structure"),
+    "Mechanism": _Kind("drawing.structure.picture", "draw_structure"),
     "Linkage": _Kind("drawing.linkage.picture", "draw_linkage", "linkage"),
     "Motion": _Kind("drawing.linkage.motion_picture", "draw_motion"),
     "Cam": _Kind("drawing.machines.cam_picture", "draw_cam", "animate_cam"),

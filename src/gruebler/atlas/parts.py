@@ -129,11 +129,11 @@ class AtlasTask:
         """
         pattern = r"gruebler atlas build((?: --[a-z-]+(?: [\w-]+)?)*) DIR"
         if (match := re.fullmatch(pattern, text)) is None:
-            raise GrueblerError("{text!r} is no command that builds an atlas", text=text)
+            raise GrueblerError("{text!r} is not a command that builds an atlas", text=text)
         flags = re.findall(r"--([a-z-]+)(?: (\w[\w-]*))?", match[1])
         options: dict[str, Any] = {name.replace("-", "_"): value or True for name, value in flags}
         if not {"links"} <= set(options) <= {field.name for field in fields(AtlasTask)}:
-            raise GrueblerError("{text!r} is no command that builds an atlas", text=text)
+            raise GrueblerError("{text!r} is not a command that builds an atlas", text=text)
         return AtlasTask(**options)
 
     def command(self) -> str:

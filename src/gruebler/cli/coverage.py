@@ -238,7 +238,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument("words", nargs="*", metavar="WORD", help="list only rows with these words or ids")
     parser.add_argument("--run", dest="execute", action="store_true", help="run every command and report how it ended")
-    parser.add_argument("--asked", action="store_true", help="list the single things that the documents ask instead")
+    parser.add_argument("--asked", action="store_true", help="list instead each thing that the documents ask")
     parser.add_printed(help="print a list of objects")
 
 

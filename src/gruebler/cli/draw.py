@@ -23,7 +23,14 @@ from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.drawing.structure import draw_block, draw_contracted, draw_graph, draw_loops, draw_structure
+from gruebler.drawing.structure import (
+    draw_block,
+    draw_contracted,
+    draw_graph,
+    draw_loops,
+    draw_side_view,
+    draw_structure,
+)
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.formats.structures import is_structure_text
@@ -46,6 +53,7 @@ _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
     "contracted": draw_contracted,
     "loops": draw_loops,
+    "side": draw_side_view,
     "block": draw_block,
 }
 
@@ -62,7 +70,7 @@ def add(parser: Parser) -> None:
         description="Draw the structure of a chain or mechanism: links as bodies, joints by their symbols, the frame "
         "hatched, drives as arrows. Linkages, and catalog entries with --at, --curve, --show or --ghosts, are drawn to "
         "scale.",
-        epilog="Examples: gruebler draw planetary -o planetary.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
+        epilog="Examples: gruebler draw geartrain -o geartrain.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
         "poles. Without -o, the SVG is printed. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
     parser.add_argument(
@@ -119,6 +127,7 @@ def add(parser: Parser) -> None:
     view.add_argument("--graph", action="store_true", help="draw the link graph instead")
     view.add_argument("--contracted", action="store_true", help="draw the contracted graph instead")
     view.add_argument("--loops", action="store_true", help="draw the independent loops instead")
+    view.add_argument("--side", action="store_true", help="draw a gear train from the side, its axes as lines")
     view.add_argument("--block", action="store_true", help="draw drive, mechanism and output as blocks instead")
 
 
@@ -164,12 +173,12 @@ def _figure(arguments: argparse.Namespace) -> Figure:
         asked = [option for option in asked if option != "--output"]
     if view is not None and asked:
         raise GrueblerError(
-            "{option} needs a drawing to scale and does not go with --graph, --contracted, --loops and --block",
+            "{option} needs a drawing to scale and does not go with --graph, --contracted, --loops, --side and --block",
             option=asked[0],
         )
     if view is not None and arguments.labels:
         raise GrueblerError(
-            "--labels does not go with --graph, --contracted, --loops and --block, which always label the links"
+            "--labels does not go with --graph, --contracted, --loops, --side and --block, which always label the links"
         )
     if moving["output"] is not None and view is not draw_block and not set(moving["show"]) & set(_OF_A_LINK):
         raise GrueblerError("--output needs --show {views} or --block", views=joined(_OF_A_LINK, ", "))

@@ -95,13 +95,11 @@ def run(arguments: argparse.Namespace) -> int:
         return _count_sliding(wanted, arguments)
     if arguments.prismatic == "any":
         raise GrueblerError("--prismatic any goes with --count and with --links, --mobility and --multiple-joints only")
-    if arguments.jobs != 1 or arguments.scheduler is not None:
-        raise GrueblerError("--jobs and --scheduler go with --count and --prismatic, and no other kinds of joints")
     seconds = expected_seconds_of_variants(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
-    ask_before(seconds, arguments.yes)
+    ask_before(seconds / max(1, arguments.jobs), arguments.yes)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
     words = message("{n} found, {seconds:.0f} s").in_language(arguments.lang) if quiet else ""
-    candidates = progress(variants(wanted), words)
+    candidates = progress(variants(wanted, executor=executor_of(arguments)), words)
     if arguments.count:
         count = sum(1 for _ in candidates)
         if arguments.json:

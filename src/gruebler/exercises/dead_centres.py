@@ -240,7 +240,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
 
 
 def _add_middle_of_time(builder: SolutionBuilder, size: SliderCrank, phi: float) -> None:
-    name = message("slider in the middle of the time, at φ = 90°")
+    name = message("slider at mid-time, at φ = 90°")
     at_time = builder.find("s_T", name, "√(b² - a²)", sqrt(size.b**2 - size.a**2), a=size.a, b=size.b)
     name = message("mid-stroke minus mid-time")
     offset = builder.find("offset", name, "s_H2 - s_T", size.b - at_time, symbol="Δs", s_H2=size.b, s_T=at_time)

@@ -20,12 +20,18 @@ from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judge_design, point_targets, position_targets
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
 from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult
-from gruebler.synthesis.tasks import SAME, PathTask, PositionTask
+from gruebler.synthesis.tasks import MOST_POINTS, SAME, PathTask, PositionTask
 from gruebler.text import Message, message
 
 __all__ = ["four_bars_through", "synthesise_path"]
 
 MOST_ON_CIRCLE = 6
+MOST_TIMED = 5
+"""Points that are met with any crank angles."""
+_TURNS = (90, 150, 210, 270)
+"""Degrees by which the crank turns from the first point to the last, in one sense and the other, where it is free."""
+_SHARES = {5: 2, 4: 3}
+"""By the number of points: how many dyads are taken, in halves of the number asked for; of four few are accepted."""
 
 
 def synthesise_path(
@@ -39,9 +45,10 @@ def synthesise_path(
     """All four-bars whose coupler point passes through the points of a task.
 
     Nine points, five points and two fixed pivots, five points with crank angles, and the finite mixed tasks have
-    finitely many solutions, all of which are found. Fewer points have infinitely many: points on a smooth curve through
-    them are added until the number is finite. For more points, and for a closed curve, the four-bars that come nearest
-    are sought.
+    finitely many solutions, all of which are found. Fewer points have infinitely many: up to five are met with several
+    choices of the crank angles; to six and more, and where pivots or coupler angles are given, points on a smooth curve
+    through them are added until the number is finite. For more points, and for a closed curve, the four-bars that come
+    nearest are sought.
 
     Args:
         task: points, perhaps with coupler angles, crank angles or fixed pivots.
@@ -68,6 +75,8 @@ def synthesise_path(
         raise SynthesisError("fixed pivots go with points alone, without coupler angles")
     if len(oriented) == len(task) and len(task) > 1 and not task.closed:
         return _as_positions(task, wanted, progress)
+    if len(task) <= MOST_TIMED and not oriented and not task.fixed_pivots and not task.closed:
+        return _sampled(task, wanted, number, progress)
     poses = max(0, len(oriented) - 1)
     needed = 4 if task.fixed_pivots else 8 - 2 * poses
     free = len(task) - 1 - poses
@@ -316,6 +325,35 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
     family = message("There are infinitely many solutions; some dyads of each family were taken.")
     count = SolutionCount(message("linkages"), theorem, theorem or real, real)
     return SynthesisResult(task, accepted, rejected, count, () if theorem else (family,))
+
+
+def _sampled(task: PathTask, demands: Demands, number: int, progress: Progress | None) -> SynthesisResult:
+    """At most five points: with every choice of crank angles there are solutions, some of which are taken.
+
+    The crank turns evenly with the way between the points, so that their order and its sense come by themselves.
+    """
+    z = task.z if len(task) > 2 else np.insert(task.z, 1, _between(task.z, 1))
+    points = tuple((float(w.real), float(w.imag)) for w in z)
+    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
+    turns = [sign * np.radians(turn) for turn in _TURNS for sign in (1, -1)]
+    designs: list[Design] = []
+    real = 0
+    for done, turn in enumerate(turns, 1):
+        timing = tuple(float(angle) for angle in turn * way / way[-1])
+        few = max(2, number * _SHARES.get(len(task), 1) // 2)
+        found = _timed(PathTask(points, crank_angles=timing, unit=task.unit), demands, few)
+        designs += [*found.designs, *found.rejected]
+        real += found.count.real
+        if progress is not None:
+            progress(done, len(turns))
+    note = message(
+        "There are infinitely many solutions, a family of {parameters} parameters: for all crank angles at the points "
+        "there are linkages. Those for {count} choices were taken; fixed_pivots or crank_angles choose others.",
+        parameters=MOST_POINTS - len(task),
+        count=len(turns),
+    )
+    accepted, rejected = ranked(designs)
+    return SynthesisResult(task, accepted, rejected, SolutionCount(message("linkages"), None, real, real), (note,))
 
 
 def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import combinations
-from math import atan2
+from math import atan2, comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +57,10 @@ _FAMILIES = {
         "{count} dyads were taken."
     ),
 }
+
+_PAIRS = message(
+    "{dyads} complex dyads are {pairs} solutions as ordered pairs, each dyad also with itself, and {linkages} linkages."
+)
 
 THEOREM = {2: None, 3: None, 4: None, 5: 4}
 """How many complex dyads a general task has, by the number of positions."""
@@ -144,6 +148,7 @@ def synthesise_positions(
     if len(task) == 5:
         displacements, *_ = Displacements.of(task.origins, task.turns)
         complex_dyads = all_dyads(displacements).found
+        notes.append(_PAIRS.filled(dyads=complex_dyads, pairs=complex_dyads**2, linkages=comb(complex_dyads, 2)))
     else:
         notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
     if len(task) == 4 and (task.moving_pivots or task.fixed_pivots):

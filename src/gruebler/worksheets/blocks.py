@@ -42,8 +42,13 @@ class Pictures(NamedTuple):
         ([0.8], [0.5, 0.5])
         """
         scales = [min(1.0, max(self.height / figure.height, _LEGIBLE)) for figure in self.figures]
-        side_by_side = sum(scale * figure.width for scale, figure in zip(scales, self.figures, strict=True))
-        return [scale * min(1.0, width / side_by_side) for scale in scales]
+        by_width = sorted(range(len(scales)), key=lambda k: scales[k] * self.figures[k].width)
+        for place, k in enumerate(by_width):  # where they do not fit, the widest give way
+            wanted = scales[k] * self.figures[k].width
+            given = min(wanted, width / (len(scales) - place))
+            scales[k] *= given / wanted
+            width -= given
+        return scales
 
 
 class Rows(NamedTuple):

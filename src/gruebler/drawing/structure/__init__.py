@@ -3,6 +3,7 @@
 from gruebler.drawing.structure.block import draw_block
 from gruebler.drawing.structure.graphs import draw_contracted, draw_graph, draw_loops
 from gruebler.drawing.structure.picture import PlacedChain, draw_structure, paint, place_joints
+from gruebler.drawing.structure.side_view import draw_side_view
 
 __all__ = [
     "PlacedChain",
@@ -10,6 +11,7 @@ __all__ = [
     "draw_contracted",
     "draw_graph",
     "draw_loops",
+    "draw_side_view",
     "draw_structure",
     "paint",
     "place_joints",
