@@ -4,12 +4,13 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test docs slow wheel-test test-blas test-kernels test-lowest test-newest torture bench clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-lowest test-newest torture bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
 	@echo "make test        ruff, mypy --strict, all fast tests and doctests"
 	@echo "make docs        the site in English and German in build/docs/html; about two minutes"
+	@echo "make messages    brings the German catalog up to date with the code and lists what is untranslated"
 	@echo "make slow        the long tests, and the fast ones with new random examples"
 	@echo "make torture     5,000 damaged inputs and 300 kills, see docs/reliability.md; about an hour"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
@@ -47,6 +48,9 @@ docs: $(VENV)/.docs
 	$(BIN)/python $(SPHINX) -d build/docs/doctrees/en docs build/docs/html
 	$(BIN)/python $(SPHINX) -d build/docs/doctrees/de -D language=de docs build/docs/html/de
 	$(BIN)/python docs/builder/links.py build/docs/html
+
+messages: $(READY)
+	$(BIN)/python -m tests.messages
 
 slow: $(READY)
 	$(BIN)/python -m pytest -q -m slow

@@ -12,7 +12,7 @@ import numpy as np
 from gruebler import Chain, chains
 from gruebler.drawing.canvas import gallery_html
 from gruebler.drawing.canvas.gallery import Item, Section
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.drawing.structure.bodies import LayoutBodies
 from gruebler.drawing.structure.layout import Layout, lay_out
 
@@ -137,7 +137,7 @@ def main() -> None:
     ours(large(40, 0, 40))
     compare(found)
     start = time.process_time()
-    page = gallery_html("", [Section("", tuple(Item(draw(chain), "") for chain in found))])
+    page = gallery_html("", [Section("", tuple(Item(draw_structure(chain), "") for chain in found))])
     print(f"{len(found)} pictures on a page of {len(page) / 1e6:.2f} MB: {time.process_time() - start:.1f} s")
     for words, reach in (("planar", 3), ("not planar", 40)):
         many = [large(40, seed, reach) for seed in range(1, 20)]

@@ -146,6 +146,8 @@ def updated(old: Catalog, lang: str) -> Catalog:
     """A catalog with all messages of the code and no other, with the translations there are."""
     new = Catalog(locale=lang, project="gruebler", header_comment=old.header_comment, fuzzy=False)
     new.mime_headers = old.mime_headers
+    new.last_translator, new.language_team, new.msgid_bugs_address = "The gruebler maintainers", "German", ""
+    new.creation_date = new.revision_date = old.creation_date  # the same texts make the same file at any time
     for entry in messages():
         if isinstance(entry, Found):
             key = (entry.text, entry.many) if entry.many else entry.text

@@ -3,6 +3,7 @@ other."""
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,18 @@ ROOT = Path(__file__).parents[1]
 # From the ground up. A room may import rooms on lower floors and its own files; errors, then texts, lie beneath them.
 BENEATH = ["errors", "text"]
 FLOORS = [
-    {"arrays", "disjoint_sets", "errors", "events", "text", "atomic_files", "documents", "notebook", "_numeric"},
+    {
+        "arrays",
+        "convex_hull",
+        "disjoint_sets",
+        "errors",
+        "events",
+        "text",
+        "atomic_files",
+        "documents",
+        "notebook",
+        "_numeric",
+    },
     {"chain", "columns", "jets", "cams", "gears", "geneva", "drawing/canvas"},
     {"mobility", "isomorphism", "drawing/machines"},
     {"enumeration", "mechanism"},
@@ -60,7 +72,13 @@ def modules():
 FILES = dict(modules())
 
 
-def imported(path):
+@cache
+def tree(module):
+    """The syntax of a file."""
+    return ast.parse(FILES[module].read_text(encoding="utf-8"))
+
+
+def imported(module):
     """The modules of this package that a file imports: anywhere, in functions and for type checking too.
 
     Yields each with whether the import stands in a function.
@@ -81,14 +99,13 @@ def imported(path):
         for child in ast.iter_child_nodes(node):
             yield from walk(child, inside)
 
-    yield from walk(ast.parse(path.read_text(encoding="utf-8")), False)
+    yield from walk(tree(module), False)
 
 
 def defines(module, name):
-    path = FILES.get(module)
-    if path is None or module == "":
+    if module not in FILES or module == "":
         return False
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for node in tree(module).body:
         if isinstance(node, ast.ImportFrom) and name in {alias.asname or alias.name for alias in node.names}:
             return True
         if getattr(node, "name", None) == name:
@@ -96,7 +113,7 @@ def defines(module, name):
     return False
 
 
-EDGES = {name: sorted({edge for edge in imported(path) if edge[0]}) for name, path in FILES.items()}
+EDGES = {name: sorted({edge for edge in imported(name) if edge[0]}) for name in FILES}
 
 
 def test_every_module_has_a_floor():
@@ -145,9 +162,9 @@ def test_architecture_has_the_same_floors():
 def test_the_front_door_is_light():
     """What `import gruebler` and the parser load imports nothing heavy at its top."""
     for name in ("", "errors", "chain.pairs", "chain.notation", "chain", "cli"):
-        tree = ast.parse(FILES[name].read_text(encoding="utf-8"))
-        names = {alias.name.split(".")[0] for node in tree.body if isinstance(node, ast.Import) for alias in node.names}
-        names |= {(node.module or "").split(".")[0] for node in tree.body if isinstance(node, ast.ImportFrom)}
+        top = tree(name).body
+        names = {alias.name.split(".")[0] for node in top if isinstance(node, ast.Import) for alias in node.names}
+        names |= {(node.module or "").split(".")[0] for node in top if isinstance(node, ast.ImportFrom)}
         assert not names & (HEAVY | {"numpy"}), name
 
 

@@ -10,10 +10,11 @@ from typing import Any
 
 def setup(app: Any) -> dict[str, Any]:
     """Called by Sphinx."""
-    from builder import blocks, formulas, pages, translations
+    from builder import blocks, formulas, names, pages, translations
 
     blocks.setup(app)
     pages.setup(app)
     formulas.setup(app)
+    names.setup(app)
     translations.setup(app)
     return {"parallel_read_safe": False, "parallel_write_safe": True}

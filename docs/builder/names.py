@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import builtins
 import enum
 import inspect
 import re
@@ -13,6 +14,8 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+
+from sphinx.addnodes import pending_xref
 
 import gruebler
 
@@ -275,3 +278,15 @@ def _markdown_line(text: str) -> str:
         part if k % 2 else re.sub(r"([*\[\]{}<>$|~]|(?<=\w)_(?=\W|$)|(?<!\w)_)", r"\\\1", part)
         for k, part in enumerate(parts)
     )
+
+
+def _unlink_builtins(_: Any, tree: Any) -> None:
+    """A built-in name such as `type` in a signature leads nowhere, least of all to an attribute of that name."""
+    for link in list(tree.findall(pending_xref)):
+        if link.get("refdomain") == "py" and hasattr(builtins, link.get("reftarget", "")):
+            link.replace_self(link.children)
+
+
+def setup(app: Any) -> None:
+    """The event."""
+    app.connect("doctree-read", _unlink_builtins)

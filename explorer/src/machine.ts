@@ -1,7 +1,7 @@
 /** A linkage on the page: its sizes, its pose, its cycle, and what changes them. */
 
 import { Kernel, Status, type Rows, type State } from "./kernel";
-import type { Leg, LinkageDocument, Model, Place, PointRecord } from "./model";
+import type { Leg, LinkageDocument, Model, Place, PointRecord, ShapeRecord } from "./model";
 import { Code, Kind, programOf, type Program } from "./program";
 import { unwoundAngle } from "./closure";
 import { currentLanguage } from "./language";
@@ -53,6 +53,18 @@ export interface DeadCentre {
   output: number;
 }
 
+/** Two wheels that mesh: the number of the condition, and their elements. */
+interface Mesh {
+  condition: number;
+  sides: readonly [number, number];
+}
+
+/** The wheel whose centre a joint is, and an element at the centre of what it meshes with. */
+interface Pivot {
+  wheel: number;
+  about: number;
+}
+
 /** Why a change was refused. */
 export class Refused extends Error {
   constructor(readonly stop: Stop | null) {
@@ -80,6 +92,9 @@ export class Machine {
   private readonly locked: boolean[];
   private readonly axes: (readonly [number, number] | null)[];
   private readonly wheels: boolean;
+  private readonly meshes: Mesh[];
+  /** Of each joint that is the centre of a wheel which can be moved around another one. */
+  private readonly pivots: (Pivot | null)[];
 
   constructor(model: Model) {
     this.model = model;
@@ -94,9 +109,19 @@ export class Machine {
     this.drives = Float64Array.from(model.start.drives);
     this.state = { signs: Float64Array.from(model.start.signs), unknowns: Float64Array.from(model.start.unknowns) };
     this.wheels = model.elements.some((e) => e.kind === "round");
-    this.locked = model.joints.map((_, joint) => this.isLocked(joint));
+    const locked = model.joints.map((_, joint) => this.isLocked(joint));
+    // an axis goes with those of wheels at the same place of its link
+    this.locked = locked.map((held, joint) => held || this.elementsOf(joint).some((k) =>
+      this.elementsOn(model.elements[k]!.link).some((m) => locked[model.elements[m]!.joint] && m !== k &&
+        model.elements[m]!.kind === "pin" && this.gap(k, m) <= 1e-9 * this.size)));
     this.axes = model.links.map((_, link) => this.axisOf(link));
     this.pose = this.solve(this.drives, this.state, 2);
+    this.meshes = Array.from(p.kinds).flatMap((kind, condition) => {
+      const sides = [model.sources[p.sides[2 * condition]!]!, model.sources[p.sides[2 * condition + 1]!]!] as const;
+      const round = sides.every((k) => k >= 0 && model.elements[k]!.kind === "round");
+      return kind === Kind.MESH && p.values[6 * condition + 4] === 0 && round ? [{ condition, sides }] : [];
+    });
+    this.pivots = model.joints.map((_, joint) => this.pivotOf(joint));
     this.cycle = this.findCycle();
   }
 
@@ -110,7 +135,7 @@ export class Machine {
     return this.model.elements.flatMap((e, k) => (e.link === link ? [k] : []));
   }
 
-  /** Where wheels touch, places are not free: they are changed in the linkage's file. */
+  /** Where wheels, cams and the like touch, places are not free. */
   private isLocked(joint: number): boolean {
     const mine = this.elementsOf(joint);
     if (!mine.some((k) => this.model.elements[k]!.kind === "pin")) return true;
@@ -130,7 +155,62 @@ export class Machine {
   }
 
   draggable(joint: number): boolean {
-    return !this.locked[joint];
+    return !this.locked[joint] || this.pivots[joint] !== null;
+  }
+
+  /** A wheel keeps its distance from the wheels that it meshes with: its centre moves on a circle about theirs. */
+  private pivotOf(joint: number): Pivot | null {
+    const pins = this.elementsOf(joint);
+    const near = 1e-9 * this.size;
+    const elements = this.model.elements;
+    let found: Pivot | null = null;
+    let centre = -1;
+    for (const { sides } of this.meshes) for (const side of [0, 1] as const) {
+      const mine = sides[side], about = sides[1 - side]!;
+      const wheel = elements[mine]!.link;
+      const pin = pins.find((k) => elements[k]!.link === wheel && elements[k]!.kind === "pin" && this.gap(k, mine) <= near);
+      if (pin === undefined) continue;
+      if (found && (found.wheel !== wheel || this.apart(found.about, about) > near)) return null;
+      found = { wheel, about };
+      centre = pin;
+    }
+    if (!found) return null;
+    const meshing = new Set(this.meshes.flatMap(({ sides }) => sides));
+    const { wheel, about } = found;
+    if (this.elementsOn(wheel).some((k) => elements[k]!.kind === "round" && (!meshing.has(k) || this.gap(k, centre) > near))) return null;
+    const carriers = pins.filter((k) => elements[k]!.link !== wheel);
+    const bare = carriers.every((k) => this.elementsOn(elements[k]!.link).every((m) => elements[m]!.kind !== "round" || this.gap(k, m) > near));
+    return bare && carriers.some((k) => this.holds(elements[k]!.link, about)) ? found : null;
+  }
+
+  /** Whether the centre of a wheel is fixed on a link: by a joint of both, or by one at the same place of a third link. */
+  private holds(link: number, centre: number): boolean {
+    const near = 1e-9 * this.size;
+    const elements = this.model.elements;
+    const pins = this.elementsOn(elements[centre]!.link).filter((k) => elements[k]!.kind === "pin" && this.gap(k, centre) <= near);
+    return pins.some((pin) => {
+      const joint = elements[pin]!.joint;
+      if (this.elementsOf(joint).some((k) => elements[k]!.link === link)) return true;
+      return this.elementsOn(link).some((k) => elements[k]!.kind === "pin" && this.elementsOf(elements[k]!.joint).some((m) =>
+        this.elementsOf(joint).some((other) => elements[other]!.link === elements[m]!.link && this.gap(m, other) <= near)));
+    });
+  }
+
+  /** The distance of two elements in the plane. */
+  private apart(k: number, m: number): number {
+    const [ax, ay] = this.elementAt(k), [bx, by] = this.elementAt(m);
+    return Math.hypot(bx - ax, by - ay);
+  }
+
+  /** Where a joint comes to when it is dragged to a place. */
+  permitted(joint: number, x: number, y: number): [number, number] {
+    const pivot = this.pivots[joint];
+    if (!pivot) return [x, y];
+    const [cx, cy] = this.elementAt(pivot.about), [px, py] = this.jointAt(joint);
+    const away = Math.hypot(x - cx, y - cy);
+    if (!(away > 1e-9 * this.size)) return [px, py];
+    const part = Math.hypot(px - cx, py - cy) / away;
+    return [cx + part * (x - cx), cy + part * (y - cy)];
   }
 
   private gap(k: number, m: number): number {
@@ -256,6 +336,30 @@ export class Machine {
     const pin = mine.find((k) => this.model.elements[k]!.kind === "pin");
     const moving = mine.find((k) => this.model.elements[k]!.link !== this.model.frame);
     return this.elementAt(pin ?? moving ?? mine[0]!, rows, row);
+  }
+
+  /** The lines of a shape on its link; those of a belt between the centres where they are now. */
+  linesOf(shape: ShapeRecord): number[][] {
+    const { lines = [], between } = shape;
+    if (!between) return lines;
+    const [ax, ay, bx, by] = between;
+    const nearest = (x: number, y: number) => { // the pin of the frame that was there
+      let best = -1, least = Infinity;
+      this.model.elements.forEach((e, k) => {
+        if (e.link !== shape.link || e.kind !== "pin") return;
+        const off = Math.hypot(e.at[0] - x, e.at[1] - y);
+        if (off < least) [best, least] = [k, off];
+      });
+      return best;
+    };
+    const one = nearest(ax, ay), two = nearest(bx, by);
+    const [cx, cy, dx, dy] = [this.at[2 * one]!, this.at[2 * one + 1]!, this.at[2 * two]!, this.at[2 * two + 1]!];
+    const wide = (bx - ax) ** 2 + (by - ay) ** 2;
+    const c = ((bx - ax) * (dx - cx) + (by - ay) * (dy - cy)) / wide, s = ((bx - ax) * (dy - cy) - (by - ay) * (dx - cx)) / wide;
+    return lines.map((line) => line.map((_, k) => {
+      const u = line[k - (k % 2)]! - ax, v = line[k - (k % 2) + 1]! - ay;
+      return k % 2 ? cy + s * u + c * v : cx + c * u - s * v;
+    }));
   }
 
   toLocal(link: number, x: number, y: number): [number, number] {
@@ -485,23 +589,63 @@ export class Machine {
     this.cycle = this.findCycle();
   }
 
-  /** Take a joint to a place in the plane. All other joints stay where they are: the links of this joint change. */
-  dragJoint(joint: number, x: number, y: number): void {
+  /**
+   * Take a joint to a place in the plane. All other joints stay where they are: the links of this joint change.
+   * The centre of a wheel goes around those that it meshes with.
+   */
+  dragJoint(joint: number, toX: number, toY: number): void {
     if (!this.draggable(joint)) return;
     const poses = oneRow(this.pose, 0);
+    const pivot = this.pivots[joint];
+    const [x, y] = this.permitted(joint, toX, toY);
     const cylinders = this.model.joints.map((_, k) => this.cylinder(k)).filter((found) => found !== null);
     this.change(
       () => {
         const kept = new Set(cylinders.flatMap(([, , one, two]) => [one, two]));
-        for (const k of this.elementsOf(joint)) if (!kept.has(k)) this.moveElement(k, x, y, cylinders);
+        if (pivot) this.shiftWheel(poses, pivot.wheel, joint, x, y);
+        for (const k of this.elementsOf(joint)) {
+          if (!kept.has(k) && this.model.elements[k]!.link !== pivot?.wheel) this.moveElement(k, x, y, cylinders);
+        }
         for (const cylinder of cylinders) this.straighten(poses, cylinder, joint, x, y);
         for (const [link, axis] of this.axes.entries()) if (axis) this.align(poses, link, axis);
         this.writeSizes();
         this.placeBlocks(poses);
         this.readState(poses);
+        this.setPhases(poses);
       },
       () => this.solve(this.drives, this.state, 2),
     );
+  }
+
+  /** Move a wheel with its centre; its other joints stay where they are in the plane. */
+  private shiftWheel(poses: Rows, wheel: number, joint: number, x: number, y: number): void {
+    const [px, py] = this.jointAt(joint);
+    const [c, s] = this.turn(poses, 0, wheel);
+    const dx = x - px, dy = y - py;
+    poses.places[2 * wheel]! += dx;
+    poses.places[2 * wheel + 1]! += dy;
+    for (const k of this.elementsOn(wheel)) {
+      if (this.model.elements[k]!.joint === joint || this.model.elements[k]!.kind === "round") continue;
+      this.at[2 * k]! -= c * dx + s * dy;
+      this.at[2 * k + 1]! -= c * dy - s * dx;
+    }
+  }
+
+  /** Let wheels mesh in a pose: their turns are counted from it, as the library counts them from that of the document. */
+  private setPhases(poses: Rows): void {
+    const p = this.program, reference = this.model.reference;
+    for (const { condition, sides } of this.meshes) {
+      const [one, two] = [p.sides[2 * condition]!, p.sides[2 * condition + 1]!];
+      const k = reference.windings.findIndex(([, a, b]) => a === one && b === two);
+      if (k < 0) continue;
+      const at = 3 * reference.bodies.length + 2 * k;
+      const [first, second, value] = p.values.subarray(6 * condition, 6 * condition + 3) as unknown as [number, number, number];
+      const open = first * this.state.unknowns[at]! + second * this.state.unknowns[at + 1]! - value;
+      this.angles[sides[1]]! -= open / second;
+    }
+    if (this.meshes.length === 0) return;
+    this.writeSizes();
+    this.readState(poses);
   }
 
   private moveElement(k: number, x: number, y: number, cylinders: Cylinder[]): void {
@@ -592,14 +736,14 @@ export class Machine {
 
   /** Drive values, signs and unknowns of a pose, as `gruebler.kinematics.reference_pose` reads them. */
   private readState(poses: Rows): void {
-    const p = this.program, homes = this.model.homes;
+    const p = this.program, reference = this.model.reference;
     const point = (e: number) => this.place(poses, 0, p.links[e]!, p.points[2 * e]!, p.points[2 * e + 1]!);
     const line = (e: number): [number, number] => {
       const [c, s] = this.turn(poses, 0, p.links[e]!);
       const x = p.lines[2 * e]!, y = p.lines[2 * e + 1]!;
       return [c * x - s * y, c * y + s * x];
     };
-    homes.drives.forEach(([a, b, near, far], k) => {
+    reference.drives.forEach(([a, b, near, far], k) => {
       const [ax, ay] = this.turn(poses, 0, a!), [bx, by] = this.turn(poses, 0, b!);
       if (this.model.drives[k]?.turning ?? true) this.drives[k] = unwoundAngle(ax * bx + ay * by, ax * by - ay * bx, this.drives[k]!);
       else {
@@ -624,15 +768,15 @@ export class Machine {
       this.state.signs[operation[9]!] = side < 0 ? -1 : 1;
     }
     const y = this.state.unknowns;
-    homes.bodies.forEach(([root, base], k) => {
+    reference.bodies.forEach(([root, base], k) => {
       const [bx, by] = this.turn(poses, 0, base!), [rx, ry] = this.turn(poses, 0, root!);
       const dx = poses.places[2 * root!]! - poses.places[2 * base!]!, dy = poses.places[2 * root! + 1]! - poses.places[2 * base! + 1]!;
       y[3 * k] = bx * dx + by * dy;
       y[3 * k + 1] = bx * dy - by * dx;
       y[3 * k + 2] = unwoundAngle(bx * rx + by * ry, bx * ry - by * rx, y[3 * k + 2]!);
     });
-    homes.windings.forEach(([kind, one, two], k) => {
-      const at = 3 * homes.bodies.length + 2 * k;
+    reference.windings.forEach(([kind, one, two], k) => {
+      const at = 3 * reference.bodies.length + 2 * k;
       const [lx, ly] = line(one!), [ox, oy] = line(two!);
       if (kind === Kind.MESH) {
         const [px, py] = point(one!), [qx, qy] = point(two!);
@@ -721,19 +865,23 @@ export class Machine {
     this.points.push({ name, link, at: this.toLocal(link, x, y) });
   }
 
-  /** The linkage as `gruebler.formats` reads it, with the pose that is shown as its home. */
+  /** The linkage as `gruebler.formats` reads it, with the pose that is shown as its reference pose. */
   document(): LinkageDocument {
     const { model } = this;
     const out = structuredClone(model.document);
     const degrees = (angle: number) => (angle * 180) / Math.PI;
     model.elements.forEach((e, k) => {
-      if (e.kind === "round") return;
+      if (e.kind === "round") {
+        (out.elements![model.links[e.link]!]![model.joints[e.joint]!.name] as { at: number[] }).at = [this.at[2 * k]!, this.at[2 * k + 1]!];
+        return;
+      }
       const place: number[] = [this.at[2 * k]!, this.at[2 * k + 1]!];
       if (e.kind === "line") place.push(degrees(this.angles[k]!));
       out.elements![model.links[e.link]!]![model.joints[e.joint]!.name] = place;
     });
     out.points = Object.fromEntries(this.points.map((p) => [p.name, { link: model.links[p.link]!, at: [...p.at] }]));
-    out.home = Object.fromEntries(model.links.slice(0, model.own).map((name, link) => {
+    delete out.home;
+    out.reference_pose = Object.fromEntries(model.links.slice(0, model.own).map((name, link) => {
       const [c, s] = this.turn(this.pose, 0, link);
       return [name, [this.pose.places[2 * link]!, this.pose.places[2 * link + 1]!, degrees(Math.atan2(s, c))]];
     }));
@@ -755,8 +903,10 @@ export class Machine {
     this.change(
       () => {
         model.elements.forEach((e, k) => {
-          if (e.kind === "round") return;
-          const raw = numbers(document.elements?.[model.links[e.link]!]?.[model.joints[e.joint]!.name], e.kind === "line" ? 3 : 2);
+          const given = document.elements?.[model.links[e.link]!]?.[model.joints[e.joint]!.name];
+          const raw = e.kind === "round"
+            ? numbers((given as { at?: unknown } | undefined)?.at, 2)
+            : numbers(given, e.kind === "line" ? 3 : 2);
           this.at[2 * k] = raw[0]!;
           this.at[2 * k + 1] = raw[1]!;
           if (e.kind === "line") this.angles[k] = raw[2]! * degrees;
@@ -769,7 +919,7 @@ export class Machine {
         });
         this.writeSizes();
         model.links.slice(0, model.own).forEach((name, link) => {
-          const [x, y, angle] = numbers(document.home?.[name], 3) as [number, number, number];
+          const [x, y, angle] = numbers((document.reference_pose ?? document.home)?.[name], 3) as [number, number, number];
           poses.places[2 * link] = x;
           poses.places[2 * link + 1] = y;
           poses.turns[2 * link] = Math.cos(angle * degrees);
@@ -777,6 +927,7 @@ export class Machine {
         });
         this.placeBlocks(poses);
         this.readState(poses);
+        this.setPhases(poses);
       },
       () => this.solve(this.drives, this.state, 2),
     );

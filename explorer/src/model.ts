@@ -40,6 +40,8 @@ export interface ShapeRecord {
   circle?: [number, number, number];
   lines?: number[][];
   closed?: boolean;
+  /** Of a belt: where the centres of its wheels were; its lines go with them. */
+  between?: [number, number, number, number];
 }
 
 export interface GroupRecord {
@@ -54,6 +56,8 @@ export type LinkageDocument = Record<string, unknown> & {
   joints?: string;
   elements?: Record<string, Record<string, unknown>>;
   points?: Record<string, { link: string; at: number[] }>;
+  reference_pose?: Record<string, unknown>;
+  /** The former name of reference_pose: links that were copied before. */
   home?: Record<string, unknown>;
 };
 
@@ -76,7 +80,7 @@ export interface Model {
   drives: { name: string; turning: boolean; joint: number }[];
   program: ProgramRecord;
   sources: number[];
-  homes: { drives: number[][]; bodies: number[][]; windings: number[][] };
+  reference: { drives: number[][]; bodies: number[][]; windings: number[][] };
   groups: GroupRecord[];
   shortest: [number, number][];
   released: number[];

@@ -133,14 +133,15 @@ export class Stage {
       for (const point of machine.points) add(machine.place(rows, row, point.link, ...point.at));
       for (const shape of machine.model.shapes) {
         if (shape.circle) add(machine.place(rows, row, shape.link, shape.circle[0], shape.circle[1]), shape.circle[2]);
-        for (const line of shape.lines ?? []) for (let k = 0; k + 1 < line.length; k += 16) add(machine.place(rows, row, shape.link, line[k]!, line[k + 1]!));
+        for (const line of machine.linesOf(shape)) for (let k = 0; k + 1 < line.length; k += 16) add(machine.place(rows, row, shape.link, line[k]!, line[k + 1]!));
       }
     }
     const narrow = this.width < 500;
     const margin = narrow ? 34 : 60;
+    const keys = narrow ? 36 : 0; // the buttons on the right
     const wide = Math.max(right - left, 0.2 * machine.size), high = Math.max(top - bottom, 0.2 * machine.size);
-    this.scale = Math.min((this.width - 2 * margin) / wide, (this.height - 2 * margin) / high);
-    this.ox = this.width / 2 - (this.scale * (left + right)) / 2;
+    this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin) / high);
+    this.ox = (this.width - keys) / 2 - (this.scale * (left + right)) / 2;
     this.oy = this.height / 2 + (this.scale * (bottom + top)) / 2;
     this.fitted = true;
     this.sized();
@@ -263,7 +264,7 @@ export class Stage {
       if (shape.link !== link) continue;
       const style = `shape ${shape.style}`;
       if (shape.circle) out.push(svg("circle", { class: style, cx: px(shape.circle[0]), cy: px(-shape.circle[1]), r: px(shape.circle[2]) }));
-      for (const line of shape.lines ?? []) {
+      for (const line of machine.linesOf(shape)) {
         let d = "M";
         for (let k = 0; k + 1 < line.length; k += 2) d += `${k ? "L" : ""}${place(line[k]!, line[k + 1]!)}`;
         out.push(svg("path", { class: shape.closed ? style : `${style} open`, d: shape.closed ? `${d}Z` : d }));

@@ -112,7 +112,7 @@ export class StructureView implements View {
     const number = ++this.asked;
     if (this.field.value !== text) this.field.value = text;
     try {
-      const found = await this.app.ask<Structure>("structure", { text, at_frame: this.atFrame });
+      const found = await this.app.ask<Structure>("structure", { text, at_frame: this.atFrame, document: this.contacts(text) });
       if (number !== this.asked) return;
       this.text = text;
       this.structure = found;
@@ -132,6 +132,13 @@ export class StructureView implements View {
         this.error.append(h("span", { class: "place" }, `\n${text.slice(Math.max(0, at - 24), at - 1)}▸${text.slice(at - 1, at + 16)}`));
       }
     }
+  }
+
+  /** The linkage that is shown if it has higher pairs and the text is of its chain; else nothing. */
+  private contacts(text: string): object {
+    const { model } = this.app.motion.machine;
+    const higher = model.joints.some((joint) => joint.pair === "roll_slide" || joint.pair === "rolling");
+    return higher && text.split(";")[0]!.trim() === String(model.document.joints).trim() ? model.document : {};
   }
 
   private showStructure(): void {
@@ -185,7 +192,7 @@ export class StructureView implements View {
 
   private async realise(): Promise<void> {
     const bar = h("span", {}, "…");
-    const request = this.app.ask<{ model: Model; message: string }>("realise", { text: this.text }, (text) => (bar.textContent = text));
+    const request = this.app.ask<{ model: Model; message: string }>("realise", { text: this.field.value }, (text) => (bar.textContent = text)); // as it stands, described or not yet
     const cancel = h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel"));
     const place = this.detail.querySelector('[data-act="realise"]')!.parentElement!;
     const waiting = h("span", { class: "form" }, h("progress", {}), bar, cancel);

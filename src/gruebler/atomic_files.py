@@ -120,10 +120,10 @@ def remove_abandoned_files(directory: Path, name: str | None = None) -> None:
     What cannot be removed stays; nothing is raised.
     """
     beginning = "." if name is None else _beginning(name)
-    mine = f".{_host()}."
+    own_prefix = f".{_host()}."
     with suppress(OSError), os.scandir(directory) as entries:
         for entry in entries:
-            if entry.name.startswith(beginning) and mine in entry.name and entry.name.endswith(PARTIAL):
+            if entry.name.startswith(beginning) and own_prefix in entry.name and entry.name.endswith(PARTIAL):
                 with suppress(OSError), _abandoned(Path(entry.path), os.O_RDWR):
                     Path(entry.path).unlink()
 

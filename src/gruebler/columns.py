@@ -94,10 +94,10 @@ class Table:
         array([1., 2.])
         """
         headers = self._headers()
-        out = np.empty(len(self), [(header, np.float64) for header in headers])
+        records = np.empty(len(self), [(header, np.float64) for header in headers])
         for header, column in zip(headers, self.columns, strict=True):
-            out[header] = column.values
-        return out
+            records[header] = column.values
+        return records
 
     def pandas(self) -> Any:
         """A `pandas.DataFrame` whose columns are the headers, with units; `GrueblerError` without pandas."""
@@ -128,9 +128,9 @@ class Table:
         table = self.arrow()
         from pyarrow.parquet import write_table
 
-        out = io.BytesIO()
-        write_table(table, out)
-        return out.getvalue()
+        stream = io.BytesIO()
+        write_table(table, stream)
+        return stream.getvalue()
 
     def _headers(self) -> list[str]:
         """The headers, a number behind one that comes again."""

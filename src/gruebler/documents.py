@@ -61,12 +61,12 @@ def _no_number(word: str) -> NoReturn:
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    out = dict(pairs)
-    if len(out) < len(pairs):
+    table = dict(pairs)
+    if len(table) < len(pairs):
         # The dictionary has each key where it stands first: the two part where one comes again.
-        twice = next(pair[0] for pair, key in zip_longest(pairs, out) if pair[0] != key)
+        twice = next(pair[0] for pair, key in zip_longest(pairs, table) if pair[0] != key)
         raise ValueError(f"the key {twice!r} stands twice in one object")
-    return out
+    return table
 
 
 def infinities_as_words(data: Any) -> Any:

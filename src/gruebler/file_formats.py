@@ -192,10 +192,10 @@ def _write_bytes(path: Path, content: bytes) -> None:
 
 def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
     """The linkage of a drawing; errors name the file."""
-    from gruebler.formats.pin_drawings import linkage_of
+    from gruebler.formats.pin_drawings import linkage_of_drawing
 
     try:
-        return linkage_of(drawing(), left_out)
+        return linkage_of_drawing(drawing(), left_out)
     except GrueblerError as error:
         raise GrueblerError("{path}: {error}", path=path, error=error) from None
 
@@ -213,8 +213,8 @@ def _drawn(
     """A row for a text of pins and slots: the functions of a module in `formats` read and write it."""
 
     def function(name: str) -> Callable[..., Any]:
-        found: Callable[..., Any] = getattr(import_module(f"gruebler.formats.{module}"), name)
-        return found
+        value: Callable[..., Any] = getattr(import_module(f"gruebler.formats.{module}"), name)
+        return value
 
     def read(path: Path, left_out: list[Message]) -> Linkage:
         from gruebler.formats.text_files import read_text

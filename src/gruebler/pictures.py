@@ -93,8 +93,8 @@ class _Kind(NamedTuple):
 
 
 _KINDS: Mapping[str, _Kind] = {
-    "Chain": _Kind("drawing.structure.picture", "draw"),
-    "Mechanism": _Kind("drawing.structure.picture", "draw"),
+    "Chain": _Kind("drawing.structure.picture", "draw_structure"),
+    "Mechanism": _Kind("drawing.structure.picture", "draw_structure"),
     "Linkage": _Kind("drawing.linkage.picture", "draw_linkage", "linkage"),
     "Motion": _Kind("drawing.linkage.motion_picture", "draw_motion"),
     "Cam": _Kind("drawing.machines.cam_picture", "draw_cam", "animate_cam"),
@@ -115,8 +115,9 @@ def draw(value: Any, **options: Any) -> Picture:
 
     Args:
         value: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
-        options: those of the function that draws such a value: `gruebler.drawing.structure.draw` (``labels``),
-            `gruebler.drawing.linkage.picture.draw_linkage` (``pose``, ``curves``, ``show``, ...), `draw_cam`, ...
+        options: those of the function that draws such a value: `gruebler.drawing.structure.draw_structure`
+            (``labels``), `gruebler.drawing.linkage.picture.draw_linkage` (``pose``, ``curves``, ``show``, ...),
+            `draw_cam`, ...
 
     Raises `GrueblerError` for a value without a picture and for unknown options.
 
@@ -129,7 +130,7 @@ def draw(value: Any, **options: Any) -> Picture:
 
 
 def animate(value: Any, *, seconds: float = 4.0, **options: Any) -> Animation:
-    """A moving picture of a linkage, cam, Geneva drive or gear train, a turn of the drive in so many seconds.
+    """A moving picture of a linkage, cam, Geneva drive or gear train, one turn of the drive in the given time.
 
     Args:
         value: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.

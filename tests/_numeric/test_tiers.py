@@ -20,13 +20,13 @@ from gruebler._numeric.motion.tracing import TraceScratch
 from gruebler.analysis.rotatability import rotatability
 from gruebler.catalog import entry
 from gruebler.chain import Chain
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.enumeration import chains, count_chains, graph6_blocks
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics.assembly_modes import conditions
 from gruebler.kinematics.batch import four_bars, move_many
 from gruebler.kinematics.circuits import circuit
-from gruebler.kinematics.triads import assembly_modes
+from gruebler.kinematics.triads import all_modes
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.alt_burmester import PROBLEMS, follow_from_generic, load_generic_solutions
@@ -96,7 +96,7 @@ def work() -> None:
         canonical_form(len(plain), None, np.array(plain.edges()))
     canonical_bulk(4, np.array([[[0, 1], [1, 2], [2, 3]], [[0, 2], [2, 1], [1, 3]]]))
     assert sum(len(lines) for lines in graph6_blocks(8, 1)) == 16
-    draw(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
+    draw_structure(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
     steady = {"speed": 1.0, "acceleration": 2.0, "jerk": 3.0, "order": 3}
     doors = FourBar(25, 70, 40, 70), FourBar(25, 70, 25, 70), SliderCrank(20, 70, 8), InvertedSliderCrank(50, 30, 3)
     for linkage in (door.linkage() for door in doors):
@@ -120,7 +120,7 @@ def work() -> None:
         gr.move(entry(name).linkage(), gr.from_degrees(0, 30, 5), **steady)
         circuit(entry(name).linkage())
     gr.move(entry("crane_cyl").linkage(), np.linspace(34.5, 47, 6), **steady)
-    assembly_modes(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))
+    all_modes(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))
     move_many(
         four_bars([25, 30], 70, 40, 70), gr.from_degrees(0, 60, 5), speed=1.0, threads=1
     )  # nobody else writes what is compared

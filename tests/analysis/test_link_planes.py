@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from gruebler import files
 from gruebler.analysis.link_planes import Collisions, collisions_of, gaps_to_hull, link_planes, search_planes
-from gruebler.analysis.plates import hull, plates_of, whole_motion
+from gruebler.analysis.plates import plates_of, whole_motion
 from gruebler.catalog import entry
+from gruebler.convex_hull import convex_hull
 from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, SliderCrank
 
@@ -101,7 +102,7 @@ def test_the_planes_of_catalog_machines_are_free_of_collisions(name):
     collisions = found.collisions
     rows = range(0, len(plates.motion), 9)
     areas = {
-        link: np.stack([plates.track(link, z) for z in hull(plate.places)], axis=1)
+        link: np.stack([plates.track(link, z) for z in convex_hull(plate.places)], axis=1)
         for link, plate in plates.plates.items()
     }
     for k, peg in enumerate(plates.pegs):

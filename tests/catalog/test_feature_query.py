@@ -205,7 +205,7 @@ def test_contradictions_at_once(features, words):
         ({"links": 6, "kinds": ((4, 2),)}, "2 quaternary links and 4 more with at least 2 joints have 16"),
         ({"links": 6, "kinds": ((2, 3), (4, 1))}, "2 more with at least 3 joints have 16"),
         ({"links": 6, "mobility": -1}, "F = -1"),
-        ({"links": 6, "drive_joints": 2}, "mobility 1 takes as many drives"),
+        ({"links": 6, "drive_joints": 2}, "mobility 1 needs as many drives"),
         ({"links": 6, "drive_joints_at_frame": 2}, "2 are too many"),
         ({"links": 6, "output_links": 2}, "one output link at most"),
         ({"links": 6, "drive_joints": 0, "output_links": 1}, "an output link takes a drive"),

@@ -83,7 +83,7 @@ def test_several_drives():
         home = np.array([other.at for other in machine_report(entry("excavator")).partials])
         rows = [home - step * np.eye(3)[k], home + step * np.eye(3)[k]]
         assert one.value == pytest.approx(np.diff(move(linkage, rows).angle("bucket"))[0] / (2 * step), rel=1e-6)
-    assert "goes by 2 for each unit of P(frame-slider1)" in machine_report(entry("diff_lever")).explain()
+    assert "moves by 2 for each unit of P(frame-slider1)" in machine_report(entry("diff_lever")).explain()
 
 
 @pytest.mark.parametrize("id", ["drafting", "drafting3", "pent"])

@@ -1,14 +1,16 @@
 """The table of concepts and machines: nothing of the seeds is missing, and everything in it works."""
 
+import ast
 import json
 import shlex
+from pathlib import Path
 
 import pytest
 
 from gruebler.catalog import entries
 from gruebler.cli import coverage
 from gruebler.cli.commands import command as command_named
-from gruebler.errors import CatalogError
+from gruebler.errors import CatalogError, GrueblerError
 
 # REFERENCE A1, row by row: where in the seeds, and a word of its name.
 CONCEPTS = (
@@ -105,6 +107,35 @@ def test_the_table(run):
     status, out = run("wiper", "--json", "--lang", "de")
     assert status == 0
     assert [row["where"] for row in json.loads(out)] == ["wiper"]
+
+
+def test_everything_that_is_asked_is_done():
+    """Every one of the 221 things names commands whose output is compared, or tests that there are."""
+    commands = {command for row in coverage.coverage_rows() for command, _ in row.commands}
+    root = Path(__file__).parents[2]
+    tests = {
+        f"{path.relative_to(root).as_posix()}::{node.name}"
+        for path in (root / "tests").rglob("test_*.py")
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("test_")
+    }
+    asked = coverage.asked_things()
+    assert len(asked) == len({each[:3] for each in asked}) == 221
+    for each in asked:
+        assert each.done_by, each
+        assert all(name in (tests if name.startswith("tests/") else commands) for name in each.done_by), each
+        for command in each.done_by:
+            assert command.startswith("tests/") or coverage.expected_parts(command), f"{command}: nothing is compared"
+
+
+def test_listing_what_is_asked(run):
+    status, out = run("--asked", "Wendekreis", "--lang", "de")
+    assert status == 0
+    assert "Wendekreis, Euler-Savary" in out
+    assert "gruebler construct inflection-circle" in out
+    assert len(json.loads(run("--asked", "--json")[1])) == 221
+    with pytest.raises(GrueblerError, match="does not go with --run"):
+        run("--asked", "--run")
 
 
 def test_running_a_row(run):

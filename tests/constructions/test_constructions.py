@@ -8,6 +8,7 @@ import pytest
 
 from gruebler import FourBar, InvertedSliderCrank, SliderCrank, move
 from gruebler.analysis import measures
+from gruebler.assur import DYADS, decompose
 from gruebler.cams import Cam, Roller, read_lift
 from gruebler.constructions import CONSTRUCTIONS, construction, construction_forms
 from gruebler.drawing.canvas.construction_files import construction_bytes
@@ -16,11 +17,16 @@ from gruebler.fourbar import turning_ranges
 from gruebler.geneva import Geneva
 from gruebler.geometry import cognates, inflection_circle, path_curvature, poles
 from gruebler.geometry.meyer_zur_capellen import symmetric_rocker
-from gruebler.linkages import LinkPoint
+from gruebler.linkages import Linkage, LinkPoint
+from gruebler.mechanism import Mechanism
 from gruebler.synthesis import DeadCentreTask, synthesise_dead_centres
 
 MANY = 100
 CLOSE = {"rel": 1e-7, "abs": 1e-7}
+SCOTCH_YOKE = Mechanism.parse("R(frame-crank) R(crank-block) P(block-yoke) P(frame-yoke); drive=R(frame-crank)")
+TANGENT_MECHANISM = Mechanism.parse(
+    "R(frame-lever) P(lever-block) R(block-slider) P(frame-slider); drive=R(frame-lever)"
+)
 
 
 def crank_rockers(seed):
@@ -101,9 +107,10 @@ def test_permissible_frames():
         assert (made["d_min"], made["d_max"]) == pytest.approx((wanted.lower, wanted.upper), **CLOSE)
 
 
-def test_alt():
+@pytest.mark.parametrize("many", [3, pytest.param(MANY, marks=pytest.mark.slow)])
+def test_alt(many):
     random = Random(7)
-    for _ in range(3):  # each looks for the best member of a family
+    for _ in range(many):  # each looks for the best member of a family
         swing, angle = random.uniform(20, 80), random.uniform(185, 220)
         made = construction("alt", swing=swing, crank_angle=angle).values
         size = FourBar(*(made[key] for key in "abcd"))
@@ -181,6 +188,66 @@ def test_polygons_of_levers_with_coriolis():
         assert made["omega_lever"] == pytest.approx(omega * abs(rates[0]), rel=1e-7)
         made = construction("accelerations", "inverted-slider-crank", a=a, d=d, phi=phi, omega=omega).values
         assert made["alpha_lever"] == pytest.approx(omega**2 * abs(rates[1]), rel=1e-6)
+
+
+def test_polygons_of_scotch_yokes():
+    random = Random(19)
+    for _ in range(MANY):
+        a, slot = random.uniform(10, 60), random.uniform(30, 150)
+        phi, omega = random.uniform(0, 360), random.uniform(1, 20)
+        whole = Linkage.from_drawing(
+            SCOTCH_YOKE,
+            {"R(frame-crank)": (0, 0), "R(crank-block)": (a, 0), "P(block-yoke)": (a, 0, radians(slot)), 3: (90, 0, 0)},
+        )
+        motion = move(whole, np.radians([0, phi]), speed=omega)
+        v, acceleration = (abs(motion.displacement("P(frame-yoke)", order)[1]) for order in (1, 2))
+        slides = [abs(motion.displacement("P(block-yoke)", order)[1]) for order in (1, 2)]
+        made = construction("velocities", "scotch-yoke", a=a, slot=slot, phi=phi, omega=omega).values
+        assert (made["v_C"], made["v_rel"]) == pytest.approx((v, slides[0]), rel=1e-7, abs=1e-9 * a * omega)
+        made = construction("accelerations", "scotch-yoke", a=a, slot=slot, phi=phi, omega=omega).values
+        wanted = acceleration, slides[1]
+        assert (made["a_C"], made["a_rel"]) == pytest.approx(wanted, rel=1e-6, abs=1e-8 * a * omega**2)
+
+
+def test_polygons_of_tangent_mechanisms_with_coriolis():
+    random = Random(20)
+    for _ in range(MANY):
+        d, phi, omega = random.uniform(10, 80), random.uniform(15, 165), random.uniform(0.5, 10)
+        whole = Linkage.from_drawing(
+            TANGENT_MECHANISM,
+            {
+                "R(frame-lever)": (0, 0),
+                "P(lever-block)": (0, d, radians(90)),
+                "R(block-slider)": (0, d),
+                "P(frame-slider)": (0, d, 0),
+            },
+        )
+        motion = move(whole, np.radians([90, phi]), speed=omega)
+        v, acceleration = (abs(motion.displacement("P(frame-slider)", order)[1]) for order in (1, 2))
+        slides = [abs(motion.displacement("P(lever-block)", order)[1]) for order in (1, 2)]
+        made = construction("velocities", "tangent-mechanism", d=d, phi=phi, omega=omega).values
+        assert (made["v_B"], made["v_rel"]) == pytest.approx((v, slides[0]), rel=1e-7, abs=1e-9 * d * omega)
+        made = construction("accelerations", "tangent-mechanism", d=d, phi=phi, omega=omega).values
+        assert made["a_B"] == pytest.approx(acceleration, rel=1e-6, abs=1e-8 * d * omega**2)
+        # The block's acceleration along the lever is the rate of its speed and the normal part of the turn.
+        radius = d / abs(np.sin(radians(phi)))
+        assert made["a_Cn"] == pytest.approx(radius * omega**2)
+        assert made["a_Cor"] == pytest.approx(2 * omega * slides[0], rel=1e-7, abs=1e-9 * d * omega**2)
+        assert made["a_rel"] == pytest.approx(slides[1], rel=1e-6, abs=1e-8 * d * omega**2)
+
+
+def test_every_kind_of_dyad_has_polygons():
+    driven = {
+        "four-bar": FourBar(25, 70, 40, 70).linkage().mechanism,
+        "slider-crank": SliderCrank(20, 50).linkage().mechanism,
+        "inverted-slider-crank": InvertedSliderCrank(30, 50).linkage().mechanism,
+        "scotch-yoke": SCOTCH_YOKE,
+        "tangent-mechanism": TANGENT_MECHANISM,
+    }
+    forms = {group.form() for mechanism in driven.values() for group in decompose(mechanism).groups}
+    assert forms == {*DYADS}
+    for name in ("velocities", "accelerations"):
+        assert {*construction_forms(name)} == {*driven}
 
 
 def test_coupler_curves():
@@ -271,7 +338,7 @@ def test_positions():
 
 def test_geneva_drives():
     for slots in range(3, 20):
-        for distance in (50, 100.0, 133.3):
+        for distance in (0.7, 12.5, 50, 100.0, 133.3, 480):
             made, drive = construction("geneva", slots=slots, distance=distance).values, Geneva(slots)
             sizes = drive.sizes(distance)
             assert made["crank"] == pytest.approx(sizes.crank)
@@ -282,7 +349,7 @@ def test_geneva_drives():
 
 def test_cam_profiles():
     random = Random(18)
-    for _ in range(40):
+    for _ in range(MANY):
         rise, high = random.randint(60, 150), random.uniform(5, 30)
         law = random.choice(("3-4-5", "cycloidal", "harmonic"))
         lift = f"rise {high} {rise} {law}; dwell 30; fall {high} 120 {law}; dwell"

@@ -7,7 +7,7 @@ from gruebler.catalog.feature_query import entry_mechanism
 from gruebler.drawing.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.drawing.canvas.symbols import CONTACTS
 from gruebler.drawing.linkage.contact_shapes import contact_shapes
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.errors import ChainError
 
 EXPECTED = {
@@ -27,7 +27,7 @@ EXPECTED = {
 
 def picture(id, **options):
     entry = entries()[id]
-    return draw(entry_mechanism(entry), contacts=contact_shapes(entry.linkage()), **options)
+    return draw_structure(entry_mechanism(entry), contacts=contact_shapes(entry.linkage()), **options)
 
 
 @pytest.mark.parametrize("id", EXPECTED)
@@ -38,7 +38,8 @@ def test_what_touches(id):
 def test_gears_geneva_and_cam_are_told_apart():
     # The same chain: without contacts four pictures are equal but for their names.
     plain = {
-        id: draw(entry_mechanism(entries()[id])).shapes for id in ("geartrain", "geneva", "cam_rocker_flat", "belt")
+        id: draw_structure(entry_mechanism(entries()[id])).shapes
+        for id in ("geartrain", "geneva", "cam_rocker_flat", "belt")
     }
     assert len({len(shapes) for shapes in plain.values()}) == 1
     shown = {id: picture(id).svg().partition("</desc>")[2] for id in plain}

@@ -13,17 +13,18 @@ from gruebler import chains
 from gruebler.analysis.outputs import find_output
 from gruebler.catalog import entries, entry
 from gruebler.cli.draw import linkage_and_range
+from gruebler.convex_hull import convex_hull
 from gruebler.drawing.canvas.axes import as_text
 from gruebler.drawing.canvas.figure import Figure, svg
 from gruebler.drawing.canvas.free_space import Obstacles, complexes, distance_between, from_segment, is_inside
 from gruebler.drawing.canvas.shapes import Point, TextShape, bounds, split_subscripts
 from gruebler.drawing.linkage.animation import animated_svg
-from gruebler.drawing.linkage.bodies import body_parts, hull
+from gruebler.drawing.linkage.bodies import body_parts
 from gruebler.drawing.linkage.curve_plots import hodograph
 from gruebler.drawing.linkage.motion_plots import transfer_plot
 from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.drawing.linkage.posed_linkage import posed_linkage
-from gruebler.drawing.structure import draw, place_joints
+from gruebler.drawing.structure import draw_structure, place_joints
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.linkages import Linkage
@@ -75,8 +76,8 @@ def test_a_place_is_inside_a_regular_polygon_where_all_its_sides_say_so(z, corne
 @pytest.mark.parametrize("links", [6, 8])
 def test_what_has_a_side_at_the_rim_is_named_outside(links):
     for chain in chains(links):
-        figure, placed = draw(chain, labels=True), place_joints(chain)
-        rim = complexes(hull(placed.joints, 1e-6))
+        figure, placed = draw_structure(chain, labels=True), place_joints(chain)
+        rim = np.array(convex_hull(complexes(placed.joints), 1e-6))
         circles = [shape.at for shape in figure.shapes if shape.style == "joint"]
         shift = min(circles).minus(min(placed.joints))
         outer = {link for link in chain.links if chain.degrees[link] > 1 and _sides(placed.outlines[link], rim)}
@@ -105,13 +106,13 @@ def test_numbers_are_on_no_body_and_off_each_other(name):
 def test_no_two_texts_of_any_structure_picture_touch():
     for record in entries().values():
         chain = record.chain()
-        figure = draw(Mechanism(chain, record.frame or chain.links[0], record.drives), labels=True)
+        figure = draw_structure(Mechanism(chain, record.frame or chain.links[0], record.drives), labels=True)
         assert not list(overlapping(texts(figure))), record.id
 
 
 def test_short_names_are_not_listed_as_themselves():
     record = entry("quad_double")
-    words = [text.text for text in texts(draw(Mechanism(record.chain(), "1"), labels=True))]
+    words = [text.text for text in texts(draw_structure(Mechanism(record.chain(), "1"), labels=True))]
     assert [word for word in words if "  " in word] == ["5  diagonal"]
 
 

@@ -186,8 +186,29 @@ def test_thin_positions_are_evenly_spread():
     turns = sorted(
         math.atan2(*reversed(max(part, key=lambda p: p.minus(pivot).length).minus(pivot))) for part in cranks
     )
-    assert np.allclose(np.diff(turns), math.pi / 4)
+    # with the pose itself, which no body hides, they divide the turn evenly; y points down in pictures
+    assert np.allclose(np.diff(sorted([*turns, -1.0])), math.tau / 9)
     assert "8 positions thinly" in figure.description
+
+
+@pytest.mark.parametrize("pose", [0.5, -0.9, -0.9 + 1.4 / 4, 0.1])
+def test_no_thin_position_is_that_of_the_bodies(pose):
+    """Also where the pose lies at the end of a range, or at a place where one would be."""
+    from gruebler.drawing.linkage.layers import ghost, ghosts
+
+    posed = posed_linkage(entry("watt_axle").linkage(), pose, between=(-0.9, 0.5))
+
+    def corners(shapes):
+        return [
+            np.array([(p.x, p.y) for part in s.parts for p in part])
+            for s in shapes
+            if isinstance(s, Polylines) and s.style == "ghost"
+        ]
+
+    (shown,) = corners(ghost(posed, posed.driven().at([pose], 0), 0))
+    thin = corners(ghosts(posed, 4))
+    assert len(thin) == 4
+    assert min(np.abs(one - shown).max() for one in thin) > 5  # pixels
 
 
 @pytest.mark.parametrize("count", [-1, 61])

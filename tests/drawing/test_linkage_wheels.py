@@ -6,8 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from gruebler.catalog import entry
-from gruebler.drawing.canvas.shapes import CircleShape, Polylines
+from gruebler.catalog import entries, entry
+from gruebler.drawing.canvas.shapes import CircleShape, Polylines, TextShape
+from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.drawing.linkage.posed_linkage import posed_linkage
 from gruebler.drawing.linkage.wheels import round_parts
 from gruebler.linkages import LinkPoint
@@ -76,3 +77,22 @@ def test_a_geneva_wheel_has_its_slots():
     assert len(wheel) % 4 == 0
     assert np.abs(np.sort_complex(np.round(quarter, 6)) - np.sort_complex(np.round(about, 6))).max() < 1e-5
     assert abs(about).max() == pytest.approx(100 * math.cos(math.pi / 4), rel=1e-6)
+
+
+@pytest.mark.parametrize("id", ["geartrain", "diff", "diff2p", "friction_forced", "belt"])
+def test_wheels_fit_a_picture_whose_texts_can_be_read(id):
+    """On paper a picture is at most some 600 pixels wide: larger ones are reduced, their texts too."""
+    figure = draw_linkage(entry(id).linkage(), labels=True)
+    assert max(figure.width, figure.height) < 620
+
+
+@pytest.mark.parametrize("id", [id for id, each in entries().items() if each.dimensions and each.space == "planar"])
+def test_links_are_named_or_numbered_all_alike(id):
+    linkage = entry(id).linkage()
+    links = linkage.mechanism.chain.links
+    texts = [
+        s.text for s in draw_linkage(linkage, labels=True).shapes if isinstance(s, TextShape) and s.style == "name"
+    ]
+    named = [link for link in links if link in texts and not link.isdigit()]
+    numbered = [text for text in texts if text.isdigit() and text not in links]
+    assert not (named and numbered), (named, numbered)

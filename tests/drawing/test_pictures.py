@@ -16,11 +16,11 @@ from gruebler.drawing.canvas import gallery_html
 from gruebler.drawing.canvas.files import picture_bytes, suffix_of
 from gruebler.drawing.canvas.gallery import Item, Section
 from gruebler.drawing.canvas.styles import COLOURS, LINES, STYLES
-from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops, place_joints
+from gruebler.drawing.structure import draw_contracted, draw_graph, draw_loops, draw_structure, place_joints
 from tests import strategies
 
 GOLDEN = Path(__file__).parent / "golden.json"
-VIEWS = (draw, draw_graph, draw_contracted, draw_loops)
+VIEWS = (draw_structure, draw_graph, draw_contracted, draw_loops)
 SVG = "{http://www.w3.org/2000/svg}"
 FOUR_BAR = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
 
@@ -45,13 +45,13 @@ def structure(figure):
 
 def golden_pictures():
     six = list(chains(6))
-    yield "four-bar", draw(FOUR_BAR)
+    yield "four-bar", draw_structure(FOUR_BAR)
     yield "four-bar graph", draw_graph(FOUR_BAR)
-    yield "watt", draw(six[0], labels=True)
+    yield "watt", draw_structure(six[0], labels=True)
     yield "stephenson loops", draw_loops(six[1])
     yield "stephenson contracted", draw_contracted(six[1])
     for id in ("vcomp", "diff", "loco3", "scissor2", "filmclaw", "susp_spatial", "friction_rigid"):
-        yield id, draw(machine(id), labels=True)
+        yield id, draw_structure(machine(id), labels=True)
     yield "not planar", draw_loops(list(chains(10))[-1])
 
 
@@ -63,7 +63,7 @@ def test_golden_pictures():
 @settings(max_examples=20)
 def test_isomorphic_chains_have_one_picture(chain, data):
     other = data.draw(strategies.renumbered(chain))
-    one, two = draw(chain), draw(other)
+    one, two = draw_structure(chain), draw_structure(other)
     assert one.shapes == two.shapes
     assert (one.width, one.height) == (two.width, two.height)
 
@@ -103,15 +103,15 @@ def test_pictures_are_sound_and_repeat(view):
 
 @pytest.mark.parametrize("id", entries())
 def test_every_machine_fits_its_picture(id):
-    figure = draw(machine(id), labels=True, lang="de")
+    figure = draw_structure(machine(id), labels=True, lang="de")
     numbers = [float(x) for x in re.findall(r"[MLxy]=?\"?(-?\d+\.?\d*)", figure.svg())]
     assert min(numbers) >= 0
     assert max(numbers) <= max(figure.width, figure.height)
 
 
 def test_pictures_are_small():
-    assert len(draw(FOUR_BAR).svg()) < 2000
-    assert all(len(draw(mechanism, labels=True).svg()) < 5000 for mechanism in inversions(FOUR_BAR))
+    assert len(draw_structure(FOUR_BAR).svg()) < 2000
+    assert all(len(draw_structure(mechanism, labels=True).svg()) < 5000 for mechanism in inversions(FOUR_BAR))
 
 
 def test_names_stay_text():
@@ -121,16 +121,16 @@ def test_names_stay_text():
         root = ET.fromstring(text)
         assert not list(root.iter(SVG + "script"))
         assert "<script" not in text
-    words = [e.text for e in ET.fromstring(draw(wicked, labels=True).svg()).iter(SVG + "text")]
+    words = [e.text for e in ET.fromstring(draw_structure(wicked, labels=True).svg()).iter(SVG + "text")]
     assert any("<script>alert(1)</script>" in word for word in words)
-    page = gallery_html("<b>", [Section("<i>", (Item(draw(wicked), "<u>", "<s>"),))], note="</style>")
+    page = gallery_html("<b>", [Section("<i>", (Item(draw_structure(wicked), "<u>", "<s>"),))], note="</style>")
     assert not re.search(r"<(b|i|u|s|script)>", page)
 
 
 def test_all_links_are_named_once():
     for id in ("vcomp", "excavator", "diff"):
         thing = machine(id)
-        words = " ".join(e.text for e in ET.fromstring(draw(thing, labels=True).svg()).iter(SVG + "text"))
+        words = " ".join(e.text for e in ET.fromstring(draw_structure(thing, labels=True).svg()).iter(SVG + "text"))
         assert all(link in words for link in thing.chain.links)
 
 
@@ -163,11 +163,13 @@ def test_lines_of_a_plot_are_told_apart_without_colour():
 
 
 def test_signs_of_joints():
-    circles = Counter(shape["class"] for shape in map(dict, _attributes(draw(Chain.parse("R(0-1-2-3) R(0-1) R(2-3)")))))
+    circles = Counter(
+        shape["class"] for shape in map(dict, _attributes(draw_structure(Chain.parse("R(0-1-2-3) R(0-1) R(2-3)"))))
+    )
     assert circles["gr-joint"] == 3
     assert circles["gr-ring"] == 2
     frames = Mechanism(Chain.parse("R(0-1) R(1-2) R(2-3) P(3-0)"), "0", [3])
-    classes = Counter(shape["class"] for shape in map(dict, _attributes(draw(frames))))
+    classes = Counter(shape["class"] for shape in map(dict, _attributes(draw_structure(frames))))
     assert classes["gr-rail"] == classes["gr-block"] == classes["gr-head"] == 1
     assert classes["gr-hatch"] == 3
 
@@ -191,7 +193,7 @@ def test_contracted_graphs_have_the_binary_links_as_dots():
 
 def test_files_by_suffix(tmp_path):
     pytest.importorskip("matplotlib")
-    figure = draw(machine("vcomp"), labels=True)
+    figure = draw_structure(machine("vcomp"), labels=True)
     assert picture_bytes(figure, "svg").startswith(b"<svg")
     assert picture_bytes(figure, "png").startswith(b"\x89PNG")
     assert picture_bytes(figure, "pdf").startswith(b"%PDF")
@@ -203,7 +205,7 @@ def test_files_by_suffix(tmp_path):
 def test_without_matplotlib(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
     with pytest.raises(GrueblerError, match=r"need matplotlib.*gruebler\[plot\]"):
-        picture_bytes(draw(FOUR_BAR), "png")
+        picture_bytes(draw_structure(FOUR_BAR), "png")
 
 
 if __name__ == "__main__":  # writes the golden file anew

@@ -33,6 +33,14 @@ def test_printed_numbers(links, displacement, rotation):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    ("links", "mobility", "displacement", "rotation"), [(7, 2, 441, 81), (7, 3, 103, 13), (8, 2, 4361, 559)]
+)
+def test_numbers_of_the_table(links, mobility, displacement, rotation):
+    assert count_epicyclic_trains(links, mobility) == EpicyclicCount(displacement, rotation)
+
+
+@pytest.mark.slow
 def test_nine_links():
     """The print has 71,837 and 8,654; docs/theory/epicyclic-trains.md."""
     assert count_epicyclic_trains(9) == EpicyclicCount(71833, 8652)

@@ -21,7 +21,7 @@ from gruebler.exercises import (
     task_text,
 )
 from gruebler.exercises.generation import is_generated
-from gruebler.exercises.solution import number
+from gruebler.exercises.solution import formula_number
 from gruebler.mobility import counted, generic_mobility
 from gruebler.text import Readable
 
@@ -63,7 +63,7 @@ def _written(value):
         return "yes" if value else "no"
     if isinstance(value, Readable):
         return value.in_language("de")
-    return number(value) if isinstance(value, int | float) else value
+    return formula_number(value) if isinstance(value, int | float) else value
 
 
 def test_other_seeds_give_other_tasks():
@@ -221,7 +221,7 @@ def test_counts_get_no_hints_for_lengths():
 @pytest.mark.parametrize("seed", [27, 28, 35])
 def test_strokes_that_are_nearly_twice_the_crank_are_not_asked(seed):
     task = generate("dead-centre", seed, 2)
-    assert grade(task, {"H": number(2 * task.given["a"])})[0].mark is not Mark.RIGHT
+    assert grade(task, {"H": formula_number(2 * task.given["a"])})[0].mark is not Mark.RIGHT
 
 
 def test_dyads_are_of_many_kinds():

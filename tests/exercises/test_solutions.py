@@ -34,7 +34,7 @@ from gruebler.exercises import (
     with_values,
 )
 from gruebler.exercises.messages import source_text
-from gruebler.exercises.solution import fill_template, number
+from gruebler.exercises.solution import fill_template, formula_number
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
 from gruebler.fourbar import FourBar
@@ -530,7 +530,7 @@ def test_formulas_are_filled_with_numbers():
     assert fill_template("arccos(b/d)", {"b": -1, "d": 2, "arc": 3}) == "arccos(-1/2)"
     assert fill_template("b²", {"b": -1}) == "(-1)²"
     assert fill_template("φ_max/φ_min", {"φ_max": "190°", "φ_min": "170°", "φ": 1}) == "190°/170°"
-    assert number(123456.7) == "123457"
+    assert formula_number(123456.7) == "123457"
 
 
 def test_special_machines_are_told_from_their_count():

@@ -1,6 +1,7 @@
 """Answers are given by the keys of the results or by the symbols that the solutions print."""
 
 from collections import Counter
+from dataclasses import replace
 
 import pytest
 
@@ -27,7 +28,10 @@ def test_answers_are_taken_by_the_printed_symbols(task):
         assert (by_key.key, by_key.mark) == (key, Mark.RIGHT)
         if symbols[result.symbol] == 1:
             (by_symbol,) = grade(task, {result.symbol: answer})
-            assert by_symbol == by_key
+            assert replace(by_symbol, name=key) == by_key
+            assert by_symbol.name == result.symbol
+            assert by_symbol.name == result.symbol
+            assert replace(by_symbol, name=key) == by_key
         elif result.symbol not in solution.results:
             with pytest.raises(GrueblerError, match=r"stands for several results") as caught:
                 grade(task, {result.symbol: answer})

@@ -121,6 +121,8 @@ def test_transfer():
     assert np.degrees(turned[-1] - turned[0]) == pytest.approx(rows[-1, 7])  # the sense of the general solver
     assert [str(row[1]).split(",")[0] for row in kinds.rows] == 3 * ["uniform"] + 4 * ["non-uniform"]
     assert [row[3] for row in kinds.rows] == ["0%", "0%", "0%", "0%", "0%", "50%", "75%"]
+    to_rotation, to_translation = "rotation to rotation", "rotation to translation"
+    assert [str(row[4]) for row in kinds.rows] == [*4 * [to_rotation], *2 * [to_translation], to_rotation]
     against, with_drive = "always against the drive", "always with the drive"
     assert [str(row[2]) for row in kinds.rows] == [against, against, with_drive, *3 * ["to and fro"], against]
 

@@ -47,8 +47,10 @@ def test_the_saved_notebook_shows_what_its_cells_give():
                 assert "".join(output["text"]) == printed.getvalue()
             elif "text/plain" in output["data"]:
                 assert "".join(output["data"]["text/plain"]) == repr(value)
+            assert not hasattr(value, "_repr_mimebundle_") or "image/svg+xml" in output["data"]
             if "image/svg+xml" in output.get("data", {}):
-                assert "".join(output["data"]["image/svg+xml"]).strip() == value.svg().strip()
+                picture = value.svg() if hasattr(value, "svg") else value._repr_mimebundle_()[0]["image/svg+xml"]
+                assert "".join(output["data"]["image/svg+xml"]).strip() == picture.strip()
 
 
 @pytest.fixture

@@ -7,6 +7,7 @@ from math import pi
 from pathlib import Path
 
 import msgspec
+import numpy as np
 import pytest
 
 from gruebler.analysis.measures import Measures, measures
@@ -14,7 +15,10 @@ from gruebler.catalog import entries
 from gruebler.explorer.model import model_of
 from gruebler.formats import linkage_from_json
 from gruebler.fourbar import FourBar
+from gruebler.kinematics import move
 from gruebler.linkages import Linkage
+from gruebler.linkages.elements import Wheel
+from gruebler.mechanism import Mechanism
 
 BUILT = Path(__file__).parents[2] / "src/gruebler/explorer/static/explorer.js"
 NODE = pytest.mark.skipif(shutil.which("node") is None, reason="the page's kernel needs node to be executed here")
@@ -80,6 +84,48 @@ def cached_is_overconstrained(linkage: Linkage) -> bool:
 
 
 @NODE
+def test_the_centre_of_a_wheel_goes_around_those_that_it_meshes_with(tmp_path):
+    """The distances of the wheels stay, and the dragged train moves on as the library moves its document."""
+    machines = {id: entries()[id].linkage() for id in ("geartrain", "belt", "diff", "friction_rigid")}
+    machines["geared crank"] = geared_crank()
+    centres = {}
+    for (name, linkage), found in zip(machines.items(), measured(list(machines.values()), tmp_path), strict=True):
+        names = linkage.mechanism.chain.joint_names()
+        for drag in found["drags"]:
+            assert "refused" not in drag, (name, drag)
+            assert max(drag["missed"], drag["moved"]) < 1e-9, name
+            other = linkage_from_json(drag["document"])
+            later = drag["later"]
+            free = [k for k, _ in enumerate(linkage.mechanism.drives)]
+            motion = move(other, [[later["drives"][k] for k in free]] if len(free) > 1 else [later["drives"][0]])
+            for k, joint in enumerate(linkage.mechanism.chain.joints):
+                if joint.pair.is_revolute:
+                    np.testing.assert_allclose(motion.point(names[k])[0], later["joints"][k], atol=1e-7 * other.size)
+            for link, (x, y) in zip(linkage.mechanism.chain.links, later["turns"], strict=True):
+                assert abs(np.exp(1j * motion.angle(link)[0]) - complex(x, y)) < 1e-7, (name, link)
+            centres.setdefault(name, set()).add(names[drag["joint"]])
+    both = {"R(frame-gear1)", "R(frame-gear2)"}
+    assert centres["geartrain"] == both
+    assert centres["belt"] == {"R(frame-pulley1)", "R(frame-pulley2)"}
+    assert centres["diff"] == {"R(carrier-planet)"}
+    assert centres["geared crank"] == {*both, "R(gear2-rod)", "R(rod-slider)"}
+
+
+def geared_crank() -> Linkage:
+    """A pair of gears, the second of which is the crank of a slider-crank."""
+    chain = "R(frame-gear1) G(gear1-gear2) R(frame-gear2) R(gear2-rod) R(rod-slider) P(frame-slider)"
+    places = {
+        "R(frame-gear1)": (-50, 0),
+        "G(gear1-gear2)": {"gear1": Wheel(-50, 0, 20.0, 20), "gear2": Wheel(0, 0, 30.0, 30)},
+        "R(frame-gear2)": (0, 0),
+        "R(gear2-rod)": (15, 15),
+        "R(rod-slider)": (90, 5),
+        "P(frame-slider)": (90, 5, 0),
+    }
+    return Linkage.from_drawing(Mechanism.parse(f"{chain}; frame=frame; drive=R(frame-gear1)"), places)
+
+
+@NODE
 def test_the_law_of_grashof(tmp_path):
     """An independent check without any machine of the catalog: which four-bars turn, and their transmission angles."""
     bars = [FourBar(25, 70, 40, 70), FourBar(50, 70, 40, 70), FourBar(30, 30, 60, 40), FourBar(10, 12, 15, 16)]
@@ -89,3 +135,19 @@ def test_the_law_of_grashof(tmp_path):
         assert found["full"] == crank
         if crank:
             assert found["least"]["mu"] == pytest.approx(bar.transmission_angle.smallest.mu, abs=1e-9)
+
+
+@NODE
+def test_a_belt_goes_with_its_wheels(tmp_path):
+    """Its runs touch the wheels wherever these are dragged to."""
+    linkage = entries()["belt"].linkage()
+    (found,) = measured([linkage], tmp_path)
+    assert len(found["drags"]) == 2
+    for drag in found["drags"]:
+        other = linkage_from_json(drag["document"])
+        centres = [complex(e.x, e.y) for (_, link), e in other.elements.items() if link == "frame"]
+        radii = [e.radius for e in other.elements.values() if isinstance(e, Wheel)]
+        for x, y, u, v in drag["belts"]:
+            along = (complex(u, v) - complex(x, y)) / abs(complex(u, v) - complex(x, y))
+            for centre, radius in zip(centres, radii, strict=True):
+                assert abs(((centre - complex(x, y)) * along.conjugate()).imag) == pytest.approx(radius, rel=1e-5)

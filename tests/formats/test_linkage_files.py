@@ -225,7 +225,13 @@ MISTAKES = [
     ("[0, 10, 0]", '[0, 10, "right"]', "expected an angle in degrees, but found 'right'"),
     ("[0, 10, 0]", f"[0, 10, {'9' * 400}]", "expected an angle in degrees, but found a number of many digits"),
     ("[0, 10, 0]", "[0, 10, inf]", "expected an angle in degrees, but found inf"),
+    (
+        "[elements]",
+        "[reference_pose]\ncrank = [0, 0]\n[elements]",
+        "reference_pose.crank: expected [x, y, degrees], but",
+    ),
     ("[elements]", "[home]\ncrank = [0, 0]\n[elements]", "home.crank: expected [x, y, degrees], but found [0, 0]"),
+    ("[elements]", "[home]\n[reference_pose]\n[elements]", "home is the former name of reference_pose"),
     ("[elements]", "[places]\n[elements]", "expected one of elements, places, four_bar, "),
     ("[elements]", "[four_bar]", "unknown key 'four_bar.frame'"),
 ]

@@ -15,7 +15,7 @@ from gruebler.errors import GrueblerError
 from gruebler.formats.four_bar_rs import drawing_from_ron, ron_from_drawing
 from gruebler.formats.linkage2 import drawing_from_linkage2, linkage2_from_drawing
 from gruebler.formats.motiongen import drawing_from_motiongen, motiongen_from_drawing
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, drawing_of, linkage_of
+from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, drawing_of, linkage_of_drawing
 from gruebler.formats.pmks import drawing_from_pmks, pmks_from_drawing
 from gruebler.formats.pylinkage import drawing_from_pylinkage, pylinkage_from_drawing
 from gruebler.formats.pyslvs import drawing_from_pyslvs, pyslvs_from_drawing
@@ -41,7 +41,7 @@ TEXTS = {
 def again(linkage, program):
     """A linkage after a round trip."""
     read, write = TEXTS[program]
-    return linkage_of(read(write(drawing_of(linkage, []), []), []), [])
+    return linkage_of_drawing(read(write(drawing_of(linkage, []), []), []), [])
 
 
 def start(linkage):
@@ -124,7 +124,7 @@ def test_files_survive_other_programs(path, program):
     linkage = files.read(path, left_out=[])
     left_out = []
     read, write = TEXTS[program]
-    other = linkage_of(read(write(drawing_of(linkage, []), left_out), []), [])
+    other = linkage_of_drawing(read(write(drawing_of(linkage, []), left_out), []), [])
     if any("drive" in str(note) for note in left_out):
         assert other.mechanism.chain.n == linkage.mechanism.chain.n
     else:
@@ -261,7 +261,7 @@ def linkages(draw, *, slides=True, moving_slots=True):
                 DrawnJoint("b", *b, ("3", "1"), turn),
             ]
             drive = DrawnDrive("b", "3", "1")
-    linkage = linkage_of(PinDrawing("0", tuple(pins), (drive,)), [])
+    linkage = linkage_of_drawing(PinDrawing("0", tuple(pins), (drive,)), [])
     assume(all(moved(linkage, steps(linkage, part)) is not None for part in (0.0, 0.01, -0.02)))
     return linkage
 
@@ -465,7 +465,9 @@ def test_a_file_that_is_cut_off_is_refused(path, tmp_path):
 def test_links_that_are_welded_in_a_ring_are_one():
     ring = [DrawnJoint(f"j{k}", cos(k), sin(k), (f"l{k}", f"l{(k + 1) % 5}")) for k in range(5)]
     with pytest.raises(GrueblerError, match="no mechanism on the frame"):
-        linkage_of(PinDrawing("l0", tuple(ring), (), rigid=tuple((f"l{k}", f"l{(k + 1) % 5}") for k in range(5))), [])
+        linkage_of_drawing(
+            PinDrawing("l0", tuple(ring), (), rigid=tuple((f"l{k}", f"l{(k + 1) % 5}") for k in range(5))), []
+        )
 
 
 def test_json_of_others_is_named_by_its_format(tmp_path):

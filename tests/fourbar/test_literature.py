@@ -63,8 +63,8 @@ def test_3_3_way_middle_and_time_middle(ratio, b, time, offset, phi, fraction):
     slider_crank = SliderCrank.from_ratio(a=2, ratio=ratio)
     assert (slider_crank.b, slider_crank.ratio) == near((b, ratio))
     middle = slider_crank.middle
-    assert (middle.way, middle.time, middle.offset) == near((b, time, offset))
-    assert (deg(middle.phi_way), deg(middle.phi_time), middle.time_fraction) == near((phi, 90, fraction))
+    assert (middle.displacement, middle.time, middle.offset) == near((b, time, offset))
+    assert (deg(middle.phi_displacement), deg(middle.phi_time), middle.time_fraction) == near((phi, 90, fraction))
 
 
 def test_3_4_transmission_angles():

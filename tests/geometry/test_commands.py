@@ -6,7 +6,7 @@ import math
 import pytest
 
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
-from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.errors import GrueblerError
 from gruebler.formats.linkages import write_linkage
 from gruebler.fourbar import FourBar
@@ -122,7 +122,7 @@ def test_every_window_is_straighter(capsys):
 )
 def test_wrong_lengths(lengths, message):
     with pytest.raises(GrueblerError, match=message):
-        linkage_of(lengths)
+        linkage_of_word(lengths)
 
 
 @pytest.mark.parametrize(

@@ -246,7 +246,7 @@ def test_a_shaky_linkage_ends_where_a_joint_opens():
 
 
 def test_what_is_missing_is_said():
-    with pytest.raises(LinkageError, match=r"position in which its joints close \(\[home\] or \[places\]\)"):
+    with pytest.raises(LinkageError, match=r"position in which its joints close \(\[reference_pose\] or \[places\]\)"):
         move(locomotive().with_reference_pose(None), [1.0])
     with pytest.raises(LinkageError, match="reference pose is a change point"):
         move(locomotive(((0, 0), (50, 0), (120, 0)), angle=0.0), [0.0])

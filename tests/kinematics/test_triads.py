@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics.assembly_modes import PIN, SLIDE, AssemblyModes, GroupConditions, conditions, search_modes
-from gruebler.kinematics.triads import BOUNDS, assembly_modes, is_triad, triad_modes
+from gruebler.kinematics.triads import BOUNDS, all_modes, is_triad, triad_modes
 from tests.kinematics.test_assembly_modes import TRUSSES, assembled, holds, open_by, same
 
 JOINTS = [(0, 2), (2, 1), (0, 3), (3, 1), (0, 4), (4, 1)]  # base 0, hub 1, legs 2 to 4
@@ -335,10 +335,10 @@ def test_other_groups_are_refused_or_searched() -> None:
     assert not is_triad(group)
     with pytest.raises(LinkageError, match="four bodies"):
         triad_modes(group)
-    modes = assembly_modes(group)
+    modes = all_modes(group)
     assert modes.method == "search"
     assert holds(modes, pose)
-    assert assembly_modes(known_platform()).method == "exact"
+    assert all_modes(known_platform()).method == "exact"
 
 
 def test_two_legs_that_slide_at_both_ends_are_refused() -> None:

@@ -303,10 +303,10 @@ def test_two_wheels_with_fixed_bearings_roll_although_the_count_says_no():
     np.testing.assert_allclose(motion.angular("2"), -2, rtol=1e-13)
 
 
-def test_wheels_need_a_home():
+def test_wheels_need_a_reference_pose():
     linkage = geared_five_bar()
     bare = Linkage(linkage.mechanism, linkage._by_link())
-    with pytest.raises(LinkageError, match="home"):
+    with pytest.raises(LinkageError, match="needs a reference pose"):
         move(bare, [0])
     with pytest.raises(LinkageError, match="one by one"):
         move_many([linkage, linkage.scaled(2)], [0, 1])

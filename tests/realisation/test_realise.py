@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 
 from gruebler import Mechanism, Requirements, chains, driven_mechanisms, inversions, variants
 from gruebler.analysis import measures
+from gruebler.enumeration.worker_pool import ProcessPools
 from gruebler.errors import LinkageError
 from gruebler.kinematics import move
 from gruebler.linkages import Line
-from gruebler.realisation import realise, with_drives
+from gruebler.realisation import realise, realise_all, with_drives
 from gruebler.text import number
 
 FOUR = "R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)"
@@ -190,3 +191,12 @@ def test_the_range_is_that_of_the_measures(text):
     assert f"moves from {span.low:.7g} to {span.high:.7g} mm. It is well conditioned" in found.message()
     ends = [number(end, "de", ".7g") for end in (span.low, span.high)]
     assert f"von {ends[0]} bis {ends[1]} mm. Gut konditioniert" in found.message("de")
+
+
+def test_processes_realise_the_same():
+    mechanisms = [Mechanism.parse(text) for text in (FOUR, TURNING[1], "R(0-1) R(1-2) R(2-0)")]
+    here = [realise(mechanism, seed=3, budget=40) for mechanism in mechanisms]
+    assert [each.found for each in here] == [True, True, False]
+    there = list(realise_all(mechanisms, executor=ProcessPools(2), seed=3, budget=40))
+    assert [each.linkage for each in there] == [each.linkage for each in here]
+    assert [each.message("de") for each in there] == [each.message("de") for each in here]

@@ -78,9 +78,9 @@ def test_the_same_answer_all_along_the_motion(name):
     from gruebler.screws.finite_mobility import finite_mobility
     from gruebler.screws.instant_mobility import instant_mobility
 
-    instant = instant_mobility(closing, closing.home, 1e-8)
+    instant = instant_mobility(closing, closing.reference, 1e-8)
     for step in (0.1, -0.3):
-        pose = closing.settled(closing.moved(closing.home, step * instant.motions[0]))
+        pose = closing.settled(closing.moved(closing.reference, step * instant.motions[0]))
         there = instant_mobility(closing, pose, 1e-8)
         assert there.rank == instant.rank
         assert finite_mobility(there).mobility == finite_mobility(instant).mobility

@@ -77,7 +77,7 @@ def test_the_group_of_all_motions(name):
     linkage, kind, dimension = GROUPS[name]
     for made in (linkage, machines.elsewhere(linkage), linkage.scaled(7)):
         closing = Closing.of(made)
-        assert common_group(closing, closing.home) == (kind, dimension)
+        assert common_group(closing, closing.reference) == (kind, dimension)
 
 
 def test_shifts_are_a_group():
@@ -86,5 +86,5 @@ def test_shifts_are_a_group():
         {k: {"x": x} for k, x in enumerate([(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)])},
     )
     closing = Closing.of(wedges)
-    assert common_group(closing, closing.home) == (MotionGroupKind.TRANSLATIONS, 3)
+    assert common_group(closing, closing.reference) == (MotionGroupKind.TRANSLATIONS, 3)
     assert pi > closing.unknowns / 6 == 3

@@ -56,6 +56,6 @@ def mirrored(upright):
 def test_a_plane_symmetric_bricard_has_no_offsets_in_its_mirror(upright):
     """Axes upright on the mirror are taken to themselves too, but with offsets: such a loop is rigid."""
     closing = Closing.of(mirrored(upright))
-    kinds = [r.kind for r in bricard(JointGeometry(instant_mobility(closing, closing.home, 1e-8)))]
+    kinds = [r.kind for r in bricard(JointGeometry(instant_mobility(closing, closing.reference, 1e-8)))]
     assert ("plane_symmetric" in kinds) is not upright
     assert freedoms(mirrored(upright)).mobility == (not upright)

@@ -63,7 +63,7 @@ def sampled_dimension(closing, pose):
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_samples_of_the_set_of_positions(name):
     closing = Closing.of(EXAMPLES[name])
-    assert freedoms(EXAMPLES[name]).mobility == sampled_dimension(closing, closing.home)
+    assert freedoms(EXAMPLES[name]).mobility == sampled_dimension(closing, closing.reference)
 
 
 def cranks(third):

@@ -88,7 +88,7 @@ LINKAGES = {
 @pytest.mark.parametrize("name", LINKAGES)
 def test_derivatives_by_finite_differences(name):
     closing = Closing.of(LINKAGES[name])
-    pose = closing.moved(closing.home, 0.1 * RANDOM.normal(size=closing.unknowns))
+    pose = closing.moved(closing.reference, 0.1 * RANDOM.normal(size=closing.unknowns))
     motion = 0.1 * RANDOM.normal(size=closing.unknowns)
     _, exact = closing.linearised(pose)
     _, along = closing.along(pose, motion)

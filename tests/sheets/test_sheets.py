@@ -10,12 +10,15 @@ from xml.etree import ElementTree
 import pytest
 
 from gruebler.catalog import catalog_folder
+from gruebler.drawing.canvas.shapes import TextShape
 from gruebler.errors import CatalogError, LinkageError
 from gruebler.sheets import sheet, sheets
 from gruebler.sheets.expressions import Expression
 from gruebler.sheets.layout import page
 from gruebler.sheets.messages import explanation_paragraphs, typeset_number, value_lines
 from gruebler.sheets.model import Sheet, StatedValue
+from gruebler.sheets.page import PlacedPicture
+from gruebler.sheets.picture import definition_picture
 from gruebler.sheets.records import read_sheet
 
 MZC = (catalog_folder() / "sheets" / "mzc.toml").read_text(encoding="utf-8")
@@ -260,3 +263,30 @@ def test_unknown_sheets():
 def test_numbers_of_a_language():
     assert typeset_number(-1.25, "de", ".1f") == "−1,2"
     assert typeset_number(-1.25, "en", ".2f") == "−1.25"
+
+
+@pytest.mark.parametrize("id", sheets())
+def test_the_picture_of_the_definition(id):
+    """Figure 2 of sheet 001: L and Δy, measured in the picture, are those of the example."""
+    one = sheet(id)
+    figure, factor = definition_picture(one, "de")
+    texts = {shape.text for shape in figure.shapes if isinstance(shape, TextShape)}
+    point = one.record.point
+    assert {"g", "L", "Δy", f"{point}_A", f"{point}_E", f"{point}_I"} <= texts
+    (curve,) = (shape for shape in figure.shapes if shape.style == "curve")
+    begin, end, touch = (shape.at for shape in figure.shapes if shape.style == "dot")
+    low, high = sorted((begin.x, end.x))
+    inside = [begin, end, *(at for part in curve.parts for at in part if low <= at.x <= high)]
+    band = max(at.y for at in inside) - min(at.y for at in inside)
+    assert band / factor / (high - low) == pytest.approx(one.example.sizing.piece.ratio, rel=0.02)
+    assert min(begin.y, end.y) == pytest.approx(min(at.y for at in inside), abs=0.5)
+    assert low < touch.x < high
+
+
+def test_the_diagram_has_a_scale_of_phi_a():
+    texts = [item.figure for item in drawn("mzc", "en").items if isinstance(item, PlacedPicture)]
+    names = [shape.text for shape in texts[-1].shapes if isinstance(shape, TextShape)]
+    assert "φ_A in °" in names
+    below, above = names.index("0"), names.index("180", names.index("L/l₁") - 20)
+    assert [float(text) for text in names[below : below + 7]] == [0, 30, 60, 90, 120, 150, 180]
+    assert [float(text) for text in names[above : above + 7]] == [180, 165, 150, 135, 120, 105, 90]

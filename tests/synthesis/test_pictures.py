@@ -8,7 +8,7 @@ from gruebler.drawing.canvas.shapes import TextShape
 from gruebler.synthesis import FunctionLaw, FunctionTask, PositionTask, function_task, structural_error, synthesise
 from gruebler.synthesis.burmester import burmester_curves
 from gruebler.synthesis.pictures import design_figure, designs_figure, designs_page
-from gruebler.synthesis.plots import burmester_plot, function_plot, output_of, poles
+from gruebler.synthesis.plots import burmester_plot, finite_poles, function_plot, output_of
 from gruebler.synthesis.structural_error import coordination_of
 
 FOUR = PositionTask([(0, 0, 0), (2.1, 0.9, 0.35), (3.2, 1.0, 0.8), (4.0, 0.2, 1.5)])
@@ -24,7 +24,7 @@ def test_burmesters_curves_pass_through_the_poles():
     curves = burmester_curves(FOUR, points=4000)
     moving = np.concatenate([piece.moving for piece in curves.pieces])
     fixed = np.concatenate([piece.fixed for piece in curves.pieces])
-    places = poles(FOUR)
+    places = finite_poles(FOUR)
     assert len(places) == 6
     for name, pole in places.items():
         assert np.abs(fixed - pole).min() < 0.01

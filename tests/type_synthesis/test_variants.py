@@ -1,10 +1,12 @@
 """Variants against brute force: every typed chain, frame and drive, judged one by one and told apart by codes."""
 
+from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 
 import pytest
 
 from gruebler import GrueblerError, code
+from gruebler.enumeration.worker_pool import ProcessPools
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mechanism.inversion import DrivenMechanism
 from gruebler.type_synthesis import JointRequirement, Requirements, typed_chains, variants
@@ -46,6 +48,22 @@ def test_driven_mechanisms(asked, accept, links, prismatic):
     found = [d.mechanism.code() for d in variants(Requirements(links, prismatic=prismatic, **asked))]
     assert len(found) == len(set(found))
     assert set(found) == mechanisms_by_brute_force(links, prismatic, accept)
+
+
+def _thread_pool():
+    return ThreadPoolExecutor(2)
+
+
+@pytest.mark.parametrize("executor", [_thread_pool, ProcessPools(2)], ids=["threads", "processes"])
+@pytest.mark.parametrize(
+    "wanted",
+    [Requirements(6, prismatic=2, drives=(JointRequirement.parse("@frame"),)), Requirements(5, roll_slide=1)],
+    ids=["mechanisms", "chains"],
+)
+def test_any_executor_lists_the_same(executor, wanted):
+    listed = [str(each) for each in variants(wanted)]
+    assert listed
+    assert [str(each) for each in variants(wanted, executor=executor)] == listed
 
 
 def test_typed_chains_are_counted_as_computed_independently():

@@ -253,8 +253,8 @@ def _limit_error(motion: Motion, from_end: Reals) -> float:
 def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> DriveCycle:
     """The course of a linkage with one drive.
 
-    It is begun at the linkage's home, else at drive value 0 or the first multiple of 5 degrees (for a slide: 1/40 of
-    the size) at which the branch can be assembled well away from its limits and change points.
+    It is begun at the linkage's reference pose, else at drive value 0 or the first multiple of 5 degrees (for a slide:
+    1/40 of the size) at which the branch can be assembled well away from its limits and change points.
 
     Raises `LinkageError` if it has more drives than one, or cannot be assembled or moved at all.
     """

@@ -12,8 +12,9 @@ from math import inf
 
 import numpy as np
 
-from gruebler.analysis.plates import Plates, hull, plates_of, whole_motion
+from gruebler.analysis.plates import Plates, plates_of, whole_motion
 from gruebler.arrays import Complexes, Reals
+from gruebler.convex_hull import convex_hull
 from gruebler.errors import LinkageError
 from gruebler.linkages.conversion import LinkageLike
 from gruebler.text import Message, joined, message
@@ -69,13 +70,16 @@ class Collisions:
         2. No plate that a pin would run into lies strictly between the outermost links of the pin.
         3. Pins that would hit each other have no plane in common that lies strictly inside both.
         """
-        if any(one in planes and two in planes and planes[one] == planes[two] for one, two in map(tuple, self.plates)):
+        if any(
+            first in planes and second in planes and planes[first] == planes[second]
+            for first, second in map(tuple, self.plates)
+        ):
             return False
         spans = [_span(through, planes) for through in self.pegs]
         if any(low < planes[link] < high for k, link in self.hits if link in planes for low, high in [spans[k]]):
             return False
-        for one, two in map(tuple, self.touching):
-            if max(spans[one][0], spans[two][0]) + 1 <= min(spans[one][1], spans[two][1]) - 1:
+        for first, second in map(tuple, self.touching):
+            if max(spans[first][0], spans[second][0]) + 1 <= min(spans[first][1], spans[second][1]) - 1:
                 return False
         return True
 
@@ -196,7 +200,7 @@ def collisions_of(plates: Plates, hole: float, margin: float) -> Collisions:
     """
     links = tuple(plates.plates)
     areas = {
-        link: np.stack([plates.track(link, place) for place in hull(plate.places)], axis=1)
+        link: np.stack([plates.track(link, place) for place in convex_hull(plate.places)], axis=1)
         for link, plate in plates.plates.items()
     }
     pins = [plates.track(peg.carrier, peg.place)[:, None] for peg in plates.pegs]
@@ -205,7 +209,9 @@ def collisions_of(plates: Plates, hole: float, margin: float) -> Collisions:
         links,
         tuple(peg.links for peg in plates.pegs),
         frozenset(
-            frozenset((one, two)) for one, two in combinations(links, 2) if _meet(areas[one], areas[two], 2 * margin)
+            frozenset((first, second))
+            for first, second in combinations(links, 2)
+            if _meet(areas[first], areas[second], 2 * margin)
         ),
         frozenset(
             (k, link)
@@ -221,13 +227,13 @@ def collisions_of(plates: Plates, hole: float, margin: float) -> Collisions:
     )
 
 
-def _meet(one: Complexes, two: Complexes, clearance: float) -> bool:
+def _meet(first: Complexes, second: Complexes, clearance: float) -> bool:
     """Whether the hulls of moving places, (rows, places) each, come nearer than a clearance.
 
     The distance of two hulls is that of 0 from the hull of all differences. From pose to pose it changes by no more
     than the largest way of a difference, which bounds it between them.
     """
-    apart = (one[:, :, None] - two[:, None, :]).reshape(len(one), -1)
+    apart = (first[:, :, None] - second[:, None, :]).reshape(len(first), -1)
     gaps = gaps_to_hull(apart)
     ways = np.abs(np.diff(apart, axis=0)).max(axis=1) * _ARC
     nearest = min(gaps.min(), ((gaps[1:] + gaps[:-1] - ways) / 2).min())

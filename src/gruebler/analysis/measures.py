@@ -164,8 +164,10 @@ class Measures(Brief):
             return None
         period, near = self.span.period, 1e-9 * (self.travel or 0.0)
 
-        def alike(one: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
-            return [stop for stop in self.stops if stop.kind == one.kind and abs(stop.output - one.output) <= near]
+        def alike(extreme: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
+            return [
+                stop for stop in self.stops if stop.kind == extreme.kind and abs(stop.output - extreme.output) <= near
+            ]
 
         def ahead(drive: float, of: float) -> float:
             return (drive - of) % period
@@ -175,9 +177,9 @@ class Measures(Brief):
         arrives = first + min(
             ahead(stop.begin if isinstance(stop, Dwell) else stop.drive, first) for stop in alike(end)
         )
-        way = min(ahead(arrives, leave) for leave in leaves)
-        begins = arrives - way
-        return way - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive, begins) < way)
+        travel = min(ahead(arrives, leave) for leave in leaves)
+        begins = arrives - travel
+        return travel - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive, begins) < travel)
 
     @property
     def _whole(self) -> float:
@@ -267,9 +269,9 @@ class Measures(Brief):
     def to_json(self) -> dict[str, Any]:
         """The measures as plain data; angles in degrees, times in seconds."""
         turn = degrees if self.turning_drive else float
-        out = degrees if self.output.turning else float
+        in_unit = degrees if self.output.turning else float
         span, transfer, transmission = self.span, self.transfer, self.transmission
-        rate = out(1.0) / turn(1.0)
+        rate = in_unit(1.0) / turn(1.0)
 
         def angle(value: float | None) -> float | None:
             return None if value is None else degrees(value)
@@ -296,9 +298,9 @@ class Measures(Brief):
                 "range": None if span.full else [turn(span.low), turn(span.high)],
                 "stops": [None if s is None else {"reason": s.reason, "links": list(s.links)} for s in span.stops],
             },
-            "ends": None if self.ends is None else [out(value) for value in self.ends],
+            "ends": None if self.ends is None else [in_unit(value) for value in self.ends],
             "dead_centres": [
-                {"drive": turn(c.drive), "output": out(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
+                {"drive": turn(c.drive), "output": in_unit(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
                 for c in self.dead_centres
             ],
             "dwells": [
@@ -306,7 +308,7 @@ class Measures(Brief):
                     "begin": turn(d.begin),
                     "end": turn(d.end),
                     "duration": turn(d.duration),
-                    "output": out(d.output),
+                    "output": in_unit(d.output),
                     "kind": d.kind,
                     "side": d.side,
                 }
@@ -317,7 +319,7 @@ class Measures(Brief):
             "motion_ratio": self.motion_ratio,
             "dwell_time": self.dwell_time,
             "output_turns": self.output_turns,
-            "travel": None if self.travel is None else out(self.travel),
+            "travel": None if self.travel is None else in_unit(self.travel),
             "phi_forward": angle(self.phi_forward),
             "phi_back": angle(self.phi_back),
             "time_ratio": self.time_ratio,
@@ -361,9 +363,9 @@ def measures(
 
     Args:
         linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
-        speed_rpm: the drive's speed in turns a minute, for the times; not zero.
-        branch: as for `move`; without it that of the home position, else all ``+`` and 1. It is understood where the
-            motion is begun: `gruebler.analysis.drive_cycle.drive_cycle`.
+        speed_rpm: the drive's speed in revolutions per minute, for the times; not zero.
+        branch: as for `move`; without it that of the reference pose, else all ``+`` and 1. It applies where the motion
+            starts: `gruebler.analysis.drive_cycle.drive_cycle`.
         output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
 
     Cost: some 60 ms for a dyad, 0.2 s for a group of four links.

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
-from math import hypot
 from typing import NamedTuple
 
 import numpy as np
@@ -18,10 +16,9 @@ from gruebler.linkages import Linkage
 from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.elements import direction
 
-__all__ = ["Peg", "Plate", "Plates", "hull", "plates_of", "whole_motion"]
+__all__ = ["Peg", "Plate", "Plates", "plates_of", "whole_motion"]
 
 _ROWS = 721
-_ON_EDGE = 1e-9  # sizes: corners as near as this to an edge lie on it (an error of rounding)
 _SPREAD = 15  # the size of the linkage over the distance of the two pins that keep a slide from turning
 
 
@@ -173,31 +170,3 @@ def _slot(lower: Linkage, motion: Motion, slide: int, base: str, pin: tuple[str,
     ways = (seen * along.conjugate()).real
     first = complex(seen[0]) - ways[0] * along
     return complex(first + ways.min() * along), complex(first + ways.max() * along)
-
-
-def hull(places: Sequence[complex]) -> list[complex]:
-    """The corners of the convex hull, counter-clockwise; places that are nearly on an edge are left out.
-
-    Cost: O(n log n).
-
-    >>> hull([0, 4, 2, 4 + 3j, 2 + 1j])
-    [0j, (4+0j), (4+3j)]
-    """
-    points = sorted({(complex(z).real, complex(z).imag) for z in places})
-    size = max(hypot(x - points[0][0], y - points[0][1]) for x, y in points)
-    apart = [p for q, p in pairwise(points) if hypot(p[0] - q[0], p[1] - q[1]) > _ON_EDGE * size]
-    points = [points[0], *apart]
-
-    def half(ordered: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-        chain: list[tuple[float, float]] = []
-        for x, y in ordered:
-            while len(chain) > 1:
-                (ax, ay), (bx, by) = chain[-2:]
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > _ON_EDGE * size**2:
-                    break
-                chain.pop()
-            chain.append((x, y))
-        return chain[:-1]
-
-    corners = points if len(points) < 3 else half(points) + half(points[::-1])
-    return [complex(x, y) for x, y in corners]

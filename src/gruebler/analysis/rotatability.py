@@ -65,7 +65,7 @@ def rotatability(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | N
     """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
 
     They turn fully if there is a net turn over the closed circuit, or if the relative angle takes all values. The
-    answer holds for one circuit: that of the branch, or of the linkage's home.
+    answer holds for one circuit: that of the branch, or of the linkage's reference pose.
 
     >>> from gruebler.fourbar import FourBar
     >>> for row in rotatability(FourBar(25, 70, 40, 70).linkage()):
@@ -94,9 +94,9 @@ def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
     for number, joint in enumerate(mechanism.chain.joints):
         if number in wheels:
             continue
-        for one, two in itertools.combinations(joint.links, 2):
+        for first, second in itertools.combinations(joint.links, 2):
             for freedom in _FREEDOMS[joint.pair.name]:
-                yield number, (two, one) if two == mechanism.frame else (one, two), freedom
+                yield number, (second, first) if second == mechanism.frame else (first, second), freedom
 
 
 @lru_cache(maxsize=32)

@@ -17,7 +17,8 @@ from gruebler.columns import Column, Table
 from gruebler.errors import LinkageError
 from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion
-from gruebler.linkages import CamDisc, GenevaDriver, Linkage, NonCircular
+from gruebler.linkages import Linkage
+from gruebler.linkages.elements import LeadingElement
 from gruebler.text import translate
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ def motion_table(
         return np.where(speed == 0, np.nan, derivative)
 
     noise = (1e-12,) * 4
-    if any(isinstance(element, CamDisc | GenevaDriver | NonCircular) for element in linkage.elements.values()):
+    if any(isinstance(element, LeadingElement) for element in linkage.elements.values()):
         noise = _POLYNOMIAL_NOISE
     usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
     for output in seen:

@@ -156,8 +156,8 @@ class _Lines(NamedTuple):
 
     force: Complexes
     force_rate: Complexes
-    way: Complexes
-    way_rate: Complexes
+    direction: Complexes
+    direction_rate: Complexes
 
 
 def _lines(motion: Motion, leg: PushingLink) -> _Lines:
@@ -172,8 +172,8 @@ def _lines(motion: Motion, leg: PushingLink) -> _Lines:
     if leg.guide is not None:
         kind, place = leg.guide
         if kind == "P":
-            way = np.full(len(motion), place[2])
-            return _Lines(force, force_rate, way, np.zeros_like(way))
+            directions = np.full(len(motion), place[2])
+            return _Lines(force, force_rate, directions, np.zeros_like(directions))
         return _Lines(force, force_rate, 1j * (point[0] - place[1]), 1j * point[1])
     return _Lines(force, force_rate, *_velocity(motion, leg.pushed, point))
 
@@ -196,11 +196,11 @@ def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Comp
     k = motion.link_index(link)
     w, spin = motion.rates[0, :, k], motion.rates[1, :, k]
     origin, speed, change = (motion.places[m, :, k] for m in range(3))
-    way = speed + 1j * w * (point[0] - origin)
+    velocity = speed + 1j * w * (point[0] - origin)
     rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
     fastest = np.maximum(np.abs(motion.places[1]).max(axis=1), motion.size * np.abs(motion.rates[0]).max(axis=1))
-    rest = np.abs(way) < _SLOW * fastest
-    return np.where(rest, rate, way), np.where(rest, 0, rate)
+    rest = np.abs(velocity) < _SLOW * fastest
+    return np.where(rest, rate, velocity), np.where(rest, 0, rate)
 
 
 def _pace(motion: Motion) -> Reals:
@@ -211,7 +211,7 @@ def _pace(motion: Motion) -> Reals:
 
 
 def _folded(lines: _Lines) -> Reals:
-    product = np.conj(lines.force) * lines.way
+    product = np.conj(lines.force) * lines.direction
     return np.asarray(np.arctan2(np.abs(product.real), np.abs(product.imag)))
 
 
@@ -272,12 +272,12 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
 
     def product(motion: Motion) -> Complexes:
         lines = _lines(motion, leg)
-        normed: Complexes = np.conj(lines.force) * lines.way / (np.abs(lines.force) * np.abs(lines.way))
+        normed: Complexes = np.conj(lines.force) * lines.direction / (np.abs(lines.force) * np.abs(lines.direction))
         return normed
 
     def turning(drives: Reals) -> Reals:
         lines = _lines(cycle.at(drives, 2), leg)
-        return np.imag(lines.force_rate / lines.force - lines.way_rate / lines.way)[None]
+        return np.imag(lines.force_rate / lines.force - lines.direction_rate / lines.direction)[None]
 
     def sine(drives: Reals) -> Reals:
         return product(cycle.at(drives, 2)).imag[None]
@@ -288,8 +288,8 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
     def unnormed(motion: Motion) -> Complexes:
         """As `product`, but smooth where the driven point is slow next to a limit: of a speed by that of all joints."""
         lines = _lines(motion, leg)
-        pace = np.abs(lines.way) if leg.guide is not None else _pace(motion)
-        return np.asarray(np.conj(lines.force) * lines.way / (np.abs(lines.force) * pace))
+        pace = np.abs(lines.direction) if leg.guide is not None else _pace(motion)
+        return np.asarray(np.conj(lines.force) * lines.direction / (np.abs(lines.force) * pace))
 
     slow = _LEAST / cycle.drive_size
     angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))

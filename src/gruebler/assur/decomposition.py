@@ -221,7 +221,7 @@ def decompose(mechanism: Mechanism) -> Decomposition:
     """The Assur groups of a planar mechanism, in solving order.
 
     If the drives do not fix the motion, the links that they fix are decomposed and the others listed; if constraints or
-    drives work against one another there are no groups (see `Decomposition.complete`). Among groups that may be solved
+    drives conflict there are no groups (see `Decomposition.complete`). Among groups that may be solved
     in any order the one with the earliest link of the chain comes first.
 
     Raises `AssurError` for a chain that is not planar. Cost O(links · joints) for simple turning, rolling and

@@ -79,10 +79,10 @@ def _rows(links: int) -> Iterator[GroupRow]:
         joints = block.shape[1]
         for begin in range(0, len(block), 4096):
             trusses = np.ascontiguousarray(block[begin : begin + 4096])
-            out = np.zeros((n * len(trusses), HEAD + 2 * joints), np.int64)
+            rows = np.zeros((n * len(trusses), HEAD + 2 * joints), np.int64)
             describe = for_work(describe_groups, _INTERPRETED * len(trusses))
-            count = describe(n, trusses, make_workspace(2 * n, joints), out, np.zeros(len(out), np.int64))
-            for row in out[:count].tolist():
+            count = describe(n, trusses, make_workspace(2 * n, joints), rows, np.zeros(len(rows), np.int64))
+            for row in rows[:count].tolist():
                 ends = [(row[k], str(row[k + 1])) for k in range(HEAD, len(row), 2)]
                 named = tuple((str(a) if a else place_name(k), b) for k, (a, b) in enumerate(ends))
                 yield GroupRow(row[CLASS], row[ORDER], named)

@@ -83,7 +83,7 @@ def independent(mechanism: Mechanism, locked: LockedMechanism) -> bool:
     """
     if not locked.clean:
         return False
-    if all(len(j.bodies) == 2 and j.pair.name in {"revolute", "rolling", "roll_slide"} for j in locked.joints):
+    if all(len(j.bodies) == 2 and (j.pair.is_revolute or j.pair.is_higher) for j in locked.joints):
         edges = [(j.bodies[0], j.bodies[1]) for j in locked.joints for _ in range(j.constraints)]
         return pebble_rank(len(locked.bodies), edges, 3, 3) == len(edges)
     locks = [LockedFreedom(d.joint, d.direction, d.between) for d in mechanism.drives]

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.atlas.parts import AtlasTask, Part, PartFile, PartWriter, identity_of, parts
-from gruebler.atlas.schema import SCHEMA, TABLES, arrow, columns_of
+from gruebler.atlas.schema import SCHEMA, TABLES, arrow_library, columns_of
 from gruebler.atomic_files import PARTIAL, atomic_file, remove_abandoned_files
 from gruebler.enumeration.worker_pool import Progress, ProgressCounter, run_work
 from gruebler.errors import RunError
@@ -48,7 +48,7 @@ def build(
     """
     from gruebler import __version__
 
-    arrow()
+    arrow_library()
     identity = identity_of(task, __version__)
     begun = {"kind": _ATLAS, **json.loads(identity), "complete": False}
     _prepare(directory, begun, task)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.atlas.crossings import Bundle, least_crossings
-from gruebler.atlas.schema import arrow, arrow_schema
+from gruebler.atlas.schema import arrow_library, arrow_schema
 from gruebler.chain import Chain
 from gruebler.chain.pairs import PAIRS, Alphabet
 from gruebler.enumeration.contracted import ContractedGraph, contracted_graphs
@@ -92,7 +92,7 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
 
     Cost: about 30 us for a chain of 14 links, and the crossings of each contracted graph.
     """
-    pa = arrow()
+    pa = arrow_library()
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.counting.chain_lists import line_length
     from gruebler.atlas import chain_kernels as kernels
@@ -160,7 +160,7 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
 
 
 def _cast(values: Any, kind: pa.DataType) -> pa.Array:
-    pa = arrow()
+    pa = arrow_library()
     array = values if isinstance(values, pa.Array) else pa.array(np.ascontiguousarray(values))
     return array if array.type == kind else array.cast(kind)
 
@@ -186,7 +186,7 @@ def _members(chains: ChainArrays) -> tuple[Int64, Int64]:
 
 def _assortments(degrees: Int64) -> pa.Array:
     """The numbers of links of 2, 3, ... joints, as text."""
-    pa = arrow()
+    pa = arrow_library()
     largest = int(degrees.max(initial=2))
     numbers = np.stack([(degrees == k).sum(axis=1) for k in range(2, largest + 1)], axis=1)
     unique, place = np.unique(numbers, axis=0, return_inverse=True)
@@ -197,7 +197,7 @@ def _assortments(degrees: Int64) -> pa.Array:
 
 def _texts(lines: NDArray[np.uint8], lengths: Int64, present: NDArray[np.bool_]) -> pa.Array:
     """Texts of the first letters of each line, empty where they are not present."""
-    pa = arrow()
+    pa = arrow_library()
     lengths = np.where(present, lengths, 0)
     letters = lines[np.arange(lines.shape[1]) < lengths[:, None]]
     array = _flat_texts(letters, np.cumsum(lengths))
@@ -206,7 +206,7 @@ def _texts(lines: NDArray[np.uint8], lengths: Int64, present: NDArray[np.bool_])
 
 def _flat_texts(letters: NDArray[np.uint8], ends: Int64) -> pa.Array:
     """Texts one after another, by their ends."""
-    pa = arrow()
+    pa = arrow_library()
     offsets = np.concatenate([[0], ends])
     if offsets[-1] < 2**31:
         buffers = [None, pa.py_buffer(offsets.astype(np.int32)), pa.py_buffer(np.ascontiguousarray(letters))]
@@ -228,7 +228,7 @@ class Contracted(NamedTuple):
 
     def codes(self) -> pa.Array:
         """The code of the graph of each chain."""
-        pa = arrow()
+        pa = arrow_library()
         texts = pa.array([_code(graph) for graph in self.graphs], pa.string())
         return pa.DictionaryArray.from_arrays(self.numbers - np.int32(self.first), texts).cast(pa.string())
 
@@ -243,7 +243,7 @@ class Contracted(NamedTuple):
 
 def _contracted(chains: ChainArrays, kinds: Sequence[str] | str) -> tuple[pa.Array, pa.Array]:
     """Number and code of the contracted graph of each chain, found on the chain itself."""
-    pa = arrow()
+    pa = arrow_library()
     count, n = len(chains.sizes), chains.links
     loops = (n - 1 - chains.mobility) // 2
     numbers: list[int | None] = [None] * count

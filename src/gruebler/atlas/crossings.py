@@ -34,13 +34,13 @@ def least_crossings(bundles: Iterable[Bundle]) -> int | None:
         return 0
     single = [(u, v) for u, v, k in every if k == 1]
     middle = 1 + max(v for edge in edges for v in edge)
-    for one, other in combinations(single, 2):
-        if set(one).isdisjoint(other):
-            graph.remove_edges_from((one, other))
-            graph.add_edges_from((middle, v) for v in one + other)
+    for first, second in combinations(single, 2):
+        if set(first).isdisjoint(second):
+            graph.remove_edges_from((first, second))
+            graph.add_edges_from((middle, v) for v in first + second)
             planar = nx.check_planarity(graph)[0]
             graph.remove_node(middle)
-            graph.add_edges_from((one, other))
+            graph.add_edges_from((first, second))
             if planar:
                 return 1
     return None

@@ -12,8 +12,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from gruebler.atlas.building import MANIFEST, build
-from gruebler.atlas.parts import AtlasTask, read_part, write_table
-from gruebler.atlas.schema import arrow
+from gruebler.atlas.parts import AtlasTask, read_part, write_parquet
+from gruebler.atlas.schema import arrow_library
 from gruebler.atomic_files import atomic_file, temporary_directory
 
 __all__ = ["make_small_atlas"]
@@ -34,7 +34,7 @@ def make_small_atlas(directory: Path, most: int = 10) -> None:
             where = folder / ("driven" if source is driven else "all")
             files = [read_part(where / file["path"])[0] for file in source["tables"][table]["files"]]
             path = directory / f"{table}.parquet"
-            write_table(arrow().concat_tables(files), path, {"part": path.name})
+            write_parquet(arrow_library().concat_tables(files), path, {"part": path.name})
             content = path.read_bytes()
             rows = source["tables"][table]["rows"]
             file = {"path": path.name, "rows": rows, "bytes": len(content), "sha256": sha256(content).hexdigest()}

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.assur import AssurGroup, decompose
-from gruebler.atlas.schema import arrow, arrow_schema
+from gruebler.atlas.schema import arrow_library, arrow_schema
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
 from gruebler.isomorphism import decode, symmetry
@@ -93,7 +93,7 @@ def _family(mechanism: Mechanism) -> str | None:
 
 
 def _table(name: str, rows: list[dict[str, Any]]) -> pa.Table:
-    return arrow().Table.from_pylist(rows, schema=arrow_schema(name))
+    return arrow_library().Table.from_pylist(rows, schema=arrow_schema(name))
 
 
 # --- many chains at once -----------------------------------------------------------------------------
@@ -114,7 +114,7 @@ def bulk_tables(chains: pa.Table, *, driven: bool) -> dict[str, pa.Table] | None
     Raises:
         GrueblerError: more kinds of Assur groups than there is room for.
     """
-    pa = arrow()
+    pa = arrow_library()
     from gruebler._numeric.compiling import for_work
     from gruebler.atlas import mechanism_kernels as kernels
 
@@ -169,7 +169,7 @@ def bulk_tables(chains: pa.Table, *, driven: bool) -> dict[str, pa.Table] | None
 def _driven_columns(drives: NDArray[np.int32], memory: MechanismMemory) -> dict[str, Any]:
     from gruebler.atlas import mechanism_kernels as kernels
 
-    pa = arrow()
+    pa = arrow_library()
     count = drives[:, kernels.GROUPS]
     present = np.arange(drives.shape[1] - kernels.GROUPS - 1) < count[:, None]
     numbers = drives[:, kernels.GROUPS + 1 :]

@@ -19,7 +19,7 @@ import numpy as np
 
 from gruebler.atlas.chain_table import ChainArrays, Contracted, arrays_of_chains, chain_table
 from gruebler.atlas.mechanism_tables import bulk_tables, driven_table, mechanism_table
-from gruebler.atlas.schema import SCHEMA, arrow, arrow_schema
+from gruebler.atlas.schema import SCHEMA, arrow_library, arrow_schema
 from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
 from gruebler.enumeration.assortment import loop_count
@@ -34,7 +34,7 @@ from gruebler.type_synthesis import joint_types
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_table"]
+__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_parquet"]
 
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
 _AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part
@@ -129,11 +129,11 @@ class AtlasTask:
         """
         pattern = r"gruebler atlas build((?: --[a-z-]+(?: [\w-]+)?)*) DIR"
         if (match := re.fullmatch(pattern, text)) is None:
-            raise GrueblerError("{text!r} is no command that builds an atlas", text=text)
-        found = re.findall(r"--([a-z-]+)(?: (\w[\w-]*))?", match[1])
-        options: dict[str, Any] = {name.replace("-", "_"): value or True for name, value in found}
+            raise GrueblerError("{text!r} is not a command that builds an atlas", text=text)
+        flags = re.findall(r"--([a-z-]+)(?: (\w[\w-]*))?", match[1])
+        options: dict[str, Any] = {name.replace("-", "_"): value or True for name, value in flags}
         if not {"links"} <= set(options) <= {field.name for field in fields(AtlasTask)}:
-            raise GrueblerError("{text!r} is no command that builds an atlas", text=text)
+            raise GrueblerError("{text!r} is not a command that builds an atlas", text=text)
         return AtlasTask(**options)
 
     def command(self) -> str:
@@ -223,7 +223,7 @@ class PartWriter:
             table = tables[name]
             path = self.directory / part.path(name)
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_table(table, path, {"atlas": self.identity, "part": part.path(name)})
+            write_parquet(table, path, {"atlas": self.identity, "part": part.path(name)})
         return [self._described(part, name) for name in self.task.tables]
 
     def _mechanisms(self, request: Request, chains: pa.Table) -> dict[str, pa.Table]:
@@ -232,27 +232,27 @@ class PartWriter:
         if plain and self.task.drives != "any" and (tables := bulk_tables(chains, driven=self.task.drives == "frame")):
             return tables
         codes = chains.column("code").to_pylist()
-        found = {}
+        chunks = {}
         if self.task.inversions:
-            found["mechanisms"] = mechanism_table(codes, request.mobility)
+            chunks["mechanisms"] = mechanism_table(codes, request.mobility)
         if self.task.drives != "none":
-            found["driven"] = driven_table(codes, request.mobility, at_frame=self.task.drives == "frame")
-        return found
+            chunks["driven"] = driven_table(codes, request.mobility, at_frame=self.task.drives == "frame")
+        return chunks
 
     def existing(self, part: Part) -> list[PartFile] | None:
         """The files of a part if all of them are there and undamaged, else None.
 
         Raises `RunError` for files that belong to something else.
         """
-        found = []
+        files = []
         for name in self.task.tables:
             if not (self.directory / part.path(name)).exists():
                 return None
             try:
-                found.append(self._described(part, name))
+                files.append(self._described(part, name))
             except _DamagedError:
                 return None
-        return found
+        return files
 
     def _described(self, part: Part, name: str) -> PartFile:
         path = part.path(name)
@@ -281,7 +281,7 @@ class PartWriter:
             chains, kinds = _typed(request, piece, self.task.sliding)
             if chains:
                 tables.append(chain_table(arrays_of_chains(request.links, request.mobility, chains), kinds))
-        return arrow().concat_tables(tables) if tables else arrow_schema("chains").empty_table()
+        return arrow_library().concat_tables(tables) if tables else arrow_schema("chains").empty_table()
 
 
 def _simple_chains(piece: WorkPiece, first_graph: int) -> pa.Table:
@@ -319,9 +319,9 @@ def _typed(request: Request, piece: Work, sliding: Sequence[int]) -> tuple[list[
         for number in sliding:
             if number > simple:
                 break
-            found = list(joint_types(chain, {"prismatic": number})) if number else [chain]
-            chains += found
-            kinds += [kind] * len(found)
+            typed = list(joint_types(chain, {"prismatic": number})) if number else [chain]
+            chains += typed
+            kinds += [kind] * len(typed)
     return chains, kinds
 
 
@@ -340,9 +340,9 @@ class _DamagedError(Exception):
     """A file that cannot be read as a whole."""
 
 
-def write_table(table: pa.Table, path: Path, metadata: dict[str, str]) -> None:
+def write_parquet(table: pa.Table, path: Path, metadata: dict[str, str]) -> None:
     """Write a table as a Parquet file that appears complete or not at all; equal tables give equal bytes."""
-    pa = arrow()
+    pa = arrow_library()
     table = table.replace_schema_metadata({"schema": str(SCHEMA), **metadata})
     with atomic_file(path) as file:
         pa.parquet.write_table(
@@ -362,7 +362,7 @@ def read_part(path: Path) -> tuple[pa.Table, bytes]:
     Raises:
         RunError: it cannot be read.
     """
-    pa = arrow()
+    pa = arrow_library()
     try:
         content = path.read_bytes()
     except OSError as error:
@@ -377,4 +377,6 @@ def read_part(path: Path) -> tuple[pa.Table, bytes]:
 
 def identity_of(task: AtlasTask, version: str) -> str:
     """The text that tells the files of this task and version from others."""
-    return json.dumps({"schema": SCHEMA, "version": version, "pyarrow": arrow().__version__, "command": task.command()})
+    return json.dumps(
+        {"schema": SCHEMA, "version": version, "pyarrow": arrow_library().__version__, "command": task.command()}
+    )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gruebler.atlas.building import manifest_of
 from gruebler.atlas.parts import AtlasTask
-from gruebler.atlas.schema import arrow
+from gruebler.atlas.schema import arrow_library
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError, RunError, nearest
 from gruebler.isomorphism import decode
@@ -84,7 +84,7 @@ class Atlas:
 
     def dataset(self, table: str = "chains") -> pyarrow.dataset.Dataset:
         """A table for Arrow, read lazily."""
-        arrow()
+        arrow_library()
         import pyarrow.dataset
 
         return pyarrow.dataset.dataset(self.files(table), format="parquet")  # type: ignore[no-untyped-call,unused-ignore]
@@ -194,7 +194,7 @@ class Atlas:
             import duckdb
         except ImportError:
             raise GrueblerError("queries need duckdb: pip install 'gruebler[atlas]'") from None
-        arrow()
+        arrow_library()
         connection = duckdb.connect(":memory:")
         for table in self.tables:
             files = ", ".join("'" + str(path).replace("'", "''") + "'" for path in self.files(table))

@@ -12,13 +12,13 @@ from gruebler.errors import GrueblerError
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["SCHEMA", "TABLES", "Column", "arrow", "arrow_schema", "columns_of"]
+__all__ = ["SCHEMA", "TABLES", "SchemaColumn", "arrow_library", "arrow_schema", "columns_of"]
 
 SCHEMA = 1
 """The version of the columns; a change of a column or of its meaning raises it."""
 
 
-class Column(NamedTuple):
+class SchemaColumn(NamedTuple):
     """A column of a table."""
 
     table: str
@@ -32,8 +32,8 @@ class Column(NamedTuple):
 
 _DESCRIBED = "atlas.chain_kernels"
 
-COLUMNS: tuple[Column, ...] = tuple(
-    Column(*row)
+COLUMNS: tuple[SchemaColumn, ...] = tuple(
+    SchemaColumn(*row)
     for row in (
         ("chains", "links", "int16", "links", "number of links n", "request"),
         ("chains", "mobility", "int16", "freedoms", "F = 3(n - 1) - 2 g1, all joints turning or sliding", "request"),
@@ -127,7 +127,7 @@ COLUMNS: tuple[Column, ...] = tuple(
 TABLES: tuple[str, ...] = tuple(dict.fromkeys(column.table for column in COLUMNS))
 
 
-def columns_of(table: str) -> tuple[Column, ...]:
+def columns_of(table: str) -> tuple[SchemaColumn, ...]:
     """The columns of a table, in their order.
 
     >>> [column.name for column in columns_of("mechanisms")][:4]
@@ -136,7 +136,7 @@ def columns_of(table: str) -> tuple[Column, ...]:
     return tuple(column for column in COLUMNS if column.table == table)
 
 
-def arrow() -> Any:
+def arrow_library() -> Any:
     """The library of Arrow tables; `GrueblerError` if it is not installed."""
     try:
         import pyarrow
@@ -148,7 +148,7 @@ def arrow() -> Any:
 
 def arrow_schema(table: str, **metadata: str) -> pa.Schema:
     """The columns of a table for Arrow; unit, definition and origin are metadata of each field."""
-    pa = arrow()
+    pa = arrow_library()
 
     def kind(name: str) -> Any:
         if name.startswith("list<"):

@@ -66,7 +66,7 @@ def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[s
 def _joints_of_texts(texts: Sequence[str], space: str | Space) -> Joints:
     """The joints of ``R(a-b)``, ``R(a-b)#2``, ..., as `Chain.joint_names` writes them."""
     bare = [re.sub(r"\)#\d+$", ")", text) for text in texts]
-    return [(pair.name, names) for pair, names in notation.read(" ".join(bare), space)[1]]
+    return [(pair.name, names) for pair, names in notation.read_joints(" ".join(bare), space)[1]]
 
 
 def _joint_of_json(number: int, document: object) -> tuple[str, Sequence[str]]:

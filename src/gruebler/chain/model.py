@@ -90,7 +90,7 @@ class Chain:
         expect(text, str)
         if text.lstrip().lower().startswith("g6:"):
             return cls.from_graph6(text.strip()[3:].strip())
-        read_space, joints = notation.read(text, space)
+        read_space, joints = notation.read_joints(text, space)
         return cls(joints, space=read_space)
 
     @classmethod
@@ -138,7 +138,7 @@ class Chain:
         >>> Chain.parse("R(0-1) R(1-2) P(2-0)").text("german")
         'D(0-1) D(1-2) S(2-0)'
         """
-        return notation.write(self.space, [(j.pair, j.links) for j in self.joints], Alphabet(alphabet))
+        return notation.write_joints(self.space, [(j.pair, j.links) for j in self.joints], Alphabet(alphabet))
 
     __str__ = text
 

@@ -23,12 +23,12 @@ __all__ = [
     "joint_text",
     "link_name",
     "link_text",
-    "read",
+    "read_joints",
     "renamed_links",
     "space_of",
     "split_links",
     "symbols_for",
-    "write",
+    "write_joints",
 ]
 
 _BARE = r"""[^\s()\-",:;]+"""
@@ -52,7 +52,7 @@ def space_of(name: str | Space) -> Space:
         raise NotationError("unknown space {word!r}: expected planar, spherical or spatial", word=name) from None
 
 
-def read(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple[Pair, tuple[str, ...]]]]:
+def read_joints(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple[Pair, tuple[str, ...]]]]:
     """The space and the joints (pair, link names) that a text describes, in its order.
 
     >>> read("R(0-1) R(1-2) R(2-0)")[1][0]
@@ -222,7 +222,7 @@ def joint_text(symbol: str, links: Sequence[str]) -> str:
     return f"{symbol}({'-'.join(map(link_text, links))})"
 
 
-def write(
+def write_joints(
     space: Space,
     joints: Sequence[tuple[Pair, Sequence[str]]],
     alphabet: Alphabet = Alphabet.INTERNATIONAL,

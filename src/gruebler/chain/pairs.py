@@ -180,6 +180,44 @@ class Pair:
         return self.name == "roll_slide"
 
     @property
+    def is_double_slide(self) -> bool:
+        """Whether it slides along two lines of a plane."""
+        return self.name == "double_slide"
+
+    @property
+    def is_helical(self) -> bool:
+        """Whether it is a screw."""
+        return self.name == "helical"
+
+    @property
+    def is_spherical(self) -> bool:
+        """Whether it is a ball in a socket."""
+        return self.name == "spherical"
+
+    @property
+    def is_higher(self) -> bool:
+        """Whether its elements touch in a line or a point; in the plane what rolls, or rolls and slides."""
+        return self.contact is Contact.HIGHER
+
+    @property
+    def keeps_directions(self) -> bool:
+        """Whether its links do not turn against each other, so that it can carry a moment about every axis.
+
+        >>> [p.name for p in PAIRS if p.keeps_directions]
+        ['prismatic', 'double_slide']
+        """
+        return all(direction.startswith("T") for freedoms in self.freedoms.values() for direction in freedoms)
+
+    @property
+    def slides_along_one_line(self) -> bool:
+        """Whether it slides along one line, and along none across it.
+
+        >>> [p.name for p in PAIRS if p.slides_along_one_line and Space.PLANAR in p.freedoms]
+        ['prismatic', 'roll_slide']
+        """
+        return {d for freedoms in self.freedoms.values() for d in freedoms if not d.startswith("R")} == {"Tx"}
+
+    @property
     def title(self) -> PairTitle:
         """Its full name, for messages."""
         return PairTitle(self.name)

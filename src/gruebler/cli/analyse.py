@@ -18,7 +18,7 @@ from gruebler.arrays import Reals
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of, with_points
+from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word, with_points
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
@@ -118,7 +118,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
-    linkage, shown_range = linkage_of(arguments.linkage, language_of_names(arguments))
+    linkage, shown_range = linkage_of_word(arguments.linkage, language_of_names(arguments))
     linkage = with_points(linkage, arguments.point)
     turning = turning_drives(linkage)
     plan = cached_plan(linkage)
@@ -290,8 +290,8 @@ def _report(
     if arguments.json:
         planes = {}
         if arguments.planes:
-            found = _planes(linkage, arguments)
-            planes = {"planes": found.planes, "planes_message": found.explain(arguments.lang)}
+            arrangement = _planes(linkage, arguments)
+            planes = {"planes": arrangement.planes, "planes_message": arrangement.explain(arguments.lang)}
         print_json(_document(linkage, measures, motion, columns, arguments.lang) | planes)
     else:
         if measures is not None:
@@ -361,11 +361,11 @@ def _extent(row: Rotatability, unit: str) -> Message:
 
 def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
     """A row of the rotatability; the keys of angles end in ``_deg``."""
-    out = row._asdict()
-    angles = {key: out.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
+    document = row._asdict()
+    angles = {key: document.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
     if row.freedom == "turn":
-        return out | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
-    return out | angles | {"unit": unit}
+        return document | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
+    return document | angles | {"unit": unit}
 
 
 def _document(

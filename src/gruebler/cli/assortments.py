@@ -18,7 +18,7 @@ from gruebler.enumeration import (
 from gruebler.errors import GrueblerError
 from gruebler.text import arity, message, translate
 
-__all__ = ["assortments"]
+__all__ = ["print_assortments"]
 
 _MANY = 1_000_000  # assortments that are listed without being asked again: about a minute
 _COUNTED_QUICKLY = 300_000  # links above the mobility: about half a minute and 100 MB
@@ -37,7 +37,7 @@ class _Wanted(NamedTuple):
 _Row = tuple[tuple[int, ...], tuple[int, ...]]
 
 
-def assortments(arguments: argparse.Namespace) -> int:
+def print_assortments(arguments: argparse.Namespace) -> int:
     """Print the link assortments, with the joint assortments if multiple joints are allowed."""
     n, f, lang = arguments.links, arguments.mobility, arguments.lang
     for option in ("assortment", "orbits", "format", "checkpoint"):

@@ -149,7 +149,7 @@ def _expected(task: Any) -> tuple[int, float]:
 
 def _query(arguments: argparse.Namespace) -> int:
     from gruebler.atlas import open as open_atlas
-    from gruebler.atlas.schema import arrow
+    from gruebler.atlas.schema import arrow_library
 
     *folder, sql = arguments.words
     if len(folder) > 1:
@@ -157,7 +157,7 @@ def _query(arguments: argparse.Namespace) -> int:
     atlas = open_atlas(*folder)
     if arguments.structures:
         texts = [str(each) for each in atlas.structures(sql)]
-        _answer(arrow().table({"structure": texts}), arguments)
+        _answer(arrow_library().table({"structure": texts}), arguments)
     else:
         _answer(atlas.query(sql), arguments)
     return 0
@@ -165,13 +165,13 @@ def _query(arguments: argparse.Namespace) -> int:
 
 def _columns(arguments: argparse.Namespace) -> int:
     from gruebler.atlas import columns_of
-    from gruebler.atlas.schema import TABLES, arrow
+    from gruebler.atlas.schema import TABLES, arrow_library
 
     rows = [column for table in TABLES for column in columns_of(table)]
     if arguments.out is None and not arguments.json:
         print_table(list(rows[0]._fields), rows)
         return 0
-    _answer(arrow().Table.from_pylist([row._asdict() for row in rows]), arguments)
+    _answer(arrow_library().Table.from_pylist([row._asdict() for row in rows]), arguments)
     return 0
 
 
@@ -188,9 +188,9 @@ def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
     with atomic_file(arguments.out, durable=False) as file:
         match arguments.out.suffix.lower():
             case ".parquet":
-                from gruebler.atlas.schema import arrow
+                from gruebler.atlas.schema import arrow_library
 
-                arrow().parquet.write_table(table, file, compression="zstd")
+                arrow_library().parquet.write_table(table, file, compression="zstd")
             case ".json":
                 import json
 
@@ -213,9 +213,9 @@ def _print(table: pa.Table) -> None:
     if table.num_columns == 1:
         sys.stdout.writelines(f"{value}\n" for value in _cells(table)[0])
         return
-    from gruebler.atlas.schema import arrow
+    from gruebler.atlas.schema import arrow_library
 
-    types = arrow().types
+    types = arrow_library().types
     numbers = [
         k for k, field in enumerate(table.schema) if types.is_integer(field.type) or types.is_floating(field.type)
     ]

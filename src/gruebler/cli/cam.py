@@ -23,7 +23,7 @@ from gruebler.cams import (
     motion_law,
     read_lift,
 )
-from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
@@ -122,7 +122,7 @@ def _picture(arguments: argparse.Namespace, cam: Cam) -> None:
     from gruebler.drawing.machines.cam_picture import animate_cam, draw_cam
 
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
-    write_picture(
+    write_machine_picture(
         arguments,
         lambda: draw_cam(cam, at, plot=plot, lang=lang),
         lambda seconds: animate_cam(cam, plot=plot, seconds=seconds, lang=lang),
@@ -271,10 +271,10 @@ def _degrees(angle: float, lang: str) -> str:
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     report = cam.findings()
 
-    def item(found: Extremum | None, angle: bool = False) -> dict[str, float] | None:
-        return found and {
-            "value": math.degrees(found.value) if angle else found.value,
-            "at_deg": math.degrees(found.at),
+    def item(extremum: Extremum | None, angle: bool = False) -> dict[str, float] | None:
+        return extremum and {
+            "value": math.degrees(extremum.value) if angle else extremum.value,
+            "at_deg": math.degrees(extremum.at),
         }
 
     document: dict[str, Any] = {

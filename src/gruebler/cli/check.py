@@ -13,7 +13,7 @@ from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercis
 from gruebler.chain import Chain
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import is_lengths, linkage_of, value_of_another_program
+from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word, value_of_another_program
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
@@ -235,7 +235,7 @@ def _structures(word: str, space: str | None, lang: str) -> Iterator[Structure]:
     elif path.is_file() or path.suffix.lower() in STRUCTURE_ENDINGS:
         yield from read_structures(path, space)
     elif is_lengths(word):
-        yield Structure(word, "", linkage_of(word, lang)[0])
+        yield Structure(word, "", linkage_of_word(word, lang)[0])
     else:
         yield Structure(word, "", entry(word).in_language(lang))
 

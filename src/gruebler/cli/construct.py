@@ -34,8 +34,9 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "values",
         nargs="*",
-        metavar="KEY=VALUE|LENGTHS",
-        help="quantities, such as a=25 phi=55, and lengths, such as four-bar:25,70,40,70 (default: an example)",
+        metavar="KEY=VALUE|LENGTHS|FORM",
+        help="quantities, such as a=25 phi=55, and lengths, such as four-bar:25,70,40,70, or a form, such as "
+        "scotch-yoke (default: an example)",
     )
     parser.add_argument("--step", type=int, metavar="N", help="only this step, in a picture")
     parser.add_printed(help="print an object with title, steps and values")
@@ -47,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.name is None:
         _list(arguments)
         return 0
-    form, values = _given(arguments.values)
+    form, values = _given(arguments.values, _forms(arguments.name))
     whole = construction(arguments.name, form, **values)
     lang, path = arguments.lang, arguments.out
     suffix = "" if path is None else path.suffix.lower().removeprefix(".")
@@ -68,8 +69,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _given(words: list[str]) -> tuple[str, dict[str, float | str]]:
-    """The form of linkage and the quantities that words give."""
+def _forms(name: str) -> list[str]:
+    return [form for form in construction_forms(name) if form]
+
+
+def _given(words: list[str], forms: list[str]) -> tuple[str, dict[str, float | str]]:
+    """The form of linkage, among those of the construction, and the quantities that words give."""
     form = ""
     values: dict[str, float | str] = {}
     for word in words:
@@ -78,6 +83,8 @@ def _given(words: list[str]) -> tuple[str, dict[str, float | str]]:
             if key.strip() in values:
                 raise GrueblerError("{key} is given twice; give one value for each key", key=key.strip())
             values[key.strip()] = value.strip()
+        elif word in forms:
+            form = word
         elif is_lengths(word):
             form, lengths = _lengths(word)
             values |= lengths

@@ -23,13 +23,15 @@ from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.documents import convert_document, load_document
-from gruebler.errors import CatalogError
+from gruebler.errors import CatalogError, GrueblerError
 from gruebler.text import Message, message, translate
 
 __all__ = [
+    "Asked",
     "Outcome",
     "Row",
     "add",
+    "asked_things",
     "coverage_rows",
     "execute",
     "expected_parts",
@@ -65,6 +67,19 @@ class Coverage(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     machines: tuple[Machine, ...]
     expected: dict[str, tuple[str, ...]]
     """For each command, parts of what it prints; `missing_parts` compares them."""
+
+
+class Asked(NamedTuple):
+    """One thing that the teaching documents ask, and what does it: commands of the table, or tests."""
+
+    where: str
+    en: str
+    de: str
+    done_by: tuple[str, ...]
+
+
+class _AskedFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    asked: tuple[Asked, ...]
 
 
 class Row(NamedTuple):
@@ -107,6 +122,21 @@ def _table() -> Coverage:
     if strange := sorted({machine.id for machine in table.machines} - set(entries())):
         raise fail(message("machines: the catalog has no entry {machine!r}", machine=strange[0]))
     return table
+
+
+@cache
+def asked_things() -> tuple[Asked, ...]:
+    """Everything that the teaching documents ask, in their order.
+
+    >>> len(asked_things())
+    221
+    """
+    path: Path = catalog_folder() / "asked.toml"
+
+    def fail(text: Message) -> CatalogError:
+        return CatalogError("{path}: {problem}", path=path, problem=text)
+
+    return convert_document(load_document(path, fail), _AskedFile, fail).asked
 
 
 def expected_parts(command: str) -> tuple[str, ...]:
@@ -167,12 +197,12 @@ def find_function(name: str) -> object | None:
     parts = name.split(".")
     for k in range(len(parts), 0, -1):
         try:
-            found: Any = import_module(".".join(parts[:k]))
+            value: Any = import_module(".".join(parts[:k]))
         except ModuleNotFoundError:
             continue
         for part in parts[k:]:
-            found = getattr(found, part, None)
-        return found  # type: ignore[no-any-return]  # whatever stands there
+            value = getattr(value, part, None)
+        return value  # type: ignore[no-any-return]  # whatever stands there
     return None
 
 
@@ -208,11 +238,14 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument("words", nargs="*", metavar="WORD", help="list only rows with these words or ids")
     parser.add_argument("--run", dest="execute", action="store_true", help="run every command and report how it ended")
+    parser.add_argument("--asked", action="store_true", help="list instead each thing that the documents ask")
     parser.add_printed(help="print a list of objects")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the table; with --run execute what is in it."""
+    if arguments.asked:
+        return _print_asked(arguments)
     chosen = [row for row in coverage_rows() if all(_has(row, word) for word in arguments.words)]
     outcomes: dict[str, Outcome] = {}
     if arguments.execute:
@@ -227,7 +260,27 @@ def run(arguments: argparse.Namespace) -> int:
     return int(missing or bool(absent) or not all(outcome.good for outcome in outcomes.values()))
 
 
-def _has(row: Row, word: str) -> bool:
+def _print_asked(arguments: argparse.Namespace) -> int:
+    if arguments.execute:
+        raise GrueblerError("--asked does not go with --run; every command of that list is in the table")
+    chosen = [each for each in asked_things() if all(_has(each, word) for word in arguments.words)]
+    if arguments.json:
+        print_json([each._asdict() for each in chosen])
+        return 0
+    lang = arguments.lang
+    lines = []
+    for each in chosen:
+        for k, done_by in enumerate(each.done_by):
+            text = done_by if done_by.startswith("tests/") else f"gruebler {done_by}"
+            lines.append((each.where, each.de if lang == "de" else each.en, text) if k == 0 else ("", "", text))
+    headers = translate("section", lang), translate("asked", lang), translate("done by", lang)
+    print_table([*headers], lines)
+    print()
+    print(translate("{count} things are asked.", lang, count=len(chosen)))
+    return 0
+
+
+def _has(row: Row | Asked, word: str) -> bool:
     return any(word.casefold() in text.casefold() for text in (row.where, row.en, row.de))
 
 

@@ -14,7 +14,7 @@ from gruebler.arrays import Reals
 from gruebler.cli import curve_cognates, curve_guidance, curve_straight
 from gruebler.cli.drive_rows import add_range, driven_path
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_branch, linkage_of
+from gruebler.cli.linkage_inputs import add_branch, linkage_of_word
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -169,7 +169,7 @@ def _check(arguments: argparse.Namespace, question: str) -> None:
 
 def _path(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
-    linkage, _ = linkage_of(arguments.linkage, language_of_names(arguments))
+    linkage, _ = linkage_of_word(arguments.linkage, language_of_names(arguments))
     path = driven_path(arguments.range, linkage)
     if path is not None and arguments.contact:
         raise GrueblerError("--contact needs the whole motion of one drive: leave --range out")

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of, size_of, with_points
+from gruebler.cli.linkage_inputs import linkage_of_word, size_of, with_points
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError
@@ -27,17 +27,17 @@ _LINKS = {"crank": message("crank"), "coupler": message("coupler"), "rocker": me
 def run(arguments: argparse.Namespace) -> int:
     """Lengths, coupler point and place of every cognate."""
     size, u, v, branch, phi = _given(arguments)
-    found: Sequence[Cognate]
+    linkages: Sequence[Cognate]
     if isinstance(size, FourBar):
-        found = cognates(size, u, v, branch=branch, phi=phi)
+        linkages = cognates(size, u, v, branch=branch, phi=phi)
     elif isinstance(size, SliderCrank):
-        found = slider_cognates(size, u, v, branch=branch, phi=phi)
+        linkages = slider_cognates(size, u, v, branch=branch, phi=phi)
     else:
         raise GrueblerError("cognates are known for the four-bar and the slider-crank, not for its inversion")
     if arguments.json:
-        print_json({"cognates": [_item(cognate) for cognate in found]})
+        print_json({"cognates": [_item(cognate) for cognate in linkages]})
     else:
-        _print(found, arguments.lang)
+        _print(linkages, arguments.lang)
     return 0
 
 
@@ -49,7 +49,7 @@ def _given(
     if size is not None:
         u, v = coupler_point(size, arguments.point)
         return size, u, v, branch_sign(arguments.branch), _radians(arguments.at)
-    linkage = with_points(linkage_of(arguments.linkage, language_of_names(arguments))[0], [arguments.point])
+    linkage = with_points(linkage_of_word(arguments.linkage, language_of_names(arguments))[0], [arguments.point])
     drive = _radians(arguments.at)
     if drive is None:
         span = drive_cycle(linkage, arguments.branch).span
@@ -66,7 +66,7 @@ def _lengths(cognate: Cognate) -> dict[str, float]:
     return {name: getattr(cognate.size, name) for name in ("abcd" if isinstance(cognate.size, FourBar) else "abe")}
 
 
-def _print(found: Sequence[Cognate], lang: str) -> None:
+def _print(linkages: Sequence[Cognate], lang: str) -> None:
     rows = [
         (
             str(n),
@@ -75,11 +75,11 @@ def _print(found: Sequence[Cognate], lang: str) -> None:
             number(_degrees(cognate.turn), lang, ".4f") + "°",
             cognate.size.type.name(lang),
         )
-        for n, cognate in enumerate(found, 1)
+        for n, cognate in enumerate(linkages, 1)
     ]
     headers: tuple[Cell, ...] = (
         "",
-        *_lengths(found[0]),
+        *_lengths(linkages[0]),
         "u",
         "v",
         message("pivot"),
@@ -88,8 +88,8 @@ def _print(found: Sequence[Cognate], lang: str) -> None:
     )
     print_table(headers, rows, numbers=range(len(headers) - 1), lang=lang)
     print()
-    if isinstance(found[0].size, FourBar):
-        third = found[1].pins[3]
+    if isinstance(linkages[0].size, FourBar):
+        third = linkages[1].pins[3]
         print(
             translate(
                 "Third pivot C0 at {x:.6g}, {y:.6g}, distance {distance:.9g} from A0.",
@@ -101,7 +101,7 @@ def _print(found: Sequence[Cognate], lang: str) -> None:
         )
     else:
         print(translate("The third pivot lies at infinity: a slider-crank has one further cognate.", lang))
-    for n, cognate in enumerate(found[1:], 2):
+    for n, cognate in enumerate(linkages[1:], 2):
         pairs = zip(_LINKS, cognate.turns_with, strict=False)
         turning = [
             message("{link} turns with the given {given}", link=_LINKS[own], given=_LINKS[other])

@@ -8,7 +8,7 @@ import math
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of, size_of
+from gruebler.cli.linkage_inputs import linkage_of_word, size_of
 from gruebler.cli.output import print_json
 from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError
@@ -98,7 +98,7 @@ def _path(arguments: argparse.Namespace, centre: float) -> tuple[Path, str, list
     if (size := size_of(arguments.linkage)) is not None:
         path = coupler_path(size, *coupler_point(size, arguments.point), branch=branch_sign(arguments.branch))
         return path, "mm", [turn if arc.full else (arc.start, arc.end) for arc in size.limits]
-    linkage, _ = linkage_of(arguments.linkage, language_of_names(arguments))
+    linkage, _ = linkage_of_word(arguments.linkage, language_of_names(arguments))
     span = drive_cycle(linkage, arguments.branch).span
     if not linkage.mechanism.drives[0].turning:
         raise GrueblerError("--straight needs a driven joint that turns")

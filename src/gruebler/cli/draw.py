@@ -10,7 +10,7 @@ import argparse
 import math
 import sys
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,18 +18,25 @@ from gruebler.catalog import entries
 from gruebler.chain import Chain
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
-from gruebler.cli.linkage_inputs import add_branch, add_curves, linkage_of, with_points
+from gruebler.cli.linkage_inputs import add_branch, add_curves, linkage_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops
+from gruebler.drawing.structure import (
+    draw_block,
+    draw_contracted,
+    draw_graph,
+    draw_loops,
+    draw_side_view,
+    draw_structure,
+)
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.formats.structures import is_structure_text
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
-from gruebler.text import joined_by_or, translate
+from gruebler.text import joined, translate
 
 __all__ = [
     "add",
@@ -46,6 +53,8 @@ _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
     "contracted": draw_contracted,
     "loops": draw_loops,
+    "side": draw_side_view,
+    "block": draw_block,
 }
 
 
@@ -61,7 +70,7 @@ def add(parser: Parser) -> None:
         description="Draw the structure of a chain or mechanism: links as bodies, joints by their symbols, the frame "
         "hatched, drives as arrows. Linkages, and catalog entries with --at, --curve, --show or --ghosts, are drawn to "
         "scale.",
-        epilog="Examples: gruebler draw planetary -o planetary.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
+        epilog="Examples: gruebler draw geartrain -o geartrain.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
         "poles. Without -o, the SVG is printed. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
     parser.add_argument(
@@ -118,6 +127,8 @@ def add(parser: Parser) -> None:
     view.add_argument("--graph", action="store_true", help="draw the link graph instead")
     view.add_argument("--contracted", action="store_true", help="draw the contracted graph instead")
     view.add_argument("--loops", action="store_true", help="draw the independent loops instead")
+    view.add_argument("--side", action="store_true", help="draw a gear train from the side, its axes as lines")
+    view.add_argument("--block", action="store_true", help="draw drive, mechanism and output as blocks instead")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -158,28 +169,57 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     moving = {key: getattr(arguments, key) for key in _OF_MOTION}
     view = next((_VIEWS[key] for key in _VIEWS if getattr(arguments, key)), None)
     asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
+    if view is draw_block:
+        asked = [option for option in asked if option != "--output"]
     if view is not None and asked:
         raise GrueblerError(
-            "{option} needs a drawing to scale and does not go with --graph, --contracted and --loops", option=asked[0]
+            "{option} needs a drawing to scale and does not go with --graph, --contracted, --loops, --side and --block",
+            option=asked[0],
         )
     if view is not None and arguments.labels:
-        raise GrueblerError("--labels does not go with --graph, --contracted and --loops, which always label the links")
-    if moving["output"] is not None and not set(moving["show"]) & set(_OF_A_LINK):
-        raise GrueblerError("--output needs --show {views}", views=joined_by_or(_OF_A_LINK))
+        raise GrueblerError(
+            "--labels does not go with --graph, --contracted, --loops, --side and --block, which always label the links"
+        )
+    if moving["output"] is not None and view is not draw_block and not set(moving["show"]) & set(_OF_A_LINK):
+        raise GrueblerError("--output needs --show {views} or --block", views=joined(_OF_A_LINK, ", "))
     has_sizes = _has_sizes(arguments.chain)
     if view is None and (has_sizes or asked):
         return _to_scale(arguments, moving)
     record = entry_of(arguments.chain, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
     if has_sizes:
-        thing: Chain | Mechanism = linkage_of(arguments.chain, arguments.lang)[0].mechanism
+        thing: Chain | Mechanism = linkage_of_word(arguments.chain, arguments.lang)[0].mechanism
     else:
         thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive, arguments.lang)
+    names = german(record, arguments.lang)
+    if view is draw_block:
+        return _block(thing, record, arguments, name, names)
     if view is not None:
         return view(thing, lang=arguments.lang, name=name)
-    names = german(record, arguments.lang)
     contacts = _contacts(record) if isinstance(thing, Mechanism) else None
-    return draw(thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names)
+    return draw_structure(
+        thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names
+    )
+
+
+def _block(
+    thing: Chain | Mechanism, record: Entry | None, arguments: argparse.Namespace, name: str, names: Mapping[str, str]
+) -> Figure:
+    """The block picture, with the output that is given, else that of the catalog entry or of the linkage."""
+    if isinstance(thing, Chain):
+        raise GrueblerError("--block needs a mechanism; give its frame by --frame LINK")
+    outputs: Sequence[str] = [] if record is None else record.outputs
+    if _has_sizes(arguments.chain):
+        outputs = linkage_of_word(arguments.chain, arguments.lang)[0].outputs
+    if arguments.output is not None:
+        if arguments.output not in thing.chain.links:
+            raise GrueblerError(
+                "--output {link!r}: expected a link among {links}",
+                link=arguments.output,
+                links=", ".join(thing.chain.links),
+            )
+        outputs = [arguments.output]
+    return draw_block(thing, outputs=outputs, lang=arguments.lang, name=name, names=names)
 
 
 def _contacts(record: Entry | None) -> Mapping[tuple[int, str], str] | None:
@@ -220,7 +260,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
 
 def linkage_and_range(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
-    linkage, shown = linkage_of(word, lang)
+    linkage, shown = linkage_of_word(word, lang)
     drives = linkage.mechanism.drives
     if shown is None or not drives or not drives[0].turning:
         return linkage, shown

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from gruebler.atomic_files import atomic_file
-from gruebler.cli.assortments import assortments
+from gruebler.cli.assortments import print_assortments
 from gruebler.cli.executors import add_executor, executor_of
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.long_work import run_progress, time_text
@@ -97,7 +97,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.assortments:
         arguments.written = ()
         with printed_to_file(arguments):
-            return assortments(arguments)
+            return print_assortments(arguments)
     if arguments.trains:
         return trains(arguments)
     request = Request(

@@ -161,12 +161,12 @@ def _sheet(arguments: argparse.Namespace) -> None:
     from gruebler.worksheets import document_bytes, task_sheet
 
     kinds = [word.strip() for word in arguments.kind.split(",") if word.strip()]
-    made = task_sheet(kinds, arguments.count, level=arguments.level, seed=arguments.seed, lang=arguments.lang)
+    sheet = task_sheet(kinds, arguments.count, level=arguments.level, seed=arguments.seed, lang=arguments.lang)
     path = arguments.out
     suffix = path.suffix.lower().removeprefix(".")
     beside = path.with_name(f"{path.stem}-{translate('solutions', arguments.lang)}{path.suffix}")
-    write_file(path, document_bytes(made.tasks, suffix), arguments.lang)
-    write_file(beside, document_bytes(made.solutions, suffix), arguments.lang)
+    write_file(path, document_bytes(sheet.tasks, suffix), arguments.lang)
+    write_file(beside, document_bytes(sheet.solutions, suffix), arguments.lang)
 
 
 def _list(arguments: argparse.Namespace) -> None:

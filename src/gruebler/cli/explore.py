@@ -69,13 +69,13 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         shared = read_link(word)
         return model_of(linkage_from_json(shared.document), name=shared.name, source=shared.source)
     if "(" in word and not Path(word).is_file():
-        from gruebler.explorer.structures import mechanism_of
+        from gruebler.explorer.structures import mechanism_of_text
         from gruebler.realisation.realise import realise
 
-        found = realise(mechanism_of(word))
-        if found.linkage is None:
-            raise GrueblerError("{message}", message=found.message(lang))
-        return model_of(found.linkage)
+        realisation = realise(mechanism_of_text(word))
+        if realisation.linkage is None:
+            raise GrueblerError("{message}", message=realisation.message(lang))
+        return model_of(realisation.linkage)
     linkage, between = linkage_and_range(word)
     record = entry_of(word)
     return model_of(

@@ -26,8 +26,7 @@ def add(parser: Parser) -> None:
         description="Add a dyad or a coupler to a chain: every different structure once, with the places where it "
         "can be added. With --derivation: how the chain is built from a closed loop by adding dyads, or the core "
         "that remains when no dyad can be removed.",
-        epilog="Examples: gruebler extend 'R(0-1) R(1-2) R(2-3) R(3-0)' --dyad; gruebler extend planetary "
-        "--derivation.",
+        epilog="Examples: gruebler extend 'R(0-1) R(1-2) R(2-3) R(3-0)' --dyad; gruebler extend wiper --derivation.",
     )
     parser.add_argument(
         "chain",

@@ -17,7 +17,7 @@ from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Item, Section, gallery_html
 from gruebler.drawing.canvas.files import suffix_of
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_side_view, draw_structure
 from gruebler.drawing.structure.messages import chain_name
 from gruebler.enumeration import Request, chains
 from gruebler.enumeration.estimates import estimate
@@ -62,6 +62,7 @@ def add(parser: Parser) -> None:
     parser.add_argument("--multiple-joints", metavar="K|any", help="as for gruebler enumerate (default: 0)")
     parser.add_argument("--inversions", action="store_true", help="each chain with every frame that makes a difference")
     parser.add_argument("--labels", action="store_true", help="label the links")
+    parser.add_argument("--side", action="store_true", help="draw gear trains from the side, their axes as lines")
     parser.add_out(help="the page: .html or .pdf", required=True)
 
 
@@ -69,6 +70,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
     suffix = suffix_of(arguments.out, ("html", "pdf"))
     lang = arguments.lang
+    if arguments.side and not arguments.ids:
+        raise GrueblerError("--side draws gear trains that are given, such as those of gruebler enumerate --trains")
     if arguments.poster is not None:
         title, note, sections = _poster(arguments)
     elif arguments.ids:
@@ -109,6 +112,8 @@ _USUAL = {"mobility": 1, "fractionated": "none", "multiple_joints": "0"}
 
 def _check(arguments: argparse.Namespace) -> None:
     """Options that only go with --links are refused beside given items."""
+    if arguments.side and arguments.labels:
+        raise GrueblerError("--labels does not go with --side, which always labels the links")
     for key in _OF_REQUESTS:
         if getattr(arguments, key) not in (None, False):
             option = f"--{key.replace('_', '-')}"
@@ -152,7 +157,10 @@ def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
         raise GrueblerError("number {number}, {word!r}: {error}", number=number, word=word[:40], error=error) from None
     name = chain_name(shown, arguments.lang) if isinstance(shown, Chain) else family(shown, arguments.lang)
     words = [str(number), name or "", *(translate("output {link}", arguments.lang, link=link) for link in outputs)]
-    figure = draw(shown, labels=arguments.labels, lang=arguments.lang, name=name or "")
+    if arguments.side:
+        figure = draw_side_view(shown, lang=arguments.lang, name=name or "")
+    else:
+        figure = draw_structure(shown, labels=arguments.labels, lang=arguments.lang, name=name or "")
     return Item(figure, "  ".join(filter(None, words)), code(shown) if isinstance(shown, Chain) else shown.code())
 
 
@@ -165,7 +173,11 @@ def _machine(id: str, arguments: argparse.Namespace) -> Item:
     record = entry(id)
     name = record.name.in_language(arguments.lang)
     names = german(record, arguments.lang)
-    figure = draw(subject(id, None, None, []), labels=arguments.labels, lang=arguments.lang, name=name, names=names)
+    shown = subject(id, None, None, [])
+    if arguments.side:
+        figure = draw_side_view(shown, lang=arguments.lang, name=name)
+    else:
+        figure = draw_structure(shown, labels=arguments.labels, lang=arguments.lang, name=name, names=names)
     return Item(figure, name, id)
 
 
@@ -183,14 +195,14 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
                 number=size,
                 most=_MOST,
             )
-    found = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
-    if len(found) > _MOST:
+    listed = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
+    if len(listed) > _MOST:
         raise GrueblerError(
             "more than {most:,} chains have the assortment {assortment}: too many for one page",
             most=_MOST,
             assortment=arguments.assortment,
         )
-    if not found:
+    if not listed:
         raise GrueblerError(
             "there are no such chains with {links} links and F = {mobility}",
             links=arguments.links,
@@ -198,7 +210,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         )
     sections = []
     pictures = 0
-    for (joints, _), group in groupby(sorted(enumerate(found, 1), key=_section_key), key=_section_key):
+    for (joints, _), group in groupby(sorted(enumerate(listed, 1), key=_section_key), key=_section_key):
         numbered = list(group)
         assortment = ", ".join(map(str, numbered[0][1].assortment))
         items = tuple(item for number, chain in numbered for item in _items(number, chain, arguments))
@@ -220,7 +232,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         links=arguments.links,
         mobility=mobility,
     )
-    note = translate("{chains} chains, {pictures} pictures.", lang, chains=len(found), pictures=pictures)
+    note = translate("{chains} chains, {pictures} pictures.", lang, chains=len(listed), pictures=pictures)
     return title, note, sections
 
 
@@ -237,10 +249,10 @@ def _large_first(chain: Chain) -> tuple[int, ...]:
 def _items(number: int, chain: Chain, arguments: argparse.Namespace) -> Iterator[Item]:
     if not arguments.inversions:
         name = chain_name(chain, arguments.lang)
-        figure = draw(chain, labels=arguments.labels, lang=arguments.lang, name=name)
+        figure = draw_structure(chain, labels=arguments.labels, lang=arguments.lang, name=name)
         yield Item(figure, f"{number}  {name}".strip(), code(chain))
         return
     for k, mechanism in enumerate(inversions(chain), 1):
         name = family(mechanism, arguments.lang) or ""
-        figure = draw(mechanism, labels=arguments.labels, lang=arguments.lang, name=name)
+        figure = draw_structure(mechanism, labels=arguments.labels, lang=arguments.lang, name=name)
         yield Item(figure, f"{number}.{k}  {name}".strip(), mechanism.code())

@@ -7,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table, print_text
@@ -84,18 +84,18 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.teeth not in (None, _DRAWN):
         raise GrueblerError("--teeth {range} goes with gears search; --teeth alone draws teeth", range=arguments.teeth)
     reading = _read(arguments.train)
-    found = speeds(reading.train, reading.drives)
+    solution = speeds(reading.train, reading.drives)
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
     possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
     _picture(arguments, reading)
     if arguments.json:
-        print_json(_document(reading, found, forces))
+        print_json(_document(reading, solution, forces))
     else:
         print_text(explain_train(reading, arguments.lang))
         if reading.drives:
             print()
-            _print_speeds(reading, found, forces, arguments.lang)
-    return int((bool(reading.drives) and not found.complete) or not possible)
+            _print_speeds(reading, solution, forces, arguments.lang)
+    return int((bool(reading.drives) and not solution.complete) or not possible)
 
 
 def _search(arguments: argparse.Namespace) -> int:
@@ -113,12 +113,14 @@ def _search(arguments: argparse.Namespace) -> int:
     )
     if arguments.json:
         keys = ("text", "driving", "driven", "held", "planets", "size")
-        print_json([{k: getattr(one, k) for k in keys} | {"ratio": _value(one.ratio)} for one in designs])
+        print_json([{k: getattr(design, k) for k in keys} | {"ratio": _value(design.ratio)} for design in designs])
         return int(not designs)
     if not designs:
         print_text(translate("No train with these tooth numbers can be assembled.", arguments.lang))
         return 1
-    rows: list[list[Cell]] = [[fraction_text(one.ratio, arguments.lang), str(one.size), one.text] for one in designs]
+    rows: list[list[Cell]] = [
+        [fraction_text(design.ratio, arguments.lang), str(design.size), design.text] for design in designs
+    ]
     header = (message("ratio"), message("diameter in modules"), message("train"))
     print_table(header, rows, numbers=(1,), lang=arguments.lang)
     return 0
@@ -139,7 +141,7 @@ def _picture(arguments: argparse.Namespace, reading: TrainReading) -> None:
 
     options = TrainPictureOptions(planets=reading.planets, teeth=arguments.teeth == _DRAWN, lang=arguments.lang)
     most = {"most": _FEW} if is_few(arguments) else {}
-    write_picture(
+    write_machine_picture(
         arguments,
         lambda: draw_train(reading.train, **options),
         lambda seconds: animate_train(reading.train, reading.drives, seconds=seconds, **most, **options),
@@ -163,12 +165,12 @@ def _driver(reading: TrainReading) -> str | None:
     return moving[0] if len(moving) == 1 else None
 
 
-def _print_speeds(reading: TrainReading, found: Speeds, forces: Balance | None, lang: str) -> None:
+def _print_speeds(reading: TrainReading, solution: Speeds, forces: Balance | None, lang: str) -> None:
     driver = _driver(reading)
     units = reading.train.units()
     torques, powers = (forces.torques, forces.powers) if forces else ({}, {})
     rows = []
-    for link, speed in found.values.items():
+    for link, speed in solution.values.items():
         ratio = speed / reading.drives[driver] if driver and speed is not None else None
         speed_text = "?" if speed is None else fraction_text(speed, lang)
         cells: list[Cell] = [_UNITS[units[link]].filled(link=link), speed_text]
@@ -182,15 +184,15 @@ def _print_speeds(reading: TrainReading, found: Speeds, forces: Balance | None, 
     print_table(chosen[0], chosen[1:], numbers=range(1, len(shown)), lang=lang)
 
 
-def _document(reading: TrainReading, found: Speeds, forces: Balance | None) -> dict[str, Any]:
+def _document(reading: TrainReading, solution: Speeds, forces: Balance | None) -> dict[str, Any]:
     train, units = reading.train, reading.train.units()
     document: dict[str, Any] = {
         "meshes": [str(mesh) for mesh in train.meshes],
         "mobility": train.mobility,
         "redundant": [str(mesh) for mesh in train.redundant],
-        "complete": found.complete,
+        "complete": solution.complete,
         "links": [
-            {"link": link, "unit": units[link].value, "speed": _value(found.values[link])} for link in train.links
+            {"link": link, "unit": units[link].value, "speed": _value(solution.values[link])} for link in train.links
         ],
         "contradictions": [
             {
@@ -198,29 +200,29 @@ def _document(reading: TrainReading, found: Speeds, forces: Balance | None) -> d
                 "wanted": _value(contradiction.wanted),
                 "follows": _value(contradiction.follows),
             }
-            for contradiction in found.contradictions
+            for contradiction in solution.contradictions
         ],
-        "spare": list(found.spare),
+        "spare": list(solution.spare),
     }
     if forces:
         document["torques"] = {link: _value(value) for link, value in forces.torques.items()}
         document["powers"] = {link: _value(value) for link, value in forces.powers.items()}
     document["axes"] = [
         {
-            "planet": one.planet,
-            "carrier": one.carrier,
-            "wheels": [mesh.b for mesh in one.meshes],
-            "coaxial": one.coaxial,
+            "planet": axis.planet,
+            "carrier": axis.carrier,
+            "wheels": [mesh.b for mesh in axis.meshes],
+            "coaxial": axis.coaxial,
         }
-        | {"distances_in_half_modules": [_value(distance) for distance in one.distances]}
-        for one in axes(train)
+        | {"distances_in_half_modules": [_value(distance) for distance in axis.distances]}
+        for axis in axes(train)
     ]
     if reading.planets:
         tested = [assembly(train, planet, count) for planet, count in reading.planets.items()]
         document["assembly"] = [
-            {name: getattr(one, name) for name in ("planet", "number", "coaxial", "evenly", "clear", "possible")}
-            | {"spacing_turns": _value(one.spacing)}
-            for one in tested
+            {name: getattr(axis, name) for name in ("planet", "number", "coaxial", "evenly", "clear", "possible")}
+            | {"spacing_turns": _value(axis.spacing)}
+            for axis in tested
         ]
     return document
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gruebler.cli.machine_pictures import add_picture_options, angle_of, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, angle_of, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
@@ -105,7 +105,7 @@ def _picture(arguments: argparse.Namespace, drive: Geneva) -> None:
     from gruebler.drawing.machines.geneva_picture import animate_geneva, draw_geneva
 
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
-    write_picture(
+    write_machine_picture(
         arguments,
         lambda: draw_geneva(drive, at or 0.0, plot=plot, lang=lang),
         lambda seconds: animate_geneva(drive, plot=plot, seconds=seconds, lang=lang),

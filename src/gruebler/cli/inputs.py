@@ -41,15 +41,15 @@ def _of_file(word: str, lang: str = "en") -> Linkage | SpatialLinkage | Chain | 
 
 def chain_from_word(word: str, space: str | None = None, lang: str = "en") -> Chain:
     """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
-    if (found := _of_file(word, lang)) is not None:
-        return found if isinstance(found, Chain) else found.mechanism.chain
+    if (value := _of_file(word, lang)) is not None:
+        return value if isinstance(value, Chain) else value.mechanism.chain
     return chain_of_text(word, space) if is_structure_text(word) else entry(word).in_language(lang).chain()
 
 
 def mechanism_of(word: str, frame: str | None, drives: Sequence[str], lang: str = "en") -> Mechanism:
     """The mechanism of a text or code with its marks, a linkage file, or an entry; frame and drives given here win."""
-    if (found := _of_file(word, lang)) is not None:
-        mechanism = Mechanism(found, found.links[0]) if isinstance(found, Chain) else found.mechanism
+    if (value := _of_file(word, lang)) is not None:
+        mechanism = Mechanism(value, value.links[0]) if isinstance(value, Chain) else value.mechanism
     elif not is_structure_text(word):
         record = entry(word).in_language(lang)
         chain = record.chain()
@@ -66,8 +66,8 @@ def outputs_of(word: str, lang: str = "en") -> tuple[str, ...]:
     """The output links that a text's mark, a linkage file or a catalog entry names."""
     if not is_structure_text(word) and is_of_another_program(Path(word)):
         return ()  # no other format has them
-    if (found := _of_file(word, lang)) is not None:
-        return found.outputs if isinstance(found, Linkage) else ()
+    if (value := _of_file(word, lang)) is not None:
+        return value.outputs if isinstance(value, Linkage) else ()
     if not is_structure_text(word):
         return entry(word).in_language(lang).outputs
     if is_code(word) or ";" not in word:

@@ -114,22 +114,22 @@ def _sized(word: str, arguments: argparse.Namespace) -> int:
                 "{option} lists mechanisms of a chain without lengths", option="--" + option.replace("_", "-")
             )
     if word.startswith(_DOUBLE_SLIDE):
-        made = double_slide_inversions(*_one_length(word.removeprefix(_DOUBLE_SLIDE)))
+        sized = double_slide_inversions(*_one_length(word.removeprefix(_DOUBLE_SLIDE)))
     else:
         size = size_of(word)
         assert size is not None  # is_lengths
-        made = sized_inversions(size)
+        sized = sized_inversions(size)
     lang, path = arguments.lang, arguments.out
     if path is not None and path.suffix.lower() in _PICTURES:
-        write_file(path, _page(word, made, path, lang), lang)
+        write_file(path, _page(word, sized, path, lang), lang)
     elif arguments.json:
-        items = [{"frame": each.frame, "drive": each.drive, "type": each.type.in_language(lang)} for each in made]
-        print_json({"count": len(made)} | ({} if arguments.count else {"items": items}))
+        items = [{"frame": each.frame, "drive": each.drive, "type": each.type.in_language(lang)} for each in sized]
+        print_json({"count": len(sized)} | ({} if arguments.count else {"items": items}))
     elif arguments.count:
-        print(len(made))
+        print(len(sized))
     else:
         headers = (message("frame"), message("drive"), message("mechanism"))
-        print_table(headers, [(each.frame, each.drive, each.type) for each in made], lang=lang)
+        print_table(headers, [(each.frame, each.drive, each.type) for each in sized], lang=lang)
     return 0
 
 
@@ -140,14 +140,14 @@ def _one_length(text: str) -> tuple[float]:
         raise GrueblerError("double-slide: expected a length, but found {text!r}", text=text) from None
 
 
-def _page(word: str, made: Sequence[SizedInversion], path: Path, lang: str) -> bytes:
+def _page(word: str, sized: Sequence[SizedInversion], path: Path, lang: str) -> bytes:
     """The mechanisms to scale, one picture for each frame, drives that give the same mechanism together."""
     from gruebler.drawing.canvas import gallery_html
     from gruebler.drawing.canvas.gallery import Item, Section
     from gruebler.drawing.linkage.picture import draw_linkage
 
     items = []
-    for each in made:
+    for each in sized:
         name = each.type.in_language(lang)
         caption = translate("frame {frame}, drive {drive}: {name}", lang, frame=each.frame, drive=each.drive, name=name)
         items.append(Item(draw_linkage(each.linkage, labels=True, lang=lang, name=name), caption))
@@ -163,12 +163,12 @@ def _page(word: str, made: Sequence[SizedInversion], path: Path, lang: str) -> b
 def item(driven: DrivenMechanism) -> dict[str, object]:
     """One item of a JSON list: code, text, and family and output if there are any."""
     mechanism = driven.mechanism
-    out: dict[str, object] = {"code": mechanism.code(), "text": driven.text()}
+    document: dict[str, object] = {"code": mechanism.code(), "text": driven.text()}
     if (name := family(mechanism)) is not None:
-        out["family"] = name
+        document["family"] = name
     if driven.output is not None:
-        out["output"] = driven.output
-    return out
+        document["output"] = driven.output
+    return document
 
 
 def _row(driven: DrivenMechanism, lang: str) -> dict[str, str]:

@@ -20,8 +20,8 @@ __all__ = [
     "add_curves",
     "add_linkage",
     "is_lengths",
-    "linkage_of",
     "linkage_of_lengths",
+    "linkage_of_word",
     "size_of",
     "value_of_another_program",
     "with_points",
@@ -99,7 +99,7 @@ def linkage_of_lengths(size: FourBar | SliderCrank | InvertedSliderCrank, lang: 
     return linkage.renamed({link: translate(link, lang) for link in linkage.mechanism.chain.links})
 
 
-def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
+def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which a catalog entry shows it.
 
     The links of lengths and of catalog entries have their names in the language.

@@ -16,7 +16,7 @@ from gruebler.drawing.canvas.moving_picture import MovingPicture
 from gruebler.errors import GrueblerError
 from gruebler.text import Message, message
 
-__all__ = ["add_picture_options", "angle_of", "is_few", "is_printed", "refuse_picture", "write_picture"]
+__all__ = ["add_picture_options", "angle_of", "is_few", "is_printed", "refuse_picture", "write_machine_picture"]
 
 _OPTIONS = ("at", "plot", "teeth", "animate", "seconds", "dark")
 _FEW = ("gif", "webp", "png")
@@ -56,7 +56,7 @@ def is_printed(path: Path | None) -> bool:
     return path is None or path.suffix.lower() in (".txt", ".json")
 
 
-def write_picture(
+def write_machine_picture(
     arguments: argparse.Namespace, still: Callable[[], Figure], moving: Callable[[float], MovingPicture]
 ) -> None:
     """Write the picture if a file is named; ``moving`` takes the seconds."""

@@ -129,13 +129,13 @@ class _Asked:
     @property
     def points(self) -> list[str]:
         """Those asked for, else all named ones."""
-        found = self.arguments.point or list(self.linkage.points)
-        if not found:
+        names = self.arguments.point or list(self.linkage.points)
+        if not names:
             joints = ", ".join(self.linkage.mechanism.chain.joint_names())
             raise GrueblerError(
                 "this linkage has no named points; name one of its joints with --point: {joints}", joints=joints
             )
-        return found
+        return names
 
 
 def _transfer(asked: _Asked) -> Figure:

@@ -59,32 +59,32 @@ def run(arguments: argparse.Namespace) -> int:
     return 0 if realisation.found else 1
 
 
-def _document(found: Realisation, lang: str) -> dict[str, object]:
-    out: dict[str, object] = {
-        "found": found.found,
-        "mechanism": found.mechanism.text(),
-        "message": found.message(lang),
-        "seed": found.seed,
-        "tries": found.tries,
+def _document(realisation: Realisation, lang: str) -> dict[str, object]:
+    document: dict[str, object] = {
+        "found": realisation.found,
+        "mechanism": realisation.mechanism.text(),
+        "message": realisation.message(lang),
+        "seed": realisation.seed,
+        "tries": realisation.tries,
     }
-    if found.linkage is not None:
-        out |= {
-            "full": found.full,
-            "quality": found.quality,
+    if realisation.linkage is not None:
+        document |= {
+            "full": realisation.full,
+            "quality": realisation.quality,
             "drives": [
                 {"joint": name}
-                | _range("range", found.span and found.span[:2], turns)
+                | _range("range", realisation.span and realisation.span[:2], turns)
                 | _range("well_conditioned", ends, turns)
                 for name, ends, turns in zip(
-                    found.mechanism.drive_names(),
-                    found.ranges,
-                    [drive.turning for drive in found.mechanism.drives],
+                    realisation.mechanism.drive_names(),
+                    realisation.ranges,
+                    [drive.turning for drive in realisation.mechanism.drives],
                     strict=True,
                 )
             ],
-            "linkage": linkage_to_json(found.linkage),
+            "linkage": linkage_to_json(realisation.linkage),
         }
-    return out
+    return document
 
 
 def _range(key: str, ends: tuple[float, float] | None, turns: bool) -> dict[str, object]:

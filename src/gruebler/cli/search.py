@@ -228,8 +228,8 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
     if arguments.limit is None and not arguments.where:
         ask_before(structures_time(query), arguments.yes)
-    found = structures(query, _atlas(arguments), arguments.where or "")
-    drivens = progress(found, _PROGRESS.in_language(arguments.lang) if quiet else "")
+    candidates = structures(query, _atlas(arguments), arguments.where or "")
+    drivens = progress(candidates, _PROGRESS.in_language(arguments.lang) if quiet else "")
     listed = drivens if arguments.limit is None else islice(drivens, arguments.limit)
     items: list[dict[str, object]] = []
     number = 0

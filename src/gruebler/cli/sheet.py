@@ -6,7 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING, Any
 
-from gruebler.cli.linkage_inputs import linkage_of, size_of
+from gruebler.cli.linkage_inputs import linkage_of_word, size_of
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
@@ -103,10 +103,10 @@ def _list(arguments: argparse.Namespace) -> None:
         print_table(_LIST, rows, lang=lang)
 
 
-def _draw(one: Sheet, arguments: argparse.Namespace) -> None:
+def _draw(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> None:
     from gruebler.sheets.layout import page
 
-    sheet_page = page(one, arguments.lang)
+    sheet_page = page(mechanism_sheet, arguments.lang)
     if arguments.out is not None and arguments.out.suffix.lower() in (".tex", ".md"):
         raise GrueblerError("this sheet has a page of its own: end the name with .svg, .html, .pdf or .png")
     if arguments.out is None:
@@ -127,7 +127,7 @@ def _draw_machine(arguments: argparse.Namespace) -> None:
     elif "(" in word:
         document = machine_document(Mechanism.parse(word), lang=lang)
     else:
-        linkage, between = linkage_of(word, lang)
+        linkage, between = linkage_of_word(word, lang)
         size = size_of(word)
         name = "" if size is None else size.type.name(lang)
         document = machine_document(linkage, between=between, lang=lang, name=name)
@@ -156,31 +156,31 @@ def _write(document: Document, arguments: argparse.Namespace) -> None:
 # --- show -------------------------------------------------------------------------------------------
 
 
-def _show(one: Sheet, arguments: argparse.Namespace) -> int:
+def _show(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> int:
     """Explain the sheet; status 1 if a value does not hold."""
     if arguments.json:
-        print_json(_item(one, arguments.lang))
+        print_json(_item(mechanism_sheet, arguments.lang))
     else:
-        _print(one, arguments.lang)
-    return int(bool(one.wrong))
+        _print(mechanism_sheet, arguments.lang)
+    return int(bool(mechanism_sheet.wrong))
 
 
-def _print(one: Sheet, lang: str) -> None:
-    title = f"{one.record.title.in_language(lang)} ({one.id})"
+def _print(mechanism_sheet: Sheet, lang: str) -> None:
+    title = f"{mechanism_sheet.record.title.in_language(lang)} ({mechanism_sheet.id})"
     print(title, "-" * len(title), sep="\n")
-    print(translate("Source: {source}", lang, source=one.record.source.in_language(lang)))
-    for task in one.record.tasks:
+    print(translate("Source: {source}", lang, source=mechanism_sheet.record.source.in_language(lang)))
+    for task in mechanism_sheet.record.tasks:
         print(f"- {task.in_language(lang)}")
     print()
-    for label, value in one.features.described(lang):
+    for label, value in mechanism_sheet.features.described(lang):
         print(f"{label}: {value}")
     print()
-    values = [*one.dimensions, *one.quantities, *one.example_values]
+    values = [*mechanism_sheet.dimensions, *mechanism_sheet.quantities, *mechanism_sheet.example_values]
     print_table(_VALUES, [_row(value, lang) for value in values], numbers=(3,), lang=lang)
-    for text in explanation_paragraphs(one, lang):
+    for text in explanation_paragraphs(mechanism_sheet, lang):
         print(f"\n{text}")
     print()
-    _print_size(one, one.example, one.record.guide.unit, lang)
+    _print_size(mechanism_sheet, mechanism_sheet.example, mechanism_sheet.record.guide.unit, lang)
 
 
 def _row(value: StatedValue, lang: str) -> tuple[Cell, ...]:
@@ -206,14 +206,14 @@ def _remark(value: StatedValue, lang: str) -> Cell:
     return joined(filter(None, [as_printed, value.remark.in_language(lang)]), "; ") if value.remark else as_printed
 
 
-def _item(one: Sheet, lang: str) -> dict[str, Any]:
-    features = one.features
+def _item(mechanism_sheet: Sheet, lang: str) -> dict[str, Any]:
+    features = mechanism_sheet.features
     return {
-        "id": one.id,
-        "title": one.record.title.in_language(lang),
-        "source": one.record.source.in_language("en"),
-        "tasks": [task.in_language(lang) for task in one.record.tasks],
-        "mechanism": str(one.linkage.mechanism),
+        "id": mechanism_sheet.id,
+        "title": mechanism_sheet.record.title.in_language(lang),
+        "source": mechanism_sheet.record.source.in_language("en"),
+        "tasks": [task.in_language(lang) for task in mechanism_sheet.record.tasks],
+        "mechanism": str(mechanism_sheet.linkage.mechanism),
         "features": {
             "drive_joints": features.drive_joints,
             "drive_joints_at_frame": features.drive_joints_at_frame,
@@ -224,16 +224,16 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
             "joints": features.joints,
             "joints_by_symbol": dict(features.by_symbol("german" if lang == "de" else "international")),
         },
-        "dimensions": [_value(value) for value in one.dimensions],
-        "quantities": [_value(value) for value in (*one.quantities, *one.example_values)],
-        "explanation": explanation_paragraphs(one, lang),
+        "dimensions": [_value(value) for value in mechanism_sheet.dimensions],
+        "quantities": [_value(value) for value in (*mechanism_sheet.quantities, *mechanism_sheet.example_values)],
+        "explanation": explanation_paragraphs(mechanism_sheet, lang),
         "diagram": {
-            "phi_G_deg": [math.degrees(angle) for angle in one.curve.widths],
-            "ratio": one.curve.ratios.tolist(),
-            "length": one.curve.lengths.tolist(),
+            "phi_G_deg": [math.degrees(angle) for angle in mechanism_sheet.curve.widths],
+            "ratio": mechanism_sheet.curve.ratios.tolist(),
+            "length": mechanism_sheet.curve.lengths.tolist(),
         },
-        "example": _sized_item(one.example, one.record.guide.unit),
-        "literature": list(one.record.literature),
+        "example": _sized_item(mechanism_sheet.example, mechanism_sheet.record.guide.unit),
+        "literature": list(mechanism_sheet.record.literature),
     }
 
 
@@ -251,7 +251,7 @@ def _value(value: StatedValue) -> dict[str, Any]:
 # --- size -------------------------------------------------------------------------------------------
 
 
-def _size(one: Sheet, arguments: argparse.Namespace) -> int:
+def _size(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> int:
     """All lengths for a task; status 1 if no piece of the path is so straight."""
     length, unit = length_of("--length", arguments.length)
     if arguments.ratio is None:
@@ -261,18 +261,18 @@ def _size(one: Sheet, arguments: argparse.Namespace) -> int:
     else:
         raise GrueblerError("--ratio: expected a number between 0 and 1, but found {ratio!r}", ratio=arguments.ratio)
     try:
-        sized = one.sized(length, tolerance)
+        sized = mechanism_sheet.sized(length, tolerance)
     except LinkageError as error:
         print(error_in_language(error, arguments.lang))
         return 1
     if arguments.json:
         print_json(_sized_item(sized, unit))
     else:
-        _print_size(one, sized, unit, arguments.lang)
+        _print_size(mechanism_sheet, sized, unit, arguments.lang)
     return 0
 
 
-def _print_size(one: Sheet, sized: SizedMechanism, unit: str, lang: str) -> None:
+def _print_size(mechanism_sheet: Sheet, sized: SizedMechanism, unit: str, lang: str) -> None:
     start, end = (math.degrees(angle) for angle in sized.sizing.piece[:2])
     unit, scale = f" {unit}" if unit else "", sized.lengths[0][0]
     print(
@@ -291,22 +291,22 @@ def _print_size(one: Sheet, sized: SizedMechanism, unit: str, lang: str) -> None
             factor=sized.ratio,
         )
     )
-    for (symbol, length), stated in zip(sized.lengths, one.dimensions, strict=True):
+    for (symbol, length), stated in zip(sized.lengths, mechanism_sheet.dimensions, strict=True):
         exact = stated.exact
         product = "" if exact is None or exact.text == "1" else f"{exact.typeset}·{scale} = "
         print(f"{symbol} = {product}{number(length, lang, '.4f')}{unit}")
 
 
-def _sized_item(found: SizedMechanism, unit: str) -> dict[str, Any]:
-    start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
+def _sized_item(sized: SizedMechanism, unit: str) -> dict[str, Any]:
+    start, end = (math.degrees(angle) for angle in sized.sizing.piece[:2])
     return {
-        "length": found.length,
-        "tolerance": found.tolerance,
+        "length": sized.length,
+        "tolerance": sized.tolerance,
         "unit": unit,
-        "ratio": found.sizing.piece.ratio,
+        "ratio": sized.sizing.piece.ratio,
         "phi_G_deg": end - start,
         "phi_A_deg": start,
         "phi_E_deg": end,
-        "length_by_scale": found.ratio,
-        "lengths": dict(found.lengths),
+        "length_by_scale": sized.ratio,
+        "lengths": dict(sized.lengths),
     }

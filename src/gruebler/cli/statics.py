@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of
+from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -82,7 +82,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """A table over the rows, or all forces of one row; 1 if it stops or is not held somewhere."""
-    linkage, shown_range = linkage_of(arguments.linkage, language_of_names(arguments))
+    linkage, shown_range = linkage_of_word(arguments.linkage, language_of_names(arguments))
     turning, lang = turning_drives(linkage), arguments.lang
     loads = _loads(arguments)
     if not (loads.forces or loads.moments or loads.masses):
@@ -125,12 +125,12 @@ def _loads(arguments: argparse.Namespace) -> Loads:
 
 def _added(option: str, given: Sequence[str], count: int) -> dict[Any, ArrayLike]:
     """What is given for each name; several times the same name add up."""
-    out: dict[Any, ArrayLike] = {}
+    totals: dict[Any, ArrayLike] = {}
     for text in given:
         name, numbers = _named(option, text, count)
         key = name if option == "--moment" else point_of(name)
-        out[key] = np.add(out.get(key, 0.0), numbers)
-    return out
+        totals[key] = np.add(totals.get(key, 0.0), numbers)
+    return totals
 
 
 def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float]:

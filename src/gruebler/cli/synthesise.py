@@ -253,7 +253,7 @@ def _task(arguments: argparse.Namespace) -> Task:
         return _function_task(arguments)
     task = read_task(arguments.task)
     if not isinstance(task, _TASKS[arguments.action]):
-        kind = next(name for name, made in _TASKS.items() if isinstance(task, made))
+        kind = next(name for name, kind_of_task in _TASKS.items() if isinstance(task, kind_of_task))
         raise SynthesisError("{task}: this is a task for 'synthesise {kind}'", task=arguments.task, kind=kind)
     if isinstance(task, PathTask):
         return replace(task, closed=task.closed or arguments.closed)
@@ -429,27 +429,27 @@ def _check_picture(path: Path) -> None:
         raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
-def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
+def _draw(path: Path, result: SynthesisResult, lang: str) -> None:
     """The best designs side by side, or all on a page."""
     from gruebler.synthesis.pictures import designs_figure, designs_page
 
     suffix = suffix_of(path, (*SUFFIXES, "html"))
     if suffix == "html":
-        content = designs_page(found, lang=lang).encode("utf-8")
+        content = designs_page(result, lang=lang).encode("utf-8")
     else:
-        content = picture_bytes(designs_figure(found, lang=lang), suffix)
+        content = picture_bytes(designs_figure(result, lang=lang), suffix)
     write_file(path, content, lang)
 
 
-def _minimax(found: SynthesisResult) -> Minimax:
+def _minimax(result: SynthesisResult) -> Minimax:
     """The best minimax optimum from any four-bar or slider-crank of the list."""
     from gruebler.synthesis.structural_error import coordination_of, minimax
 
-    task = found.task
+    task = result.task
     if not isinstance(task, FunctionTask) or task.law is None:
         raise SynthesisError("--minimax needs the function as an expression")
     best: Minimax | None = None
-    for design in found.designs:
+    for design in result.designs:
         start = coordination_of(design, task, task.law)
         if start is None:
             continue

@@ -95,25 +95,23 @@ def run(arguments: argparse.Namespace) -> int:
         return _count_sliding(wanted, arguments)
     if arguments.prismatic == "any":
         raise GrueblerError("--prismatic any goes with --count and with --links, --mobility and --multiple-joints only")
-    if arguments.jobs != 1 or arguments.scheduler is not None:
-        raise GrueblerError("--jobs and --scheduler go with --count and --prismatic, and no other kinds of joints")
     seconds = expected_seconds_of_variants(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
-    ask_before(seconds, arguments.yes)
+    ask_before(seconds / max(1, arguments.jobs), arguments.yes)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
     words = message("{n} found, {seconds:.0f} s").in_language(arguments.lang) if quiet else ""
-    found = progress(variants(wanted), words)
+    candidates = progress(variants(wanted, executor=executor_of(arguments)), words)
     if arguments.count:
-        count = sum(1 for _ in found)
+        count = sum(1 for _ in candidates)
         if arguments.json:
             print_json({"count": count}, indent=None)
         else:
             print(count)
     elif arguments.json:
-        items = [_item(each) for each in found]
+        items = [_item(each) for each in candidates]
         print_json({"count": len(items), "items": items})
     else:
         count = 0
-        for count, each in enumerate(found, 1):  # noqa: B007  the last count is printed
+        for count, each in enumerate(candidates, 1):  # noqa: B007  the last count is printed
             print(each)
         print(translate("{count} found.", arguments.lang, count=count), file=sys.stderr)
     return 0

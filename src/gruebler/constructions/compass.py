@@ -58,25 +58,25 @@ def meet_left(centre: complex, radius: float, other: complex, other_radius: floa
     return centre + line / d * complex(x, math.sqrt(max(height, 0.0)))
 
 
-def lines_meet(at: complex, way: complex, other: complex, other_way: complex) -> complex:
+def lines_meet(at: complex, direction: complex, other: complex, other_direction: complex) -> complex:
     """Where the lines through two places in given directions meet; `LinkageError` if they are parallel.
 
     >>> lines_meet(0j, 1 + 1j, 4 + 0j, -1 + 1j)
     (2+2j)
     """
-    sine = (way.conjugate() * other_way).imag
-    if abs(sine) <= _PARALLEL * abs(way) * abs(other_way):
+    sine = (direction.conjugate() * other_direction).imag
+    if abs(sine) <= _PARALLEL * abs(direction) * abs(other_direction):
         raise LinkageError("two lines of the construction are parallel: their point lies at infinity")
-    return at + way * ((other - at).conjugate() * other_way).imag / sine
+    return at + direction * ((other - at).conjugate() * other_direction).imag / sine
 
 
-def line_meets_circle(at: complex, way: complex, centre: complex, radius: float) -> tuple[complex, complex]:
+def line_meets_circle(at: complex, direction: complex, centre: complex, radius: float) -> tuple[complex, complex]:
     """Where a line meets a circle, in the order of its direction; `LinkageError` if it does not.
 
     >>> line_meets_circle(-9 + 3j, 1 + 0j, 0j, 5)
     ((-4+3j), (4+3j))
     """
-    unit = way / abs(way)
+    unit = direction / abs(direction)
     local = (centre - at) / unit
     half = radius**2 - local.imag**2
     if half < -1e-12 * radius**2:
@@ -99,9 +99,9 @@ def circle_through(a: complex, b: complex, c: complex) -> complex:
     return lines_meet((a + b) / 2, 1j * (b - a), (b + c) / 2, 1j * (c - b))
 
 
-def mirrored(z: complex, at: complex, way: complex) -> complex:
+def mirrored(z: complex, at: complex, direction: complex) -> complex:
     """The mirror image in the line through a place."""
-    return at + way / way.conjugate() * (z - at).conjugate()
+    return at + direction / direction.conjugate() * (z - at).conjugate()
 
 
 def parallel(z: complex, begin: complex, end: complex) -> complex:

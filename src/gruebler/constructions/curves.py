@@ -16,7 +16,7 @@ from gruebler.constructions.compass import (
     mirrored,
 )
 from gruebler.constructions.plans import four_bar_given
-from gruebler.drawing.canvas.construction import Angle, Circle, Construction, Curve, Dot, Line, Segment
+from gruebler.drawing.canvas.construction import Angle, Construction, Dot, DrawnCircle, DrawnCurve, DrawnLine, Segment
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar
 from gruebler.text import message
@@ -67,14 +67,14 @@ def coupler_curve_by_points(
     )
     board.step(
         message("The crank's circle is divided into {count} parts: the positions 0, 1, 2, … of A.", count=count),
-        Circle(a0, a, "curve-rest"),
+        DrawnCircle(a0, a, "curve-rest"),
         *(Dot(pin, str(k)) for k, pin in enumerate(pins)),
     )
     board.step(
         message(
             "Arcs about the positions of A with b cut the circle about B₀ with c: the positions of B, numbered alike."
         ),
-        Circle(b0, c),
+        DrawnCircle(b0, c),
         *(Dot(joint, str(k)) for k, joint in enumerate(joints)),
     )
     points = [_coupler_point(pin, joint, u, v) for pin, joint in zip(pins, joints, strict=True)]
@@ -86,7 +86,7 @@ def coupler_curve_by_points(
     )
     fine = [cmath.rect(a, 2 * pi * k / _FINE) for k in range(_FINE + 1)]
     path = tuple(_coupler_point(pin, meet_left(pin, b, b0, c), u, v) for pin in fine)
-    board.step(message("The curve through the points is the coupler curve of K."), Curve(path))
+    board.step(message("The curve through the points is the coupler curve of K."), DrawnCurve(path))
     values = {f"x{k}": point.real for k, point in enumerate(points)}
     return board.done(**values, **{f"y{k}": point.imag for k, point in enumerate(points)})
 
@@ -94,24 +94,24 @@ def coupler_curve_by_points(
 def _third_proportional(board: Board, name: str, at: complex, pole: complex, centre: complex) -> complex:
     """The point J of a ray with AJ · AA0 = AP², on the side of A0, by two parallels."""
     unit = (centre - at) / abs(centre - at)
-    way = unit * _HELPER
-    carried = at + abs(pole - at) * way
-    cut = lines_meet(at, way, pole, centre - carried)
-    found = at + abs(cut - at) * unit
+    helper = unit * _HELPER
+    carried = at + abs(pole - at) * helper
+    cut = lines_meet(at, helper, pole, centre - carried)
+    third = at + abs(cut - at) * unit
     board.step(
         message(
             "Euler and Savary: {name}J · {name}{name}₀ = {name}P². On a line through {name} the length {name}P is laid "
             "off; the parallel through P to the line from its end to {name}₀ cuts off {name}J = {length:.4g}, which is "
             "carried to the polar ray, towards {name}₀.",
             name=name,
-            length=abs(found - at),
+            length=abs(third - at),
         ),
-        Line(at, way),
+        DrawnLine(at, helper),
         Segment(carried, centre),
         Segment(pole, cut),
-        Dot(found, f"J_{name}"),
+        Dot(third, f"J_{name}"),
     )
-    return found
+    return third
 
 
 def _polar_rays(board: Board, pins: tuple[complex, complex, complex, complex]) -> complex:
@@ -119,8 +119,8 @@ def _polar_rays(board: Board, pins: tuple[complex, complex, complex, complex]) -
     pole = lines_meet(a0, pin - a0, b0, joint - b0)
     board.step(
         message("The polar rays A₀A and B₀B meet in the velocity pole P."),
-        Line(a0, pin - a0),
-        Line(b0, joint - b0),
+        DrawnLine(a0, pin - a0),
+        DrawnLine(b0, joint - b0),
         Dot(pole, "P"),
     )
     return pole
@@ -150,9 +150,9 @@ def inflection_circle(
             "inflection pole W; the pole normal n is PW, the pole tangent t is perpendicular to it.",
             diameter=2 * abs(middle - pole),
         ),
-        Circle(middle, abs(middle - pole), "inflection"),
-        Line(pole, middle - pole, "dead"),
-        Line(pole, 1j * (middle - pole), "dead"),
+        DrawnCircle(middle, abs(middle - pole), "inflection"),
+        DrawnLine(pole, middle - pole, "dead"),
+        DrawnLine(pole, 1j * (middle - pole), "dead"),
         Dot(top, "W"),
         Dot(pole + 0.8 * 1j * (middle - pole), "t"),
         Dot(pole + 2.5 * (middle - pole), "n"),
@@ -161,9 +161,9 @@ def inflection_circle(
     ends = line_meets_circle(pole, point - pole, middle, abs(middle - pole))
     inflection = max(ends, key=lambda z: abs(z - pole))
     unit = (inflection - point) / abs(inflection - point)
-    way = unit * _HELPER
-    carried = point + abs(pole - point) * way
-    cut = lines_meet(point, way, pole, inflection - carried)
+    helper = unit * _HELPER
+    carried = point + abs(pole - point) * helper
+    cut = lines_meet(point, helper, pole, inflection - carried)
     centre = point + abs(cut - point) * unit
     board.step(
         message(
@@ -173,7 +173,7 @@ def inflection_circle(
         ),
         Segment(pin, point, "edge"),
         Segment(joint, point, "edge"),
-        Line(pole, point - pole),
+        DrawnLine(pole, point - pole),
         Segment(carried, inflection),
         Segment(pole, cut),
         Dot(point, "K"),
@@ -209,10 +209,10 @@ def bobillier(
     axis = relative - pole
     board.step(
         message("A₀B₀ and AB meet in Q. The line PQ is the collineation axis of the pair of rays."),
-        Line(a0, b0 - a0),
-        Line(pin, joint - pin),
+        DrawnLine(a0, b0 - a0),
+        DrawnLine(pin, joint - pin),
         Dot(relative, "Q"),
-        Line(pole, axis, "line-6"),
+        DrawnLine(pole, axis, "line-6"),
     )
     ray_a, ray_b = pin - pole, joint - pole
     tangent = ray_a * ray_b / axis
@@ -227,7 +227,7 @@ def bobillier(
         ),
         Angle(pole, cmath.phase(axis), cmath.phase(ray_b / axis), radius=60),
         Angle(pole, cmath.phase(ray_a), cmath.phase(tangent / ray_a), radius=60),
-        Line(pole, tangent, "inflection"),
+        DrawnLine(pole, tangent, "inflection"),
         Dot(pole + size * tangent, "t"),
     )
     point = _coupler_point(pin, joint, u, v)
@@ -244,10 +244,10 @@ def bobillier(
         ),
         Segment(pin, point, "edge"),
         Segment(joint, point, "edge"),
-        Line(pole, ray_k),
-        Line(pole, second_axis),
-        Line(pin, point - pin),
-        Line(a0, crossing - a0),
+        DrawnLine(pole, ray_k),
+        DrawnLine(pole, second_axis),
+        DrawnLine(pin, point - pin),
+        DrawnLine(a0, crossing - a0),
         Dot(point, "K"),
         Dot(crossing, "Q_K"),
         Dot(centre, "K₀"),
@@ -332,9 +332,9 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
             D=D,
             ratio=ratio,
         ),
-        Line(pole, 1 + 0j, "dead"),
-        Line(pole, 1j, "dead"),
-        Circle(complex(0, D / 2), D / 2, "inflection"),
+        DrawnLine(pole, 1 + 0j, "dead"),
+        DrawnLine(pole, 1j, "dead"),
+        DrawnCircle(complex(0, D / 2), D / 2, "inflection"),
         Dot(pole, "P"),
         Dot(top, "K"),
         Dot(complex(0.9 * D, 0), "t"),
@@ -349,8 +349,8 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
             "with t.",
             phi=degrees_between(cut - pole, -1 + 0j),
         ),
-        Line(height, 1 + 0j),
-        Line(pole, cut),
+        DrawnLine(height, 1 + 0j),
+        DrawnLine(pole, cut),
         Dot(cut, "J"),
         Segment(cut, top),
         Angle(pole, pi, -radians(degrees_between(cut, -1 + 0j)), "φ₀", 36),
@@ -360,17 +360,17 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
     joint = mirrored(pin, pole, 1j)
     board.step(
         message("The coupler line lies at λD from t. It meets the ray in A, and the mirrored ray in B."),
-        Line(level, 1 + 0j),
-        Line(pole, mirrored(cut, pole, 1j)),
+        DrawnLine(level, 1 + 0j),
+        DrawnLine(pole, mirrored(cut, pole, 1j)),
         Dot(pin, "A"),
         Dot(joint, "B"),
         Segment(pin, joint, "edge"),
     )
     # AJ · AA0 = AP²: A0 from A through J.
     unit = (cut - pin) / abs(cut - pin)
-    way = unit * _HELPER
-    carried = pin + abs(pole - pin) * way
-    third = lines_meet(pin, way, pole, cut - carried)
+    helper = unit * _HELPER
+    carried = pin + abs(pole - pin) * helper
+    third = lines_meet(pin, helper, pole, cut - carried)
     a0 = along(pin, pin + unit, abs(third - pin))
     b0 = mirrored(a0, pole, 1j)
     board.step(
@@ -379,7 +379,7 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
             "on "
             "the auxiliary line cuts off AA₀, which is carried to the ray, from A through J."
         ),
-        Line(pin, way),
+        DrawnLine(pin, helper),
         Segment(carried, cut),
         Segment(pole, third),
         Dot(a0, "A₀"),

@@ -13,7 +13,7 @@ from gruebler.constructions.compass import (
     meet_left,
     turned_angle,
 )
-from gruebler.drawing.canvas.construction import Angle, Circle, Construction, Dot, Line, Segment, quantity
+from gruebler.drawing.canvas.construction import Angle, Construction, Dot, DrawnCircle, DrawnLine, Segment, quantity
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.text import message
@@ -42,7 +42,7 @@ def _crank_rocker_given(board: Board, a: float, b: float, c: float, d: float) ->
         Dot(a0, "A₀"),
         Dot(b0, "B₀"),
         Segment(a0, b0, "given"),
-        Circle(a0, a, "curve-rest"),
+        DrawnCircle(a0, a, "curve-rest"),
     )
     return a0, b0
 
@@ -56,7 +56,8 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
     board = Board(message("Dead centres of a crank-rocker"))
     a0, b0 = _crank_rocker_given(board, a, b, c, d)
     board.step(
-        message("The pin B of the rocker moves on the circle about B₀ with the radius c = {c:g}.", c=c), Circle(b0, c)
+        message("The pin B of the rocker moves on the circle about B₀ with the radius c = {c:g}.", c=c),
+        DrawnCircle(b0, c),
     )
     outer = meet_left(a0, b + a, b0, c)
     board.step(
@@ -65,7 +66,7 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
             "meets the circle of the rocker in B_a.",
             sum=a + b,
         ),
-        Circle(a0, b + a),
+        DrawnCircle(a0, b + a),
         Dot(outer, "B_a"),
     )
     inner = meet_left(a0, b - a, b0, c)
@@ -75,7 +76,7 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
             "it in B_i.",
             rest=b - a,
         ),
-        Circle(a0, b - a),
+        DrawnCircle(a0, b - a),
         Dot(inner, "B_i"),
     )
     pin_outer = along(a0, outer, a)
@@ -131,7 +132,7 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
             e=abs(e),
         ),
         Dot(a0, "A₀"),
-        Circle(a0, a, "curve-rest"),
+        DrawnCircle(a0, a, "curve-rest"),
         Segment(complex(-a, e), complex(a + b + 0.2 * a, e), "given"),
         *([Segment(a0, rail, "help", quantity("e", abs(e)))] if e else []),
     )
@@ -142,7 +143,7 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
             "meets the line in T_a.",
             sum=a + b,
         ),
-        Circle(a0, b + a),
+        DrawnCircle(a0, b + a),
         Dot(outer, "T_a"),
     )
     _, inner = line_meets_circle(rail, 1 + 0j, a0, b - a)
@@ -152,7 +153,7 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
             "it in T_i.",
             rest=b - a,
         ),
-        Circle(a0, b - a),
+        DrawnCircle(a0, b - a),
         Dot(inner, "T_i"),
     )
     pin_outer, pin_inner = along(a0, outer, a), along(a0, inner, -a)
@@ -220,8 +221,8 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
                 name=name,
                 angle=degrees(abs(mu)),
             ),
-            Circle(pin, b),
-            Circle(b0, c),
+            DrawnCircle(pin, b),
+            DrawnCircle(b0, c),
             Segment(pin, joint, "edge" if k == 0 else "ghost"),
             Segment(joint, b0, "edge" if k == 0 else "ghost"),
             Dot(joint, f"B_{name}"),
@@ -253,7 +254,7 @@ def transmission_of_slider_crank(a: float = 30, b: float = 50, e: float = 10) ->
             e=abs(e),
         ),
         Dot(a0, "A₀"),
-        Circle(a0, a, "curve-rest"),
+        DrawnCircle(a0, a, "curve-rest"),
         Segment(complex(-a, e), complex(a + b, e), "given"),
     )
     pin = complex(0, -a if e >= 0 else a)
@@ -265,14 +266,14 @@ def transmission_of_slider_crank(a: float = 30, b: float = 50, e: float = 10) ->
         ),
         Segment(a0, pin, "edge"),
         Dot(pin, "A"),
-        Line(a0, 1j),
+        DrawnLine(a0, 1j),
     )
     _, joint = line_meets_circle(rail, 1 + 0j, pin, b)
     normal = complex(0, (pin - rail).imag)
     mu = turned_angle(pin - joint, normal)
     board.step(
         message("The circle about A with b meets the line in B."),
-        Circle(pin, b),
+        DrawnCircle(pin, b),
         Segment(pin, joint, "edge"),
         Dot(joint, "B"),
         Segment(joint, joint + 0.8 * normal, "dead"),
@@ -308,7 +309,7 @@ def central_crank_rocker(a: float = 30, b: float = 75, c: float = 60) -> Constru
             c=c,
         ),
         Dot(a0, "A₀"),
-        Circle(a0, a, "curve-rest"),
+        DrawnCircle(a0, a, "curve-rest"),
         Segment(a0, complex(1.1 * (a + b)), "dead"),
     )
     board.step(
@@ -317,16 +318,16 @@ def central_crank_rocker(a: float = 30, b: float = 75, c: float = 60) -> Constru
             inner=b - a,
             outer=b + a,
         ),
-        Circle(a0, b - a),
-        Circle(a0, b + a),
+        DrawnCircle(a0, b - a),
+        DrawnCircle(a0, b + a),
         Dot(inner, "B_i"),
         Dot(outer, "B_a"),
     )
     pivot = meet_left(outer, c, inner, c)
     board.step(
         message("The circles about B_i and B_a with the radius c = {c:g} meet in B₀.", c=c),
-        Circle(inner, c),
-        Circle(outer, c),
+        DrawnCircle(inner, c),
+        DrawnCircle(outer, c),
         Segment(inner, pivot, "ghost"),
         Segment(outer, pivot, "edge"),
         Dot(pivot, "B₀"),

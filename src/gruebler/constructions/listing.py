@@ -26,12 +26,16 @@ from gruebler.constructions.machines import cam_profile, geneva_drive
 from gruebler.constructions.plans import (
     accelerations_of_four_bar,
     accelerations_of_inverted_slider_crank,
+    accelerations_of_scotch_yoke,
     accelerations_of_slider_crank,
+    accelerations_of_tangent_mechanism,
     instant_centres_of_four_bar,
     instant_centres_of_slider_crank,
     velocities_of_four_bar,
     velocities_of_inverted_slider_crank,
+    velocities_of_scotch_yoke,
     velocities_of_slider_crank,
+    velocities_of_tangent_mechanism,
 )
 from gruebler.constructions.positions import three_positions, two_positions
 from gruebler.drawing.canvas.construction import Construction
@@ -63,6 +67,7 @@ def alt(swing: float = 60, crank_angle: float = 200) -> Construction:
 
 
 _FOUR, _SLIDER, _INVERTED = "four-bar", "slider-crank", "inverted-slider-crank"
+_YOKE, _TANGENT = "scotch-yoke", "tangent-mechanism"
 _ROWS = (
     ConstructionRow(
         "dead-centres",
@@ -97,6 +102,8 @@ _ROWS = (
             _FOUR: velocities_of_four_bar,
             _SLIDER: velocities_of_slider_crank,
             _INVERTED: velocities_of_inverted_slider_crank,
+            _YOKE: velocities_of_scotch_yoke,
+            _TANGENT: velocities_of_tangent_mechanism,
         },
     ),
     ConstructionRow(
@@ -107,6 +114,8 @@ _ROWS = (
             _FOUR: accelerations_of_four_bar,
             _SLIDER: accelerations_of_slider_crank,
             _INVERTED: accelerations_of_inverted_slider_crank,
+            _YOKE: accelerations_of_scotch_yoke,
+            _TANGENT: accelerations_of_tangent_mechanism,
         },
     ),
     ConstructionRow(

@@ -9,7 +9,16 @@ import numpy as np
 
 from gruebler.cams import CamError, read_lift
 from gruebler.constructions.compass import Board, degrees_between, lines_meet
-from gruebler.drawing.canvas.construction import Angle, Circle, Construction, Curve, Dot, Line, Segment, quantity
+from gruebler.drawing.canvas.construction import (
+    Angle,
+    Construction,
+    Dot,
+    DrawnCircle,
+    DrawnCurve,
+    DrawnLine,
+    Segment,
+    quantity,
+)
 from gruebler.geneva import Geneva, GenevaError
 from gruebler.text import message
 
@@ -34,18 +43,18 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
         Dot(wheel, "O₂"),
         Segment(driver, wheel, "dead"),
     )
-    way = cmath.rect(1.0, pi - pi / count)
+    direction = cmath.rect(1.0, pi - pi / count)
     board.step(
         message(
             "The slot that the pin enters makes half a step with the line of the axes, 180°/{slots} = {angle:g}°.",
             slots=count,
             angle=180 / count,
         ),
-        Line(wheel, way),
-        Line(wheel, way.conjugate()),
+        DrawnLine(wheel, direction),
+        DrawnLine(wheel, direction.conjugate()),
         Angle(wheel, pi, -pi / count, quantity("ψ₀", 180 / count, "°"), 44),
     )
-    pin = lines_meet(driver, 1j * way, wheel, way)
+    pin = lines_meet(driver, 1j * direction, wheel, direction)
     crank = abs(pin - driver)
     board.step(
         message(
@@ -58,8 +67,8 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
         Segment(driver, pin, "edge", quantity("r₁", crank)),
         Segment(pin, wheel, "help", quantity("r₂", abs(pin - wheel))),
         Dot(pin, "A"),
-        Circle(driver, crank, "curve-rest"),
-        Circle(wheel, abs(pin - wheel), "curve-rest"),
+        DrawnCircle(driver, crank, "curve-rest"),
+        DrawnCircle(wheel, abs(pin - wheel), "curve-rest"),
     )
     deepest = abs(wheel - crank)
     board.step(
@@ -70,7 +79,7 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
             deep=deepest,
             step=360 / count,
         ),
-        Circle(wheel, deepest),
+        DrawnCircle(wheel, deepest),
         *(
             Segment(
                 wheel + cmath.rect(deepest, pi - pi / count + tau * k / count),
@@ -120,11 +129,11 @@ def cam_profile(
             base=base,
             roller=roller,
         ),
-        Curve(tuple(low + complex(wide * x, s) for x, s in zip(fine.tolist(), values.tolist(), strict=True))),
+        DrawnCurve(tuple(low + complex(wide * x, s) for x, s in zip(fine.tolist(), values.tolist(), strict=True))),
         Segment(low, low + wide * tau, "axis"),
         Segment(low, low + 1j * (height + least), "axis", "s"),
         Dot(0j, "O"),
-        Circle(0j, base, "curve-rest"),
+        DrawnCircle(0j, base, "curve-rest"),
     )
     angles = [tau * k / count for k in range(count)]
     lifts = [float(law.at(x)) for x in angles]
@@ -142,25 +151,25 @@ def cam_profile(
             "roller, on the pitch curve."
         ),
         *(Dot(z) for z in centres),
-        Curve(
+        DrawnCurve(
             tuple(cmath.rect(start + s, pi / 2 - x) for x, s in zip(fine.tolist(), values.tolist(), strict=True)),
             "dead",
         ),
     )
     board.step(
         message("Circles of the roller about these centres."),
-        *(Circle(z, roller, "ghost") for z in centres),
+        *(DrawnCircle(z, roller, "ghost") for z in centres),
     )
     slope = law.at(fine, 1)
     along = np.exp(1j * (pi / 2 - fine))
     pitch = (start + values) * along
-    way = (slope - 1j * (start + values)) * along
-    inward = -1j * way / np.abs(way)
+    tangent = (slope - 1j * (start + values)) * along
+    inward = -1j * tangent / np.abs(tangent)
     inward = np.where((inward / along).real < 0, inward, -inward)
     profile = pitch + roller * inward
     board.step(
         message("The curve that touches all of them inside is the profile of the cam."),
-        Curve(tuple(complex(z) for z in profile), "given"),
+        DrawnCurve(tuple(complex(z) for z in profile), "given"),
     )
     measured = {f"r{k}": abs(z) for k, z in enumerate(centres)}
     places = profile[:: 720 // count][:count]

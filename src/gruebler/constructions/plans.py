@@ -2,6 +2,8 @@
 
 The arrows of a polygon are to scale: its title says what length stands for how much. The polygon of accelerations
 begins with the parts that are known, a = v²/r towards the centre and, on a lever, 2 ω v_rel across it (Coriolis).
+There is one linkage for each kind of dyad that a crank or lever drives: RRR the four-bar, RRP the slider-crank, RPR the
+inverted slider-crank, RPP the Scotch yoke, PRP the tangent mechanism.
 """
 
 from __future__ import annotations
@@ -10,19 +12,24 @@ import cmath
 from math import radians
 
 from gruebler.constructions.compass import Board, line_meets_circle, lines_meet, meet_left
-from gruebler.drawing.canvas.construction import Arrow, Construction, Dot, Line, Segment
+from gruebler.drawing.canvas.construction import Arrow, Construction, Dot, DrawnLine, Segment
+from gruebler.errors import LinkageError
 from gruebler.text import message
 
 __all__ = [
     "accelerations_of_four_bar",
     "accelerations_of_inverted_slider_crank",
+    "accelerations_of_scotch_yoke",
     "accelerations_of_slider_crank",
+    "accelerations_of_tangent_mechanism",
     "four_bar_given",
     "instant_centres_of_four_bar",
     "instant_centres_of_slider_crank",
     "velocities_of_four_bar",
     "velocities_of_inverted_slider_crank",
+    "velocities_of_scotch_yoke",
     "velocities_of_slider_crank",
+    "velocities_of_tangent_mechanism",
 ]
 
 _LONG = 1.1  # of the linkage: the longest known arrow of a polygon
@@ -130,8 +137,8 @@ def instant_centres_of_four_bar(
     )
     board.step(
         message("P₁₃ lies on one line with P₁₂ and P₂₃, the polar ray of A, and on one with P₁₄ and P₃₄, that of B."),
-        Line(a0, pin - a0),
-        Line(b0, joint - b0),
+        DrawnLine(a0, pin - a0),
+        DrawnLine(b0, joint - b0),
     )
     pole = lines_meet(a0, pin - a0, b0, joint - b0)
     board.step(
@@ -153,8 +160,8 @@ def instant_centres_of_four_bar(
             x=relative.real,
             ratio=ratio,
         ),
-        Line(a0, b0 - a0),
-        Line(pin, joint - pin),
+        DrawnLine(a0, b0 - a0),
+        DrawnLine(pin, joint - pin),
         Dot(relative, "P₂₄"),
     )
     return board.done(x13=pole.real, y13=pole.imag, x24=relative.real, ratio=ratio)
@@ -172,7 +179,7 @@ def instant_centres_of_slider_crank(a: float = 20, b: float = 50, e: float = 0, 
         Dot(a0, "P₁₂"),
         Dot(pin, "P₂₃"),
         Dot(joint, "P₃₄"),
-        Line(joint, 1j, "dead"),
+        DrawnLine(joint, 1j, "dead"),
     )
     pole = lines_meet(a0, pin - a0, joint, 1j)
     board.step(
@@ -193,8 +200,8 @@ def instant_centres_of_slider_crank(a: float = 20, b: float = 50, e: float = 0, 
             "the crank: v_B = ω · A₀P₂₄ = ω · {arm:.4g}.",
             arm=abs(relative),
         ),
-        Line(a0, 1j),
-        Line(pin, joint - pin),
+        DrawnLine(a0, 1j),
+        DrawnLine(pin, joint - pin),
         Dot(relative, "P₂₄"),
     )
     return board.done(x13=pole.real, y13=pole.imag, arm=abs(relative))
@@ -225,8 +232,8 @@ def _four_bar_velocities(
             "v_BA is perpendicular to AB: its line goes through the tip a. v_B is perpendicular to B₀B: its line goes "
             "through the pole p_v."
         ),
-        Line(plan.at(v_a), across_coupler),
-        Line(plan.pole, across_rocker),
+        DrawnLine(plan.at(v_a), across_coupler),
+        DrawnLine(plan.pole, across_rocker),
     )
     tip = lines_meet(plan.at(v_a), across_coupler, plan.pole, across_rocker)
     v_b = (tip - plan.pole) / plan.scale
@@ -287,8 +294,8 @@ def _slider_crank_velocities(
             "v_BA is perpendicular to AB: its line goes through the tip a. v_B lies along the line of the slider, "
             "through the pole p_v."
         ),
-        Line(plan.at(v_a), across),
-        Line(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(v_a), across),
+        DrawnLine(plan.pole, 1 + 0j),
     )
     tip = lines_meet(plan.at(v_a), across, plan.pole, 1 + 0j)
     v_b = (tip - plan.pole) / plan.scale
@@ -319,8 +326,8 @@ def _lever_velocities(
             "C is the point of the lever under A. v_C is perpendicular to B₀A: its line goes through the pole p_v; the "
             "block slides along the lever: the line of v_rel goes through a."
         ),
-        Line(plan.pole, 1j * lever),
-        Line(plan.at(v_a), lever),
+        DrawnLine(plan.pole, 1j * lever),
+        DrawnLine(plan.at(v_a), lever),
     )
     tip = lines_meet(plan.pole, 1j * lever, plan.at(v_a), lever)
     v_c = (tip - plan.pole) / plan.scale
@@ -337,6 +344,138 @@ def _lever_velocities(
         Dot(tip, "c"),
     )
     return v_a, v_c
+
+
+def velocities_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 55, omega: float = 10) -> Construction:
+    """The triangle v_A = v_C + v_rel: the yoke moves along its guide, the block along the slot."""
+    board = Board(message("Velocities of a Scotch yoke"))
+    pins = _scotch_yoke(board, a, slot, phi)
+    plan = _Plan(pins, abs(a * omega))
+    v_a, v_c = _yoke_velocities(board, plan, pins, slot, omega)
+    return board.done(v_A=abs(v_a), v_C=abs(v_c), v_rel=abs(v_a - v_c))
+
+
+def _scotch_yoke(board: Board, a: float, slot: float, phi: float) -> tuple[complex, complex, complex]:
+    """A0, the block A in the slot of the yoke, and the yoke's end, in a pose."""
+    pin, direction = cmath.rect(a, radians(phi)), cmath.rect(1.0, radians(slot))
+    foot = lines_meet(pin, direction, 0j, 1 + 0j)
+    board.step(
+        message(
+            "Given: the crank a = {a:g} about A₀ drives a yoke by a block at its pin A, in the pose φ = {phi:g}°. The "
+            "slot of the yoke stands at {slot:g}° to its guide.",
+            a=a,
+            phi=phi,
+            slot=slot,
+        ),
+        Dot(0j, "A₀"),
+        Dot(pin, "A"),
+        Segment(0j, pin, "edge"),
+        Segment(foot - 1.3 * a * direction, foot + 1.3 * a * direction, "given"),
+        Segment(foot, foot + a, "given"),
+        Segment(foot + (0.4 + 0.08j) * a, foot + (1 + 0.08j) * a, "dead"),
+        Segment(foot + (0.4 - 0.08j) * a, foot + (1 - 0.08j) * a, "dead"),
+    )
+    return 0j, pin, foot + a
+
+
+def _yoke_velocities(
+    board: Board, plan: _Plan, pins: tuple[complex, complex, complex], slot: float, omega: float
+) -> tuple[complex, complex]:
+    v_a, direction = _crank(board, plan, pins[1] - pins[0], omega), cmath.rect(1.0, radians(slot))
+    board.step(
+        message(
+            "C is the point of the yoke under A. The yoke does not turn: v_C lies along its guide, through the pole "
+            "p_v; the block slides along the slot: the line of v_rel goes through a."
+        ),
+        DrawnLine(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(v_a), direction),
+    )
+    tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_a), direction)
+    v_c = (tip - plan.pole) / plan.scale
+    board.step(
+        message(
+            "The lines meet in c: v_C = {v_c:.4g} from p_v to c, v_rel = {v_rel:.4g} from c to a. The whole yoke has "
+            "the velocity v_C.",
+            v_c=abs(v_c),
+            v_rel=abs(v_a - v_c),
+        ),
+        Arrow(plan.pole, tip, "v_C"),
+        Arrow(tip, plan.at(v_a), "v_rel"),
+        Dot(tip, "c"),
+    )
+    return v_a, v_c
+
+
+def velocities_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: float = 2) -> Construction:
+    """The triangle v_B = v_C + v_rel: the lever's point C under B goes across the lever, the block along it."""
+    board = Board(message("Velocities of a tangent mechanism"))
+    pins = _tangent_mechanism(board, d, phi)
+    plan = _Plan(pins, abs(abs(pins[1]) * omega))
+    v_c, v_b = _tangent_velocities(board, plan, pins, omega)
+    return board.done(v_C=abs(v_c), v_B=abs(v_b), v_rel=abs(v_b - v_c))
+
+
+def _tangent_mechanism(board: Board, d: float, phi: float) -> tuple[complex, complex]:
+    """A0 of the lever and the slider's pin B, in a pose."""
+    direction = cmath.rect(1.0, radians(phi))
+    pin = lines_meet(0j, direction, complex(0, d), 1 + 0j)
+    if (pin / direction).real <= 0:
+        raise LinkageError("the lever does not reach the guide of the slider: phi must lie between 0° and 180°")
+    board.step(
+        message(
+            "Given: a lever about A₀ drives a slider by a block that slides along it and turns about the slider's pin "
+            "B, in the pose φ = {phi:g}°. The guide of B has the distance d = {d:g} from A₀.",
+            phi=phi,
+            d=d,
+        ),
+        Dot(0j, "A₀"),
+        Dot(pin, "B"),
+        Segment(0j, 1.25 * pin, "given"),
+        Segment(pin - 0.5 * d, pin + 0.5 * d, "edge"),
+        Segment(pin - 0.5 * d - 0.06j * d, pin + 0.5 * d - 0.06j * d, "dead"),
+    )
+    return 0j, pin
+
+
+def _tangent_velocities(
+    board: Board, plan: _Plan, pins: tuple[complex, complex], omega: float
+) -> tuple[complex, complex]:
+    arm = pins[1] - pins[0]
+    v_c = 1j * omega * arm
+    board.step(
+        message(
+            "C is the point of the lever under B. The lever turns with ω = {omega:g} 1/s: v_C = A₀B ω = {speed:.4g}, "
+            "perpendicular to the lever. It is drawn from the pole p_v; 1 mm of the linkage's scale stands for "
+            "{scale:.4g} mm/s.",
+            omega=omega,
+            speed=abs(v_c),
+            scale=1 / plan.scale,
+        ),
+        Dot(plan.pole, "p_v"),
+        Arrow(plan.pole, plan.at(v_c), "v_C"),
+        Dot(plan.at(v_c), "c"),
+    )
+    board.step(
+        message(
+            "The slider moves along its guide: the line of v_B goes through the pole p_v. The block slides along the "
+            "lever: the line of v_rel goes through c."
+        ),
+        DrawnLine(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(v_c), arm),
+    )
+    tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_c), arm)
+    v_b = (tip - plan.pole) / plan.scale
+    board.step(
+        message(
+            "The lines meet in b: v_B = {v_b:.4g} from p_v to b, v_rel = {v_rel:.4g} from c to b.",
+            v_b=abs(v_b),
+            v_rel=abs(v_b - v_c),
+        ),
+        Arrow(plan.pole, tip, "v_B"),
+        Arrow(plan.at(v_c), tip, "v_rel"),
+        Dot(tip, "b"),
+    )
+    return v_c, v_b
 
 
 # --- accelerations -----------------------------------------------------------------------------------
@@ -360,7 +499,7 @@ def accelerations_of_four_bar(
     plan = _acceleration_start(board, pins, a_a, n_ba)
     foot, begin = plan.at(n_b), plan.at(a_a + n_ba)
     board.step(
-        message("From the pole p_a: a_Bn = v_B²/c = {n:.4g} towards B₀.", n=abs(n_b)),
+        message("From the pole p_a: a_Bn = v_B²/c = {n:.5g} towards B₀.", n=abs(n_b)),
         Arrow(plan.pole, foot, "a_Bn", "acceleration"),
     )
     ways = 1j * (joint - pin), 1j * (joint - b0)
@@ -369,14 +508,14 @@ def accelerations_of_four_bar(
             "The tangential parts are perpendicular to AB, through the tip of a_BAn, and perpendicular to B₀B, "
             "through the tip of a_Bn."
         ),
-        Line(begin, ways[0]),
-        Line(foot, ways[1]),
+        DrawnLine(begin, ways[0]),
+        DrawnLine(foot, ways[1]),
     )
     a_b = (lines_meet(begin, ways[0], foot, ways[1]) - plan.pole) / plan.scale
     t_ba, t_b = a_b - a_a - n_ba, a_b - n_b
     board.step(
         message(
-            "They meet in b: a_B = {a_b:.4g}, a_BAt = {t_ba:.4g}, a_Bt = {t_b:.4g}.",
+            "They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}, a_Bt = {t_b:.5g}.",
             a_b=abs(a_b),
             t_ba=abs(t_ba),
             t_b=abs(t_b),
@@ -396,8 +535,8 @@ def _acceleration_start(board: Board, pins: tuple[complex, ...], a_a: complex, n
     plan = _Plan(pins, abs(a_a), 1.5)
     board.step(
         message(
-            "Accelerations: a_A = a ω² = {a_a:.4g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from its "
-            "tip a_BAn = v_BA²/b = {n:.4g}, from B towards A.",
+            "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from its "
+            "tip a_BAn = v_BA²/b = {n:.5g}, from B towards A.",
             a_a=abs(a_a),
             scale=1 / plan.scale,
             n=abs(n_ba),
@@ -407,6 +546,20 @@ def _acceleration_start(board: Board, pins: tuple[complex, ...], a_a: complex, n
         Arrow(plan.at(a_a), plan.at(a_a + n_ba), "a_BAn", "acceleration"),
     )
     return plan
+
+
+def _crank_acceleration(board: Board, plan: _Plan, a_a: complex) -> None:
+    """The acceleration of the crank's pin, from the pole."""
+    board.step(
+        message(
+            "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s².",
+            a_a=abs(a_a),
+            scale=1 / plan.scale,
+        ),
+        Dot(plan.pole, "p_a"),
+        Arrow(plan.pole, plan.at(a_a), "a_A", "acceleration"),
+        Dot(plan.at(a_a), "a"),
+    )
 
 
 def accelerations_of_slider_crank(
@@ -419,19 +572,19 @@ def accelerations_of_slider_crank(
     v_a, v_b = _slider_crank_velocities(board, _Plan(pins, abs(a * omega), 0.2), pins, omega)
     a_a, n_ba = _towards(pin - a0, v_a), _towards(joint - pin, v_b - v_a)
     plan = _acceleration_start(board, pins, a_a, n_ba)
-    begin, way = plan.at(a_a + n_ba), 1j * (joint - pin)
+    begin, direction = plan.at(a_a + n_ba), 1j * (joint - pin)
     board.step(
         message(
             "a_BAt is perpendicular to AB, through the tip of a_BAn; a_B lies along the line of the slider, through "
             "p_a."
         ),
-        Line(begin, way),
-        Line(plan.pole, 1 + 0j),
+        DrawnLine(begin, direction),
+        DrawnLine(plan.pole, 1 + 0j),
     )
-    a_b = (lines_meet(begin, way, plan.pole, 1 + 0j) - plan.pole) / plan.scale
+    a_b = (lines_meet(begin, direction, plan.pole, 1 + 0j) - plan.pole) / plan.scale
     t_ba = a_b - a_a - n_ba
     board.step(
-        message("They meet in b: a_B = {a_b:.4g}, a_BAt = {t_ba:.4g}.", a_b=abs(a_b), t_ba=abs(t_ba)),
+        message("They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}.", a_b=abs(a_b), t_ba=abs(t_ba)),
         Arrow(begin, plan.at(a_b), "a_BAt", "acceleration"),
         Arrow(plan.pole, plan.at(a_b), "a_B", "acceleration"),
         Dot(plan.at(a_b), "b"),
@@ -452,20 +605,11 @@ def accelerations_of_inverted_slider_crank(
     turn = (v_c / (1j * lever)).real
     coriolis = 2j * turn * (v_a - v_c)
     plan = _Plan(pins, abs(a_a), 1.5)
+    _crank_acceleration(board, plan, a_a)
     board.step(
         message(
-            "Accelerations: a_A = a ω² = {a_a:.4g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s².",
-            a_a=abs(a_a),
-            scale=1 / plan.scale,
-        ),
-        Dot(plan.pole, "p_a"),
-        Arrow(plan.pole, plan.at(a_a), "a_A", "acceleration"),
-        Dot(plan.at(a_a), "a"),
-    )
-    board.step(
-        message(
-            "a_Cn = v_C²/B₀A = {n:.4g} towards B₀, from p_a; from its tip Coriolis' acceleration 2 ω₄ v_rel = "
-            "{cor:.4g}: "
+            "a_Cn = v_C²/B₀A = {n:.5g} towards B₀, from p_a; from its tip Coriolis' acceleration 2 ω₄ v_rel = "
+            "{cor:.5g}: "
             "v_rel turned by 90° in the sense of ω₄.",
             n=abs(n_c),
             cor=abs(coriolis),
@@ -476,14 +620,14 @@ def accelerations_of_inverted_slider_crank(
     begin = plan.at(n_c + coriolis)
     board.step(
         message("a_Ct is perpendicular to the lever, through the tip of a_Cor; a_rel lies along the lever, through a."),
-        Line(begin, 1j * lever),
-        Line(plan.at(a_a), lever),
+        DrawnLine(begin, 1j * lever),
+        DrawnLine(plan.at(a_a), lever),
     )
     tip = lines_meet(begin, 1j * lever, plan.at(a_a), lever)
     t_c, rel = (tip - begin) / plan.scale, (plan.at(a_a) - tip) / plan.scale
     board.step(
         message(
-            "They meet: a_Ct = {t:.4g}, a_rel = {rel:.4g}. The lever's angular acceleration is α₄ = a_Ct / B₀A = "
+            "They meet: a_Ct = {t:.5g}, a_rel = {rel:.5g}. The lever's angular acceleration is α₄ = a_Ct / B₀A = "
             "{alpha:.4g} 1/s².",
             t=abs(t_c),
             rel=abs(rel),
@@ -499,4 +643,75 @@ def accelerations_of_inverted_slider_crank(
         a_rel=abs(rel),
         alpha_lever=abs(t_c) / abs(lever),
         omega_lever=abs(turn),
+    )
+
+
+def accelerations_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 55, omega: float = 10) -> Construction:
+    """The polygon a_A = a_C + a_rel: the yoke does not turn, so there is no Coriolis' acceleration."""
+    board = Board(message("Accelerations of a Scotch yoke"))
+    pins = _scotch_yoke(board, a, slot, phi)
+    direction = cmath.rect(1.0, radians(slot))
+    v_a, v_c = _yoke_velocities(board, _Plan(pins, abs(a * omega), 0.2), pins, slot, omega)
+    a_a = _towards(pins[1] - pins[0], v_a)
+    plan = _Plan(pins, abs(a_a), 1.5)
+    _crank_acceleration(board, plan, a_a)
+    board.step(
+        message(
+            "a_C lies along the guide, through p_a; a_rel lies along the slot, through a. The yoke does not turn: "
+            "there is no Coriolis' acceleration."
+        ),
+        DrawnLine(plan.pole, 1 + 0j),
+        DrawnLine(plan.at(a_a), direction),
+    )
+    tip = lines_meet(plan.pole, 1 + 0j, plan.at(a_a), direction)
+    a_c = (tip - plan.pole) / plan.scale
+    board.step(
+        message(
+            "They meet in c: a_C = {a_c:.5g}, the acceleration of the whole yoke; a_rel = {rel:.5g}.",
+            a_c=abs(a_c),
+            rel=abs(a_a - a_c),
+        ),
+        Arrow(plan.pole, tip, "a_C", "acceleration"),
+        Arrow(tip, plan.at(a_a), "a_rel", "acceleration"),
+        Dot(tip, "c"),
+    )
+    return board.done(a_A=abs(a_a), a_C=abs(a_c), a_rel=abs(a_a - a_c), v_C=abs(v_c))
+
+
+def accelerations_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: float = 2) -> Construction:
+    """The polygon a_B = a_Cn + a_Cor + a_rel with Coriolis' acceleration, the lever turning evenly."""
+    board = Board(message("Accelerations of a tangent mechanism, with Coriolis"))
+    pins = _tangent_mechanism(board, d, phi)
+    arm = pins[1] - pins[0]
+    v_c, v_b = _tangent_velocities(board, _Plan(pins, abs(abs(arm) * omega), 0.2), pins, omega)
+    n_c, coriolis = _towards(arm, v_c), 2j * omega * (v_b - v_c)
+    plan = _Plan(pins, max(abs(n_c), abs(coriolis)), 1.5)
+    begin = plan.at(n_c + coriolis)
+    board.step(
+        message(
+            "Accelerations: a_Cn = A₀B ω² = {n:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from "
+            "its tip Coriolis' acceleration 2 ω v_rel = {cor:.5g}: v_rel turned by 90° in the sense of ω.",
+            n=abs(n_c),
+            scale=1 / plan.scale,
+            cor=abs(coriolis),
+        ),
+        Dot(plan.pole, "p_a"),
+        Arrow(plan.pole, plan.at(n_c), "a_Cn", "acceleration"),
+        Arrow(plan.at(n_c), begin, "a_Cor", "acceleration"),
+    )
+    board.step(
+        message("a_rel lies along the lever, through the tip of a_Cor; a_B lies along the guide, through p_a."),
+        DrawnLine(begin, arm),
+        DrawnLine(plan.pole, 1 + 0j),
+    )
+    tip = lines_meet(begin, arm, plan.pole, 1 + 0j)
+    a_b = (tip - plan.pole) / plan.scale
+    board.step(
+        message("They meet in b: a_B = {a_b:.5g}, a_rel = {rel:.5g}.", a_b=abs(a_b), rel=abs(tip - begin) / plan.scale),
+        Arrow(begin, tip, "a_rel", "acceleration"),
+        Arrow(plan.pole, tip, "a_B", "acceleration"),
+        Dot(tip, "b"),
+    )
+    return board.done(
+        a_Cn=abs(n_c), a_Cor=abs(coriolis), a_B=abs(a_b), a_rel=abs(tip - begin) / plan.scale, v_B=abs(v_b)
     )

@@ -6,7 +6,7 @@ import cmath
 from math import radians
 
 from gruebler.constructions.compass import Board, circle_through, lines_meet
-from gruebler.drawing.canvas.construction import Circle, Construction, Dot, Line, Segment
+from gruebler.drawing.canvas.construction import Construction, Dot, DrawnCircle, DrawnLine, Segment
 from gruebler.text import message
 
 __all__ = ["three_positions", "two_positions"]
@@ -40,8 +40,8 @@ def two_positions(
         message("The perpendicular bisectors of A₁A₂ and B₁B₂."),
         Segment(a1, a2),
         Segment(b1, b2),
-        Line((a1 + a2) / 2, ways[0], "line-6"),
-        Line((b1 + b2) / 2, ways[1], "line-7"),
+        DrawnLine((a1 + a2) / 2, ways[0], "line-6"),
+        DrawnLine((b1 + b2) / 2, ways[1], "line-7"),
     )
     pole = lines_meet((a1 + a2) / 2, ways[0], (b1 + b2) / 2, ways[1])
     board.step(
@@ -64,7 +64,7 @@ def two_positions(
             c=abs(b1 - b0),
             d=abs(b0 - a0),
         ),
-        Line(level, 1 + 0j, "dead"),
+        DrawnLine(level, 1 + 0j, "dead"),
         Dot(a0, "A₀"),
         Dot(b0, "B₀"),
         *(Segment(z, w, "edge") for z, w in ((a0, a1), (a1, b1), (b1, b0))),
@@ -116,9 +116,9 @@ def three_positions(
             ),
             Segment(first, second),
             Segment(second, third),
-            Line((first + second) / 2, 1j * (second - first), style),
-            Line((second + third) / 2, 1j * (third - second), style),
-            Circle(pivot, abs(first - pivot)),
+            DrawnLine((first + second) / 2, 1j * (second - first), style),
+            DrawnLine((second + third) / 2, 1j * (third - second), style),
+            DrawnCircle(pivot, abs(first - pivot)),
             Dot(pivot, f"{name}₀"),
         )
     a0, b0 = pivots

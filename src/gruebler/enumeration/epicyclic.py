@@ -139,12 +139,12 @@ def _tree_form(links: int, axes: Axes) -> object:
 
 def _triples(links: int, axes: Axes) -> list[tuple[int, int, int]]:
     """All possible gear pairs with their carriers."""
-    out = []
+    triples = []
     for carrier in range(links):
         own = [axis for axis in axes if carrier in axis]
-        for one, other in combinations(own, 2):
-            out += [(*sorted((a, b)), carrier) for a, b in product(one, other) if carrier not in (a, b)]
-    return out  # type: ignore[return-value]
+        for first, second in combinations(own, 2):
+            triples += [(*sorted((a, b)), carrier) for a, b in product(first, second) if carrier not in (a, b)]
+    return triples  # type: ignore[return-value]
 
 
 def _symmetries(links: int, axes: Axes, triples: list[tuple[int, int, int]]) -> _Ints:
@@ -190,9 +190,9 @@ def _free_sets(links: int, triples: list[tuple[int, int, int]], symmetries: _Int
 def _smallest_images(masks: _Masks, powers: NDArray[np.float64]) -> _Masks:
     """The smallest image of each set under the symmetries, each once."""
     step = max(1, _IMAGES // powers.shape[1])
-    out = []
+    images = []
     for k in range(0, len(masks), step):
         part = masks[k : k + step]
         bits = (part[:, None] >> np.arange(len(powers), dtype=np.uint64) & np.uint64(1)).astype(np.float64)
-        out.append(np.unique((bits @ powers).min(axis=1).astype(np.uint64)))
-    return np.unique(np.concatenate(out)) if out else masks
+        images.append(np.unique((bits @ powers).min(axis=1).astype(np.uint64)))
+    return np.unique(np.concatenate(images)) if images else masks

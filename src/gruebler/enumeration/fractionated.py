@@ -136,7 +136,7 @@ _BRIDGE = _Rooted(2, ((0, 1),), 0, "")
 def _rooted(plain: Plain, links: int, mobility: int) -> list[_Rooted]:
     rooted_blocks = []
     for chain in plain(links, mobility):
-        edges = _edges(chain)
+        edges = edges_of(chain)
         rooted_blocks += [
             _Rooted(links, edges, chain.index(orbit[0]), code(chain, frame=orbit[0]))
             for orbit in symmetry(chain).link_orbits
@@ -144,7 +144,8 @@ def _rooted(plain: Plain, links: int, mobility: int) -> list[_Rooted]:
     return rooted_blocks
 
 
-def _edges(chain: Chain) -> _Edges:
+def edges_of(chain: Chain) -> _Edges:
+    """The two links of each joint, by number; all joints simple."""
     return tuple((chain.index(a), chain.index(b)) for a, b in (joint.links for joint in chain.joints))
 
 
@@ -157,7 +158,7 @@ def _compounds(plain: Plain, links: int, mobility: int, bridges: int, most_open:
         return
     if bridges == 0:
         for chain in plain(links, mobility):
-            yield Compound(links, _edges(chain), (frozenset(range(links)),))
+            yield Compound(links, edges_of(chain), (frozenset(range(links)),))
     elif most_open:
         remainders = _compounds(plain, links - 1, mobility - 1, bridges - 1, most_open)
         yield from _attached(remainders, [_BRIDGE], most_open)

@@ -90,7 +90,7 @@ def grown_joints(
     [[[3, 6, 12, 9]]]
     """
     from gruebler._numeric.compiling import for_work
-    from gruebler.enumeration.multiple_kernels import MOST_LINKS, grow_chains, make_growth_memory
+    from gruebler.enumeration.multiple_kernels import MOST_LINKS, grow_chains, make_merge_memory
 
     if links > MOST_LINKS:
         raise GrueblerError(
@@ -99,7 +99,7 @@ def grown_joints(
     if not simple:
         return
     chains = np.array(simple, np.int64)
-    memory = make_growth_memory(links, chains.shape[1])
+    memory = make_merge_memory(links, chains.shape[1])
     grow = for_work(grow_chains, _INTERPRETED * len(chains) * 2.0 ** (links - 6))
     limits = fewest, _MANY if most is None else most, _MANY if largest is None else largest
     while True:

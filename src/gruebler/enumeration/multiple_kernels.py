@@ -36,7 +36,7 @@ KEPT: Final = 2  # the link that carries both
 LEAVING: Final = 3  # the other link of the simple joint
 
 
-class GrowthMemory(NamedTuple):
+class MergeMemory(NamedTuple):
     """The state of a search and its memory: a level for each merging on the way."""
 
     joints: Int64  # (level, joint): sets of links
@@ -59,10 +59,10 @@ class GrowthMemory(NamedTuple):
     state: Int64  # the chain of simple joints that is grown, the level (-1: the next chain)
 
 
-def make_growth_memory(links: int, joints: int) -> GrowthMemory:
+def make_merge_memory(links: int, joints: int) -> MergeMemory:
     """Memory for chains of so many links that have so many simple joints."""
     levels, vertices, edges = joints, links + joints // 2 + 1, 2 * joints
-    return GrowthMemory(
+    return MergeMemory(
         joints=np.zeros((levels, joints), np.int64),
         number=np.zeros(levels, np.int64),
         mergings=np.zeros((levels, joints * joints, 4), np.int64),
@@ -93,7 +93,7 @@ def _root(parent: Int64, i: int) -> int:
 
 
 @njit(cache=True)
-def _label(n: int, number: int, joints: Int64, desk: GrowthMemory) -> int:
+def _label(n: int, number: int, joints: Int64, desk: MergeMemory) -> int:
     """Label a chain; multiple joints are vertices of another colour. Returns the number of vertices."""
     edges, total, size = desk.edges, n, 0
     for v in range(n):
@@ -120,7 +120,7 @@ def _label(n: int, number: int, joints: Int64, desk: GrowthMemory) -> int:
 
 
 @njit(cache=True)
-def _read_generator(g: int, total: int, desk: GrowthMemory) -> None:
+def _read_generator(g: int, total: int, desk: MergeMemory) -> None:
     ws = desk.workspace
     for v in range(total):
         desk.image[v] = v
@@ -165,7 +165,7 @@ def _has_room(n: int, table: Int8, big: int, a: int, b: int) -> bool:
 
 
 @njit(cache=True)
-def _survey(n: int, number: int, joints: Int64, desk: GrowthMemory) -> None:
+def _survey(n: int, number: int, joints: Int64, desk: MergeMemory) -> None:
     """Degrees, and the sum of the squares of the degrees around each link."""
     for v in range(n):
         desk.degree[v] = 0
@@ -189,14 +189,14 @@ def _survey(n: int, number: int, joints: Int64, desk: GrowthMemory) -> None:
 
 
 @njit(cache=True)
-def _key(size: int, a: int, b: int, desk: GrowthMemory) -> int:
+def _key(size: int, a: int, b: int, desk: MergeMemory) -> int:
     """The preference of a split: numbers of links and joints only."""
     first = (size << 6 | desk.degree[a]) << 14 | desk.around[a]
     return int((first << 6 | desk.degree[b]) << 14 | desk.around[b])
 
 
 @njit(cache=True)
-def _rivals(n: int, number: int, joints: Int64, a: int, b: int, size: int, desk: GrowthMemory) -> int:
+def _rivals(n: int, number: int, joints: Int64, a: int, b: int, size: int, desk: MergeMemory) -> int:
     """How many splits have the preference of the split (a, b) of a joint of this size; 0 if one has a higher."""
     own = _key(size, a, b, desk)
     equal = 0
@@ -219,7 +219,7 @@ def _rivals(n: int, number: int, joints: Int64, a: int, b: int, size: int, desk:
 
 
 @njit(cache=True)
-def _is_canonical(n: int, number: int, joints: Int64, a: int, b: int, size: int, desk: GrowthMemory) -> bool:
+def _is_canonical(n: int, number: int, joints: Int64, a: int, b: int, size: int, desk: MergeMemory) -> bool:
     """Whether an automorphism takes the split (a, b) to the canonical one: of the preferred ones the first by rank.
 
     Two links share one joint at most, so a split is an ordered pair of links.
@@ -257,7 +257,7 @@ def _is_canonical(n: int, number: int, joints: Int64, a: int, b: int, size: int,
 
 
 @njit(cache=True)
-def _list_mergings(n: int, level: int, most: int, largest: int, desk: GrowthMemory) -> None:
+def _list_mergings(n: int, level: int, most: int, largest: int, desk: MergeMemory) -> None:
     """The mergings of the chain of a level that lead to chains of the next one, each up to symmetry."""
     joints, number, mergings = desk.joints[level], desk.number[level], desk.mergings[level]
     below = desk.joints[level + 1]
@@ -343,7 +343,7 @@ def _merge(number: int, joints: Int64, big: int, small: int, out: Int64) -> int:
 
 
 @njit(cache=True)
-def _descend(n: int, level: int, desk: GrowthMemory) -> None:
+def _descend(n: int, level: int, desk: MergeMemory) -> None:
     """Do the next merging of a level: the chain of the next level and its table of freedoms."""
     desk.waiting[level] -= 1
     merging = desk.mergings[level, desk.waiting[level]]
@@ -360,7 +360,7 @@ def _descend(n: int, level: int, desk: GrowthMemory) -> None:
 
 
 @njit(cache=True, nogil=True)
-def grow_chains(n: int, simple: Int64, fewest: int, most: int, largest: int, desk: GrowthMemory, out: Int64) -> int:
+def grow_chains(n: int, simple: Int64, fewest: int, most: int, largest: int, desk: MergeMemory, out: Int64) -> int:
     """Write out chains with multiple joints until they are done or the room is full.
 
     Args:

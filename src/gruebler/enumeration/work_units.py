@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from gruebler.chain import Chain
 from gruebler.enumeration.assortment import Assortment, loop_count
 from gruebler.enumeration.condition import fractionation
-from gruebler.enumeration.fractionated import BlockAddition, block_additions, composed, fractionated_chains
+from gruebler.enumeration.fractionated import BlockAddition, block_additions, composed, edges_of, fractionated_chains
 from gruebler.enumeration.multiple import grown_joints, with_multiple_joints
 from gruebler.enumeration.pieces import WorkPiece, count_piece, list_piece, pieces
 from gruebler.enumeration.request import Request, RequestCount
@@ -89,7 +89,7 @@ def work_units(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
     """
     if not request.only_simple:
         simple = chains_of_request(Request(request.links, request.mobility, "all"))
-        while some := tuple(_edges(chain) for chain in islice(simple, _GROWN_AT_ONCE)):
+        while some := tuple(edges_of(chain) for chain in islice(simple, _GROWN_AT_ONCE)):
             yield MultipleJointPiece(request.links, some)
         return
     for kind in request.classes:
@@ -134,10 +134,6 @@ def chains_of_piece(request: Request, work: Work) -> Iterator[tuple[str, Chain]]
         for chain in with_multiple_joints(simple, fewest=fewest, most=most):
             if request.assortment in (None, chain.assortment) and (kind := fractionation(chain)) in request.classes:
                 yield kind, chain
-
-
-def _edges(chain: Chain) -> Edges:
-    return tuple((chain.index(a), chain.index(b)) for a, b in (joint.links for joint in chain.joints))
 
 
 @dataclass(frozen=True, slots=True)

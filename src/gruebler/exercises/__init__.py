@@ -10,7 +10,7 @@ from gruebler.exercises.grading import Grade, Mark, ascii_key, grade, plain_name
 from gruebler.exercises.loader import all_exercises, exercise
 from gruebler.exercises.messages import lines_of_table, solution_text, task_text, value_text
 from gruebler.exercises.serialisation import grades_as_list, solution_as_dict, table_as_dict, task_as_dict
-from gruebler.exercises.solution import Check, Heading, Mistake, Result, Solution, SolutionStep, Table
+from gruebler.exercises.solution import Check, Mistake, PartHeading, Result, Solution, SolutionStep, TeachingTable
 from gruebler.exercises.solving import Comparison, compare, methods, solve, with_values
 from gruebler.exercises.tables import TABLES, teaching_table
 
@@ -21,13 +21,13 @@ __all__ = [
     "Check",
     "Comparison",
     "Grade",
-    "Heading",
     "Mark",
     "Mistake",
+    "PartHeading",
     "Result",
     "Solution",
     "SolutionStep",
-    "Table",
+    "TeachingTable",
     "all_exercises",
     "ascii_key",
     "compare",

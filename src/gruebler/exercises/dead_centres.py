@@ -6,7 +6,7 @@ from math import acos, asin, cos, degrees, hypot, pi, radians, sin, sqrt
 
 from gruebler.analysis import Measures, measures
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, formula_number
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages.quantities import as_positive
@@ -217,7 +217,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     name = message("crank angle from the inner dead centre to the middle")
     builder.find("φ_i_H2", name, "180° - φ_H2", 180 - phi, unit="°", φ_H2=angle(phi))
     name = message("deviation angle in the middle of the stroke")
-    values = {"a": number(a), "b": number(rod), "φ_H2": angle(phi)}
+    values = {"a": formula_number(a), "b": formula_number(rod), "φ_H2": angle(phi)}
     alpha = builder.find(
         "α_H2", name, "arcsin(a·sin φ_H2/b)", degrees(asin(a * sin(radians(phi)) / rod)), unit="°", values=values
     )
@@ -240,7 +240,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
 
 
 def _add_middle_of_time(builder: SolutionBuilder, size: SliderCrank, phi: float) -> None:
-    name = message("slider in the middle of the time, at φ = 90°")
+    name = message("slider at mid-time, at φ = 90°")
     at_time = builder.find("s_T", name, "√(b² - a²)", sqrt(size.b**2 - size.a**2), a=size.a, b=size.b)
     name = message("mid-stroke minus mid-time")
     offset = builder.find("offset", name, "s_H2 - s_T", size.b - at_time, symbol="Δs", s_H2=size.b, s_T=at_time)
@@ -279,7 +279,7 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
             type=in_every_language(size.type.name),
         )
     builder = SolutionBuilder(unit)
-    lengths = {"a": number(a), "b": number(b), "c": number(c), "d": number(d)}
+    lengths = {"a": formula_number(a), "b": formula_number(b), "c": formula_number(c), "d": formula_number(d)}
     phi_i, phi_a = _dead_centre_angles(builder, size, lengths)
     builder.say(
         message(
@@ -351,17 +351,17 @@ def _add_swing(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str])
 
 def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motion: float) -> None:
     name = message("time of one turn")
-    period = builder.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({number(rpm)}/min)")
+    period = builder.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({formula_number(rpm)}/min)")
     times = []
     for key, name, angle_name, part in (
         ("T_max", message("time of the slower stroke"), "φ_max", longer),
         ("T_min", message("time of the quicker stroke"), "φ_min", 360 - longer),
     ):
-        values = {angle_name: angle(part), "T": f"{number(period)} ms"}
+        values = {angle_name: angle(part), "T": f"{formula_number(period)} ms"}
         times.append(builder.find(key, name, f"{angle_name}/360°·T", part / 360 * period, unit="ms", values=values))
     slow, quick = times
     name = message("difference of the times")
-    shown = {"T_max": f"{number(slow)} ms", "T_min": f"{number(quick)} ms"}
+    shown = {"T_max": f"{formula_number(slow)} ms", "T_min": f"{formula_number(quick)} ms"}
     builder.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
     builder.check(
         message("Time of the slower stroke, by the solved motion"),

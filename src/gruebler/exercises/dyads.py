@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from gruebler.chain import Chain
-from gruebler.chain.pairs import Alphabet
+from gruebler.chain.pairs import in_alphabets
 from gruebler.exercises.solution import Solution, SolutionBuilder, SolutionStep, Value
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.inversion import family
 from gruebler.mobility import count_freedoms, counted, mobility_report
-from gruebler.text import Text, in_every_language, joined_by_and, message
+from gruebler.text import joined_by_and, message
 from gruebler.transformations import Extension, extend
 
 __all__ = ["coupler", "dyad"]
@@ -93,14 +93,9 @@ def _numbered(start: Chain, extended: Chain) -> Chain:
     return extended.renamed({link: str(last + k) for k, link in enumerate(new, 1)})
 
 
-def _written(chain: Chain) -> Text:
-    """The chain in the symbols of each language."""
-    return in_every_language(lambda lang: chain.text(Alphabet.of_language(lang)))
-
-
 def _add_before(builder: SolutionBuilder, start: Chain) -> int:
     parts = count_freedoms(start).formula().removeprefix("F = ").split(" = ")
-    before = message("Before: {chain}", chain=_written(start))
+    before = message("Before: {chain}", chain=in_alphabets(start.text))
     builder.parts.append(SolutionStep(before, f"F = {parts[0]}", parts[1], counted(start)))
     builder.keep("F_before", _BEFORE, counted(start), symbol="F")
     return counted(start)
@@ -120,7 +115,7 @@ def _add_after(builder: SolutionBuilder, start: Chain, extensions: list[Extensio
     for extension in extensions:
         name = family(Mechanism(extension.chain, extension.chain.links[0]))
         shown = _numbered(start, extension.chain)
-        rows.append((name.split()[0] if name else "", _written(shown), len(extension.places)))
+        rows.append((name.split()[0] if name else "", in_alphabets(shown.text), len(extension.places)))
     agreeing = sum(counted(extension.chain) == mobility_report(extension.chain).generic for extension in extensions)
     builder.check(
         message("Chains, and those whose F agrees with the rank of the constraints at random sizes"),

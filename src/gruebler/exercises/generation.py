@@ -10,7 +10,7 @@ from random import Random
 from typing import NamedTuple
 
 from gruebler.chain import Chain
-from gruebler.chain.pairs import Alphabet
+from gruebler.chain.pairs import in_alphabets
 from gruebler.enumeration import chains
 from gruebler.errors import GrueblerError
 from gruebler.exercises.solution import figure
@@ -19,7 +19,7 @@ from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.mobility import counted, mobility_report
-from gruebler.text import Message, Text, in_every_language, joined, joined_by_and, message
+from gruebler.text import Message, in_every_language, joined, joined_by_and, message
 
 __all__ = ["KINDS", "LEVELS", "generate", "generated_from_id", "is_generated"]
 
@@ -109,15 +109,10 @@ def _mobility(random: Random, level: int) -> _Draft:
     task = message(
         "Count links and joints of the planar chain {chain} ({letters}; the numbers name the links) and "
         "find its degree of freedom F.",
-        chain=_written(shuffled),
+        chain=in_alphabets(shuffled.text),
         letters=joined(_LETTERS[name] for name in letters),
     )
     return _Draft("mobility.chain", {"chain": str(shuffled)}, ("n", "g1", "g2", "F"), task)
-
-
-def _written(chain: Chain) -> Text:
-    """The chain in the symbols of each language."""
-    return in_every_language(lambda lang: chain.text(Alphabet.of_language(lang)))
 
 
 def _shuffled(random: Random, chain: Chain) -> Chain:
@@ -161,7 +156,7 @@ def _dyad(random: Random, level: int) -> _Draft:
     size = random.choice(sizes if is_dyad or level == 3 else ((5, 2), (6, 3)))
     start = _shuffled(random, random.choice(list(chains(*size))))
     given: Given = {"chain": str(start)}
-    chain = _written(start)
+    chain = in_alphabets(start.text)
     keys: tuple[str, ...] = ("F_before", "F_after")
     more = [message("How does F change?")]
     if level > 1:

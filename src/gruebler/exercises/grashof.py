@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gruebler.analysis import drive_range
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, SolutionBuilder, SolutionStep, figure, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, SolutionStep, figure, formula_number
 from gruebler.fourbar import FourBar, Grashof, turning_ranges
 from gruebler.text import in_every_language, joined, message
 
@@ -74,14 +74,16 @@ def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
     ends = builder.find("sum_ends", name, "l_min + l_max", low + high, symbol="s1", l_min=low, l_max=high)
     name = message("sum of the two others")
     others = first + second
-    builder.parts.append(SolutionStep(name, "s2 = l' + l''", f"{number(second)} + {number(first)}", others, unit))
+    builder.parts.append(
+        SolutionStep(name, "s2 = l' + l''", f"{formula_number(second)} + {formula_number(first)}", others, unit)
+    )
     builder.keep("sum_others", name, others, unit=unit, symbol="s2")
     relation = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
     builder.parts.append(
         SolutionStep(
             message("Grashof's condition: {meaning}", meaning=_SAYS[grashof.condition]),
             relation[grashof.condition],
-            f"{number(ends)} {grashof.condition} {number(others)}",
+            f"{formula_number(ends)} {grashof.condition} {formula_number(others)}",
         )
     )
     builder.mistake("sum_ends", low + second, message("This is not the sum with the longest link."))

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from gruebler.exercises.grading import ascii_key
-from gruebler.exercises.solution import Check, Heading, Result, Solution, SolutionStep, Table, Value, figure
+from gruebler.exercises.solution import Check, PartHeading, Result, Solution, SolutionStep, TeachingTable, Value, figure
 from gruebler.exercises.solving import Comparison, compare
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import source_text
@@ -70,10 +70,10 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
     lines = [task_text(exercise, lang), "", translate("Solution:", lang)]
     count = 0
     for part in solution.parts:
-        if isinstance(part, Heading):
+        if isinstance(part, PartHeading):
             count = 0
             lines += ["", f"  {part.text.in_language(lang)}"]
-        elif isinstance(part, Table):
+        elif isinstance(part, TeachingTable):
             lines += ["", *(_INDENT + line for line in lines_of_table(part, lang)), ""]
         else:
             count += 1
@@ -138,14 +138,14 @@ def _check(check: Check, lang: str) -> str:
     return f"  {check.text.in_language(lang)}: {first} | {second}: {verdict}"
 
 
-def cells_of_table(table: Table, lang: str) -> list[list[str]]:
+def cells_of_table(table: TeachingTable, lang: str) -> list[list[str]]:
     """The headers and the rows of a table as texts."""
     cells = [[value_text(header, "", lang) for header in table.headers]]
     places = [0 if all(map(_is_whole, column)) else table.decimals for column in zip(*table.rows, strict=True)]
     return [*cells, *([_cell(v, k, lang) for v, k in zip(row, places, strict=True)] for row in table.rows)]
 
 
-def lines_of_table(table: Table, lang: str) -> list[str]:
+def lines_of_table(table: TeachingTable, lang: str) -> list[str]:
     """The table as aligned lines under its title; columns of numbers are flush right."""
     cells = cells_of_table(table, lang)
     flush = [all(_is_number(row[k]) for row in table.rows) for k in range(len(table.headers))]

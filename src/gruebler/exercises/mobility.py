@@ -9,7 +9,7 @@ from typing import NamedTuple
 from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet
-from gruebler.exercises.solution import Heading, Solution, SolutionBuilder, SolutionStep
+from gruebler.exercises.solution import PartHeading, Solution, SolutionBuilder, SolutionStep
 from gruebler.mobility import count_freedoms, mobility_report
 from gruebler.mobility.report import verdict_word
 from gruebler.text import Message, Text, in_every_language, joined, message, plural, translate
@@ -48,7 +48,7 @@ def machines(machines: str) -> Solution:
     for id in ids:
         record = entry(id)
         if len(ids) > 1:
-            builder.parts.append(Heading(record.name))
+            builder.parts.append(PartHeading(record.name))
         if record.figure_lost:
             builder.say(message("The figure is lost; the structure is an assumption."))
         mark = _Mark(f".{id}", record.name) if len(ids) > 1 else _Mark("", None)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gruebler.exercises.grading import Grade, ascii_key
-from gruebler.exercises.solution import Heading, Part, Solution, SolutionStep, Table, Value
+from gruebler.exercises.solution import Part, PartHeading, Solution, SolutionStep, TeachingTable, Value
 from gruebler.exercises.solving import Comparison, compare
 from gruebler.formats import Exercise
 from gruebler.text import LANGUAGES, Readable
@@ -48,7 +48,7 @@ def solution_as_dict(exercise: Exercise, solution: Solution) -> dict[str, Any]:
     }
 
 
-def table_as_dict(table: Table) -> dict[str, Any]:
+def table_as_dict(table: TeachingTable) -> dict[str, Any]:
     """A table: title, headers, rows."""
     return {
         "title": _value(table.title),
@@ -72,9 +72,9 @@ def grades_as_list(marks: Sequence[Grade]) -> list[dict[str, Any]]:
 
 
 def _part(part: Part) -> dict[str, Any]:
-    if isinstance(part, Table):
+    if isinstance(part, TeachingTable):
         return {"table": table_as_dict(part)}
-    if isinstance(part, Heading):
+    if isinstance(part, PartHeading):
         return {"heading": _value(part.text)}
     return _step(part)
 

@@ -18,20 +18,20 @@ from gruebler.text import Message, Readable, message
 
 __all__ = [
     "Check",
-    "Heading",
     "Mistake",
     "Part",
+    "PartHeading",
     "Result",
     "Solution",
     "SolutionBuilder",
     "SolutionStep",
-    "Table",
+    "TeachingTable",
     "Value",
     "angle",
     "as_step",
     "figure",
     "fill_template",
-    "number",
+    "formula_number",
 ]
 
 Value = float | bool | str | Readable
@@ -53,7 +53,7 @@ class SolutionStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class TeachingTable:
     """Rows of values under headers."""
 
     title: Message
@@ -64,13 +64,13 @@ class Table:
 
 
 @dataclass(frozen=True, slots=True)
-class Heading:
+class PartHeading:
     """The heading of a new part of the solution, with steps counted from 1 again."""
 
     text: Readable
 
 
-Part = SolutionStep | Table | Heading
+Part = SolutionStep | TeachingTable | PartHeading
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,12 +134,12 @@ class Solution(Brief):
         return float(value)
 
     @property
-    def tables(self) -> tuple[Table, ...]:
+    def tables(self) -> tuple[TeachingTable, ...]:
         """The tables among the parts."""
-        return tuple(part for part in self.parts if isinstance(part, Table))
+        return tuple(part for part in self.parts if isinstance(part, TeachingTable))
 
 
-def number(value: float) -> str:
+def formula_number(value: float) -> str:
     """A number with up to six digits, as people write it in a formula.
 
     >>> number(40.0), number(78.46304096718453), number(-1e-14), number(2024475.3)
@@ -167,7 +167,7 @@ def angle(value: float) -> str:
     >>> angle(50.478803)
     '50.4788°'
     """
-    return f"{number(value)}°"
+    return f"{formula_number(value)}°"
 
 
 def as_step(step: object) -> float:
@@ -195,7 +195,7 @@ def fill_template(formula: str, values: Mapping[str, float | str]) -> str:
         if match[0] not in values:
             return match[0]
         value = values[match[0]]
-        text = value if isinstance(value, str) else number(value)
+        text = value if isinstance(value, str) else formula_number(value)
         before, after = formula[: match.start()].rstrip()[-1:], formula[match.end() : match.end() + 1]
         return f"({text})" if text.startswith("-") and (before not in ("", "(", "|") or after == "²") else text
 
@@ -257,7 +257,7 @@ class SolutionBuilder:
         self, title: Message, headers: Sequence[str | Readable], rows: Iterable[Sequence[Value]], *, decimals: int = 3
     ) -> None:
         """A table."""
-        self.parts.append(Table(title, tuple(headers), tuple(tuple(row) for row in rows), decimals))
+        self.parts.append(TeachingTable(title, tuple(headers), tuple(tuple(row) for row in rows), decimals))
 
     def check(
         self, text: Readable, first: float, second: float, unit: str | None = None, tolerance: float = 1e-8

@@ -15,7 +15,7 @@ from gruebler.catalog import entries
 from gruebler.chain import Chain
 from gruebler.chain.pairs import OTHER_NAMES, PAIRS, Alphabet, Contact, Pair, Space
 from gruebler.errors import GrueblerError, nearest
-from gruebler.exercises.solution import Table, Value
+from gruebler.exercises.solution import TeachingTable, Value
 from gruebler.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
 from gruebler.gears import read_train, speeds
 from gruebler.geneva import Geneva
@@ -25,7 +25,7 @@ from gruebler.text import Message, Text, arity, in_every_language, joined, messa
 __all__ = ["TABLES", "teaching_table"]
 
 
-def joints() -> tuple[Table, ...]:
+def joints() -> tuple[TeachingTable, ...]:
     """The kinds of joints by their freedoms (table 2.2 of the teaching documents), from the table of pairs."""
     headers = (
         "f",
@@ -38,7 +38,7 @@ def joints() -> tuple[Table, ...]:
     )
     ranked = sorted(PAIRS, key=lambda p: (len(_freedoms(p)), list(Contact).index(p.contact)))
     title = message("Joints by their degree of freedom f")
-    return Table(title, headers, tuple(_joint_row(p) for p in ranked)), _lower_and_higher(), _connections()
+    return TeachingTable(title, headers, tuple(_joint_row(p) for p in ranked)), _lower_and_higher(), _connections()
 
 
 def _freedoms(kind: Pair) -> tuple[str, ...]:
@@ -53,7 +53,7 @@ _CONTACTS = {
 _CLOSURES = {"form": message("form"), "force": message("force"), "material": message("material")}
 
 
-def _lower_and_higher() -> Table:
+def _lower_and_higher() -> TeachingTable:
     """What the contact of the elements means for stress and force (section 2.1)."""
     rows = (
         (_CONTACTS[Contact.LOWER], message("surface"), message("small"), message("large")),
@@ -65,10 +65,10 @@ def _lower_and_higher() -> Table:
         message("stress in the material"),
         message("forces it can transmit"),
     )
-    return Table(message("Lower and higher pairs"), headers, rows)
+    return TeachingTable(message("Lower and higher pairs"), headers, rows)
 
 
-def _connections() -> Table:
+def _connections() -> TeachingTable:
     """The motions that no joint, any joint and a rigid connection leave two links."""
     rows: list[tuple[Value, ...]] = []
     for space in (Space.SPATIAL, Space.PLANAR):
@@ -77,7 +77,7 @@ def _connections() -> Table:
         rows.append((space.adjective, message("joint"), f"1 … {most}", f"{b - most} … {b - 1}"))
         rows.append((space.adjective, message("rigid"), "0", str(b)))
     title = message("Freedoms f that a connection leaves, u = b - f that it takes away")
-    return Table(title, (message("space"), message("connection"), "f", "u"), tuple(rows))
+    return TeachingTable(title, (message("space"), message("connection"), "f", "u"), tuple(rows))
 
 
 def _joint_row(kind: Pair) -> tuple[Value, ...]:
@@ -94,7 +94,7 @@ def _joint_row(kind: Pair) -> tuple[Value, ...]:
     )
 
 
-def links() -> tuple[Table, ...]:
+def links() -> tuple[TeachingTable, ...]:
     """Links by the number of their joints, counted in the machines of the catalog, and by their motion."""
     planar = {id: e.chain() for id, e in entries().items() if e.space == "planar"}
     rows: list[tuple[Value, ...]] = []
@@ -102,7 +102,7 @@ def links() -> tuple[Table, ...]:
         having = {id: chain.link_kinds[k] for id, chain in planar.items() if chain.link_kinds.get(k)}
         shown = ", ".join(f"{id} ({number})" for id, number in sorted(having.items(), key=lambda item: -item[1])[:3])
         rows.append((str(k), in_every_language(partial(arity, k)), sum(having.values()), shown or "-"))
-    kinds = Table(
+    kinds = TeachingTable(
         message("Links by their number of joints"),
         (
             message("joints"),
@@ -115,7 +115,7 @@ def links() -> tuple[Table, ...]:
     return kinds, _identity(planar), _roles()
 
 
-def _identity(planar: dict[str, Chain]) -> Table:
+def _identity(planar: dict[str, Chain]) -> TeachingTable:
     """2 g = n1·1 + n2·2 + ... of chains with simple joints."""
     chosen = ("quad", "pent", "e3_watt", "wiper", "drafting")
     rows = []
@@ -125,10 +125,10 @@ def _identity(planar: dict[str, Chain]) -> Table:
         shown = " + ".join(f"{k}·{number}" for k, number in kinds.items())
         rows.append((id, len(chain.links), str(2 * chain.g), f"{shown} = {sum(k * v for k, v in kinds.items())}"))
     title = message("Every simple joint joins two links: 2g = Σ i·n_i")
-    return Table(title, (message("chain"), "n", "2g", "Σ i·n_i"), tuple(rows))
+    return TeachingTable(title, (message("chain"), "n", "2g", "Σ i·n_i"), tuple(rows))
 
 
-def _roles() -> Table:
+def _roles() -> TeachingTable:
     examples: tuple[tuple[Message, Linkage], ...] = (
         (message("crank-rocker"), FourBar(2, 5, 4, 5).linkage()),
         (message("slider-crank"), SliderCrank(2, 5).linkage()),
@@ -139,13 +139,13 @@ def _roles() -> Table:
     for name, linkage in examples:
         rows.append((name, joined(motion_roles(linkage).values())))
     title = message("Links by their motion (computed from it)")
-    return Table(title, (message("mechanism"), message("its links in turn")), tuple(rows))
+    return TeachingTable(title, (message("mechanism"), message("its links in turn")), tuple(rows))
 
 
 _SIDES = (("d", "b"), ("e", "d"), ("f", "a"), ("g", "c"))
 
 
-def inversion_table(a: float = 2, b: float = 5, c: float = 4, d: float = 5) -> tuple[Table, ...]:
+def inversion_table(a: float = 2, b: float = 5, c: float = 4, d: float = 5) -> tuple[TeachingTable, ...]:
     """The four mechanisms of one four-bar chain (table 2.3), roles from motion; printed with a shortest, c opposite."""
     chain = {"a": a, "b": b, "c": c, "d": d}
     ring = "abcd"
@@ -161,13 +161,13 @@ def inversion_table(a: float = 2, b: float = 5, c: float = 4, d: float = 5) -> t
         rows.append((f"({row})", frame, *cells, in_every_language(size.type.name)))
     title = message("One chain, four mechanisms: a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g}", **chain)
     headers = ("", message("frame"), *ring, message("mechanism"))
-    return (Table(title, headers, tuple(rows)),)
+    return (TeachingTable(title, headers, tuple(rows)),)
 
 
 _CONDITIONS = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
 
 
-def grashof_types() -> tuple[Table, ...]:
+def grashof_types() -> tuple[TeachingTable, ...]:
     """Every type of four-bar (table 3.6) with its smallest whole lengths and its turning links."""
     examples: dict[str, tuple[int, ...]] = {}
     places = {(kind.key): place for place, kind in FOUR_BAR_TYPES.items()}
@@ -193,14 +193,14 @@ def grashof_types() -> tuple[Table, ...]:
         message("turning"),
         message("type"),
     )
-    return (Table(title, headers, tuple(rows)),)
+    return (TeachingTable(title, headers, tuple(rows)),)
 
 
 _Column = tuple[Message, str, Callable[[np.ndarray], np.ndarray]]
 """A mechanism, the quantity of its output, and the transfer function."""
 
 
-def transfer() -> tuple[Table, ...]:
+def transfer() -> tuple[TeachingTable, ...]:
     """Wheels, belts, linkages, cams and Geneva drives by their transfer functions over one turn of the drive.
 
     Angles are positive in the sense of the drive.
@@ -228,7 +228,7 @@ def transfer() -> tuple[Table, ...]:
     rows = [(round(degrees(x), 6), *(float(v[k]) for v in values)) for k, x in enumerate(phi)]
     title = message("Transfer functions over one turn of the drive")
     headers = [joined([mechanism, quantity], ": ") for mechanism, quantity, _ in columns]
-    table = Table(title, ("φ [°]", *headers), tuple(rows), decimals=2)
+    table = TeachingTable(title, ("φ [°]", *headers), tuple(rows), decimals=2)
     return table, _kinds_of_transfer(columns)
 
 
@@ -239,11 +239,11 @@ def _ratio(kind: str, drive: int, wheel: int) -> float:
     return float(speed)
 
 
-def _kinds_of_transfer(columns: list[_Column]) -> Table:
+def _kinds_of_transfer(columns: list[_Column]) -> TeachingTable:
     fine = np.radians(np.arange(0, 360, 0.25) + 0.125)
     step = radians(0.05)
     rows: list[tuple[Value, ...]] = []
-    for mechanism, _, function in columns:
+    for mechanism, quantity, function in columns:
         slope = (function(fine + step) - function(fine - step)) / (2 * step)
         steady = float(np.ptp(slope)) <= 1e-6 * float(np.abs(slope).max())
         still = float(np.mean(np.abs(slope) < 1e-9 * np.abs(slope).max()))
@@ -254,18 +254,21 @@ def _kinds_of_transfer(columns: list[_Column]) -> Table:
         else:
             forward = float(slope.max()) > -float(slope.min())
             sense = message("always with the drive") if forward else message("always against the drive")
-        rows.append((mechanism, kind, sense, f"{still:.0%}"))
+        turns = quantity.startswith("ψ")
+        motions = message("rotation to rotation") if turns else message("rotation to translation")
+        rows.append((mechanism, kind, sense, f"{still:.0%}", motions))
     title = message("Properties of the transfer function")
     headers = (
         message("mechanism"),
         message("transmission"),
         message("output"),
         message("dwell"),
+        message("motions"),
     )
-    return Table(title, headers, tuple(rows))
+    return TeachingTable(title, headers, tuple(rows))
 
 
-TABLES: dict[str, Callable[[], tuple[Table, ...]]] = {
+TABLES: dict[str, Callable[[], tuple[TeachingTable, ...]]] = {
     "joints": joints,
     "links": links,
     "inversions": inversion_table,
@@ -275,7 +278,7 @@ TABLES: dict[str, Callable[[], tuple[Table, ...]]] = {
 """The tables by their names in the command line."""
 
 
-def teaching_table(name: str, lengths: Sequence[float] = ()) -> tuple[Table, ...]:
+def teaching_table(name: str, lengths: Sequence[float] = ()) -> tuple[TeachingTable, ...]:
     """The tables of a name: joints, links, inversions (of four lengths, if they are given), grashof, transfer.
 
     >>> [row[-1].in_language("de") for row in teaching_table("inversions")[0].rows]

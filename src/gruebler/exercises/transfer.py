@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, figure, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, figure, formula_number
 from gruebler.gears import read_train, speeds
 from gruebler.linkages.quantities import as_positive
 from gruebler.text import message
@@ -41,7 +41,11 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     builder.table(title, ["φ [°]", "ψ [°]"], rows)
     builder.keep("turns", message("turns of the drive for one of the output"), i)
     teeth = 20
-    reading = read_train(f"drive:{teeth} wheel:{number(teeth * i)}; drive=1") if float(teeth * i).is_integer() else None
+    reading = (
+        read_train(f"drive:{teeth} wheel:{formula_number(teeth * i)}; drive=1")
+        if float(teeth * i).is_integer()
+        else None
+    )
     if reading is not None:
         speed = speeds(reading.train, {"drive": 1}).values["wheel"]
         builder.check(

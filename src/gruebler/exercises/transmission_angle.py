@@ -6,7 +6,7 @@ from math import acos, asin, degrees, isclose, pi
 
 from gruebler.analysis import measures
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, SolutionBuilder, angle, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, formula_number
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage
@@ -143,7 +143,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
         builder.say(
             message("The joint A is farthest from the slider's line, by a + e, where the crank points away from it."),
         )
-    values = {"a": number(a), f"b{mark}": number(b), "e": number(off)}
+    values = {"a": formula_number(a), f"b{mark}": formula_number(b), "e": formula_number(off)}
     alpha = degrees(asin((a + off) / b))
     worst = builder.find(
         f"α_max{mark}", _DEVIATION, f"arcsin({rise.replace('b', 'b' + mark)})", alpha, unit="°", values=values

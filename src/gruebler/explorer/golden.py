@@ -23,7 +23,7 @@ def golden_record(linkage: Linkage, rows: Reals, signs: Reals, unknowns: Reals) 
     plan = cached_plan(linkage)
     speeds = np.zeros((2, *rows.shape))
     speeds[0] = 1
-    found = run_rows(plan.program, plan, rows, speeds, 2, signs, unknowns)
+    solved = run_rows(plan.program, plan, rows, speeds, 2, signs, unknowns)
     idle = np.tile(plan.held, (len(rows), 1))
     return {
         "program": program_record(plan),
@@ -31,14 +31,14 @@ def golden_record(linkage: Linkage, rows: Reals, signs: Reals, unknowns: Reals) 
         "speeds": [np.concatenate([s, np.zeros_like(idle)], axis=1).ravel().tolist() for s in speeds],
         "signs": signs.tolist(),
         "unknowns": unknowns.tolist(),
-        "status": int(found.status),
-        "reached": int(found.reached),
-        "at": float(found.at),
-        "fault": int(found.fault),
-        "places": _finite(found.places),
-        "turns": _finite(found.turns),
-        "rates": _finite(found.rates),
-        "roots": _finite(found.roots),
+        "status": int(solved.status),
+        "reached": int(solved.reached),
+        "at": float(solved.at),
+        "fault": int(solved.fault),
+        "places": _finite(solved.places),
+        "turns": _finite(solved.turns),
+        "rates": _finite(solved.rates),
+        "roots": _finite(solved.roots),
     }
 
 

@@ -97,7 +97,7 @@ def model_of(
         ],
         "program": program_record(plan),
         "sources": [_source(plan, linkage, keys, number) for number in range(len(plan.keys))],
-        "homes": _reference_records(plan),
+        "reference": _reference_records(plan),
         "groups": [
             {
                 "dyad": isinstance(part, Dyad),
@@ -161,8 +161,8 @@ def program_record(plan: Plan) -> dict[str, Any]:
 
 
 def _parts(values: Complexes) -> list[float]:
-    out: list[float] = np.stack([values.real, values.imag], axis=1).ravel().tolist()
-    return out
+    numbers: list[float] = np.stack([values.real, values.imag], axis=1).ravel().tolist()
+    return numbers
 
 
 def _source(plan: Plan, linkage: Linkage, keys: Sequence[tuple[int, str]], number: int) -> int:
@@ -170,17 +170,17 @@ def _source(plan: Plan, linkage: Linkage, keys: Sequence[tuple[int, str]], numbe
     lower, (joint, link) = plan.lower, plan.keys[number]
     if link not in linkage.mechanism.chain.links:
         return -1  # a block of a pin in a slot has its origin there
-    mine = lower.elements[joint, link]
+    element = lower.elements[joint, link]
     near = set(lower.mechanism.chain.joints[joint].links)
     near |= {other for block in near for other in _held_by(plan, block)}
     best, most = -1, -1
     for k, key in enumerate(keys):
         e = linkage.elements[key]
-        if key[1] != link or isinstance(e, CENTRED) != isinstance(mine, CENTRED):
+        if key[1] != link or isinstance(e, CENTRED) != isinstance(element, CENTRED):
             continue
-        if abs(complex(e.x - mine.x, e.y - mine.y)) > _SAME * lower.size:
+        if abs(complex(e.x - element.x, e.y - element.y)) > _SAME * lower.size:
             continue
-        alike = 2 * len(near & set(linkage.mechanism.chain.joints[key[0]].links)) + (isinstance(e, type(mine)))
+        alike = 2 * len(near & set(linkage.mechanism.chain.joints[key[0]].links)) + (isinstance(e, type(element)))
         if alike > most:
             best, most = k, alike
     return best
@@ -272,7 +272,10 @@ def _shapes(posed: PosedLinkage) -> Iterator[dict[str, Any]]:
                 yield {"link": index(part.link), "style": shape.style, "circle": circle}
             elif isinstance(shape, Polylines):
                 lines = [[c for p in line for c in (_short(p.x / scale), _short(-p.y / scale))] for line in shape.parts]
-                yield {"link": index(part.link), "style": shape.style, "lines": lines, "closed": shape.closed}
+                record = {"link": index(part.link), "style": shape.style, "lines": lines, "closed": shape.closed}
+                yield record | (
+                    {} if part.between is None else {"between": [c for z in part.between for c in (z.real, z.imag)]}
+                )
 
 
 def _short(value: float) -> float:

@@ -21,7 +21,7 @@ def explore(linkage: LinkageLike, *, lang: str = "", height: int = 640) -> Explo
         lang: ``en`` or ``de``; the browser's language if empty.
         height: of the cell, in pixels.
 
-    The widget's ``linkage`` is what the reader has made of it. Raises `GrueblerError` without anywidget, and
+    The widget's ``linkage`` is the linkage as the reader left it. Raises `GrueblerError` without anywidget, and
     `LinkageError` for a linkage that cannot be moved or assembled. Cost: that of its drive cycle, 10 to 500 ms.
     """
     linkage = as_linkage(linkage)

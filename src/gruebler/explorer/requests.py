@@ -72,6 +72,8 @@ class DescribeStructure(_Params):
     text: ChainText
     at_frame: bool = True
     """Whether only drives at the frame are listed."""
+    document: dict[str, Any] = {}
+    """A linkage of this chain, which says what its higher pairs are."""
 
 
 class ListModes(_Params):
@@ -176,24 +178,26 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
         multiple_joints=asked.multiple_joints,
     )
     named = search(Query(words=tuple(asked.words.split()), pairs=tuple(asked.pairs.split())))
-    found = [one for one in named if query.fits(entry_mechanism(one), entry_features(one))]
+    fitting = [candidate for candidate in named if query.fits(entry_mechanism(candidate), entry_features(candidate))]
     return [
         {
-            "id": one.id,
-            "name": one.name.in_language(lang),
-            "links": one.chain().n,
-            "counted": counted(one.chain()),
-            "moves": one.dimensions is not None and one.space == "planar",
-            "text": Mechanism(one.chain(), one.frame or one.chain().links[0], one.drives).text(),
+            "id": candidate.id,
+            "name": candidate.name.in_language(lang),
+            "links": candidate.chain().n,
+            "counted": counted(candidate.chain()),
+            "moves": candidate.dimensions is not None and candidate.space == "planar",
+            "text": Mechanism(
+                candidate.chain(), candidate.frame or candidate.chain().links[0], candidate.drives
+            ).text(),
         }
-        for one in found
+        for candidate in fitting
     ]
 
 
 def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
     from gruebler.catalog import entry
     from gruebler.drawing.linkage.picture import draw_linkage
-    from gruebler.drawing.structure import draw
+    from gruebler.drawing.structure import draw_structure
     from gruebler.mechanism import Mechanism
 
     record = entry(asked.id)
@@ -202,7 +206,7 @@ def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]
         figure = draw_linkage(record.linkage(), between=_between(asked.id), lang=lang, name=name)
     else:
         chain = record.chain()
-        figure = draw(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
+        figure = draw_structure(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
     return {"picture": figure.svg(styled=False)}
 
 
@@ -238,8 +242,10 @@ def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
 
 def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.explorer.structures import structure_record
+    from gruebler.formats import linkage_from_json
 
-    return structure_record(asked.text, lang, at_frame=asked.at_frame)
+    linkage = linkage_from_json(asked.document) if asked.document else None
+    return structure_record(asked.text, lang, at_frame=asked.at_frame, linkage=linkage)
 
 
 def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
@@ -249,22 +255,22 @@ def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
     from gruebler.kinematics.solve import assembly_modes
 
     linkage = linkage_from_json(asked.document)
-    found = []
+    modes = []
     for label in assembly_modes(linkage, asked.drives)[:_MOST_MODES]:
         motion = move(linkage, [asked.drives], branch=label)
         if motion.complete:
-            found.append({"label": label, "document": linkage_to_json(linkage.with_reference_pose(motion.pose()))})
-    return found
+            modes.append({"label": label, "document": linkage_to_json(linkage.with_reference_pose(motion.pose()))})
+    return modes
 
 
 def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
-    from gruebler.drawing.structure import draw
+    from gruebler.drawing.structure import draw_structure
     from gruebler.enumeration import chains, count_chains
 
     total = count_chains(asked.links, asked.mobility).chains
     items = []
     for chain in islice(chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
-        items.append({"text": chain.text(), "picture": draw(chain, lang=lang).svg(styled=False)})
+        items.append({"text": chain.text(), "picture": draw_structure(chain, lang=lang).svg(styled=False)})
         if len(items) % 10 == 0:
             progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
     return {"total": total, "start": asked.start, "items": items}
@@ -272,15 +278,15 @@ def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
 
 def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.explorer.model import model_of
-    from gruebler.explorer.structures import mechanism_of
+    from gruebler.explorer.structures import mechanism_of_text
     from gruebler.realisation.realise import realise
 
     progress(translate("Looking for dimensions with which it moves", lang))
-    found = realise(mechanism_of(asked.text), seed=asked.seed)
-    if found.linkage is None:
-        raise GrueblerError("{message}", message=found.message(lang))
-    linkage = found.linkage
-    return {"model": model_of(linkage, name=""), "message": found.message(lang)}
+    realisation = realise(mechanism_of_text(asked.text), seed=asked.seed)
+    if realisation.linkage is None:
+        raise GrueblerError("{message}", message=realisation.message(lang))
+    linkage = realisation.linkage
+    return {"model": model_of(linkage, name=""), "message": realisation.message(lang)}
 
 
 def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[str, Any]:
@@ -384,11 +390,13 @@ def _mark(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
         if not given.strip():
             continue
         try:
-            one = grade(task, {key: given})[0]
+            graded = grade(task, {key: given})[0]
         except GrueblerError as error:
             marks.append({"key": key, "mark": "wrong", "hint": error_in_language(error, lang)})
             continue
-        marks.append({"key": key, "mark": str(one.mark), "hint": one.hint.in_language(lang) if one.hint else ""})
+        marks.append(
+            {"key": key, "mark": str(graded.mark), "hint": graded.hint.in_language(lang) if graded.hint else ""}
+        )
     return {"marks": marks, "solution": solution_text(task, solve(task), lang)}
 
 

@@ -263,8 +263,8 @@ def kept_token() -> str:
             return kept
     except (OSError, UnicodeDecodeError):
         pass  # there is none yet, or none that can be read
-    with suppress(RunError), atomic_file(file, durable=False) as out:  # the folder is the user's own
-        out.write(token.encode("ascii"))
+    with suppress(RunError), atomic_file(file, durable=False) as stream:  # the folder is the user's own
+        stream.write(token.encode("ascii"))
     return token
 
 
@@ -274,21 +274,21 @@ def bound_socket(host: str, port: int, asked: bool) -> socket.socket:
     Raises `GrueblerError` if it cannot listen there.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    made = socket.socket(family, socket.SOCK_STREAM)
-    made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    connection = socket.socket(family, socket.SOCK_STREAM)
+    connection.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        made.bind((host, port))
+        connection.bind((host, port))
     except OSError as error:
         if asked:
-            made.close()
+            connection.close()
             raise GrueblerError(
                 "cannot listen on {host}, port {port}: {reason}",
                 host=host,
                 port=port,
                 reason=error.strerror or str(error),
             ) from None
-        made.bind((host, 0))
-    return made
+        connection.bind((host, 0))
+    return connection
 
 
 def run_server(server: ExplorerServer, listening: socket.socket) -> None:

@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import PAIRS, Alphabet, Space
 from gruebler.drawing.canvas.figure import figure_of
 from gruebler.drawing.canvas.shapes import Point, bounds
-from gruebler.drawing.structure import PlacedChain, draw, paint, place_joints
+from gruebler.drawing.linkage.contact_shapes import contact_shapes
+from gruebler.drawing.structure import PlacedChain, draw_structure, paint, place_joints
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.drives import check_drives
 from gruebler.mechanism.inversion import driven_mechanisms, family, inversions
 from gruebler.mobility import MobilityReport, mobility_report
 
-__all__ = ["mechanism_of", "structure_record"]
+__all__ = ["mechanism_of_text", "structure_record"]
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _MOST_DRIVEN = 60
 
 
-def mechanism_of(text: str) -> Mechanism:
+def mechanism_of_text(text: str) -> Mechanism:
     """The mechanism of a text; of a chain alone the one whose frame is its first link, without drives.
 
     >>> mechanism_of("R(0-1) R(1-2) R(2-0)").frame
@@ -30,10 +32,11 @@ def mechanism_of(text: str) -> Mechanism:
     return Mechanism.parse(text)
 
 
-def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str, Any]:
+def structure_record(text: str, lang: str, *, at_frame: bool = True, linkage: Linkage | None = None) -> dict[str, Any]:
     """Picture, mobility, inversions, driven mechanisms and other joint types of a text, as plain data.
 
-    The driven mechanisms are those with a drive at the frame, or all with one drive.
+    The driven mechanisms are those with a drive at the frame, or all with one drive. A linkage of the same chain says
+    what its higher pairs are: gears, cams, belts, ... have signs of their own in the pictures.
 
     Raises `GrueblerError` for a text that is no chain; what it says names the place.
 
@@ -41,9 +44,10 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
     >>> record["generic"], len(record["inversions"]), len(record["driven"])
     (1, 1, 1)
     """
-    mechanism = mechanism_of(text)
+    mechanism = mechanism_of_text(text)
     chain = mechanism.chain
-    placed = place_joints(mechanism)
+    contacts = contact_shapes(linkage) if linkage is not None and linkage.mechanism.chain == chain else {}
+    placed = place_joints(mechanism, contacts)
     shapes = paint(placed)
     corner, _ = bounds(shapes, 10.0)
     report = mobility_report(chain, frame=mechanism.frame)
@@ -59,8 +63,8 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
         "verdict": str(report.verdict),
         "lines": report.explain(lang).splitlines(),
         "drives": check_drives(mechanism).explain(lang) if mechanism.drives else "",
-        "inversions": [_choice(one, lang) for one in inversions(chain)] if few else [],
-        "driven": [_choice(one.mechanism, lang) for one in _driven(chain, at_frame)]
+        "inversions": [_choice(inversion, lang, contacts) for inversion in inversions(chain)] if few else [],
+        "driven": [_choice(driven.mechanism, lang, contacts) for driven in _driven(chain, at_frame)]
         if few and chain.space is Space.PLANAR
         else [],
     }
@@ -68,21 +72,21 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True) -> dict[str
 
 def _driven(chain: Chain, at_frame: bool) -> list[Any]:
     """The mechanisms with one drive, as far as a page can show them."""
-    out = []
-    for one in driven_mechanisms(chain, drives=1, at_frame=at_frame):
-        out.append(one)
-        if len(out) == _MOST_DRIVEN:
+    rows = []
+    for driven in driven_mechanisms(chain, drives=1, at_frame=at_frame):
+        rows.append(driven)
+        if len(rows) == _MOST_DRIVEN:
             break
-    return out
+    return rows
 
 
-def _choice(mechanism: Mechanism, lang: str) -> dict[str, Any]:
+def _choice(mechanism: Mechanism, lang: str, contacts: Mapping[tuple[int, str], str]) -> dict[str, Any]:
     return {
         "text": mechanism.text(),
         "frame": mechanism.frame,
         "drives": list(mechanism.drive_names()),
         "family": family(mechanism, lang) or "",
-        "picture": draw(mechanism, lang=lang).svg(styled=False),
+        "picture": draw_structure(mechanism, lang=lang, contacts=contacts).svg(styled=False),
     }
 
 
@@ -111,10 +115,10 @@ def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, A
             continue
         if chain.space is not Space.PLANAR and pair.freedoms[chain.space] is None:
             continue
-        joints = [Joint(pair, joint.links) if k == number else one for k, one in enumerate(chain.joints)]
-        other = Chain(joints, links=chain.links, space=chain.space)
+        joints = [Joint(pair, joint.links) if k == number else first for k, first in enumerate(chain.joints)]
+        second = Chain(joints, links=chain.links, space=chain.space)
         drives = [drive.joint for drive in mechanism.drives]
-        text = Mechanism(other, mechanism.frame, drives).text() if _drivable(other, drives) else other.text()
+        text = Mechanism(second, mechanism.frame, drives).text() if _drivable(second, drives) else second.text()
         name = pair.german if lang == "de" else pair.name.replace("_", "-")
         yield {
             "symbol": pair.symbols.get(alphabet, pair.name),

@@ -7,6 +7,7 @@ from typing import Any
 import anywidget
 import traitlets
 
+from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.errors import GrueblerError
 from gruebler.explorer.model import model_of
 from gruebler.explorer.page import module_text, picture_styles
@@ -44,6 +45,15 @@ class Explorer(anywidget.AnyWidget):
 
     def __repr__(self) -> str:
         return f"<Explorer of {self.linkage.mechanism.chain}>"
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
+        """The widget, with a picture for saved notebooks that are shown without its state, as on GitHub."""
+        bundle = super()._repr_mimebundle_(**kwargs)
+        if bundle is None:
+            return None
+        linkage = self.linkage
+        picture = draw_linkage(linkage, curves=[*linkage.points], labels=True, lang=self.lang or "en")
+        return bundle[0] | {"image/svg+xml": picture.svg()}, bundle[1]
 
     @property
     def linkage(self) -> Linkage:

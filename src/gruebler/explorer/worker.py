@@ -17,12 +17,12 @@ __all__ = ["main"]
 
 def main() -> None:
     """Answer until standard input ends; what anything prints goes to standard error."""
-    out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
 
     def say(kind: str, content: Any) -> None:
-        out.write(msgspec.json.encode([kind, content]) + b"\n")
-        out.flush()
+        stream.write(msgspec.json.encode([kind, content]) + b"\n")
+        stream.flush()
 
     for line in sys.stdin.buffer:
         method, params, lang = msgspec.json.decode(line)

@@ -58,25 +58,25 @@ class Workers:
             process = self._free.pop() if self._free else await self._started()
             answer = asyncio.ensure_future(_exchange(process, [method, params, lang], progress))
             stop = asyncio.ensure_future(cancelled.wait())
-            found = None
+            reply = None
             try:
                 await asyncio.wait({answer, stop}, timeout=longest, return_when=asyncio.FIRST_COMPLETED)
                 if answer.done():
-                    found = answer.result()
+                    reply = answer.result()
             finally:  # whoever went away leaves no process with half an answer
                 stop.cancel()
                 answer.cancel()
-                if found is None:
+                if reply is None:
                     await self._end(process)
                 else:
                     self._free.append(process)
-            if found is None:
+            if reply is None:
                 if cancelled.is_set():
                     raise CancelledError
                 if answer.cancelled() or not answer.done():
                     raise GrueblerError("this took longer than {seconds:g} s and was ended", seconds=longest)
                 raise GrueblerError("gruebler failed at this request; its terminal shows the reason")
-            kind, content = found
+            kind, content = reply
             if kind == "error":
                 raise GrueblerError("{text}", text=content)
             return content

@@ -21,11 +21,11 @@ _BLOCK = 2048  # rows solved at once
 
 
 class JointConnection(NamedTuple):
-    """Two links that a joint holds together, by number: ``force`` and ``couple`` are those on the other one."""
+    """Two links that a joint holds together, by number: ``force`` and ``couple`` are those on the second."""
 
     joint: int
-    one: int
-    other: int
+    first: int
+    second: int
     slides: bool
 
 
@@ -45,17 +45,17 @@ class Reactions(NamedTuple):
 def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     """Those of the linkage with lower pairs. `LinkageError` for other joints than turning and sliding ones."""
     chain = motion.lower_linkage.mechanism.chain
-    out = []
+    connections = []
     for number, joint in enumerate(chain.joints):
         if not joint.pair.is_basic:
             raise LinkageError(
                 "joint forces are known for turning and sliding joints; {joint} is neither",
                 joint=chain.joint_names()[number],
             )
-        for other in joint.links[1:]:
-            one = chain.links.index(joint.links[0])
-            out.append(JointConnection(number, one, chain.links.index(other), joint.pair.is_prismatic))
-    return tuple(out)
+        for second in joint.links[1:]:
+            first = chain.links.index(joint.links[0])
+            connections.append(JointConnection(number, first, chain.links.index(second), joint.pair.is_prismatic))
+    return tuple(connections)
 
 
 def reactions(motion: Motion, wrenches: Iterable[Wrench]) -> Reactions:
@@ -85,12 +85,12 @@ def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactio
     answer = _solved(matrix, np.stack([-load, probe], axis=2))
     with np.errstate(invalid="ignore"):
         singular = ~(np.abs(answer[..., 1]).max(axis=1, initial=0.0) < _GROWTH)
-    found = np.where(singular[:, None], np.nan, answer[..., 0])
-    first, second = found[:, 0 : 2 * len(held) : 2], found[:, 1 : 2 * len(held) : 2]
+    unknown_forces = np.where(singular[:, None], np.nan, answer[..., 0])
+    first, second = unknown_forces[:, 0 : 2 * len(held) : 2], unknown_forces[:, 1 : 2 * len(held) : 2]
     slides = np.array([contact.slides for contact in held], bool)
     forces = np.where(slides, directions * first, first + 1j * second)
     turning = np.array([drive.turning for drive in lower.mechanism.drives], bool)
-    drives = found[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
+    drives = unknown_forces[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
     return Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular)
 
 
@@ -105,7 +105,7 @@ def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> 
     acts = _Actions(z / lower.size, np.zeros((len(z), 3 * len(links), 2 * len(held) + len(lower.mechanism.drives))))
     directions = np.ones((len(z), len(held)), np.complex128)
     for k, contact in enumerate(held):
-        at, line = _meeting(motion, contact.joint, links[contact.one], links[contact.other], rows)
+        at, line = _meeting(motion, contact.joint, links[contact.first], links[contact.second], rows)
         if contact.slides:
             directions[:, k] = 1j * line
             acts.force(contact, 2 * k, 1j * line, at)
@@ -114,12 +114,12 @@ def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> 
             acts.force(contact, 2 * k, np.ones_like(line), at)
             acts.force(contact, 2 * k + 1, 1j * np.ones_like(line), at)
     for k, drive in enumerate(lower.mechanism.drives):
-        one, other = lower.reference(k)
-        pair = JointConnection(drive.joint, links.index(one), links.index(other), False)
+        first, second = lower.reference(k)
+        pair = JointConnection(drive.joint, links.index(first), links.index(second), False)
         if drive.turning:
             acts.couple(pair, 2 * len(held) + k)
         else:
-            at, line = _meeting(motion, drive.joint, one, other, rows)
+            at, line = _meeting(motion, drive.joint, first, second, rows)
             acts.force(pair, 2 * len(held) + k, line, at)
     return acts.columns, directions
 
@@ -131,22 +131,22 @@ class _Actions(NamedTuple):
     columns: Reals
 
     def force(self, pair: JointConnection, column: int, direction: Complexes, at: Complexes) -> None:
-        for link, sign in ((pair.other, 1), (pair.one, -1)):
+        for link, sign in ((pair.second, 1), (pair.first, -1)):
             self.columns[:, 3 * link, column] += sign * direction.real
             self.columns[:, 3 * link + 1, column] += sign * direction.imag
             arm = at - self.places[:, link]
             self.columns[:, 3 * link + 2, column] += sign * (np.conj(arm) * direction).imag
 
     def couple(self, pair: JointConnection, column: int) -> None:
-        self.columns[:, 3 * pair.other + 2, column] += 1
-        self.columns[:, 3 * pair.one + 2, column] -= 1
+        self.columns[:, 3 * pair.second + 2, column] += 1
+        self.columns[:, 3 * pair.first + 2, column] -= 1
 
 
-def _meeting(motion: Motion, joint: int, one: str, other: str, rows: slice) -> tuple[Complexes, Complexes]:
+def _meeting(motion: Motion, joint: int, first: str, second: str, rows: slice) -> tuple[Complexes, Complexes]:
     """Where the other link's point of a joint lies, in sizes, and the direction of the first one's line."""
     lower = motion.lower_linkage
-    links, near, far = lower.mechanism.chain.links, lower.elements[joint, one], lower.elements[joint, other]
-    k, m = links.index(one), links.index(other)
+    links, near, far = lower.mechanism.chain.links, lower.elements[joint, first], lower.elements[joint, second]
+    k, m = links.index(first), links.index(second)
     at = (motion.places[0, rows, m] + motion.turns[rows, m] * complex(far.x, far.y)) / lower.size
     return at, motion.turns[rows, k] * rect(1, direction(near))
 
@@ -154,14 +154,14 @@ def _meeting(motion: Motion, joint: int, one: str, other: str, rows: slice) -> t
 def _loads(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reals:
     """The loads on each link: x, y and the moment about its origin by the size; (rows, 3 links)."""
     lower, turns = motion.lower_linkage, motion.turns[rows]
-    out = np.zeros((len(turns), 3 * turns.shape[1]))
+    totals = np.zeros((len(turns), 3 * turns.shape[1]))
     for wrench in wrenches:
         k = lower.mechanism.chain.links.index(wrench.place.link)
         force, arm = wrench.force[rows], turns[:, k] * complex(wrench.place.x, wrench.place.y)
-        out[:, 3 * k] += force.real
-        out[:, 3 * k + 1] += force.imag
-        out[:, 3 * k + 2] += ((np.conj(arm) * force).imag + wrench.moment[rows]) / lower.size
-    return out
+        totals[:, 3 * k] += force.real
+        totals[:, 3 * k + 1] += force.imag
+        totals[:, 3 * k + 2] += ((np.conj(arm) * force).imag + wrench.moment[rows]) / lower.size
+    return totals
 
 
 def _solved(matrix: Reals, right: Reals) -> Reals:
@@ -169,8 +169,8 @@ def _solved(matrix: Reals, right: Reals) -> Reals:
     try:
         return np.asarray(np.linalg.solve(matrix, right))
     except np.linalg.LinAlgError:
-        out = np.full(right.shape, np.inf)
-        for row, (one, side) in enumerate(zip(matrix, right, strict=True)):
-            if np.linalg.matrix_rank(one) == len(one):
-                out[row] = np.linalg.solve(one, side)
-        return out
+        solutions = np.full(right.shape, np.inf)
+        for row, (system, side) in enumerate(zip(matrix, right, strict=True)):
+            if np.linalg.matrix_rank(system) == len(system):
+                solutions[row] = np.linalg.solve(system, side)
+        return solutions

@@ -80,7 +80,7 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
     """
     linkage = statics.motion.linkage
     number, mu = linkage.mechanism.chain.joint_number(joint, LinkageError), as_friction(coefficient)
-    if linkage.mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
+    if not linkage.mechanism.chain.joints[number].pair.slides_along_one_line:
         raise LinkageError("{joint} does not slide along one line", joint=linkage.mechanism.chain.joint_names()[number])
     if len(linkage.mechanism.drives) != 1:
         raise LinkageError(

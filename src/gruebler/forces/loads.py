@@ -59,17 +59,17 @@ def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
 
     Raises `LinkageError` for a point or link that is not there and for numbers that are not finite.
     """
-    out = []
+    wrenches = []
     none = np.zeros(len(motion))
     for name, given in loads.forces.items():
         force = _over_rows(message("the force at {point}", point=_point_text(name)), given, (len(motion), 2))
-        out.append(Wrench(_place(motion, name), np.ascontiguousarray(force).view(np.complex128)[:, 0], none))
+        wrenches.append(Wrench(_place(motion, name), np.ascontiguousarray(force).view(np.complex128)[:, 0], none))
     gravity = _over_rows(message("gravity"), loads.gravity, (2,))
     for name, given in loads.masses.items():
         mass = _over_rows(message("the mass at {point}", point=_point_text(name)), given, (len(motion),))
         if (mass < 0).any():
             raise LinkageError("the mass at {point} is negative: {mass:g}", point=_point_text(name), mass=mass.min())
-        out.append(Wrench(_place(motion, name), (mass * complex(*gravity)).astype(np.complex128), none))
+        wrenches.append(Wrench(_place(motion, name), (mass * complex(*gravity)).astype(np.complex128), none))
     links = motion.linkage.mechanism.chain.links
     for link, given in loads.moments.items():
         if link not in links:
@@ -80,8 +80,8 @@ def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
                 links=", ".join(links),
             )
         moment = _over_rows(message("the moment on {link!r}", link=link), given, (len(motion),))
-        out.append(Wrench(LinkPoint(link, 0.0, 0.0), np.zeros(len(motion), np.complex128), moment))
-    return tuple(out)
+        wrenches.append(Wrench(LinkPoint(link, 0.0, 0.0), np.zeros(len(motion), np.complex128), moment))
+    return tuple(wrenches)
 
 
 def _place(motion: Motion, name: str | LinkPoint) -> LinkPoint:
@@ -107,7 +107,7 @@ def _over_rows(what: Message, given: ArrayLike, shape: tuple[int, ...]) -> Reals
     wanted = message("one number for each row" if each_row else "x and y, for each row if they change")
     try:
         numbers = np.asarray(given, np.float64)
-        out: Reals = np.broadcast_to(numbers, shape)
+        values: Reals = np.broadcast_to(numbers, shape)
     except (TypeError, ValueError):
         raise LinkageError(
             "{what}: expected {wanted}, but found {given!r}", what=what, wanted=wanted, given=given
@@ -116,4 +116,4 @@ def _over_rows(what: Message, given: ArrayLike, shape: tuple[int, ...]) -> Reals
         raise LinkageError("{what}: expected {wanted}, but found {given!r}", what=what, wanted=wanted, given=given)
     if not (np.abs(numbers) < 1e100).all():
         raise LinkageError("{what}: expected finite numbers, but found {given!r}", what=what, given=given)
-    return out
+    return values

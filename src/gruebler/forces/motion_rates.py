@@ -38,6 +38,6 @@ def drive_speed(motion: Motion) -> Reals:
     drive = motion.lower_linkage.mechanism.drives[0]
     if not drive.turning:
         return motion.displacement(drive.joint, 1)
-    one, other = motion.lower_linkage.reference(0)
-    out: Reals = motion.angular(other) - motion.angular(one)
-    return out
+    first, second = motion.lower_linkage.reference(0)
+    speed: Reals = motion.angular(second) - motion.angular(first)
+    return speed

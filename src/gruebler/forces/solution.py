@@ -95,18 +95,18 @@ class Statics(Brief):
         [[0.0, 75.0]]
         """
         number, link = self._of(joint, link)
-        out = np.zeros(len(self.motion), np.complex128)
+        total = np.zeros(len(self.motion), np.complex128)
         for k, sign in self._signs(number, link):
-            out = out + sign * self.reactions.forces[:, k]
-        return np.stack([out.real, out.imag], axis=1)
+            total = total + sign * self.reactions.forces[:, k]
+        return np.stack([total.real, total.imag], axis=1)
 
     def couple(self, joint: str | int, link: str | None = None) -> Reals:
         """The moment by which a slide keeps one of its links from turning; zero for a pin; (rows,)."""
         number, link = self._of(joint, link)
-        out: Reals = np.zeros(len(self.motion))
+        total: Reals = np.zeros(len(self.motion))
         for k, sign in self._signs(number, link):
-            out = out + sign * self.reactions.couples[:, k]
-        return out
+            total = total + sign * self.reactions.couples[:, k]
+        return total
 
     def message(self, lang: str = "en") -> str:
         """Where joint forces, or not even the drives' efforts, are determined; else empty."""
@@ -130,7 +130,7 @@ class Statics(Brief):
         number = mechanism.chain.joint_number(joint, LinkageError)
         links = mechanism.chain.joints[number].links
         if link is None:
-            return number, next(one for one in reversed(links) if one != mechanism.frame)
+            return number, next(candidate for candidate in reversed(links) if candidate != mechanism.frame)
         if link not in links:
             raise LinkageError(
                 "{joint} is not a joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
@@ -147,9 +147,9 @@ class Statics(Brief):
         lower = range(first, first + freedoms[number])
         k = self.motion.link_index(link)
         return [
-            (at, 1 if contact.other == k else -1)
+            (at, 1 if contact.second == k else -1)
             for at, contact in enumerate(self._contacts)
-            if contact.joint in lower and k in (contact.one, contact.other)
+            if contact.joint in lower and k in (contact.first, contact.second)
         ]
 
     @cached_property
@@ -188,15 +188,15 @@ def statics(motion: Motion, loads: Loads) -> Statics:
 def _virtual_work(motion: Motion, wrenches: tuple[Wrench, ...]) -> Reals:
     """The efforts whose work on a small motion of each drive is that of the loads with the other sign."""
     drives = len(motion.lower_linkage.mechanism.drives)
-    out = np.full((len(motion), drives), np.nan)
+    work = np.full((len(motion), drives), np.nan)
     for k in range(drives):
         for rows, moved in with_velocities(motion, np.eye(drives)[k]):
-            out[rows, k] = -sum(_power(wrench, rows, moved) for wrench in wrenches)
-    if drives == 1 and motion.order and np.isnan(out).all():
+            work[rows, k] = -sum(_power(wrench, rows, moved) for wrench in wrenches)
+    if drives == 1 and motion.order and np.isnan(work).all():
         with np.errstate(divide="ignore", invalid="ignore"):
             power = -sum(_power(wrench, np.arange(len(motion)), motion) for wrench in wrenches) / drive_speed(motion)
-        out[:, 0] = np.where(np.isfinite(power), power, np.nan)
-    return out
+        work[:, 0] = np.where(np.isfinite(power), power, np.nan)
+    return work
 
 
 def _power(wrench: Wrench, rows: Rows, moved: Motion) -> Reals:

@@ -56,7 +56,7 @@ def statics_table(statics: Statics, friction: float | None = None, lang: str = "
             header = translate("force of {joint} on {link}", lang, joint=names[number], link=link)
             forces.append(Column(header, "N", size, largest))
     for number, joint in enumerate(mechanism.chain.joints if friction is not None else ()):
-        if friction is not None and joint.pair.name in ("prismatic", "roll_slide"):
+        if friction is not None and joint.pair.slides_along_one_line:
             slide, effort = slide_friction(statics, number, friction), efforts[0]
             rubbing = translate("friction {joint}", lang, joint=names[number])
             with_friction = translate("with friction {effort}", lang, effort=effort.name)
@@ -82,7 +82,7 @@ def component_table(statics: Statics, lang: str = "en", *, reactions: bool = Tru
             header = translate("force of {joint} on {link}", lang, joint=name, link=link)
             force = statics.force(number, link)
             columns += [Column(f"{header} {axis}", "N", force[:, k], largest) for k, axis in enumerate("xy")]
-            if joint.pair.name in ("prismatic", "double_slide"):
+            if joint.pair.keeps_directions:
                 header = translate("moment of {joint} on {link}", lang, joint=name, link=link)
                 moment = statics.couple(number, link)
                 columns.append(Column(header, f"N·{linkage.unit}", moment, largest * linkage.size))

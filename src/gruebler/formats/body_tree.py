@@ -38,22 +38,22 @@ class BodyTree:
         edges = []  # importance, joint, two links
         for number, joint in enumerate(mechanism.chain.joints):
             centre = driven[number][0] if number in driven else joint.links[0]
-            for other in joint.links:
-                if other != centre:
-                    first = number in driven and other == driven[number][1]
-                    edges.append((0 if first else 1 if joint.pair.is_prismatic else 2, number, centre, other))
+            for far in joint.links:
+                if far != centre:
+                    first = number in driven and far == driven[number][1]
+                    edges.append((0 if first else 1 if joint.pair.is_prismatic else 2, number, centre, far))
         sets = DisjointSets(mechanism.chain.links)
         self.tree: dict[str, list[tuple[int, str]]] = {link: [] for link in mechanism.chain.links}
         self.closing: list[tuple[int, str, str]] = []
-        for importance, number, one, other in sorted(edges, key=lambda edge: edge[0]):
-            if sets.find(one) != sets.find(other):
-                sets.unite(one, other)
-                self.tree[one].append((number, other))
-                self.tree[other].append((number, one))
+        for importance, number, near, far in sorted(edges, key=lambda edge: edge[0]):
+            if sets.find(near) != sets.find(far):
+                sets.unite(near, far)
+                self.tree[near].append((number, far))
+                self.tree[far].append((number, near))
             elif importance < 2:
                 raise GrueblerError("the slide {joint} closes a loop of slides and drives", joint=self.names[number])
             else:
-                self.closing.append((number, one, other))
+                self.closing.append((number, near, far))
 
     def descent(self) -> Iterator[tuple[str, str, int] | None]:
         """Every link but the frame, with the one above it and their joint, before those below it; None behind these."""
@@ -75,3 +75,7 @@ class BodyTree:
         (x, y), *others = places
         far = [(a, b) for a, b in dict.fromkeys(others) if hypot(a - x, b - y) > 1e-9 * self.lower.size]
         return [((x, y), place) for place in far] or [((x, y), (x, y))]
+
+    def position(self, x: float, y: float) -> str:
+        """A point of the plane in metres, as XML files write it."""
+        return f"{x * self.scale!r} {y * self.scale!r} 0"

@@ -180,7 +180,7 @@ def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
 
 
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
-    "dimensions": ("elements", "home", "places", "points", "drive"),
+    "dimensions": ("elements", "reference_pose", "home", "places", "points", "drive"),
     "screws": ("joints",),
     "claims": ("idle",),
 }

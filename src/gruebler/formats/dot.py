@@ -47,7 +47,7 @@ class _Reader:
     def __init__(self, text: str) -> None:
         import networkx
 
-        self._tokens = _TOKEN.findall(_COMMENT.sub(lambda found: found[1] or " ", text))
+        self._tokens = _TOKEN.findall(_COMMENT.sub(lambda match: match[1] or " ", text))
         if len(self._tokens) > _MOST:
             raise GrueblerError("has more than {most:,} words and signs", most=_MOST)
         self._place = 0
@@ -104,12 +104,12 @@ class _Reader:
         return self._next()
 
     def _attributes(self) -> dict[str, str]:
-        found: dict[str, str] = {}
+        attributes: dict[str, str] = {}
         while self._passed("["):
             while not self._passed("]"):
                 key = self._name()
                 self._take("=")
-                found[key] = self._name()
+                attributes[key] = self._name()
                 if not self._passed(","):
                     self._passed(";")
-        return found
+        return attributes

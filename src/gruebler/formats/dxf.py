@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 
 from gruebler.analysis.link_planes import link_planes, plate_sizes
-from gruebler.analysis.plates import Plate, Plates, hull, plates_of, whole_motion
+from gruebler.analysis.plates import Plate, Plates, plates_of, whole_motion
+from gruebler.convex_hull import convex_hull
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.pin_drawings import lower_linkage
 from gruebler.kinematics import move
@@ -91,7 +92,7 @@ def dxf_of_links(
     plates, sizes, planes = _cut(linkage, left_out, hole, margin)
     if linkage.points:
         left_out.append(message("paths of points"))
-    out = {}
+    files = {}
     for link, layer in _layers(list(plates.plates)).items():
         document = _new_document(linkage.unit, [])
         plate = plates.plates[link]
@@ -100,8 +101,8 @@ def dxf_of_links(
         turn = (other - first).conjugate() / abs(other - first)
         _add_plate(document, layer, plate, sizes, partial(_laid, first, turn))
         document.layers.get(layer).description = planes[link]
-        out[f"{planes[link].removeprefix(_PLANE)} {layer}".strip()] = _text(document)
-    return out
+        files[f"{planes[link].removeprefix(_PLANE)} {layer}".strip()] = _text(document)
+    return files
 
 
 _PLANE = "plane "
@@ -132,10 +133,10 @@ def _cut(
         left_out.append(message("the lengths of slots, paths and planes ({reason})", reason=error))
         return plates, sizes, dict.fromkeys(plates.plates, "")
     plates = plates_of(motion)
-    found = link_planes(lower, hole=sizes[0], margin=sizes[1])
-    if found.planes is None:
-        left_out.append(message("the planes of links ({reason})", reason=found.message))
-    return plates, sizes, {link: f"{_PLANE}{found.planes[link]}" if found.planes else "" for link in plates.plates}
+    planes = link_planes(lower, hole=sizes[0], margin=sizes[1])
+    if planes.planes is None:
+        left_out.append(message("the planes of links ({reason})", reason=planes.message))
+    return plates, sizes, {link: f"{_PLANE}{planes.planes[link]}" if planes.planes else "" for link in plates.plates}
 
 
 def _new_document(unit: str, left_out: list[Message]) -> Any:
@@ -152,9 +153,9 @@ def _new_document(unit: str, left_out: list[Message]) -> Any:
 
 
 def _text(document: Any) -> str:
-    out = io.StringIO()
-    document.write(out)
-    return out.getvalue()
+    stream = io.StringIO()
+    document.write(stream)
+    return stream.getvalue()
 
 
 def _layers(links: Sequence[str]) -> dict[str, str]:
@@ -192,17 +193,17 @@ def plate_outline(places: Sequence[tuple[float, float]], margin: float) -> list[
     >>> [tuple(round(v, 9) for v in corner) for corner in plate_outline([(0, 0), (4, 0)], 1)]
     [(0.0, -1.0, 0.0), (4.0, -1.0, 1.0), (4.0, 1.0, 0.0), (0.0, 1.0, 1.0)]
     """
-    corners = [(z.real, z.imag) for z in hull([complex(x, y) for x, y in places])]
+    corners = [(z.real, z.imag) for z in convex_hull([complex(x, y) for x, y in places])]
     if len(corners) == 1:
         x, y = corners[0]
         return [(x - margin, y, 1.0), (x + margin, y, 1.0)]
-    out = []
+    outline = []
     for k, (x, y) in enumerate(corners):
         to_x, to_y = corners[(k + 1) % len(corners)]
         next_x, next_y = corners[(k + 2) % len(corners)]
         along, after = atan2(to_y - y, to_x - x), atan2(next_y - to_y, next_x - to_x)
         turn = remainder(after - along, 2 * pi)
         nx, ny = margin * sin(along), -margin * cos(along)
-        out.append((x + nx, y + ny, 0.0))
-        out.append((to_x + nx, to_y + ny, tan(abs(turn) / 4)))
-    return out
+        outline.append((x + nx, y + ny, 0.0))
+        outline.append((to_x + nx, to_y + ny, tan(abs(turn) / 4)))
+    return outline

@@ -196,10 +196,10 @@ def linkage2_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
         lines.append(f"\t<connector {' '.join(attributes)}{end}")
     if len(members.get(drawing.frame, ())) == 1:
         del members[drawing.frame]  # an anchor without link
-    for number, (link, mine) in enumerate(members.items()):
+    for number, (link, names) in enumerate(members.items()):
         actuator = ' actuator="true"' if link in actuators else ""
         lines.append(f'\t<Link id="{number}" name={quoteattr(link)}{actuator}>')
-        lines += [f'\t\t<connector id="{numbers[member]}"/>' for member in mine]
+        lines += [f'\t\t<connector id="{numbers[member]}"/>' for member in names]
         lines.append("\t</Link>")
     if driven:
         left_out.append(message("drives of joints {joints}", joints=", ".join(driven)))

@@ -103,7 +103,9 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
 
     unit: str
     elements: dict[str, Any] | None = None
+    reference_pose: dict[str, Any] | None = None
     home: dict[str, Any] | None = None
+    """The former name of `reference_pose`; still read."""
     places: dict[str, Any] | None = None
     four_bar: FourBarLengths | None = None
     slider_crank: SliderCrankLengths | None = None
@@ -113,6 +115,7 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
 
 _DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
 _WAYS = ("elements", "places", *_DOORS)
+_POSES = ("reference_pose", "home")
 
 
 def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
@@ -120,83 +123,88 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
 
     Raises `LinkageError` with the key of the first thing that does not fit.
     """
-    given = [way for way in _WAYS if getattr(sizes, way) is not None]
+    given = [form for form in _WAYS if getattr(sizes, form) is not None]
     if len(given) != 1:
         raise LinkageError(
             "expected one of {ways}, but found {found}",
             ways=", ".join(_WAYS),
             found=joined_by_and(given) if given else message("none"),
         )
-    way = given[0]
-    if sizes.home is not None and way != "elements":
+    form = given[0]
+    poses = {key: pose for key in _POSES if (pose := getattr(sizes, key)) is not None}
+    if len(poses) > 1:
+        raise LinkageError("home is the former name of reference_pose: give one of them")
+    if poses and form != "elements":
         raise LinkageError(
-            "home is allowed with elements only; {way} itself decides how the linkage is assembled", way=way
+            "{key} is allowed with elements only; {form} itself decides how the linkage is assembled",
+            key=next(iter(poses)),
+            form=form,
         )
     if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
         raise LinkageError(
             "unit: expected the name of a unit of length such as 'mm', but found {unit!r}", unit=sizes.unit[:20]
         )
-    if mechanism is None and way not in _DOORS:
-        raise LinkageError("joints: missing; {way} needs them, such as R(frame-crank) R(crank-coupler) ...", way=way)
-    if way in _DOORS:
-        return _door(way, getattr(sizes, way), sizes, mechanism, outputs)
+    if mechanism is None and form not in _DOORS:
+        raise LinkageError("joints: missing; {way} needs them, such as R(frame-crank) R(crank-coupler) ...", way=form)
+    if form in _DOORS:
+        return _door(form, getattr(sizes, form), sizes, mechanism, outputs)
     assert mechanism is not None
     points = _points(sizes.points, mechanism.chain.links)
     chosen = outputs or ()
-    if way == "places":
+    if form == "places":
         assert sizes.places is not None
         places = _by_joint(mechanism, _aimed(mechanism, sizes.places), "places", slots=True)
         _refuse_rounded_axes(mechanism, places)
         return Linkage.from_drawing(mechanism, places, points, unit=sizes.unit, outputs=chosen)
     assert sizes.elements is not None
     elements: dict[str, Mapping[str | int, object]] = {}
-    for link, mine in sizes.elements.items():
+    for link, values in sizes.elements.items():
         _check_link(link, mechanism.chain.links, "elements")
-        if not isinstance(mine, Mapping):
+        if not isinstance(values, Mapping):
             raise LinkageError(
-                "elements.{link}: expected a table of joints, but found {found}", link=link, found=_short(mine)
+                "elements.{link}: expected a table of joints, but found {found}", link=link, found=_short(values)
             )
-        elements[link] = _by_joint(mechanism, mine, f"elements.{link}")
-    home = None if sizes.home is None else _home(sizes.home, mechanism.chain.links)
-    return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=home, outputs=chosen)
+        elements[link] = _by_joint(mechanism, values, f"elements.{link}")
+    pose = next((_reference_pose(key, raw, mechanism.chain.links) for key, raw in poses.items()), None)
+    return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
 
 
 def _door(
-    way: str, lengths: Any, sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None
+    form: str, lengths: Any, sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None
 ) -> Linkage:
     given = msgspec.structs.asdict(lengths)
     branch = given.pop("branch")
     if branch not in (1, -1):
-        raise LinkageError("{way}.branch: expected 1 or -1, but found {branch}", way=way, branch=branch)
+        raise LinkageError("{way}.branch: expected 1 or -1, but found {branch}", way=form, branch=branch)
     try:
-        door: ClosedForm = _DOORS[way](**given)
+        door: ClosedForm = _DOORS[form](**given)
     except LinkageError as error:
-        raise LinkageError("{way}: {error}", way=way, error=error) from None
-    linkage = linkage_on_mechanism(way, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
+        raise LinkageError("{way}: {error}", way=form, error=error) from None
+    linkage = linkage_on_mechanism(form, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
     points = _points(sizes.points, linkage.mechanism.chain.links)
     return linkage.with_points(points) if points else linkage
 
 
 def _by_joint(
-    mechanism: Mechanism, mine: Mapping[str, Any], where: str, *, slots: bool = False
+    mechanism: Mechanism, values: Mapping[str, Any], where: str, *, slots: bool = False
 ) -> dict[str | int, object]:
-    out: dict[str | int, object] = {}
-    for joint, raw in mine.items():
+    elements: dict[str | int, object] = {}
+    for joint, raw in values.items():
         try:
             number = mechanism.chain.joint_number(joint, LinkageError)
         except LinkageError as error:
             raise LinkageError("{where}: {error}", where=where, error=error) from None
-        if number in out:
+        if number in elements:
             raise LinkageError("{where}.{joint}: this joint is given twice", where=where, joint=joint)
-        out[number] = _element(raw, f"{where}.{joint}", slots)
-    return out
+        elements[number] = _element(raw, f"{where}.{joint}", slots)
+    return elements
 
 
 def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
     """The places with degrees instead of the joint through which a slide passes: ``[x, y, "R(piston-boom)"]``."""
     chain = mechanism.chain
     by_number = {chain.find_joint(joint): raw for joint, raw in places.items()}
-    out = dict(places)
+    aimed = dict(places)
     for joint, raw in places.items():
         if not (isinstance(raw, list) and len(raw) == 3 and isinstance(raw[2], str) and "(" in raw[2]):
             continue
@@ -212,8 +220,8 @@ def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
                 where=where,
                 joint=raw[2],
             )
-        out[joint] = [raw[0], raw[1], in_degrees(math.atan2(v - y, u - x))]
-    return out
+        aimed[joint] = [raw[0], raw[1], in_degrees(math.atan2(v - y, u - x))]
+    return aimed
 
 
 _ROUNDED, _MEANT = 1e-9, 1e-3  # of the distance of two pins: what rounding to all digits and to three leaves open
@@ -248,7 +256,7 @@ def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object
 
 def _element(raw: Any, where: str, slots: bool) -> object:
     if slots and isinstance(raw, Mapping):
-        return {link: _element(one, f"{where}.{link}", False) for link, one in raw.items()}
+        return {link: _element(value, f"{where}.{link}", False) for link, value in raw.items()}
     if isinstance(raw, Mapping):
         return _round(convert_document(raw, RoundRecord, LinkageError, where), raw, where)
     if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
@@ -314,14 +322,14 @@ def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]
         ) from None
 
 
-def _home(home: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
-    for link in home:
-        _check_link(link, links, "home")
-    return {link: Pose2D(*_numbers(raw, f"home.{link}", (3,))) for link, raw in home.items()}
+def _reference_pose(key: str, pose: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
+    for link in pose:
+        _check_link(link, links, key)
+    return {link: Pose2D(*_numbers(raw, f"{key}.{link}", (3,))) for link, raw in pose.items()}
 
 
 def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
-    out = {}
+    places = {}
     for name, raw in points.items():
         where = f"points.{name}"
         if not name.strip() or not name.isprintable():
@@ -329,8 +337,8 @@ def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tupl
         point = convert_document(raw, PointRecord, LinkageError, where)
         _check_link(point.link, links, where)
         x, y = _numbers(point.at, f"{where}.at", (2,))
-        out[name] = (point.link, x, y)
-    return out
+        places[name] = (point.link, x, y)
+    return places
 
 
 def _check_link(link: str, links: tuple[str, ...], where: str) -> None:

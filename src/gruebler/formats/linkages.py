@@ -130,7 +130,7 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
         },
     }
     if linkage.reference_pose is not None:
-        document["home"] = {link: _plain(place) for link, place in linkage.reference_pose.items()}
+        document["reference_pose"] = {link: _plain(place) for link, place in linkage.reference_pose.items()}
     return document
 
 
@@ -142,8 +142,8 @@ def _plain(element: Element | Pose2D) -> Any:
         more = {"teeth": element.teeth, "belt": element.belt}
         return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
     if isinstance(element, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
-        found = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
-        renamed = {{"lift": "cam"}.get(key, key): value for key, value in found.items() if key not in "xy"}
+        table = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
+        renamed = {{"lift": "cam"}.get(key, key): value for key, value in table.items() if key not in "xy"}
         return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
     return [*at, *(in_degrees(angle) for angle in element[2:])]
 
@@ -173,8 +173,8 @@ def linkage_to_toml(linkage: Linkage) -> str:
     document = linkage_to_json(linkage)
     tables = {
         "points": document.pop("points"),
-        **{f"elements.{_key(link)}": mine for link, mine in document.pop("elements").items()},
-        "home": document.pop("home", {}),
+        **{f"elements.{_key(link)}": elements for link, elements in document.pop("elements").items()},
+        "reference_pose": document.pop("reference_pose", {}),
     }
     lines = [f"{key} = {_value(value)}" for key, value in document.items()]
     for name, table in tables.items():
@@ -190,7 +190,7 @@ def _key(key: str) -> str:
 
 def _value(value: Any) -> str:
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(key)} = {_value(one)}" for key, one in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items()) + " }"
     if isinstance(value, list):
         return "[" + ", ".join(map(_value, value)) + "]"
     return json.dumps(value, ensure_ascii=False)

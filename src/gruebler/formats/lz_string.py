@@ -29,13 +29,13 @@ def decompressed(text: str, longest: int) -> str:
     """
     bits = _Bits(text)
     texts: list[str] = ["", "", ""]
-    out: list[str] = []
+    pieces: list[str] = []
     length = 0
     last = ""
     while True:
         code = bits.take(len(texts).bit_length())  # it may be the number of the text that it enters itself
         if code == _END:
-            return "".join(out)
+            return "".join(pieces)
         if code < _END:
             texts.append(chr(bits.take(_NEW_CHARACTER[code])))
             code = len(texts) - 1
@@ -50,7 +50,7 @@ def decompressed(text: str, longest: int) -> str:
         length += len(phrase)
         if length > longest:
             raise GrueblerError("the compressed text of the address has more than {most:,} characters", most=longest)
-        out.append(phrase)
+        pieces.append(phrase)
         last = phrase
 
 

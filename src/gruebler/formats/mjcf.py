@@ -59,11 +59,11 @@ class _Model(BodyTree):
         ]
         bodies = [*self._sites(self.frame, 2), *self._bodies()]
         closing = []
-        for number, one, other in self.closing:
-            body, partner = (other, one) if one == self.frame else (one, other)
+        for number, base, follower in self.closing:
+            body, partner = (follower, base) if base == self.frame else (base, follower)
             pin = self.lower.elements[number, body]
             second = "" if partner == self.frame else f" body2={quoteattr(partner)}"
-            closing.append(f'    <connect body1={quoteattr(body)}{second} anchor="{self._at(pin.x, pin.y)}"/>')
+            closing.append(f'    <connect body1={quoteattr(body)}{second} anchor="{self.position(pin.x, pin.y)}"/>')
         actuators = []
         for drive in self.lower.mechanism.drives:
             gain = self._inertia(drive) * _STIFF**2
@@ -82,9 +82,6 @@ class _Model(BodyTree):
         mass = DENSITY * 3 * (size / SLENDER) ** 2 * size * len(self.tree)
         return float(mass * size**2 if drive.turning else mass)
 
-    def _at(self, x: float, y: float) -> str:
-        return f"{x * self.scale!r} {y * self.scale!r} 0"
-
     def _bodies(self) -> Iterator[str]:
         """The bodies, each within the one that it hangs on."""
         poses, indent = self.lower.required_pose, 2
@@ -98,7 +95,7 @@ class _Model(BodyTree):
             here, there = poses[child], poses[above]
             place = there.to_local(here.x, here.y)
             turn = here.angle - there.angle
-            yield f'{pad}<body name={quoteattr(child)} pos="{self._at(*place)}" euler="0 0 {turn!r}">'
+            yield f'{pad}<body name={quoteattr(child)} pos="{self.position(*place)}" euler="0 0 {turn!r}">'
             yield f"{pad}  {self._joint(number, child)}"
             yield from self._shape(child, indent + 1)
             yield from self._sites(child, indent + 1)
@@ -113,21 +110,21 @@ class _Model(BodyTree):
             self.signs[number] = -1 if drive is not None and drive.between[0] == child else 1
         motor = "" if drive is None else f' armature="{self._inertia(drive)!r}"'
         if joint.pair.is_revolute:
-            return f'<joint name={name} type="hinge" axis="0 0 1" pos="{self._at(element.x, element.y)}"{motor}/>'
+            return f'<joint name={name} type="hinge" axis="0 0 1" pos="{self.position(element.x, element.y)}"{motor}/>'
         angle = direction(element)
         return f'<joint name={name} type="slide" axis="{cos(angle)!r} {sin(angle)!r} 0"{motor}/>'
 
     def _shape(self, link: str, depth: int) -> Iterator[str]:
         """A capsule from the first place of a link to each other one, a ball if there is only one."""
         pad = "  " * depth
-        for one, other in self.bars(link):
-            if one == other:
-                yield f'{pad}<geom type="sphere" pos="{self._at(*one)}"/>'
+        for first, second in self.bars(link):
+            if first == second:
+                yield f'{pad}<geom type="sphere" pos="{self.position(*first)}"/>'
             else:
-                yield f'{pad}<geom fromto="{self._at(*one)} {self._at(*other)}"/>'
+                yield f'{pad}<geom fromto="{self.position(*first)} {self.position(*second)}"/>'
 
     def _sites(self, link: str, depth: int) -> Iterator[str]:
         """The named points of a link."""
         for name, point in self.lower.points.items():
             if point.link == link:
-                yield f'{"  " * depth}<site name={quoteattr(name)} pos="{self._at(point.x, point.y)}"/>'
+                yield f'{"  " * depth}<site name={quoteattr(name)} pos="{self.position(point.x, point.y)}"/>'

@@ -30,7 +30,7 @@ __all__ = [
     "DrawnJoint",
     "PinDrawing",
     "drawing_of",
-    "linkage_of",
+    "linkage_of_drawing",
     "lower_linkage",
     "one_drive_a_joint",
     "with_slot_ends",
@@ -84,7 +84,7 @@ class PinDrawing:
 # --- from a drawing to a linkage ---------------------------------------------------------------------
 
 
-def linkage_of(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
+def linkage_of_drawing(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
     """The linkage of a drawing; links that share two pins become one, links that hang freely are left out.
 
     Args:
@@ -150,8 +150,8 @@ def _rigid_links_united(drawing: PinDrawing) -> tuple[list[DrawnJoint], Disjoint
     links = dict.fromkeys([drawing.frame, *(link for joint in drawing.joints for link in joint.links)])
     links |= dict.fromkeys(link for drive in drawing.drives or () for link in (drive.fixed, drive.moved))
     names = DisjointSets(links | dict.fromkeys(link for both in drawing.rigid for link in both))
-    for one, other in drawing.rigid:
-        _unite(names, one, other, drawing.frame)
+    for kept, joined in drawing.rigid:
+        _unite(names, kept, joined, drawing.frame)
     near = _SAME * _extent(drawing.joints)
     joints = list(drawing.joints)
     united = True
@@ -160,17 +160,17 @@ def _rigid_links_united(drawing: PinDrawing) -> tuple[list[DrawnJoint], Disjoint
         united = False
         shared: dict[frozenset[str], DrawnJoint] = {}
         for joint in joints:
-            for one, other in combinations(joint.links if joint.slot is None else (), 2):
-                first = shared.setdefault(frozenset((one, other)), joint)
+            for kept, joined in combinations(joint.links if joint.slot is None else (), 2):
+                first = shared.setdefault(frozenset((kept, joined)), joint)
                 apart = hypot(first.x - joint.x, first.y - joint.y) > near
-                if apart and names.find(one) != names.find(other):
-                    _unite(names, one, other, drawing.frame)
+                if apart and names.find(kept) != names.find(joined):
+                    _unite(names, kept, joined, drawing.frame)
                     united = True
     return joints, names
 
 
-def _unite(names: DisjointSets[str], one: str, other: str, frame: str) -> None:
-    names.unite(*((other, one) if names.find(other) == names.find(frame) else (one, other)))
+def _unite(names: DisjointSets[str], first: str, second: str, frame: str) -> None:
+    names.unite(*((second, first) if names.find(second) == names.find(frame) else (first, second)))
 
 
 def _without_loose_links(
@@ -196,56 +196,60 @@ def _with_slides(frame: str, joints: list[DrawnJoint]) -> list[DrawnJoint]:
     """The joints in which two pins of a link in one slot are a slide: the link moves along it without turning."""
     near = 1e-7 * _extent(joints)  # places in files have fewer digits than numbers
     taken: set[tuple[str, str]] = set()
-    out, slides = list(joints), []
-    in_slots = [k for k, joint in enumerate(out) if joint.slot is not None and joint.turns]
+    drawn, slides = list(joints), []
+    in_slots = [k for k, joint in enumerate(drawn) if joint.slot is not None and joint.turns]
     for first, second in combinations(in_slots, 2):
-        one, other = out[first], out[second]
-        if one.slot is None or other.slot is None or one.links[0] != other.links[0]:
+        joint_a, joint_b = drawn[first], drawn[second]
+        if joint_a.slot is None or joint_b.slot is None or joint_a.links[0] != joint_b.links[0]:
             continue
-        across = abs(cos(one.slot) * (other.y - one.y) - sin(one.slot) * (other.x - one.x))
-        both = [link for link in one.links[1:] if link in other.links[1:] and (one.links[0], link) not in taken]
-        if not both or across > near or abs(sin(one.slot - other.slot)) > _PARALLEL:
+        across = abs(cos(joint_a.slot) * (joint_b.y - joint_a.y) - sin(joint_a.slot) * (joint_b.x - joint_a.x))
+        both = [
+            link for link in joint_a.links[1:] if link in joint_b.links[1:] and (joint_a.links[0], link) not in taken
+        ]
+        if not both or across > near or abs(sin(joint_a.slot - joint_b.slot)) > _PARALLEL:
             continue
-        base, link = one.links[0], min(both, key=lambda name: name != frame)
+        base, link = joint_a.links[0], min(both, key=lambda name: name != frame)
         taken.add((base, link))
-        slides.append(DrawnJoint(f"{one.name} slide", one.x, one.y, (base, link), one.slot, turns=False))
+        slides.append(
+            DrawnJoint(f"{joint_a.name} slide", joint_a.x, joint_a.y, (base, link), joint_a.slot, turns=False)
+        )
         for k in (first, second):
-            others = [name for name in out[k].links[1:] if name != link]
-            out[k] = replace(out[k], links=(link, *others), slot=None)
-    return out + slides
+            others = [name for name in drawn[k].links[1:] if name != link]
+            drawn[k] = replace(drawn[k], links=(link, *others), slot=None)
+    return drawn + slides
 
 
 def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
-    made: list[tuple[str, tuple[str, ...], object]] = []  # kind, links, place
+    joints: list[tuple[str, tuple[str, ...], object]] = []  # kind, links, place
     of_joint: dict[str, list[int]] = {}
     points: dict[str, tuple[str, float, float]] = {}
     used = {link for joint in drawing.joints for link in joint.links}
     for joint in drawing.joints:
-        first = len(made)
+        first = len(joints)
         if len(joint.links) == 1:
             if joint.slot is None:
                 points[_free_name(joint.name, used | points.keys())] = (joint.links[0], joint.x, joint.y)
             continue
         if joint.slot is None:
-            made.append(("revolute", joint.links, (joint.x, joint.y)))
+            joints.append(("revolute", joint.links, (joint.x, joint.y)))
         else:
             base, *others = joint.links
             line = (joint.x, joint.y, joint.slot)
             if joint.turns:
                 block = _free_name(f"block {joint.name}", used)
                 used.add(block)
-                made += [("prismatic", (base, block), line), ("revolute", (block, *others), line[:2])]
+                joints += [("prismatic", (base, block), line), ("revolute", (block, *others), line[:2])]
             else:
-                made += [("prismatic", (base, other), line) for other in others]
-        of_joint[joint.name] = list(range(first, len(made)))
-    chain = _connected(drawing.frame, made, points, left_out)
+                joints += [("prismatic", (base, other), line) for other in others]
+        of_joint[joint.name] = list(range(first, len(joints)))
+    chain = _connected(drawing.frame, joints, points, left_out)
     drives = []
     for drive in drawing.drives or ():
-        found = _drive(drive, made, of_joint.get(drive.joint, []))
-        if found is None:
+        driven = _drive(drive, joints, of_joint.get(drive.joint, []))
+        if driven is None:
             left_out.append(message("the drive of joint {joint}, which moves nothing", joint=drive.joint))
-        elif made[found.joint] in chain:
-            drives.append(replace(found, joint=chain.index(made[found.joint])))
+        elif joints[driven.joint] in chain:
+            drives.append(replace(driven, joint=chain.index(joints[driven.joint])))
     made_chain = Chain([Joint(pair(kind), links) for kind, links, _ in chain])
     if drawing.drives is None:
         drives = _likely_drives(made_chain, drawing.frame)
@@ -256,20 +260,20 @@ def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
 
 def _connected(
     frame: str,
-    made: list[tuple[str, tuple[str, ...], object]],
+    joints: list[tuple[str, tuple[str, ...], object]],
     points: dict[str, tuple[str, float, float]],
     left_out: list[Message],
 ) -> list[tuple[str, tuple[str, ...], object]]:
     """The joints of the part that stands on the frame; points of the others are removed."""
-    sets = DisjointSets(dict.fromkeys([frame, *(link for _, links, _ in made for link in links)]))
-    for _, links, _ in made:
+    sets = DisjointSets(dict.fromkeys([frame, *(link for _, links, _ in joints for link in links)]))
+    for _, links, _ in joints:
         for other in links[1:]:
             sets.unite(links[0], other)
-    chain = [joint for joint in made if sets.find(joint[1][0]) == sets.find(frame)]
+    chain = [joint for joint in joints if sets.find(joint[1][0]) == sets.find(frame)]
     if len({link for _, links, _ in chain for link in links}) < _LEAST:
         raise LinkageError("there is no mechanism on the frame: it needs three links, the frame among them")
-    if len(chain) < len(made):
-        others = {link for joint in made if joint not in chain for link in joint[1]}
+    if len(chain) < len(joints):
+        others = {link for joint in joints if joint not in chain for link in joint[1]}
         left_out.append(message("links that the frame does not hold: {links}", links=", ".join(sorted(others))))
     standing = {link for _, links, _ in chain for link in links}
     for name in [name for name, (link, _, _) in points.items() if link not in standing]:
@@ -278,11 +282,11 @@ def _connected(
 
 
 def _drive(
-    drive: DrawnDrive, made: Sequence[tuple[str, tuple[str, ...], object]], numbers: Sequence[int]
+    drive: DrawnDrive, joints: Sequence[tuple[str, tuple[str, ...], object]], numbers: Sequence[int]
 ) -> Drive | None:
     """The drive, its joint by its number; None if its links do not move against each other there."""
     for number in numbers:
-        kind, links, _ = made[number]
+        kind, links, _ = joints[number]
         if kind == "prismatic" and drive.fixed == links[0]:
             return Drive(number, "Tx", (links[0], links[1]))
         others = [link for link in (drive.moved, *links) if link in links and link != drive.fixed]
@@ -293,7 +297,7 @@ def _drive(
 
 def _likely_drives(chain: Chain, frame: str) -> list[Drive]:
     """Pins on the frame, else slides, as many as the count of freedoms asks for, at least one."""
-    found = [
+    candidates = [
         Drive(number, joint.pair.freedoms[chain.space][0], (frame, link))
         for kind in ("revolute", "prismatic")
         for number, joint in enumerate(chain.joints)
@@ -301,7 +305,7 @@ def _likely_drives(chain: Chain, frame: str) -> list[Drive]:
         for link in joint.links
         if link != frame and chain.degrees[link] > 1
     ]
-    return found[: max(1, 3 * (chain.n - 1) - 2 * chain.g)]
+    return candidates[: max(1, 3 * (chain.n - 1) - 2 * chain.g)]
 
 
 def _free_name(name: str, used: Collection[str]) -> str:
@@ -382,19 +386,19 @@ def _pins_in_slots(lower: Linkage, placed: Sequence[DrawnJoint]) -> dict[int, in
     busy = {mechanism.frame, *(point.link for point in lower.points.values())}
     busy |= {link for drive in mechanism.drives if drive.turning for link in drive.between}
     bases = {joint.links[0] for joint in placed if joint.slot is not None}
-    found: dict[int, int] = {}
+    slots: dict[int, int] = {}
     for slide, joint in enumerate(placed):
         if joint.slot is None or joint.links[1] in busy | bases:
             continue
         base, block = joint.links
         others = [k for k, other in enumerate(placed) if block in other.links and k != slide]
-        if len(others) != 1 or placed[others[0]].slot is not None or others[0] in found:
+        if len(others) != 1 or placed[others[0]].slot is not None or others[0] in slots:
             continue
         pin = placed[others[0]]
         across = cos(joint.slot) * (pin.y - joint.y) - sin(joint.slot) * (pin.x - joint.x)
         if abs(across) <= _SAME * lower.size and base not in pin.links:
-            found[others[0]] = slide
-    return found
+            slots[others[0]] = slide
+    return slots
 
 
 def one_drive_a_joint(drawing: PinDrawing, left_out: list[Message]) -> dict[str, DrawnDrive]:

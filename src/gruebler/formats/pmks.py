@@ -100,11 +100,11 @@ def _digest(body: str) -> str:
     value = 0x811C9DC5
     for letter in body:
         value = ((value ^ ord(letter)) * 0x01000193) % 2**32
-    out = ""
+    digest = ""
     for _ in range(_DIGEST):
         value, digit = divmod(value, 62)
-        out = _CHECKS[digit] + out
-    return out
+        digest = _CHECKS[digit] + digest
+    return digest
 
 
 def _groups(sections: list[str]) -> tuple[list[list[str]], list[str]]:
@@ -223,21 +223,21 @@ def _drawing(joints: list[_Joint], links: list[_Link], unit: str, left_out: list
             links_of[member].append(link.id)
     drawn, drives = [], []
     for joint in joints:
-        mine = links_of[joint.id]
+        own_links = links_of[joint.id]
         slot: float | None = None
         turns = True
         if joint.flags & _SLIDER:
             base, slot = _slot(joint, links, by_id)
-            mine = [base, *(link for link in mine if link != base)]
+            own_links = [base, *(link for link in own_links if link != base)]
             pistons = {link.id for link in links if link.piston}
-            turns = not joint.flags & _WELDED and pistons.isdisjoint(mine)
+            turns = not joint.flags & _WELDED and pistons.isdisjoint(own_links)
         elif joint.flags & _GROUND:
-            mine = [_FRAME, *mine]
-        if not mine:
+            own_links = [_FRAME, *own_links]
+        if not own_links:
             continue
-        drawn.append(DrawnJoint(joint.id, joint.x, joint.y, tuple(dict.fromkeys(mine)), slot, turns))
-        if joint.flags & _INPUT and len(mine) > 1:
-            drives.append(DrawnDrive(joint.id, mine[0], mine[1]))
+        drawn.append(DrawnJoint(joint.id, joint.x, joint.y, tuple(dict.fromkeys(own_links)), slot, turns))
+        if joint.flags & _INPUT and len(own_links) > 1:
+            drives.append(DrawnDrive(joint.id, own_links[0], own_links[1]))
     if any(link.joints for link in links):
         left_out.append(message("masses, colours and speeds"))
     return PinDrawing(_FRAME, tuple(drawn), tuple(drives), unit)

@@ -81,22 +81,22 @@ def _of_mechanism(joints: list[Any], document: Mapping[str, Any], left_out: list
         if not isinstance(position, list) or len(position) != 2:
             raise GrueblerError("joint {joint!r}: expected a position [x, y]", joint=name)
         x, y = (_number(value, message("joint {joint}", joint=name)) for value in position)
-        mine = [_FRAME if link in ground else link for link, its in members.items() if name in its]
+        joined = [_FRAME if link in ground else link for link, its in members.items() if name in its]
         slot = None
         if kind == "tracker":
             refs = {joint.get("ref_joint1_id"), joint.get("ref_joint2_id")}
-            mine = [_FRAME if link in ground else link for link, its in members.items() if refs <= set(its)][:1]
+            joined = [_FRAME if link in ground else link for link, its in members.items() if refs <= set(its)][:1]
         elif kind == "ground":
-            mine = [_FRAME, *mine]
+            joined = [_FRAME, *joined]
         elif kind == "prismatic":
             axis = joint.get("axis", [1.0, 0.0])
             if not isinstance(axis, list) or len(axis) != 2:
                 raise GrueblerError("joint {joint!r}: expected an axis [x, y]", joint=name)
             dx, dy = (_number(value, message("joint {joint}", joint=name)) for value in axis)
             slot = atan2(dy, dx)
-            mine = [_FRAME, *mine]
-        if mine:
-            drawn.append(DrawnJoint(name, x, y, tuple(dict.fromkeys(mine)), slot))
+            joined = [_FRAME, *joined]
+        if joined:
+            drawn.append(DrawnJoint(name, x, y, tuple(dict.fromkeys(joined)), slot))
     drives = []
     for link in links:
         if link.get("type") in ("driver", "arc_driver"):
@@ -125,7 +125,7 @@ class _Placing:
                 )
             for joint in ready:
                 self._place(joint)
-            waiting = [joint for joint in waiting if not any(joint is one for one in ready)]
+            waiting = [joint for joint in waiting if not any(joint is known for known in ready)]
 
     def _refs(self, joint: Mapping[str, Any]) -> list[str]:
         """The names of the joints that it is placed by; those written within it are placed at once."""
@@ -201,25 +201,25 @@ class _Placing:
         for name, place in self.places.items():
             links = [link for link, its in self.members.items() if name in its]
             base, slot = self.slots.get(name, (None, None))
-            mine = tuple(dict.fromkeys(links if base is None else [base, *links]))
-            if mine:
-                joints.append(DrawnJoint(name, place.real, place.imag, mine, slot))
+            joined = tuple(dict.fromkeys(links if base is None else [base, *links]))
+            if joined:
+                joints.append(DrawnJoint(name, place.real, place.imag, joined, slot))
         if self.drives:
             left_out.append(message("speeds and ranges of drives"))
         return PinDrawing(_FRAME, tuple(joints), tuple(self.drives))
 
 
 def _meeting(
-    name: str, one: complex, radius: float, other: complex, radius_of_other: float, near: complex | None
+    name: str, first: complex, radius: float, second: complex, radius_of_other: float, near: complex | None
 ) -> complex:
     """Where two circles meet, next to a place."""
-    gap = abs(other - one)
+    gap = abs(second - first)
     along = (gap**2 + radius**2 - radius_of_other**2) / (2 * gap) if gap else float("nan")
     height = radius**2 - along**2
     if not height > -1e-9 * radius**2:
         raise GrueblerError("joint {joint!r} cannot be placed: its links do not reach each other", joint=name)
-    unit = (other - one) / gap
-    both = [one + unit * complex(along, side * max(height, 0.0) ** 0.5) for side in (1, -1)]
+    unit = (second - first) / gap
+    both = [first + unit * complex(along, side * max(height, 0.0) ** 0.5) for side in (1, -1)]
     return both[0] if near is None else min(both, key=lambda place: abs(place - near))
 
 
@@ -261,9 +261,9 @@ def pylinkage_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict
             if len(pins) < 2:
                 left_out.append(message("the point {point}", point=joint.name))
                 continue
-            one, other = pins[:2]
-            arm, base = complex(joint.x - one.x, joint.y - one.y), complex(other.x - one.x, other.y - one.y)
-            record |= {"type": "tracker", "ref_joint1_id": one.name, "ref_joint2_id": other.name}
+            first, second = pins[:2]
+            arm, base = complex(joint.x - first.x, joint.y - first.y), complex(second.x - first.x, second.y - first.y)
+            record |= {"type": "tracker", "ref_joint1_id": first.name, "ref_joint2_id": second.name}
             record |= {"distance": hypot(arm.real, arm.imag), "angle": phase(arm) - phase(base)}
         joints.append(record)
     drives = {drive.moved: drive for drive in drawing.drives or () if drive.fixed == frame}

@@ -25,7 +25,7 @@ __all__ = ["ScrewsRecord", "read_any_linkage", "screws_to_json", "spatial_from_j
 
 
 class JointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A joint at home."""
+    """A joint in the reference pose."""
 
     at: list[float] | None = None
     x: list[float] | None = None
@@ -109,15 +109,15 @@ def screws_to_json(linkage: SpatialLinkage) -> dict[str, Any]:
 
 
 def _plain(place: JointPlace, angles: bool) -> dict[str, Any]:
-    out: dict[str, Any] = {"at": list(place.at)}
-    out |= {axis: list(v) for axis in "xyz" if (v := getattr(place, axis)) is not None}
+    table: dict[str, Any] = {"at": list(place.at)}
+    table |= {axis: list(v) for axis in "xyz" if (v := getattr(place, axis)) is not None}
     if place.pitch:
-        out["lead"] = place.pitch * 2 * math.pi
+        table["lead"] = place.pitch * 2 * math.pi
     if place.radii is not None:
-        out["radii"] = infinities_as_words([math.degrees(r) if angles else r for r in place.radii])
+        table["radii"] = infinities_as_words([math.degrees(r) if angles else r for r in place.radii])
     if place.pressure is not None:
-        out["pressure"] = math.degrees(place.pressure)
-    return out
+        table["pressure"] = math.degrees(place.pressure)
+    return table
 
 
 def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:

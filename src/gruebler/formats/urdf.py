@@ -62,13 +62,10 @@ class _Robot(BodyTree):
                 f'  <joint name={quoteattr(f"point {name}")} type="fixed">',
                 f"    <parent link={quoteattr(point.link)}/>",
                 f"    <child link={quoteattr(name)}/>",
-                f'    <origin xyz="{self._at(point.x - x, point.y - y)}"/>',
+                f'    <origin xyz="{self.position(point.x - x, point.y - y)}"/>',
                 "  </joint>",
             ]
         return "\n".join([*lines, "</robot>"]) + "\n"
-
-    def _at(self, x: float, y: float) -> str:
-        return f"{x * self.scale!r} {y * self.scale!r} 0"
 
     def _joint(
         self, child: str, above: str, number: int, origins: dict[str, tuple[float, float]], *, again: bool
@@ -85,7 +82,7 @@ class _Robot(BodyTree):
         yield f'  <joint name={quoteattr(name)} type="{"continuous" if turning else "prismatic"}">'
         yield f"    <parent link={quoteattr(above)}/>"
         yield f"    <child link={quoteattr(child)}/>"
-        yield f'    <origin xyz="{self._at(x - origins[above][0], y - origins[above][1])}" rpy="0 0 {turn!r}"/>'
+        yield f'    <origin xyz="{self.position(x - origins[above][0], y - origins[above][1])}" rpy="0 0 {turn!r}"/>'
         yield f'    <axis xyz="{axis}"/>'
         reach = 2 * self.lower.size * self.scale
         limits = "" if turning else f'lower="{-reach!r}" upper="{reach!r}" '

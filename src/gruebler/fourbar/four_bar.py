@@ -43,7 +43,7 @@ __all__ = ["FourBar", "four_bar_linkage"]
 class FourBar:
     """A four-bar: crank a = A0A, coupler b = AB, rocker c = B0B, frame d = A0B0.
 
-    A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). Of the two ways to assemble, branch +1 has B to the left of the line
+    A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). Of the two assembly modes, branch +1 has B to the left of the line
     from A to B0, branch -1 to the right. Lengths that close in no position are a result (``type``), not an error.
 
     >>> rocker = FourBar(a=2, b=7, c=4.5, d=5.5)

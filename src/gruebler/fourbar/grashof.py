@@ -155,9 +155,9 @@ def grashof(a: float, b: float, c: float, d: float) -> Grashof:
 
 def _turns(lengths: dict[str, float], link: str, close: float) -> bool:
     """Whether a link takes every direction against the frame (docs/theory/four-bar.md, theorem 1)."""
-    short, other = sorted((lengths[link], lengths["d"]))
-    one, two = (length for name, length in lengths.items() if name not in {link, "d"})
-    return (short - one) + (other - two) <= close and (short - other) + abs(one - two) <= close
+    short, second = sorted((lengths[link], lengths["d"]))
+    first, two = (length for name, length in lengths.items() if name not in {link, "d"})
+    return (short - first) + (second - two) <= close and (short - second) + abs(first - two) <= close
 
 
 class LengthRange(NamedTuple):
@@ -205,20 +205,20 @@ def types_along(
     for value in sorted([*sums, *given.values()]):
         if value > ends[-1] + close:
             ends.append(value)
-    found: list[tuple[float, float, Grashof]] = []
+    ranges: list[tuple[float, float, Grashof]] = []
     for lower, upper in itertools.pairwise([*ends, math.inf]):
         middle = grashof(**given, **{free: (lower + upper) / 2 if upper < math.inf else 2 * lower})
-        before = found[-1][2] if found else None
+        before = ranges[-1][2] if ranges else None
         at = grashof(**given, **{free: lower}) if lower else None
         if at and before and at.turning and not set(at.turning) <= {*before.turning, *middle.turning}:
-            found.append((lower, lower, at))
+            ranges.append((lower, lower, at))
             before = None
         if before and before.type == middle.type:
-            found[-1] = (found[-1][0], upper, before)
+            ranges[-1] = (ranges[-1][0], upper, before)
         else:
-            found.append((lower, upper, middle))
-    types = [None, *(part[2].type for part in found), None]
-    return tuple(LengthRange(*part, types[k], types[k + 2]) for k, part in enumerate(found))
+            ranges.append((lower, upper, middle))
+    types = [None, *(part[2].type for part in ranges), None]
+    return tuple(LengthRange(*part, types[k], types[k + 2]) for k, part in enumerate(ranges))
 
 
 def turning_ranges(

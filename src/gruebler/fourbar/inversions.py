@@ -48,10 +48,10 @@ def sized_inversions(size: ClosedForm) -> tuple[SizedInversion, ...]:
     d a crank-rocker
     """
     if isinstance(size, FourBar):
-        made = [_four_bar(size, frame, drive) for frame in _RING for drive in _neighbours(frame)]
+        sized = [_four_bar(size, frame, drive) for frame in _RING for drive in _neighbours(frame)]
     else:
-        made = [_slider_crank(size, frame, drive) for frame in _RING for drive in _neighbours(frame)]
-    return tuple(made)
+        sized = [_slider_crank(size, frame, drive) for frame in _RING for drive in _neighbours(frame)]
+    return tuple(sized)
 
 
 def _neighbours(letter: str) -> list[str]:

@@ -46,9 +46,9 @@ class InvertedSliderCrank:
     """An inverted slider-crank: crank a = A0A, frame d = A0B0, eccentricity e of the guide.
 
     A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). The guide runs through A in the direction theta and passes B0 on its
-    right at the distance e: B0 = A + (r + i e) exp(i theta), r the way of the block. Branch +1 has r > 0, branch -1 r
-    < 0. The same motion belongs to a rod on the crank pin that slides through a block swivelling about B0 (turning and
-    swinging block, conchoid linkage) and to a block on the crank pin in a slotted lever pivoted in B0.
+    right at the distance e: B0 = A + (r + i e) exp(i theta), r the displacement of the block. Branch +1 has r > 0,
+    branch -1 r < 0. The same motion belongs to a rod on the crank pin that slides through a block swivelling about B0
+    (turning and swinging block, conchoid linkage) and to a block on the crank pin in a slotted lever pivoted in B0.
 
     >>> shaper = InvertedSliderCrank(a=30, d=50)
     >>> print(shaper.type.name("de"), round(shaper.dead_centres.time_ratio, 6))

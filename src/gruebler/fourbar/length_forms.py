@@ -46,8 +46,8 @@ def linkage_on_mechanism(
         joint_number = next(k for k, joint in enumerate(mechanism.chain.joints) if set(joint.links) == sides)
         elements[rank[link]][joint_number] = element
     places = None if mechanism is own.mechanism and branch == 1 else _home(lengths, branch)
-    home = None if places is None else dict(zip(loop, places, strict=True))
-    return Linkage(mechanism, elements, unit=unit, reference_pose=home, outputs=outputs or ())
+    reference_pose = None if places is None else dict(zip(loop, places, strict=True))
+    return Linkage(mechanism, elements, unit=unit, reference_pose=reference_pose, outputs=outputs or ())
 
 
 def _loop(mechanism: Mechanism, form: str) -> tuple[str, ...]:

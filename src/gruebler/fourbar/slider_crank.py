@@ -50,11 +50,11 @@ __all__ = ["SliderCrank", "StrokeMidpoint", "slider_crank_linkage"]
 class StrokeMidpoint(NamedTuple):
     """The middle of the way against the middle of the time, from the outer to the inner dead centre."""
 
-    way: float
+    displacement: float
     """The slider's way s halfway between the dead centres."""
     time: float
     """The slider's way s when half the time of the travel is over."""
-    phi_way: float
+    phi_displacement: float
     """The crank angle from the outer dead centre to the middle of the way."""
     phi_time: float
     """The crank angle from the outer dead centre to the middle of the time."""
@@ -62,12 +62,12 @@ class StrokeMidpoint(NamedTuple):
     @property
     def offset(self) -> float:
         """How far the middle of the way lies outside the middle of the time."""
-        return self.way - self.time
+        return self.displacement - self.time
 
     @property
     def time_fraction(self) -> float:
         """The part of the travel's time that the outer half of the way takes; 1/2 for an endless rod."""
-        return self.phi_way / (2 * self.phi_time)
+        return self.phi_displacement / (2 * self.phi_time)
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,13 +223,15 @@ class SliderCrank:
         centres = self.dead_centres
         if centres is None:
             return None
-        way = (centres.inner.output + centres.outer.output) / 2
+        displacement = (centres.inner.output + centres.outer.output) / 2
         phi_time = centres.phi_back / 2
         time = float(self.motion(centres.outer.drive + phi_time).output.value)
-        return StrokeMidpoint(way, time, float(self.phi_at(way)[0] - centres.outer.drive) % TURN, phi_time)
+        return StrokeMidpoint(
+            displacement, time, float(self.phi_at(displacement)[0] - centres.outer.drive) % TURN, phi_time
+        )
 
     def phi_at(self, displacement: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """The two crank angles, in 0..2 pi, at which the slider is at s = way; NaN where it never is.
+        """The two crank angles, in 0..2 pi, at which the slider has a displacement; NaN where it never is.
 
         The first comes after the outer dead centre, the second before it (crank turning in the positive sense).
 
@@ -294,14 +296,14 @@ class SliderCrank:
             gap = b - np.abs(rise)
             along = side * np.sqrt(np.where(np.abs(gap) < slack, 0, gap) * (b + np.abs(rise)))
             theta = [np.arctan2(rise, along)]
-            way = [a * np.cos(crank.value) + along]
+            displacements = [a * np.cos(crank.value) + along]
             for k in (1, 2, 3):
                 rest = a * rotation_derivative(crank[: k + 1], k) + b * rotation_derivative(theta, k)
                 theta_k = -np.imag(rest) / along
-                way.append(np.real(rest) - theta_k * rise)
+                displacements.append(np.real(rest) - theta_k * rise)
                 theta.append(theta_k)
             mu = np.arctan2(np.abs(along), -rise)
-            coupler, output = determined_rates(theta), determined_rates(way)
+            coupler, output = determined_rates(theta), determined_rates(displacements)
             joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
         missing = np.isnan(along)
         return CrankMotion(

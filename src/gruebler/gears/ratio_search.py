@@ -125,7 +125,9 @@ def search_ratio(
                 numbers = int(usable.a[k]), int(usable.p[k]), int(usable.q[k]), int(usable.b[k])
                 value = Fraction(int(above[k]), int(below[k]))
                 best.append(PlanetaryDesign(numbers, driving, driven, held, value, planets))
-    best.sort(key=lambda one: (abs(one.ratio - wanted), one.size, one.teeth[1] != one.teeth[2], one.teeth))
+    best.sort(
+        key=lambda design: (abs(design.ratio - wanted), design.size, design.teeth[1] != design.teeth[2], design.teeth)
+    )
     return best[:number]
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Flags, Reals
+from gruebler.arrays import Complexes, Flags, Reals, cross, dot
 from gruebler.geometry.point_path import PointPath
 from gruebler.geometry.sampling import PathPolygon
 
@@ -40,11 +40,11 @@ _Step = Callable[[Complexes, Complexes], tuple[Reals, Reals]]
 class _Pairs(NamedTuple):
     """Two parameters of each candidate."""
 
-    one: Reals
-    other: Reals
+    first: Reals
+    second: Reals
 
     def pick(self, which: Flags) -> _Pairs:
-        return _Pairs(self.one[which], self.other[which])
+        return _Pairs(self.first[which], self.second[which])
 
 
 def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tuple[DoublePoint, ...] | None:
@@ -59,17 +59,17 @@ def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tu
     within it may be missed. Error: of crossings some roundings by the sine of their angle; of touches the root of that.
     """
     near = _near_sides(samples, point_path.closed, pad)
-    if not len(near.one):
+    if not len(near.first):
         return ()
     crossing, crossed = _newton(point_path, near, _crossing_step)
-    z, w = point_path.at(crossing.one, 1), point_path.at(crossing.other, 1)
-    sine = np.abs(_cross(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
+    z, w = point_path.at(crossing.first, 1), point_path.at(crossing.second, 1)
+    sine = np.abs(cross(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
     crossed &= (np.abs(z[0] - w[0]) <= _CLOSED * point_path.size) & (sine > _FLAT) & _apart(point_path, crossing)
     points = _double_points(point_path, crossing.pick(crossed), touching=False)
     rest = near.pick(~crossed)
-    if len(rest.one):
+    if len(rest.first):
         touch, touched = _newton(point_path, rest, _touching_step)
-        gap = np.abs(point_path.at(touch.one, 0)[0] - point_path.at(touch.other, 0)[0])
+        gap = np.abs(point_path.at(touch.first, 0)[0] - point_path.at(touch.second, 0)[0])
         touched &= (gap <= _TOUCH * point_path.size) & _apart(point_path, touch)
         touches = _double_points(point_path, touch.pick(touched), touching=True)
         if len(touches) > _MOST_TOUCHES:
@@ -110,15 +110,15 @@ def _near_sides(samples: PathPolygon, closed: bool, pad: float) -> _Pairs:
 
 def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Reals, Reals, Reals]:
     """The distance of sides pq and ab, and where on both it is."""
-    one, other = q - p, b - a
-    sine = _cross(one, other)
+    first, second = q - p, b - a
+    sine = cross(first, second)
     with np.errstate(divide="ignore", invalid="ignore"):
-        t, u = _cross(a - p, other) / sine, _cross(a - p, one) / sine
+        t, u = cross(a - p, second) / sine, cross(a - p, first) / sine
     inside = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
     best = np.where(inside, 0.0, np.inf)
     t, u = np.where(inside, t, 0.0), np.where(inside, u, 0.0)
     for end, side, swap in ((p, 0.0, False), (q, 1.0, False), (a, 0.0, True), (b, 1.0, True)):
-        start, segment = (p, one) if swap else (a, other)
+        start, segment = (p, first) if swap else (a, second)
         square = np.maximum(np.abs(segment) ** 2, 1e-300)
         foot = np.clip((np.conj(segment) * (end - start)).real / square, 0, 1)
         gap = np.abs(end - start - foot * segment)
@@ -133,7 +133,7 @@ def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Re
 
 def _newton(point_path: PointPath, start: _Pairs, step: _Step) -> tuple[_Pairs, Flags]:
     """Where it arrives, and whether it has come to rest."""
-    s, t = start.one.copy(), start.other.copy()
+    s, t = start.first.copy(), start.second.copy()
     still = np.zeros(len(s), bool)
     for _ in range(_ROUNDS):
         ds, dt = step(point_path.at(s, 2), point_path.at(t, 2))
@@ -148,18 +148,18 @@ def _newton(point_path: PointPath, start: _Pairs, step: _Step) -> tuple[_Pairs, 
 
 def _crossing_step(z: Complexes, w: Complexes) -> tuple[Reals, Reals]:
     """Towards z(s) = w(t)."""
-    sine = _cross(z[1], w[1])
+    sine = cross(z[1], w[1])
     sine = np.where(sine == 0, 1e-300, sine)
     gap = z[0] - w[0]
-    return _finite(-_cross(gap, w[1]) / sine), _finite(-_cross(gap, z[1]) / sine)
+    return _finite(-cross(gap, w[1]) / sine), _finite(-cross(gap, z[1]) / sine)
 
 
 def _touching_step(z: Complexes, w: Complexes) -> tuple[Reals, Reals]:
     """Towards parallel tangents and a gap at right angles to them."""
     gap = z[0] - w[0]
-    f, g = _dot(gap, z[1]), _cross(z[1], w[1])
-    fs, ft = np.abs(z[1]) ** 2 + _dot(gap, z[2]), -_dot(w[1], z[1])
-    gs, gt = _cross(z[2], w[1]), _cross(z[1], w[2])
+    f, g = dot(gap, z[1]), cross(z[1], w[1])
+    fs, ft = np.abs(z[1]) ** 2 + dot(gap, z[2]), -dot(w[1], z[1])
+    gs, gt = cross(z[2], w[1]), cross(z[1], w[2])
     det = fs * gt - ft * gs
     det = np.where(det == 0, 1e-300, det)
     with np.errstate(over="ignore"):  # what has no bounds is no step
@@ -181,7 +181,7 @@ def _kept(point_path: PointPath, s: Reals) -> Reals:
 
 
 def _apart(point_path: PointPath, pairs: _Pairs) -> Flags:
-    gap = np.abs(pairs.one - pairs.other)
+    gap = np.abs(pairs.first - pairs.second)
     if point_path.closed:
         gap = np.minimum(gap, point_path.end - point_path.start - gap)
     return np.asarray(gap > _APART)
@@ -189,12 +189,12 @@ def _apart(point_path: PointPath, pairs: _Pairs) -> Flags:
 
 def _double_points(point_path: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
     """Each once."""
-    if not len(pairs.one):
+    if not len(pairs.first):
         return []
-    z, w = point_path.at(pairs.one, 1), point_path.at(pairs.other, 1)
-    angle = np.abs(np.arctan2(_cross(z[1], w[1]), _dot(z[1], w[1])))
+    z, w = point_path.at(pairs.first, 1), point_path.at(pairs.second, 1)
+    angle = np.abs(np.arctan2(cross(z[1], w[1]), dot(z[1], w[1])))
     angle = np.minimum(angle, np.pi - angle)
-    drives = np.sort(np.stack([point_path.drive(pairs.one), point_path.drive(pairs.other)]), axis=0)
+    drives = np.sort(np.stack([point_path.drive(pairs.first), point_path.drive(pairs.second)]), axis=0)
     points: list[DoublePoint] = []
     for k in np.lexsort(drives[::-1]):
         both = (float(drives[0, k]), float(drives[1, k]))
@@ -203,7 +203,7 @@ def _double_points(point_path: PointPath, pairs: _Pairs, touching: bool) -> list
     return points
 
 
-def _equal(point_path: PointPath, one: tuple[float, float], other: tuple[float, float]) -> bool:
+def _equal(point_path: PointPath, first: tuple[float, float], second: tuple[float, float]) -> bool:
     """Whether two pairs of drive values are the same, also across the seam."""
     period = point_path.cycle.span.period
 
@@ -211,13 +211,5 @@ def _equal(point_path: PointPath, one: tuple[float, float], other: tuple[float, 
         gap = abs(a - b)
         return bool(min(gap, abs(period - gap)) < _SAME * 100)
 
-    (a, b), (c, d) = one, other
+    (a, b), (c, d) = first, second
     return (near(a, c) and near(b, d)) or (near(a, d) and near(b, c))
-
-
-def _dot(a: Complexes, b: Complexes) -> Reals:
-    return np.asarray((np.conj(a) * b).real)
-
-
-def _cross(a: Complexes, b: Complexes) -> Reals:
-    return np.asarray((np.conj(a) * b).imag)

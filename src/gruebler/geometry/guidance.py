@@ -97,10 +97,10 @@ def guidance(key: str) -> Guidance:
     >>> watt.is_exact, watt.contact.points
     (False, 5)
     """
-    for one in GUIDANCES:
-        if one.key == key:
-            return one
-    keys = [one.key for one in GUIDANCES]
+    for row in GUIDANCES:
+        if row.key == key:
+            return row
+    keys = [row.key for row in GUIDANCES]
     raise LinkageError(
         "there is no straight-line linkage {key!r}{suggestion}; known are {keys}",
         key=key,

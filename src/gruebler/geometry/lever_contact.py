@@ -68,7 +68,7 @@ def lever_pose(linkage: Linkage, point: str, drive: float, branch: str | None = 
         raise LinkageError(
             "expected a four-bar or an inverted slider-crank, but found joints {joints}", joints=", ".join(names)
         )
-    if not links[0] & links[-1] == {mechanism.frame} or not all(one & other for one, other in pairwise(links)):
+    if not links[0] & links[-1] == {mechanism.frame} or not all(first & second for first, second in pairwise(links)):
         raise LinkageError(
             "expected joints in order round the loop, from the frame over the crank, but found {joints}",
             joints=", ".join(names),

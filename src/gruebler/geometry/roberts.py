@@ -55,7 +55,7 @@ class Cognate:
     v: float
     """The coupler point to the left of the coupler."""
     pins: tuple[complex, ...]
-    """A0, A, B and, for a four-bar, B0 in the home pose, in the coordinates of the given linkage."""
+    """A0, A, B and, for a four-bar, B0 in the reference pose, in the coordinates of the given linkage."""
     turn: complex
     """The unit vector from A0 to B0, or along the slider's path."""
     turns_with: tuple[str, ...]
@@ -68,7 +68,7 @@ class Cognate:
 
     @property
     def branch(self) -> int:
-        """The assembly branch in the home pose.
+        """The assembly branch in the reference pose.
 
         It may change along the curve unless the crank turns with the given crank.
         """
@@ -78,13 +78,13 @@ class Cognate:
 
     @property
     def point(self) -> complex:
-        """The coupler point in the home pose."""
+        """The coupler point in the reference pose."""
         _, a, b, *_ = self.pins
         return a + complex(self.u, self.v) * (b - a) / self.size.b
 
     @property
     def phi(self) -> float:
-        """The crank's angle against the frame line (or the slider's path) in the home pose."""
+        """The crank's angle against the frame line (or the slider's path) in the reference pose."""
         return float(np.angle((self.pins[1] - self.pins[0]) / self.turn))
 
     def reversed(self) -> Cognate:
@@ -103,7 +103,7 @@ class Cognate:
         return self.pivot + self.turn * (at[..., 0] + 1j * at[..., 1])
 
     def linkage(self, *, unit: str = "mm") -> Linkage:
-        """The linkage that moves, in the coordinates of the given one, with the point K; its home is the home pose.
+        """The linkage that moves, in the coordinates of the given one, with the point K, in the reference pose.
 
         >>> from gruebler.kinematics import move
         >>> other = cognates(FourBar(25, 70, 40, 70), 45, 40, phi=1.0)[2].reversed()
@@ -166,8 +166,8 @@ def cognates(
 ) -> tuple[Cognate, Cognate, Cognate]:
     """The three Roberts-Chebyshev cognates of a four-bar with a coupler point (u from A along AB, v to the left).
 
-    The first is the given four-bar, the second stands on A0 and C0, the third on B0 and C0. The home pose is that at
-    the crank angle phi (without one: in the middle of the crank's range; of a linkage that folds at a third).
+    The first is the given four-bar, the second stands on A0 and C0, the third on B0 and C0. The reference pose is
+    that at the crank angle phi (without one: in the middle of the crank's range; of a linkage that folds at a third).
 
     Raises `LinkageError` for a coupler point on a joint (its curve is a circle), for the parallelogram and kites with
     coincident joints, of which a link does not turn, and for a pose that cannot be assembled.
@@ -247,7 +247,7 @@ def parallel_motion(
 def _pose(
     size: FourBar | SliderCrank, u: float, v: float, branch: int, phi: float | None
 ) -> tuple[complex, complex, complex, complex]:
-    """A, B, K in the home pose, and the coupler triangle's shape (K - A)/(B - A)."""
+    """A, B, K in the reference pose, and the coupler triangle's shape (K - A)/(B - A)."""
     arm = complex(as_finite("u", u), as_finite("v", v))
     for name, joint in (("A", 0.0), ("B", size.b)):
         if abs(arm - joint) <= _AT_A_JOINT * size.b:
@@ -283,8 +283,8 @@ def _folds(size: FourBar | SliderCrank) -> bool:
 def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
     """Refuse assembly modes in which a moving link stands still: a parallelogram, or a kite whose joints coincide."""
 
-    def same(one: complex, other: complex) -> bool:
-        return abs(one - other) <= _AT_A_JOINT * size.b
+    def same(first: complex, second: complex) -> bool:
+        return abs(first - second) <= _AT_A_JOINT * size.b
 
     still: Message | None = None
     if isinstance(size, SliderCrank):

@@ -47,8 +47,8 @@ class _Condition(NamedTuple):
     """A scalar closing condition, or two of them for a pin, between two links by number."""
 
     kind: str
-    one: int
-    other: int
+    first: int
+    second: int
     near: complex
     far: complex
     line: complex
@@ -133,8 +133,8 @@ def _solved(jacobian: Reals, right: Reals) -> Reals:
         raise LinkageError("the linkage is in a singular pose: there is no series in the drive") from None
 
 
-def _ends(lower: Linkage, joint: int, one: str, other: str) -> tuple[complex, complex, complex]:
-    near, far = lower.elements[joint, one], lower.elements[joint, other]
+def _ends(lower: Linkage, joint: int, first: str, second: str) -> tuple[complex, complex, complex]:
+    near, far = lower.elements[joint, first], lower.elements[joint, second]
     line = rect(1, direction(near))
     return complex(near.x, near.y) / lower.size, complex(far.x, far.y) / lower.size, line
 
@@ -144,13 +144,13 @@ def _residual(conditions: list[_Condition], z: Complexes, turn: Complexes, angle
     coefficients = []
     for c in conditions:
         if c.kind == "angle":
-            coefficients.append(angle[:, c.other, k] - angle[:, c.one, k])
+            coefficients.append(angle[:, c.second, k] - angle[:, c.first, k])
             continue
-        gap = z[:, c.other] + turn[:, c.other] * c.far - z[:, c.one] - turn[:, c.one] * c.near
+        gap = z[:, c.second] + turn[:, c.second] * c.far - z[:, c.first] - turn[:, c.first] * c.near
         if c.kind == "pin":
             coefficients += [gap[:, k].real, gap[:, k].imag]
             continue
-        seen = (np.conj(turn[:, c.one, : k + 1] * c.line) * gap[:, k::-1]).sum(axis=1)
+        seen = (np.conj(turn[:, c.first, : k + 1] * c.line) * gap[:, k::-1]).sum(axis=1)
         coefficients.append(seen.imag if c.kind == "across" else seen.real)
     return np.stack(coefficients, axis=1)
 
@@ -159,22 +159,22 @@ def _rows(conditions: list[_Condition], z: Complexes, turn: Complexes, bodies: l
     """The Jacobian of the conditions by x, y and angle of each body; (rows, equations, unknowns)."""
     rows = []
     for c in conditions:
-        arms = {c.one: turn[:, c.one, 0] * c.near, c.other: turn[:, c.other, 0] * c.far}
-        gap = z[:, c.other, 0] + arms[c.other] - z[:, c.one, 0] - arms[c.one]
-        line = turn[:, c.one, 0] * c.line
+        arms = {c.first: turn[:, c.first, 0] * c.near, c.second: turn[:, c.second, 0] * c.far}
+        gap = z[:, c.second, 0] + arms[c.second] - z[:, c.first, 0] - arms[c.first]
+        line = turn[:, c.first, 0] * c.line
         measures: tuple[Any, ...] = {"pin": (1, 1j), "across": (1j * line,), "along": (line,), "angle": (0 * line,)}[
             c.kind
         ]
         for measure in measures:
             row = np.zeros((len(z), 3 * z.shape[1]))
-            for body, sign in ((c.one, -1), (c.other, 1)):
+            for body, sign in ((c.first, -1), (c.second, 1)):
                 row[:, 3 * body] = sign * np.real(measure)
                 row[:, 3 * body + 1] = sign * np.imag(measure)
                 row[:, 3 * body + 2] = sign * (np.conj(measure) * 1j * arms[body]).real
                 if c.kind == "angle":
                     row[:, 3 * body + 2] = sign
             if c.kind in ("across", "along"):
-                row[:, 3 * c.one + 2] += (np.conj(1j * measure) * gap).real
+                row[:, 3 * c.first + 2] += (np.conj(1j * measure) * gap).real
             rows.append(row)
     columns = [3 * body + part for body in bodies for part in range(3)]
     return np.stack(rows, axis=1)[..., columns]

@@ -243,15 +243,15 @@ def move_many(
         many: designs, or linkages of one mechanism.
         drives: as in `move`, likewise what follows.
         speed: the drives' velocity.
-        acceleration: theirs.
-        jerk: theirs.
+        acceleration: the drives' acceleration.
+        jerk: the drives' jerk.
         branch: the assembly mode at the first row.
         order: the highest derivative.
         links: the links whose motion is kept; all that move if None. One link takes 32 bytes a pose, and 40 more for
             each order.
         threads: how many threads share the designs; as many as there are processors if None.
 
-    Returns `Motions`. Rates in a row that is exactly a change point are not finite or inexact: ask `Motions.motion`.
+    Returns `Motions`. Rates in a row that is exactly a change point are not finite or inexact: call `Motions.motion`.
     Cost: 20 to 50 ns a pose of a four-bar. Raises `LinkageError` as `move` does.
 
     >>> many = four_bars(25, np.linspace(60, 80, 5), 40, 70)

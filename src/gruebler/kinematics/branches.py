@@ -124,8 +124,8 @@ def branch_of(plan: Plan, roots: Reals, unknowns: Reals, drives: Reals) -> tuple
     return tuple(labels)
 
 
-def _distance(one: Reals, other: Reals, size: float) -> float:
-    gap = one - other
+def _distance(first: Reals, second: Reals, size: float) -> float:
+    gap = first - second
     angles = np.abs(np.exp(1j * gap[:, 2]) - 1)
     return float(max(np.abs(gap[:, :2]).max() / size, angles.max()))
 
@@ -133,7 +133,7 @@ def _distance(one: Reals, other: Reals, size: float) -> float:
 def modes_of_group(plan: Plan, part: HigherGroup, drives: Reals, signs: Reals, unknowns: Reals) -> Reals:
     """All assembly modes of a larger group with everything before it placed: (modes, bodies, 3)."""
     from gruebler.kinematics.assembly_modes import conditions as closing_conditions
-    from gruebler.kinematics.triads import assembly_modes
+    from gruebler.kinematics.triads import all_modes
 
     places, turns = pose_before(plan, part, drives, signs, unknowns)
     program = plan.program
@@ -144,7 +144,7 @@ def modes_of_group(plan: Plan, part: HigherGroup, drives: Reals, signs: Reals, u
             for e, k in ((a, program.links[a]), (b, program.links[b]))
         )
         rows.append((kind, body_a, body_b, point_a, line_a, point_b, line_b))
-    return assembly_modes(closing_conditions(rows)).poses
+    return all_modes(closing_conditions(rows)).poses
 
 
 def pose_before(

@@ -63,7 +63,7 @@ class Circuit(Brief):
     """All positions of a linkage on one curve.
 
     Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle
-    counting as the way of a point at that distance. On a closed circuit arcs below 0 or above `length` go round again.
+    counting as the way of a point at that distance. On a closed circuit arcs below 0 or above `length` wrap around.
     """
 
     linkage: Linkage
@@ -285,12 +285,12 @@ def circuit(
 ) -> Circuit:
     """The circuit of a linkage with one freedom.
 
-    It starts from the linkage's home if there is one and neither a branch nor a drive value is asked for; else from the
-    drive value, or from the first value of a fixed list at which the branch can be assembled. Redundant joints are
-    allowed from a home. It begins in the direction in which the drive increases.
+    It starts from the linkage's reference pose if there is one and neither a branch nor a drive value is asked for;
+    else from the drive value, or from the first value of a fixed list at which the branch can be assembled. Redundant
+    joints are allowed from a reference pose. It begins in the direction in which the drive increases.
 
     Args:
-        linkage: with one drive, or with a home and none.
+        linkage: with one drive, or with a reference pose and none.
         branch: the assembly mode at the start, as for `move`.
         drive: the drive value at the start.
         step: the longest distance of samples, in sizes; extremes nearer to each other than that may be missed in pairs.
@@ -359,10 +359,9 @@ def _start(
     if best is None:
         raise LinkageError(
             "the linkage cannot be assembled at any of {count} drive values; another drive value or a "
-            "reference pose (home) may help"
+            "reference pose may help"
             if drive is None
-            else "the linkage cannot be assembled at {drive:.9g}; another drive value or a reference pose "
-            "(home) may help",
+            else "the linkage cannot be assembled at {drive:.9g}; another drive value or a reference pose may help",
             count=_TRIALS,
             drive=drive,
         )

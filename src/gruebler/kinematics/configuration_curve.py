@@ -161,8 +161,8 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
             ]
             continue
         sides = keys.index(ends[0]), keys.index(ends[1])
-        for condition in contact_conditions(lower, joint.pair.name, keys, sides, (owners[0], owners[1])):
-            one, two, value = condition.values
+        for condition in contact_conditions(lower, joint.pair, keys, sides, (owners[0], owners[1])):
+            weight, other_weight, value = condition.values
             places = _at(lower, keys[condition.sides[0]]), _at(lower, keys[condition.sides[1]])
             if condition.kind == MESH:
                 arm = len(bodies) + len(free)
@@ -176,14 +176,26 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
                 if number in held:
                     turned -= held[number].direction + (pi if condition.sides != sides else 0.0)
                 rows.append(
-                    _Row(TRAIN, condition.owners, places, (one / size, two / size, 0.0, arm, turned), condition.law)
+                    _Row(
+                        TRAIN,
+                        condition.owners,
+                        places,
+                        (weight / size, other_weight / size, 0.0, arm, turned),
+                        condition.law,
+                    )
                 )
             elif condition.kind == RACK:
-                rows.append(_Row(TRAVEL, condition.owners, places, (one / size, two, 0.0, 0.0, 0.0)))
+                rows.append(_Row(TRAVEL, condition.owners, places, (weight / size, other_weight, 0.0, 0.0, 0.0)))
             else:
                 law = condition.law.scaled(size, condition.kind == POLAR)
                 rows.append(
-                    _Row(condition.kind, condition.owners, places, (one / size, two, value / size, 0.0, 0.0), law)
+                    _Row(
+                        condition.kind,
+                        condition.owners,
+                        places,
+                        (weight / size, other_weight, value / size, 0.0, 0.0),
+                        law,
+                    )
                 )
     for a, b in still:
         owners = [-1 if link == frame else bodies.index(link) for link in (a, b)]
@@ -339,13 +351,13 @@ def _is_start(curve: SampleBuffer, sample: int) -> bool:
     return bool(sample > 1 and np.abs(gap).max() < _SAME and curve.tangents[sample] @ curve.tangents[0] > _AHEAD)
 
 
-def _change(closure: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
+def _change(closure: ClosureSystem, first: Reals, second: Reals) -> Reals | None:
     """The pose between two neighbouring samples in which the Jacobian loses its rank; None if it does not on the curve.
 
     Newton's method on F(x) + beta psi = 0, J(x)^T psi = 0, |psi| = 1 for x, psi, beta; beta is 0 at a change point.
     """
-    rows = closure.independent(one)
-    x, n, p = (one + two) / 2, closure.unknowns, len(rows)
+    rows = closure.independent(first)
+    x, n, p = (first + second) / 2, closure.unknowns, len(rows)
     beta = 0.0
     psi = np.linalg.svd(closure.linearised(x)[1][rows])[0][:, -1]
     for _ in range(15):
@@ -363,12 +375,12 @@ def _change(closure: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
         if not np.abs(move).max() < 1:
             return None
         if np.abs(move).max() < _EXACT:
-            near = np.linalg.norm(x - (one + two) / 2) <= np.linalg.norm(two - one)
+            near = np.linalg.norm(x - (first + second) / 2) <= np.linalg.norm(second - first)
             return x if near and abs(beta) < _EXACT else None
     return None
 
 
-def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
+def _meeting(system: ClosureSystem, first: Reals, second: Reals, tangent: Reals) -> tuple[Reals | None, int]:
     """The pose between two neighbouring samples in which other curves meet this one, and how many ranks are lost there.
 
     The pose is None if there is none.
@@ -381,7 +393,7 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
     from gruebler._numeric.work_estimates import sampling
 
     def at(part: float) -> tuple[Reals, float]:
-        pose = one + part * (two - one)
+        pose = first + part * (second - first)
         for_work(settle_on_curve, sampling(system.unknowns, 1))(system.conditions, pose, tangent.copy(), system.room)
         return pose, float(np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2])
 
@@ -398,7 +410,7 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
         shift = float(min(roots, key=abs))
         place += width * shift
     weights = np.array([np.prod([(shift - v) / (u - v) for v in _BESIDE if v != u]) for u in _BESIDE])
-    pose = weights @ np.array([one for one, _ in samples])
+    pose = weights @ np.array([first for first, _ in samples])
     singular = np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[: system.unknowns - 1]
     lost = int((singular < _LOST * values.min()).sum())
     return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost

@@ -1,4 +1,4 @@
-"""Closing conditions of wheels and circles, their numbers taken from the home position; docs/theory/wheels.md."""
+"""Closing conditions of wheels and circles, their numbers taken from the reference pose; docs/theory/wheels.md."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.motion.closure import FACE, MESH, POLAR, RACK, REACH, RIDE
+from gruebler.chain.pairs import Pair
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contours import COEFFICIENTS, PiecewiseLaw, cam_law, turn_law
 from gruebler.kinematics.noncircular import transfer_of
 from gruebler.linkages import CamDisc, Circle, Element, GenevaDriver, Line, Linkage, NonCircular, Wheel
-from gruebler.linkages.elements import INVERSE, direction
+from gruebler.linkages.elements import INVERSE, RoundElement, direction
 from gruebler.linkages.wheels import rolling_factors
 
-__all__ = ["Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
+__all__ = ["Condition", "contact_conditions", "law_tables", "reference_angles", "side_of"]
 
 Keys = tuple[tuple[int, str], ...]
 _MESHES = 1e-6  # radians: angles of a drawing with six digits fit
@@ -42,38 +43,38 @@ class Condition(NamedTuple):
 
 
 def contact_conditions(
-    lower: Linkage, pair: str, keys: Keys, sides: tuple[int, int], owners: tuple[int, int]
+    lower: Linkage, pair: Pair, keys: Keys, sides: tuple[int, int], owners: tuple[int, int]
 ) -> list[Condition]:
     """What a roll-slide or rolling pair of wheels, circles and lines asks for."""
-    one, other = (lower.elements[keys[side]] for side in sides)
-    if _rank(other) < _rank(one):
-        one, other, sides, owners = other, one, sides[::-1], owners[::-1]
-    if isinstance(one, CamDisc):
-        return [Condition(POLAR, sides, owners, (one.base * one.scale, 0.0, 0.0), cam_law(one))]
-    if isinstance(other, CamDisc):
-        return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(other))]
-    if isinstance(one, GenevaDriver | NonCircular):
-        raw = Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), turn_law(one, other))
+    first, second = (lower.elements[keys[side]] for side in sides)
+    if _rank(second) < _rank(first):
+        first, second, sides, owners = second, first, sides[::-1], owners[::-1]
+    if isinstance(first, CamDisc):
+        return [Condition(POLAR, sides, owners, (first.base * first.scale, 0.0, 0.0), cam_law(first))]
+    if isinstance(second, CamDisc):
+        return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(second))]
+    if isinstance(first, GenevaDriver | NonCircular):
+        raw = Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), turn_law(first, second))
         condition = _phased(lower, keys, raw)
-        if isinstance(one, NonCircular):
+        if isinstance(first, NonCircular):
             _check_phase(lower, keys, condition)
         return [condition]
     conditions = []
-    if isinstance(other, Wheel):
-        if isinstance(one, Line):
-            raw = Condition(RACK, sides, owners, (other.radius * side_of(lower, keys, sides), 1.0, 0.0))
+    if isinstance(second, Wheel):
+        if isinstance(first, Line):
+            raw = Condition(RACK, sides, owners, (second.radius * side_of(lower, keys, sides), 1.0, 0.0))
         else:
-            assert isinstance(one, Wheel)
-            raw = Condition(MESH, sides, owners, (*rolling_factors(one, other), 0.0))
+            assert isinstance(first, Wheel)
+            raw = Condition(MESH, sides, owners, (*rolling_factors(first, second), 0.0))
         conditions.append(_phased(lower, keys, raw))
-    if pair == "rolling" or isinstance(other, Circle):
-        assert isinstance(other, Wheel | Circle)
-        if isinstance(one, Line):
-            offset = other.radius * side_of(lower, keys, sides)
+    if pair.is_rolling or isinstance(second, Circle):
+        assert isinstance(second, RoundElement)
+        if isinstance(first, Line):
+            offset = second.radius * side_of(lower, keys, sides)
             conditions.append(Condition(RIDE, sides, owners, (0.0, 0.0, offset)))
         else:
-            assert isinstance(one, Wheel | Circle)
-            conditions.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(one.radius + other.radius))))
+            assert isinstance(first, RoundElement)
+            conditions.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(first.radius + second.radius))))
     return conditions
 
 
@@ -85,11 +86,11 @@ def _rank(element: Element) -> int:
 
 
 def _check_phase(lower: Linkage, keys: Keys, condition: Condition) -> None:
-    """Refuse non-circular wheels whose curves do not touch at home; the second may start in any of its equal parts."""
-    one, other = (lower.elements[keys[side]] for side in condition.sides)
-    assert isinstance(one, NonCircular)
-    assert isinstance(other, NonCircular)
-    part = 2 * pi / transfer_of(one, other).mean.denominator
+    """Refuse non-circular wheels that do not touch there; the second may start in any of its equal parts."""
+    first, second = (lower.elements[keys[side]] for side in condition.sides)
+    assert isinstance(first, NonCircular)
+    assert isinstance(second, NonCircular)
+    part = 2 * pi / transfer_of(first, second).mean.denominator
     off = condition.values[2] / lower.size + pi
     off -= part * floor(off / part + 0.5)
     if abs(off) > _MESHES:
@@ -101,14 +102,14 @@ def _check_phase(lower: Linkage, keys: Keys, condition: Condition) -> None:
 
 
 def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
-    """The condition as it holds at home."""
-    one, two, _ = raw.values
-    first, second = home_angles(lower, keys, raw)
+    """The condition as it holds in the reference pose."""
+    a, b, _ = raw.values
+    first, second = reference_angles(lower, keys, raw)
     if raw.kind == RACK:
         second = _way(lower, keys, raw.sides).real
     elif raw.law.pieces:
         first = law_at(raw.law, first)
-    return raw._replace(values=(one, two, one * first + two * second))
+    return raw._replace(values=(a, b, a * first + b * second))
 
 
 def law_at(law: PiecewiseLaw, angle: float) -> float:
@@ -122,8 +123,8 @@ def law_at(law: PiecewiseLaw, angle: float) -> float:
     return value + turns * law.advance
 
 
-def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
-    """The angles of a condition that counts whole turns, at home."""
+def reference_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
+    """The angles of a condition that counts whole turns, in the reference pose."""
     angles = [
         lower.required_pose[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides
     ]
@@ -145,12 +146,12 @@ def law_tables(laws: Sequence[PiecewiseLaw]) -> tuple[list[tuple[float, float, f
 
 
 def side_of(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> int:
-    """On which side of a line a centre lies at home: 1 if on the left, seen along the line."""
+    """On which side of a line a centre lies in the reference pose: 1 if on the left, seen along the line."""
     return -1 if _way(lower, keys, sides).imag < 0 else 1
 
 
 def _way(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> complex:
-    """A centre at home, seen from a line: along it, and to the left of it."""
+    """A centre in the reference pose, seen from a line: along it, and to the left of it."""
     number, link = keys[sides[0]]
     line = lower.elements[number, link]
     assert isinstance(line, Line)

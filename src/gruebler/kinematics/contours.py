@@ -119,19 +119,19 @@ def _turned(cam: Cam, t: Reals, high: float, low: float) -> Reals:
 
 
 @lru_cache(maxsize=64)
-def turn_law(one: GenevaDriver | NonCircular, other: Element) -> PiecewiseLaw:
+def turn_law(first: GenevaDriver | NonCircular, second: Element) -> PiecewiseLaw:
     """The angle of a Geneva wheel, or of a non-circular wheel, by that of its driver, both against the line of centres.
 
     `LinkageError` for a pair that cannot be.
     """
-    if isinstance(one, NonCircular):
-        assert isinstance(other, NonCircular)
-        pair = transfer_of(one, other)
+    if isinstance(first, NonCircular):
+        assert isinstance(second, NonCircular)
+        pair = transfer_of(first, second)
         bounds = [*(pair.breaks or (0.0,)), 2 * pi]
         law = _law(lambda t, _a, _b: -pair.at(t), bounds, advance=-2 * pi * float(pair.mean))
         return law._replace(joints=law.joints if pair.breaks else ())
-    assert isinstance(other, GenevaWheel)
-    return _geneva_law(one, other)
+    assert isinstance(second, GenevaWheel)
+    return _geneva_law(first, second)
 
 
 def _geneva_law(driver: GenevaDriver, cross: GenevaWheel) -> PiecewiseLaw:

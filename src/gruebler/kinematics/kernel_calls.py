@@ -89,7 +89,7 @@ def _with_rests(
     pick = again[:count]
     places, rates = rows.places[:, pick], rows.rates[:, pick]
     for row in np.setdiff1d(np.arange(count), kept) if order else ():
-        one = run_rows(
+        solved = run_rows(
             plan.program,
             plan,
             path[row : row + 1],
@@ -98,8 +98,8 @@ def _with_rests(
             np.where(rows.roots[again[row]] < 0, -1.0, 1.0),
             rows.unknowns[again[row]].copy(),
         )
-        if one.reached and np.isfinite(rows.rates[:, again[row]]).all():
-            places[1:, row], rates[:, row] = one.places[1:, 0], one.rates[:, 0]
+        if solved.reached and np.isfinite(rows.rates[:, again[row]]).all():
+            places[1:, row], rates[:, row] = solved.places[1:, 0], solved.rates[:, 0]
     at = rows.at if rows.status == 0 else float(kept[min(int(rows.at), len(kept) - 1)]) + rows.at % 1
     return rows._replace(
         reached=count,

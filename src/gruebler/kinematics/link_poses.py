@@ -107,7 +107,7 @@ class LinkPoses(ABC):
         return self._along_line(self.linkage, number, first, other, order, 1j if across else 1)
 
     def pose(self, row: int = 0) -> dict[str, Pose2D]:
-        """Where the links lie in a row, as a home for `Linkage.with_reference_pose`."""
+        """Where the links lie in a row, as a reference pose for `Linkage.with_reference_pose`."""
         return {
             link: Pose2D(float(z.real), float(z.imag), float(self.angle(link)[row]))
             for link in self.linkage.mechanism.chain.links

@@ -20,7 +20,7 @@ from gruebler.kinematics.link_poses import LinkPoses
 from gruebler.kinematics.messages import stop_message, unbounded_message
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, NonCircular, Wheel
-from gruebler.linkages.elements import INVERSE
+from gruebler.linkages.elements import INVERSE, LeadingElement, RoundElement
 from gruebler.linkages.wheels import carriers, rolling_factors, round_joints
 from gruebler.notebook import Brief
 from gruebler.text import Message, joined
@@ -49,7 +49,7 @@ class Stop:
 class Motion(LinkPoses, Brief):
     """Poses of a linkage along a path of its drives, with derivatives.
 
-    Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows behind a `stop` are not there:
+    Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows after a `stop` are missing:
     ``len(motion)`` says how many are.
     """
 
@@ -172,9 +172,6 @@ class Motion(LinkPoses, Brief):
             raise LinkageError("the order of a derivative is 0, 1, 2 or 3, not {order!r}", order=order)
 
 
-_LEADING = (CamDisc, GenevaDriver, NonCircular)
-
-
 def _closure_error(motion: Motion) -> float:
     """See `Motion.closure_error`."""
     lower = motion.plan.lower
@@ -200,26 +197,26 @@ def _open_contact(motion: Motion, number: int) -> float:
     a, b = chain.joints[number].links
     if isinstance(elements[number, b], Line):
         a, b = b, a
-    one, other = elements[number, a], elements[number, b]
-    if isinstance(one, _LEADING) or isinstance(other, _LEADING):
+    element, other_element = elements[number, a], elements[number, b]
+    if isinstance(element, LeadingElement) or isinstance(other_element, LeadingElement):
         return _open_curve(motion, number) / linkage.size
-    assert isinstance(other, Wheel | Circle)
-    gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
-    touching = chain.joints[number].pair.is_rolling or isinstance(other, Circle)
-    if isinstance(one, Line):
-        gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, one.angle))
-        radius = np.copysign(other.radius, gap.imag)
+    assert isinstance(other_element, RoundElement)
+    gap = _point_at(motion, b, other_element.x, other_element.y) - _point_at(motion, a, element.x, element.y)
+    touching = chain.joints[number].pair.is_rolling or isinstance(other_element, Circle)
+    if isinstance(element, Line):
+        gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, element.angle))
+        radius = np.copysign(other_element.radius, gap.imag)
         far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
     else:
-        assert isinstance(one, Wheel | Circle)
-        far = np.abs(np.abs(gap) - abs(one.radius + other.radius))
+        assert isinstance(element, RoundElement)
+        far = np.abs(np.abs(gap) - abs(element.radius + other_element.radius))
         arm = carriers(linkage.mechanism, elements).get(number)
         along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
-        if isinstance(one, Wheel) and isinstance(other, Wheel):
-            first, second = rolling_factors(one, other)
+        if isinstance(element, Wheel) and isinstance(other_element, Wheel):
+            first, second = rolling_factors(element, other_element)
             rolled = first * (motion.angle(a) - along) + second * (motion.angle(b) - along)
     largest = float(far.max()) if touching else 0.0
-    if isinstance(other, Wheel):
+    if isinstance(other_element, Wheel):
         largest = max(largest, float(np.abs(rolled - rolled[0]).max()))
     return largest / linkage.size
 
@@ -231,21 +228,21 @@ def _open_curve(motion: Motion, number: int) -> float:
     last = elements[number, b]
     if isinstance(last, CamDisc | GenevaDriver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
         a, b = b, a
-    one, other = elements[number, a], elements[number, b]
-    assert isinstance(one, CamDisc | GenevaDriver | NonCircular)
-    gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
-    along = motion.turns[:, motion.link_index(a)] * rect(1, one.angle)
-    if isinstance(one, GenevaDriver | NonCircular):
-        law = turn_law(one, other)
+    first, second = elements[number, a], elements[number, b]
+    assert isinstance(first, LeadingElement)
+    gap = _point_at(motion, b, second.x, second.y) - _point_at(motion, a, first.x, first.y)
+    along = motion.turns[:, motion.link_index(a)] * rect(1, first.angle)
+    if isinstance(first, GenevaDriver | NonCircular):
+        law = turn_law(first, second)
         bearing = np.unwrap(np.angle(gap))
-        turned = motion.angle(a) + one.angle - bearing
+        turned = motion.angle(a) + first.angle - bearing
         turned += np.angle(along[0] / gap[0] * abs(gap[0])) - turned[0]
         wheel = motion.angle(b) - bearing
         off = np.array([law_at(law, float(t)) for t in turned]) - wheel
         return float(np.abs(off - off[0]).max()) * motion.linkage.size
-    law = cam_law(one)
-    if isinstance(other, Line):
-        normal = 1j * motion.turns[:, motion.link_index(b)] * rect(1, other.angle)
+    law = cam_law(first)
+    if isinstance(second, Line):
+        normal = 1j * motion.turns[:, motion.link_index(b)] * rect(1, second.angle)
         height = (np.conj(normal) * gap).real
         normal, height = normal * np.sign(height), np.abs(height)
         wanted = np.array([law_at(law, float(t)) for t in np.angle(normal / along)])
@@ -265,15 +262,17 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
     for first, other in ((joint.links[0], other) for other in joint.links[1:]):
         if not isinstance(linkage.elements[number, first], Line):
             first, other = other, first  # noqa: PLW2901
-        one, two = linkage.elements[number, first], linkage.elements[number, other]
-        gap = (_point_at(motion, other, two.x, two.y) - _point_at(motion, first, one.x, one.y)) / linkage.size
-        if isinstance(one, Line):
-            line = motion.turns[:, motion.link_index(first)] * rect(1, one.angle)
-            if joint.pair.name != "double_slide":
+        element, other_element = linkage.elements[number, first], linkage.elements[number, other]
+        gap = (
+            _point_at(motion, other, other_element.x, other_element.y) - _point_at(motion, first, element.x, element.y)
+        ) / linkage.size
+        if isinstance(element, Line):
+            line = motion.turns[:, motion.link_index(first)] * rect(1, element.angle)
+            if not joint.pair.is_double_slide:
                 openings = np.maximum(openings, np.abs((np.conj(line) * gap).imag))
-            if isinstance(two, Line):
+            if isinstance(other_element, Line):
                 openings = np.maximum(
-                    openings, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, two.angle) - line)
+                    openings, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, other_element.angle) - line)
                 )
         else:
             openings = np.maximum(openings, np.abs(gap))

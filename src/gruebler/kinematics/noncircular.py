@@ -15,7 +15,7 @@ from gruebler.cams import Lift, read_lift
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import NonCircular
 
-__all__ = ["Transfer", "transfer_of"]
+__all__ = ["WheelTransfer", "transfer_of"]
 
 
 _RATIOS = (1e-3, 1e3)  # beyond them a radius is less than a thousandth of the centre distance
@@ -25,7 +25,7 @@ _STEPS, _MOST = 360, 3600  # points of a lobe, and of a curve, at most
 _LOBES = 100  # equal parts of a curve: each has 36 points or more
 
 
-class Transfer(NamedTuple):
+class WheelTransfer(NamedTuple):
     """The turn of the second wheel by that of the first, in opposite senses, both from the line of centres.
 
     >>> pair = Transfer(Fraction(1), kappa=0.5)
@@ -75,7 +75,7 @@ class Transfer(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def transfer_of(wheel: NonCircular, other: NonCircular) -> Transfer:
+def transfer_of(wheel: NonCircular, other: NonCircular) -> WheelTransfer:
     """The transfer function of a wheel and the one that is its inverse; `LinkageError` for one that cannot be."""
     mean = Fraction(wheel.teeth, other.teeth) if wheel.teeth else Fraction(1)
     try:
@@ -91,10 +91,10 @@ def transfer_of(wheel: NonCircular, other: NonCircular) -> Transfer:
     return transfer
 
 
-def _read(text: str, mean: Fraction) -> Transfer:
+def _read(text: str, mean: Fraction) -> WheelTransfer:
     word, *rest = text.split()
     if word != "ellipse":
-        return Transfer(mean, lift=read_lift(text).scaled(pi / 180))
+        return WheelTransfer(mean, lift=read_lift(text).scaled(pi / 180))
     try:
         (e,) = (float(value) for value in rest)
     except ValueError:
@@ -108,10 +108,10 @@ def _read(text: str, mean: Fraction) -> Transfer:
     m = float(mean)
     parameter = (1 - e * e) * m / (m + sqrt(1 - e * e + m * m * e * e))  # docs/theory/wheels.md
     reach = 1 - parameter
-    return Transfer(mean, e / (reach + sqrt((reach - e) * (reach + e))))
+    return WheelTransfer(mean, e / (reach + sqrt((reach - e) * (reach + e))))
 
 
-def _check_ratio(transfer: Transfer) -> None:
+def _check_ratio(transfer: WheelTransfer) -> None:
     if transfer.lift is None:
         extremes = [(float(a), float(transfer.ratio(a))) for a in (0.0, pi)]
     else:
@@ -123,7 +123,7 @@ def _check_ratio(transfer: Transfer) -> None:
                 at=degrees(jump.at),
             )
         extremes = [(a, float(transfer.mean) + slope) for a, slope in transfer.lift.extremes(1)]
-    for at, ratio in (min(extremes, key=lambda one: one[1]), max(extremes, key=lambda one: one[1])):
+    for at, ratio in (min(extremes, key=lambda place: place[1]), max(extremes, key=lambda place: place[1])):
         if not _RATIOS[0] <= ratio <= _RATIOS[1]:
             raise LinkageError(
                 "transfer: the ratio is {ratio:.4g} at {at:.6g}°; it must be positive everywhere, from "
@@ -135,7 +135,7 @@ def _check_ratio(transfer: Transfer) -> None:
             )
 
 
-def _check_closed(transfer: Transfer) -> None:
+def _check_closed(transfer: WheelTransfer) -> None:
     """The second curve is closed after one turn if the ratio repeats as often as the numerator of the mean says."""
     times = transfer.mean.numerator
     ends = np.array([*transfer.breaks, tau])

@@ -40,8 +40,8 @@ class Dyad:
     group: int
     """Its number in the decomposition."""
     form: str
-    one: str
-    two: str
+    first: str
+    second: str
     number: int
     """Its number among the dyads."""
 
@@ -63,7 +63,7 @@ class HigherGroup:
     base: str
     """The link that stands for what it is found against."""
     contacts: bool = False
-    """Whether wheels or circles are in it: then its modes are not searched for, and it is followed from the home."""
+    """Whether wheels or circles are in it: its modes are not searched for, it is followed from the reference pose."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -97,18 +97,18 @@ class Plan(Brief):
 
     @property
     def wheels(self) -> bool:
-        """Whether wheels or circles are in it, so that every motion is followed from the home."""
+        """Whether wheels or circles are in it, so that every motion is followed from the reference pose."""
         return any(part.contacts for part in self.higher_groups)
 
     @cached_property
     def held(self) -> np.ndarray:
         """The values of the drives that hold idle rollers; they stand behind the others."""
-        home, drives = (
+        reference, drives = (
             self.lower.reference_pose,
             range(len(self.linkage.mechanism.drives), len(self.lower.mechanism.drives)),
         )
         links = [self.lower.reference(k) for k in drives]
-        return np.array([home[b].angle - home[a].angle if home is not None else 0.0 for a, b in links])
+        return np.array([reference[b].angle - reference[a].angle if reference is not None else 0.0 for a, b in links])
 
     @property
     def dwelling(self) -> bool:
@@ -173,15 +173,15 @@ class Plan(Brief):
             line = program.lines[near]
             turn = line * np.conj(program.lines[far])
             for operation in self.operations:
-                for one, other in (operation[2:4], operation[4:6]) if operation[0] == RRR else ():
-                    if {program.links[one], program.links[other]} != {program.links[near], program.links[far]}:
+                for first, second in (operation[2:4], operation[4:6]) if operation[0] == RRR else ():
+                    if {program.links[first], program.links[second]} != {program.links[near], program.links[far]}:
                         continue
-                    if program.links[one] != program.links[near]:
-                        one, other = other, one  # noqa: PLW2901
+                    if program.links[first] != program.links[near]:
+                        first, second = second, first  # noqa: PLW2901
                     gap = (
                         program.points[near]
-                        + turn * (program.points[other] - program.points[far])
-                        - program.points[one]
+                        + turn * (program.points[second] - program.points[far])
+                        - program.points[first]
                     )
                     value = float(-sign * (np.conj(line) * gap).real)
                     if not any(
@@ -215,7 +215,7 @@ def plan(linkage: Linkage) -> Plan:
     lower = with_lower_pairs(linkage)
     if lower.reference_pose is None and round_joints(lower.mechanism, lower.elements):
         raise LinkageError(
-            "wheels roll from a known position: the linkage needs a reference pose (home) or a drawing "
+            "wheels roll from a known position: the linkage needs a reference pose or a drawing "
             "(Linkage.from_drawing, places)"
         )
     parts = decompose(lower.mechanism)
@@ -292,11 +292,11 @@ class _Planner:
         roots = tuple(body[0] for body in group.bodies)
         dyad = self._dyad(group, base)
         if dyad is not None:
-            kind, elements, one, two = dyad
+            kind, elements, first, second = dyad
             count = len([part for part in self.parts if isinstance(part, Dyad)])
             index = self.chain.index
-            self.operations.append((kind, *elements, index(one), index(two), count))
-            self.parts.append(Dyad(number, _FORMS[kind], one, two, count))
+            self.operations.append((kind, *elements, index(first), index(second), count))
+            self.parts.append(Dyad(number, _FORMS[kind], first, second, count))
         else:
             count = len(self.conditions)
             self.operations.append((GROUP, count))
@@ -328,18 +328,18 @@ class _Planner:
                 outer[member.links[0]] = joint, member.pair.symbol()
             else:
                 inner = joint, member.pair.symbol()
-        one, two = 0, 1
+        body_a, body_b = 0, 1
         form = outer[0][1] + inner[1] + outer[1][1]
         if form not in _DYADS:
-            form, one, two = form[::-1], 1, 0
-        first, second = group.bodies[one][0], group.bodies[two][0]
+            form, body_a, body_b = form[::-1], 1, 0
+        first, second = group.bodies[body_a][0], group.bodies[body_b][0]
         elements = [
-            self._element(outer[one][0], base),
-            self._element(outer[one][0], first),
+            self._element(outer[body_a][0], base),
+            self._element(outer[body_a][0], first),
             self._element(inner[0], first),
             self._element(inner[0], second),
-            self._element(outer[two][0], second),
-            self._element(outer[two][0], base),
+            self._element(outer[body_b][0], second),
+            self._element(outer[body_b][0], base),
         ]
         return _DYADS[form], elements, first, second
 
@@ -354,7 +354,7 @@ class _Planner:
                     conditions.append(Condition(PIN if member.pair.is_revolute else SLIDE, both, owners))
                 else:
                     try:
-                        conditions += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
+                        conditions += contact_conditions(self.lower, member.pair, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
                             "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error

@@ -93,9 +93,9 @@ def independent_part(linkage: Linkage) -> Independent:
         raise LinkageError("redundant conditions are sought among pins and slides only, not where wheels touch")
     if linkage.reference_pose is None:
         raise LinkageError(
-            "Only with special sizes does it move: with a position in which its joints close ([home] or [places]) "
-            "it is moved along the conditions that are independent there. `gruebler check --explain` shows what its "
-            "sizes allow."
+            "Only with special sizes does it move: with a position in which its joints close ([reference_pose] or "
+            "[places]) it is moved along the conditions that are independent there. `gruebler check --explain` shows "
+            "what its sizes allow."
         )
     conditions = ReferenceConditions(linkage)
     x = conditions.settled()
@@ -194,7 +194,7 @@ class ReferenceConditions:
         if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < NEAR_REFERENCE:
             worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
             raise LinkageError(
-                "home: the joints are not closed there; {worst} is open by {gap:.1e} of the linkage's size",
+                "reference pose: the joints are not closed there; {worst} is open by {gap:.1e} of the linkage's size",
                 worst=worst,
                 gap=far.max(),
             )
@@ -208,7 +208,7 @@ class ReferenceConditions:
             return
         lined = first if isinstance(self.linkage.elements[number, first], Line) else other
         along = self._line(x, number, lined)
-        if joint.pair.name != "double_slide":
+        if not joint.pair.is_double_slide:
             yield self._way(x, number, links, 1j * along, lined)
         if not joint.pair.is_roll_slide:
             turned = self._line(x, number, other) * self._line(x, number, first).conjugate()
@@ -320,7 +320,7 @@ def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> li
     chosen: list[_Release] = []
     joints: dict[int, set[str]] = {}
     while forces.shape[1]:
-        here = [one.directed(forces) for one in releases]
+        here = [release.directed(forces) for release in releases]
         share = {}
         for k, _release in enumerate(here):
             taken = joints.get(_release.joint, set())
@@ -347,11 +347,11 @@ def _simplest(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> 
     others = [_release for _release in releases if not _release.turned]
     for _ in range(len(chosen)):
         best = chosen
-        for place, other in itertools.islice(itertools.product(range(len(chosen)), others), _TRIALS):
-            trial = [*chosen[:place], other, *chosen[place + 1 :]]
-            if len({(one.joint, one.link) for one in trial}) < len(trial) or _links_taken(linkage, trial):
+        for place, second in itertools.islice(itertools.product(range(len(chosen)), others), _TRIALS):
+            trial = [*chosen[:place], second, *chosen[place + 1 :]]
+            if len({(first.joint, first.link) for first in trial}) < len(trial) or _links_taken(linkage, trial):
                 continue
-            together = np.vstack([one.functional for one in trial])
+            together = np.vstack([first.functional for first in trial])
             if together.shape[0] != forces.shape[1]:
                 continue
             if np.linalg.svd(together @ forces, compute_uv=False)[-1] < _WELL**2:
@@ -389,7 +389,7 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
     for number, joint in enumerate(mechanism.chain.joints):
         members: dict[str, Element] = {link: linkage.elements[number, link] for link in joint.links}
         kind = joint.pair
-        for _release in (one for one in chosen if one.joint == number):
+        for _release in (release for release in chosen if release.joint == number):
             here = members.pop(_release.link)
             if _release.pair is not None and joint.pair.is_revolute:
                 block = f"block {names[number]} {_release.link}"

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import home_angles
+from gruebler.kinematics.contacts import reference_angles
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages.elements import direction
 from gruebler.linkages.model import NEAR_REFERENCE
@@ -20,7 +20,7 @@ __all__ = ["ReferencePose", "check_reference", "pose_at_reference"]
 
 
 class ReferencePose(NamedTuple):
-    """Drive values, signs of dyads and unknowns of larger groups in the home position."""
+    """Drive values, signs of dyads and unknowns of larger groups in the reference pose."""
 
     drives: Reals
     signs: Reals
@@ -28,24 +28,29 @@ class ReferencePose(NamedTuple):
 
 
 def pose_at_reference(plan: Plan, near: Reals) -> ReferencePose:
-    """The home position; turning drives by whole turns as near as possible to given values, but not with wheels."""
+    """The reference pose; turning drives by whole turns as near as possible to given values, but not with wheels."""
     drives = np.array([_drive(plan, k) for k in range(len(plan.linkage.mechanism.drives))])
     for k, drive in enumerate(plan.linkage.mechanism.drives):
         if drive.turning and not plan.wheels:
             drives[k] += 2 * pi * round((near[k] - drives[k]) / (2 * pi))
     signs = np.array([_sign(plan, dyad) for dyad in plan.dyads])
     unknowns = [_against(plan, root, part.base) for part in plan.higher_groups for root in part.roots]
-    windings = [home_angles(plan.lower, plan.keys, condition) for condition in plan.windings]
+    windings = [reference_angles(plan.lower, plan.keys, condition) for condition in plan.windings]
     return ReferencePose(drives, signs, np.concatenate([np.array(unknowns).ravel(), np.array(windings).ravel()]))
 
 
 def check_reference(plan: Plan, places: NDArray[np.complex128], turns: NDArray[np.complex128]) -> None:
-    """`LinkageError` if a solved pose is far from the home position: then the joints are not closed there."""
+    """`LinkageError` if a solved pose is far from the reference pose: then the joints are not closed there."""
     for k, link in enumerate(plan.lower.mechanism.chain.links):
-        home = plan.lower.required_pose[link]
-        gap = max(abs(places[k] - complex(home.x, home.y)) / plan.lower.size, abs(turns[k] - rect(1, home.angle)))
+        reference = plan.lower.required_pose[link]
+        gap = max(
+            abs(places[k] - complex(reference.x, reference.y)) / plan.lower.size,
+            abs(turns[k] - rect(1, reference.angle)),
+        )
         if gap > NEAR_REFERENCE:
-            raise LinkageError("home: the joints are not closed there; {link!r} would have to lie elsewhere", link=link)
+            raise LinkageError(
+                "reference pose: the joints are not closed there; {link!r} would have to lie elsewhere", link=link
+            )
 
 
 def _put(plan: Plan, element: int) -> complex:

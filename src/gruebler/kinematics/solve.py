@@ -55,13 +55,13 @@ def move(
 
     Args:
         linkage: a linkage whose drives fix the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
-        drives: (rows,) for one drive, (rows, drives) for several: angles in radians, ways in the linkage's unit.
-            Between rows the drives move on straight lines.
+        drives: (rows,) for one drive, (rows, drives) for several: angles in radians, displacements in the linkage's
+            unit. Between rows the drives move on straight lines.
         speed: the drives' velocity, one number or like ``drives``; 1 if only an order is given.
         acceleration: likewise.
         jerk: likewise.
         branch: the assembly mode at the first row, such as ``"+-"`` (`gruebler.kinematics.branches`); without it the
-            one that leads from the linkage's home to the first row, or all ``+`` and 1.
+            one that leads from the linkage's reference pose to the first row, or all ``+`` and 1.
         order: 0 positions, 1 with velocities, 2 with accelerations, 3 with jerks; 2 if a speed is given, else 0.
 
     Returns a `Motion`; if the path cannot be followed to its end it says where it stopped and why. Cost: 10 to 30 ns a
@@ -86,15 +86,15 @@ def move(
         signs, unknowns = starting_configuration(plan, path[0], branch)
     except Unassembled as found:
         return _never(plan, path, upto, found)
-    home = branch is None and plan.lower.reference_pose is not None
+    from_reference = branch is None and plan.lower.reference_pose is not None
     rows = follow_path(plan, path, speeds, upto, signs, unknowns)
-    if home and (_in_change_point(plan, rows) if rows.reached else plan.higher_groups):
-        rows = _from_home(plan, path, speeds, upto)
+    if from_reference and (_in_change_point(plan, rows) if rows.reached else plan.higher_groups):
+        rows = _from_reference(plan, path, speeds, upto)
     motion = motion_from_rows(plan, path, rows)
-    if motion.stop is not None and motion.stop.reason == "open" and home:
-        # the start may be a change point of the independent part: the way from home tells the way on
-        motion = motion_from_rows(plan, path, _from_home(plan, path, speeds, upto))
-    start = pose_at_reference(plan, path[0]) if home else ReferencePose(path[0], signs, unknowns)
+    if motion.stop is not None and motion.stop.reason == "open" and from_reference:
+        # the start may be a change point of the independent part: the way from the reference pose tells the way on
+        motion = motion_from_rows(plan, path, _from_reference(plan, path, speeds, upto))
+    start = pose_at_reference(plan, path[0]) if from_reference else ReferencePose(path[0], signs, unknowns)
     unbounded = set_change_point_rows(plan, motion, path, speeds, start)
     return replace(motion, unbounded=unbounded, speeds=speeds[:, : len(motion)])
 
@@ -116,7 +116,7 @@ def starting_configuration(plan: Plan, first: Reals, branch: str | Iterable[str]
 
 
 def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
-    """The signs of these labels, in a linkage with wheels: they may differ from the home's behind the last wheel."""
+    """The signs of these labels, in a linkage with wheels: they may be new behind the last wheel."""
     changed = signs.copy()
     for part, label in zip(labelled_groups(plan), labels, strict=True):
         if isinstance(part, HigherGroup):
@@ -128,7 +128,9 @@ def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
         if changed[part.number] != signs[part.number] and any(
             isinstance(p, HigherGroup) and p.contacts for p in behind
         ):
-            raise LinkageError("branch: what wheels depend on is assembled as in the home, where their teeth are known")
+            raise LinkageError(
+                "branch: what wheels depend on is assembled as in the reference pose, where their teeth are known"
+            )
     return changed
 
 
@@ -138,7 +140,7 @@ def _in_change_point(plan: Plan, rows: SolvedRows) -> bool:
     return bool((np.abs(rows.roots[0, branching]) < _DOUBTFUL).any())
 
 
-def _from_home(plan: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
+def _from_reference(plan: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
     """A path that starts in a change point: what is placed there, and the way on, is known from the way to it."""
     begin = pose_at_reference(plan, path[0])
     path, speeds = np.concatenate([[begin.drives], path]), np.concatenate([speeds[:, :1], speeds], axis=1)
@@ -226,7 +228,7 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
 
     Args:
         linkage: whose drives fix the motion.
-        drives: a value for each drive: angles in radians, ways in the linkage's unit.
+        drives: a value for each drive: angles in radians, displacements in the linkage's unit.
 
     Cost: one solution for each mode. Raises `LinkageError` as `move`.
 

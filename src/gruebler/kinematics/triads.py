@@ -27,7 +27,7 @@ from gruebler.kinematics.assembly_modes import (
     search_modes,
 )
 
-__all__ = ["BOUNDS", "assembly_modes", "is_triad", "triad_modes"]
+__all__ = ["BOUNDS", "all_modes", "is_triad", "triad_modes"]
 
 BOUNDS = {
     ("RR", "RR", "RR"): 6,
@@ -110,7 +110,7 @@ def is_triad(group: GroupConditions) -> bool:
     return _truss(group) is not None
 
 
-def assembly_modes(group: GroupConditions, *, seed: int = 0) -> AssemblyModes:
+def all_modes(group: GroupConditions, *, seed: int = 0) -> AssemblyModes:
     """All assembly modes: exactly for groups of four bodies, by `search_modes` for all others."""
     return triad_modes(group) if is_triad(group) else search_modes(group, seed=seed)
 
@@ -189,13 +189,13 @@ def _truss(group: GroupConditions) -> _Truss | None:
     return _Truss(base, hub, tuple(sorted(legs, key=lambda leg: (leg.form, leg.body))))
 
 
-def _joint(group: GroupConditions, one: int, other: int) -> tuple[str, _End, _End] | None:
+def _joint(group: GroupConditions, first: int, second: int) -> tuple[str, _End, _End] | None:
     """The only joint between two bodies: its letter and its elements; None if there is not one."""
     joints = []
     for c, kind in enumerate(group.kinds):
         slots = {int(group.owners[2 * c]): 2 * c, int(group.owners[2 * c + 1]): 2 * c + 1}
-        if set(slots) == {one, other}:
-            ends = [_End(complex(group.points[slots[b]]), complex(group.lines[slots[b]])) for b in (one, other)]
+        if set(slots) == {first, second}:
+            ends = [_End(complex(group.points[slots[b]]), complex(group.lines[slots[b]])) for b in (first, second)]
             joints.append(("R" if kind == PIN else "P", ends[0], ends[1]))
     return joints[0] if len(joints) == 1 else None
 

@@ -12,17 +12,18 @@ from gruebler.text import Message, joined_by_or, message
 __all__ = [
     "CENTRED",
     "INVERSE",
-    "ROUND",
     "CamDisc",
     "Circle",
     "Element",
     "GenevaDriver",
     "GenevaWheel",
+    "LeadingElement",
     "Line",
     "LinkPoint",
     "NonCircular",
     "Pin",
     "Pose2D",
+    "RoundElement",
     "Wheel",
     "check_elements_fit",
     "direction",
@@ -131,8 +132,10 @@ INVERSE = "inverse"
 
 Element = Pin | Line | Wheel | Circle | CamDisc | GenevaDriver | GenevaWheel | NonCircular
 
-ROUND = (Wheel, Circle)
+RoundElement = Wheel | Circle
 """The elements with a centre and a radius."""
+LeadingElement = CamDisc | GenevaDriver | NonCircular
+"""The elements that lead another one by a law."""
 CENTRED = (Wheel, Circle, CamDisc, GenevaDriver, GenevaWheel, NonCircular)
 """The elements that turn about a centre and touch another element."""
 
@@ -209,14 +212,14 @@ def check_elements_fit(pair: Pair, name: str, elements: dict[str, Element]) -> N
         raise LinkageError(
             "{name}: dimensions of this kind of joint ({pair}) are not known here", name=name, pair=pair.title
         )
-    made = {type(e) for e in elements.values()}
-    if any(made == set(kinds) for kinds in _WANTED[pair.name]):
+    given = {type(e) for e in elements.values()}
+    if any(given == set(kinds) for kinds in _WANTED[pair.name]):
         return
     wanted = [
-        message("{element} on each of its links", element=_KINDS[one])
-        if one is other
-        else message("{one} on one of its links and {other} on the other", one=_KINDS[one], other=_KINDS[other])
-        for one, other in _WANTED[pair.name]
+        message("{element} on each of its links", element=_KINDS[first])
+        if first is second
+        else message("{one} on one of its links and {other} on the other", one=_KINDS[first], other=_KINDS[second])
+        for first, second in _WANTED[pair.name]
     ]
     raise LinkageError("{name} needs {elements}", name=name, elements=joined_by_or(wanted))
 
@@ -227,7 +230,7 @@ def read_element(raw: object, where: str | Message) -> Element:
     >>> read_element([3, 4], "crank")
     Pin(x=3.0, y=4.0)
     """
-    if isinstance(raw, Wheel | Circle):
+    if isinstance(raw, RoundElement):
         return _round(raw, where)
     if isinstance(raw, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
         if isinstance(raw, NonCircular) and _whole(raw.teeth, where) < 0:
@@ -244,11 +247,11 @@ def read_element(raw: object, where: str | Message) -> Element:
         raise LinkageError("{where}: expected [x, y] or [x, y, angle], but found {raw!r}", where=where, raw=raw)
     if len(numbers) not in (2, 3):
         raise LinkageError("{where}: expected two or three numbers, but found {count}", where=where, count=len(numbers))
-    made = [_number(value, where) for value in numbers]
-    return Pin(*made) if len(made) == 2 else Line(*made)
+    values = [_number(value, where) for value in numbers]
+    return Pin(*values) if len(values) == 2 else Line(*values)
 
 
-def _round(raw: Wheel | Circle, where: str | Message) -> Wheel | Circle:
+def _round(raw: RoundElement, where: str | Message) -> RoundElement:
     x, y, radius = (_number(value, where) for value in raw[:3])
     if not abs(radius) > 1e-100 and not (isinstance(raw, Wheel) and radius == 0 and raw.teeth):
         raise LinkageError(

@@ -211,15 +211,15 @@ def train_of(linkage: Linkage) -> Train:
         raise LinkageError("in a train the frame is called 'frame', and no other link is")
     meshes = []
     for number, (a, b) in round_joints(mechanism, elements).items():
-        one, other = elements[number, a], elements[number, b]
+        first, second = elements[number, a], elements[number, b]
         joint = mechanism.chain.joint_names()[number]
-        if isinstance(one, Wheel) and isinstance(other, Wheel) and number in held:
+        if isinstance(first, Wheel) and isinstance(second, Wheel) and number in held:
             rolling = mechanism.chain.joints[number].pair.is_rolling
-            kind = {"open": "belt", "crossed": "crossed"}.get(one.belt, "friction" if rolling else "gear")
-            meshes.append(Mesh(names[a], names[b], _size(one), _size(other), names[held[number].link], kind))
-        elif {type(one), type(other)} == {Wheel, Line}:
+            kind = {"open": "belt", "crossed": "crossed"}.get(first.belt, "friction" if rolling else "gear")
+            meshes.append(Mesh(names[a], names[b], _size(first), _size(second), names[held[number].link], kind))
+        elif {type(first), type(second)} == {Wheel, Line}:
             meshes.append(_rack(linkage, number, names))
-        elif isinstance(one, Wheel) and isinstance(other, Wheel):
+        elif isinstance(first, Wheel) and isinstance(second, Wheel):
             raise LinkageError("{joint}: no link holds the axes of both wheels", joint=joint)
         else:
             raise LinkageError("{joint}: a train has wheels, belts and racks only", joint=joint)

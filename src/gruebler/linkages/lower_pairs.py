@@ -49,10 +49,10 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         elements[block] = {}
         parts = _halves(linkage, number)
         measured_from = mechanism.frame if mechanism.frame in joint.links else joint.links[0]
-        for direction, kind, link, mine, on_block in parts:
+        for direction, kind, link, on_link, on_block in parts:
             links = (link, block) if link == measured_from else (block, link)
             place[number, direction] = len(joints), links
-            elements[link][len(joints)] = mine
+            elements[link][len(joints)] = on_link
             elements[block][len(joints)] = on_block
             joints.append(Joint(pair(kind), links))
     drives = []
@@ -65,20 +65,20 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         new, links = place[number, ""]
         drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], links))
     blocks = [link for link in elements if link not in chain.links]
-    made = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
-    home = None
+    lower_chain = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
+    poses = None
     if linkage.reference_pose is not None:
-        home = {link: tuple(at) for link, at in linkage.reference_pose.items()}
+        poses = {link: tuple(at) for link, at in linkage.reference_pose.items()}
         for number in split:
             block = f"block {names[number]}"
-            home[block] = _block_home(linkage, number)
+            poses[block] = _block_pose(linkage, number)
     points = {name: tuple(point) for name, point in linkage.points.items()}
     return Linkage(
-        Mechanism(made, mechanism.frame, drives),
+        Mechanism(lower_chain, mechanism.frame, drives),
         elements,
         points,  # type: ignore[arg-type]
         unit=linkage.unit,
-        reference_pose=home,  # type: ignore[arg-type]
+        reference_pose=poses,  # type: ignore[arg-type]
         outputs=linkage.outputs,
     )
 
@@ -100,52 +100,52 @@ def _idle_rollers(linkage: Linkage) -> list[int]:
     """The turning joints in the centre of a circle on a link that has no other joint but its contact."""
     chain, elements = linkage.mechanism.chain, linkage.elements
     driven = {drive.joint for drive in linkage.mechanism.drives}
-    found = []
+    idle = []
     for (number, link), circle in elements.items():
         if not isinstance(circle, Circle):
             continue
-        mine = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
-        if len(mine) == 1 and mine[0] not in driven:
-            pin = elements[mine[0], link]
-            if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[mine[0]].links) == 2:
-                found.append(mine[0])
-    return found
+        own_joints = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
+        if len(own_joints) == 1 and own_joints[0] not in driven:
+            pin = elements[own_joints[0], link]
+            if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[own_joints[0]].links) == 2:
+                idle.append(own_joints[0])
+    return idle
 
 
 def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element, Element]]:
     """The two joints that a block makes of one: direction of a drive, pair, link, its element and the block's."""
     joint = linkage.mechanism.chain.joints[number]
     first, second = joint.links
-    one, other = linkage.elements[number, first], linkage.elements[number, second]
+    element, other_element = linkage.elements[number, first], linkage.elements[number, second]
     if joint.pair.is_roll_slide:
-        slotted, pinned = (first, second) if isinstance(one, Line) else (second, first)
-        line, pin = (one, other) if isinstance(one, Line) else (other, one)
+        slotted, pinned = (first, second) if isinstance(element, Line) else (second, first)
+        line, pin = (element, other_element) if isinstance(element, Line) else (other_element, element)
         assert isinstance(line, Line)
         return [
             ("Tx", "prismatic", slotted, line, Line(0, 0, line.angle)),
             ("Rz", "revolute", pinned, pin, Pin(0, 0)),
         ]
-    assert isinstance(one, Line)
-    assert isinstance(other, Line)
-    turned = Line(other.x, other.y, other.angle + pi / 2)
+    assert isinstance(element, Line)
+    assert isinstance(other_element, Line)
+    turned = Line(other_element.x, other_element.y, other_element.angle + pi / 2)
     return [
-        ("Tx", "prismatic", first, one, Line(0, 0, one.angle)),
-        ("Ty", "prismatic", second, turned, Line(0, 0, one.angle + pi / 2)),
+        ("Tx", "prismatic", first, element, Line(0, 0, element.angle)),
+        ("Ty", "prismatic", second, turned, Line(0, 0, element.angle + pi / 2)),
     ]
 
 
-def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:
-    """Where the block of a split joint lies at home: on the line, at the pin or where the lines cross."""
+def _block_pose(linkage: Linkage, number: int) -> tuple[float, float, float]:
+    """Where the block of a split joint lies in the reference pose: on the line, at the pin or where the lines cross."""
     first, second = linkage.mechanism.chain.joints[number].links
-    one, other = linkage.elements[number, first], linkage.elements[number, second]
-    lined, line = (first, one) if isinstance(one, Line) else (second, other)
+    element, other_element = linkage.elements[number, first], linkage.elements[number, second]
+    lined, line = (first, element) if isinstance(element, Line) else (second, other_element)
     assert isinstance(line, Line)
     turned = linkage.required_pose[lined].angle
     angle = turned + line.angle
-    if isinstance(one, Pin) or isinstance(other, Pin):
-        pinned, pin = (first, one) if isinstance(one, Pin) else (second, other)
+    if isinstance(element, Pin) or isinstance(other_element, Pin):
+        pinned, pin = (first, element) if isinstance(element, Pin) else (second, other_element)
         return (*linkage.required_pose[pinned].put(pin.x, pin.y), turned)
-    x, y = linkage.required_pose[first].put(one.x, one.y)
-    u, v = linkage.required_pose[second].put(other.x, other.y)
-    way = cos(angle) * (u - x) + sin(angle) * (v - y)
-    return x + way * cos(angle), y + way * sin(angle), turned
+    x, y = linkage.required_pose[first].put(element.x, element.y)
+    u, v = linkage.required_pose[second].put(other_element.x, other_element.y)
+    displacement = cos(angle) * (u - x) + sin(angle) * (v - y)
+    return x + displacement * cos(angle), y + displacement * sin(angle), turned

@@ -14,16 +14,14 @@ from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import (
     CENTRED,
     INVERSE,
-    ROUND,
     CamDisc,
-    Circle,
     Element,
     Line,
     LinkPoint,
     NonCircular,
     Pin,
     Pose2D,
-    Wheel,
+    RoundElement,
     check_elements_fit,
     read_element,
 )
@@ -90,17 +88,17 @@ class Linkage:
         chain = mechanism.chain
         if chain.space is not Space.PLANAR:
             raise LinkageError("only planar mechanisms have dimensions; this one is {space}", space=chain.space)
-        made: dict[tuple[int, str], Element] = {}
+        checked: dict[tuple[int, str], Element] = {}
         names = chain.joint_names()
-        for link, mine in elements.items():
-            for joint, raw in mine.items():
+        for link, by_joint in elements.items():
+            for joint, raw in by_joint.items():
                 number = chain.joint_number(joint, LinkageError)
                 if link not in chain.joints[number].links:
                     raise LinkageError("{joint} is not a joint of {link!r}", joint=names[number], link=link)
-                made[number, link] = read_element(raw, f"{link}, {names[number]}")
-        self._check_joints(mechanism, made)
-        made = resolve_wheels(mechanism, made)
-        check_wheels(mechanism, made)
+                checked[number, link] = read_element(raw, f"{link}, {names[number]}")
+        self._check_joints(mechanism, checked)
+        checked = resolve_wheels(mechanism, checked)
+        check_wheels(mechanism, checked)
         named = {
             name: _named(mechanism, name, *place) if len(place) == 3 else _refuse_point(name)
             for name, place in (points or {}).items()
@@ -111,28 +109,28 @@ class Linkage:
         for link in outputs:
             _link(mechanism, link, "outputs")
         object.__setattr__(self, "mechanism", mechanism)
-        object.__setattr__(self, "elements", MappingProxyType(made))
+        object.__setattr__(self, "elements", MappingProxyType(checked))
         object.__setattr__(self, "points", MappingProxyType(named))
         object.__setattr__(self, "unit", unit)
         object.__setattr__(
             self,
             "reference_pose",
-            None if reference_pose is None else MappingProxyType(_home(mechanism, reference_pose)),
+            None if reference_pose is None else MappingProxyType(_checked_pose(mechanism, reference_pose)),
         )
         object.__setattr__(self, "outputs", tuple(outputs))
 
     @staticmethod
-    def _check_joints(mechanism: Mechanism, made: Mapping[tuple[int, str], Element]) -> None:
+    def _check_joints(mechanism: Mechanism, elements: Mapping[tuple[int, str], Element]) -> None:
         names = mechanism.chain.joint_names()
         for number, joint in enumerate(mechanism.chain.joints):
             for link in joint.links:
-                if (number, link) not in made:
+                if (number, link) not in elements:
                     raise LinkageError("{joint} has no dimensions on {link!r}", joint=names[number], link=link)
-            check_elements_fit(joint.pair, names[number], {link: made[number, link] for link in joint.links})
-        if any(isinstance(element, CENTRED) for element in made.values()):
+            check_elements_fit(joint.pair, names[number], {link: elements[number, link] for link in joint.links})
+        if any(isinstance(element, CENTRED) for element in elements.values()):
             return  # shafts on one axis
         for link in mechanism.chain.links:
-            pins = [(n, e) for (n, owner), e in made.items() if owner == link and isinstance(e, Pin)]
+            pins = [(n, e) for (n, owner), e in elements.items() if owner == link and isinstance(e, Pin)]
             for k, (n, pin) in enumerate(pins):
                 for m, other in pins[:k]:
                     size = max(hypot(*pin), hypot(*other), 1e-300)
@@ -221,12 +219,12 @@ class Linkage:
     @cached_property
     def size(self) -> float:
         """A length of the order of the linkage: the largest distance of joints on one link."""
-        out = 0.0
+        extent = 0.0
         for link in self.mechanism.chain.links:
-            mine = [e for (_, owner), e in self.elements.items() if owner == link]
-            out = max([out, *(hypot(a.x - b.x, a.y - b.y) for a in mine for b in mine)])
-            out = max([out, *(abs(e.radius) for e in mine if isinstance(e, ROUND))])
-        return out or 1.0
+            own_elements = [e for (_, owner), e in self.elements.items() if owner == link]
+            extent = max([extent, *(hypot(a.x - b.x, a.y - b.y) for a in own_elements for b in own_elements)])
+            extent = max([extent, *(abs(e.radius) for e in own_elements if isinstance(e, RoundElement))])
+        return extent or 1.0
 
     def reference(self, drive: int) -> tuple[str, str]:
         """The two links of a drive: against the first is measured, the second is moved."""
@@ -273,7 +271,7 @@ class Linkage:
         return self._changed(mechanism=mechanism, reference_pose=pose, outputs=())
 
     def with_reference_pose(self, reference_pose: Mapping[str, tuple[float, float, float]] | None) -> Linkage:
-        """The same sizes with another home position: x, y and angle of every link, in radians; or without one."""
+        """The same sizes with another reference pose: x, y and angle of every link, in radians; or without one."""
         return self._changed(reference_pose=reference_pose)
 
     def renamed(self, names: Mapping[str, str]) -> Linkage:
@@ -300,7 +298,7 @@ class Linkage:
             raise LinkageError("a scale is a positive number, not {factor!r}", factor=factor)
 
         def element(e: Element) -> Element:
-            if isinstance(e, Wheel | Circle):
+            if isinstance(e, RoundElement):
                 return e._replace(x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
             if isinstance(e, CamDisc):
                 return e._replace(x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
@@ -322,7 +320,7 @@ class Linkage:
                 raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
             if isinstance(e, NonCircular) and e.transfer != INVERSE and not e.transfer.lstrip().startswith("ellipse"):
                 raise LinkageError("the mirror image of a non-circular wheel is another one: reverse its lift")
-            return e._replace(y=-e.y) if isinstance(e, Pin | Wheel | Circle) else e._replace(y=-e.y, angle=-e.angle)
+            return e._replace(y=-e.y) if isinstance(e, Pin | RoundElement) else e._replace(y=-e.y, angle=-e.angle)
 
         return self._changed(
             elements=self._by_link(element),
@@ -333,10 +331,10 @@ class Linkage:
         )
 
     def _by_link(self, change: Callable[[Element], Element] = lambda e: e) -> dict[str, dict[str | int, object]]:
-        out: dict[str, dict[str | int, object]] = {link: {} for link in self.mechanism.chain.links}
+        by_link: dict[str, dict[str | int, object]] = {link: {} for link in self.mechanism.chain.links}
         for (number, link), e in self.elements.items():
-            out[link][number] = change(e)
-        return out
+            by_link[link][number] = change(e)
+        return by_link
 
     def _changed(self, **other: Any) -> Linkage:
         given: dict[str, Any] = {
@@ -355,9 +353,9 @@ class Linkage:
         raise AttributeError(f"a linkage does not change; build another one instead of setting {name!r}")
 
     def _key(self) -> tuple[object, ...]:
-        home = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
+        reference = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
         points = tuple(sorted(self.points.items()))
-        return self.mechanism, tuple(sorted(self.elements.items())), points, self.unit, home, self.outputs
+        return self.mechanism, tuple(sorted(self.elements.items())), points, self.unit, reference, self.outputs
 
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if isinstance(other, Linkage) else NotImplemented
@@ -373,13 +371,13 @@ class Linkage:
         return f"<linkage {self.mechanism.text()}>"
 
     def __reduce__(self) -> tuple[object, ...]:
-        home = None if self.reference_pose is None else {k: tuple(p) for k, p in self.reference_pose.items()}
+        reference = None if self.reference_pose is None else {k: tuple(p) for k, p in self.reference_pose.items()}
         points = {n: tuple(p) for n, p in self.points.items()}
-        return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, home, self.outputs)
+        return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, reference, self.outputs)
 
 
-def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, home: Any, outputs: Any) -> Linkage:
-    return Linkage(mechanism, elements, points, unit=unit, reference_pose=home, outputs=outputs)
+def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, reference_pose: Any, outputs: Any) -> Linkage:
+    return Linkage(mechanism, elements, points, unit=unit, reference_pose=reference_pose, outputs=outputs)
 
 
 def _link(mechanism: Mechanism, link: str, where: str | Message) -> str:
@@ -404,20 +402,20 @@ def _refuse_point(name: str) -> LinkPoint:
     raise LinkageError("the point {name!r} needs a link and two coordinates", name=name)
 
 
-def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
-    out = {}
+def _checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
+    poses = {}
     for link in mechanism.chain.links:
-        if link not in home and link != mechanism.frame:
-            raise LinkageError("home: the position of {link!r} is missing", link=link)
-        line = read_element(tuple(home.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
+        if link not in poses_given and link != mechanism.frame:
+            raise LinkageError("reference pose: the position of {link!r} is missing", link=link)
+        line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), message("reference pose, {link}", link=link))
         if not isinstance(line, Line):
-            raise LinkageError("home, {link}: expected x, y and an angle", link=link)
-        out[link] = Pose2D(*line)
-    for link in home:
-        _link(mechanism, link, "home")
-    if any(abs(v) > 1e-12 for v in (*out[mechanism.frame][:2], out[mechanism.frame].angle % (2 * pi))):
-        raise LinkageError("home: the frame lies at 0, 0, 0; its coordinates are those of the plane")
-    return out
+            raise LinkageError("reference pose, {link}: expected x, y and an angle", link=link)
+        poses[link] = Pose2D(*line)
+    for link in poses_given:
+        _link(mechanism, link, message("reference pose"))
+    if any(abs(v) > 1e-12 for v in (*poses[mechanism.frame][:2], poses[mechanism.frame].angle % (2 * pi))):
+        raise LinkageError("reference pose: the frame lies at 0, 0, 0; its coordinates are those of the plane")
+    return poses
 
 
 def _from_drawing(
@@ -430,21 +428,21 @@ def _from_drawing(
 ) -> Linkage:
     """See `Linkage.from_drawing`."""
     drawn = _drawn_elements(mechanism, places)
-    home = {link: _link_coordinates(mechanism, link, drawn) for link in mechanism.chain.links}
+    reference_pose = {link: _link_coordinates(mechanism, link, drawn) for link in mechanism.chain.links}
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
-        x, y = home[link].to_local(element.x, element.y)
+        x, y = reference_pose[link].to_local(element.x, element.y)
         seen_there = element._replace(x=x, y=y)
-        if not isinstance(seen_there, Pin | Wheel | Circle):
-            seen_there = seen_there._replace(angle=seen_there.angle - home[link].angle)
+        if not isinstance(seen_there, Pin | RoundElement):
+            seen_there = seen_there._replace(angle=seen_there.angle - reference_pose[link].angle)
         elements[link][number] = seen_there
     seen = {}
     for name, (link, x, y) in points.items():
-        if link not in home:
+        if link not in reference_pose:
             raise LinkageError("the point {name!r}: there is no link {link!r}", name=name, link=link)
         pin = read_element([x, y], message("the point {name!r}", name=name))
-        seen[name] = (link, *home[link].to_local(pin.x, pin.y))
-    return Linkage(mechanism, elements, seen, unit=unit, reference_pose=home, outputs=outputs)
+        seen[name] = (link, *reference_pose[link].to_local(pin.x, pin.y))
+    return Linkage(mechanism, elements, seen, unit=unit, reference_pose=reference_pose, outputs=outputs)
 
 
 def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:
@@ -489,8 +487,8 @@ def _at_the_pin(link: str, line: Line, drawn: Mapping[tuple[int, str], Element])
     for (_, owner), element in drawn.items():
         if owner == link and isinstance(element, Pin):
             c, s = cos(line.angle), sin(line.angle)
-            way = c * (element.x - line.x) + s * (element.y - line.y)
-            return Line(line.x + c * way, line.y + s * way, line.angle)
+            displacement = c * (element.x - line.x) + s * (element.y - line.y)
+            return Line(line.x + c * displacement, line.y + s * displacement, line.angle)
     return line
 
 
@@ -499,8 +497,8 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
     if link == mechanism.frame:
         return Pose2D(0.0, 0.0, 0.0)
     driven = {drive.joint for drive in mechanism.drives}
-    mine = sorted((number not in driven, number, e) for (number, owner), e in drawn.items() if owner == link)
-    elements = [element for _, _, element in mine]
+    own_elements = sorted((number not in driven, number, e) for (number, owner), e in drawn.items() if owner == link)
+    elements = [element for _, _, element in own_elements]
     lines = [e for e in elements if isinstance(e, Line)]
     pins = [e for e in elements if isinstance(e, Pin)]
     first = pins[0] if pins else elements[0]

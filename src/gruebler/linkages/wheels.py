@@ -22,6 +22,7 @@ from gruebler.linkages.elements import (
     Line,
     NonCircular,
     Pin,
+    RoundElement,
     Wheel,
 )
 from gruebler.mechanism import Mechanism
@@ -59,7 +60,7 @@ class Carrier(NamedTuple):
     """Of the second centre, seen from the first, in the link's coordinates."""
 
 
-def rolling_factors(one: Wheel, other: Wheel) -> tuple[float, float]:
+def rolling_factors(first: Wheel, second: Wheel) -> tuple[float, float]:
     """What the turns of two wheels against the line of centres are multiplied by; exact from tooth numbers.
 
     >>> rolling_factors(Wheel(0, 0, 12.3, 20), Wheel(0, 0, -36.9, -60))
@@ -67,11 +68,11 @@ def rolling_factors(one: Wheel, other: Wheel) -> tuple[float, float]:
     >>> rolling_factors(Wheel(0, 0, 20.0, belt="open"), Wheel(0, 0, 30.0, belt="open"))
     (20.0, -30.0)
     """
-    a, b = one.radius, other.radius
-    if one.teeth and other.teeth:
-        scale = 2.0 ** floor(log2(abs(a / one.teeth)))
-        a, b = one.teeth * scale, other.teeth * scale
-    return a, -b if one.belt == "open" else b
+    a, b = first.radius, second.radius
+    if first.teeth and second.teeth:
+        scale = 2.0 ** floor(log2(abs(a / first.teeth)))
+        a, b = first.teeth * scale, second.teeth * scale
+    return a, -b if first.belt == "open" else b
 
 
 def round_joints(mechanism: Mechanism, elements: Elements) -> dict[int, tuple[str, str]]:
@@ -96,7 +97,7 @@ def carriers(mechanism: Mechanism, elements: Elements) -> dict[int, Carrier]:
     if not wheels:
         return {}
     axis = _axes(mechanism, elements)
-    found = {}
+    arms = {}
     for number, (a, b) in wheels.items():
         if not all(isinstance(elements[number, link], CENTRED) for link in (a, b)):
             continue
@@ -109,9 +110,9 @@ def carriers(mechanism: Mechanism, elements: Elements) -> dict[int, Carrier]:
             ]
             if link not in (a, b) and ends[0] is not None and ends[1] is not None:
                 x, y = ends[1].x - ends[0].x, ends[1].y - ends[0].y
-                found[number] = Carrier(link, hypot(x, y), atan2(y, x))
+                arms[number] = Carrier(link, hypot(x, y), atan2(y, x))
                 break
-    return found
+    return arms
 
 
 def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tuple[int, str]]:
@@ -119,24 +120,24 @@ def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tup
     centres = {key: e for key, e in elements.items() if isinstance(e, (Pin, *CENTRED))}
     axis = {key: key for key in centres}
 
-    def merge(one: tuple[int, str], other: tuple[int, str]) -> None:
-        old, new = axis[one], axis[other]
+    def merge(first: tuple[int, str], second: tuple[int, str]) -> None:
+        old, new = axis[first], axis[second]
         for key, at in axis.items():
             if at == old:
                 axis[key] = new
 
-    for one, e in centres.items():
-        for other, f in centres.items():
-            joined = one[0] == other[0] and mechanism.chain.joints[one[0]].pair.is_revolute
+    for first, e in centres.items():
+        for second, f in centres.items():
+            joined = first[0] == second[0] and mechanism.chain.joints[first[0]].pair.is_revolute
             near = hypot(e.x - f.x, e.y - f.y) <= _SAME * max(abs(e.x), abs(e.y), abs(f.x), abs(f.y))
-            if joined or (one[1] == other[1] and near):
-                merge(one, other)
+            if joined or (first[1] == second[1] and near):
+                merge(first, second)
     return axis
 
 
 def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], Element]:
     """The elements with a radius for each wheel that has tooth numbers only: from the distance of the centres."""
-    out = dict(elements)
+    resolved = dict(elements)
     bare = {number for (number, _), e in elements.items() if isinstance(e, Wheel) and not e.radius}
     held = carriers(mechanism, elements) if bare else {}
     for number in bare:
@@ -151,8 +152,8 @@ def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, 
                 joint=mechanism.chain.joint_names()[number],
             )
         for link, wheel in zip(links, wheels, strict=True):
-            out[number, link] = wheel._replace(radius=held[number].distance * wheel.teeth / abs(teeth))
-    return out
+            resolved[number, link] = wheel._replace(radius=held[number].distance * wheel.teeth / abs(teeth))
+    return resolved
 
 
 def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
@@ -165,15 +166,15 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             raise LinkageError("{name}: wheels touch in pairs; write a joint for each two of them", name=name)
         if any(drive.joint == number for drive in mechanism.drives):
             raise LinkageError("{name}: a pair of wheels is not driven; drive a shaft", name=name)
-        one, other = (elements[number, link] for link in links)
-        if isinstance(one, CamDisc) or isinstance(other, CamDisc):
-            _check_disc(name, *((one, other) if isinstance(one, CamDisc) else (other, one)))
+        first, second = (elements[number, link] for link in links)
+        if isinstance(first, CamDisc) or isinstance(second, CamDisc):
+            _check_disc(name, *((first, second) if isinstance(first, CamDisc) else (second, first)))
             continue
-        if isinstance(one, GenevaDriver) or isinstance(other, GenevaDriver):
+        if isinstance(first, GenevaDriver) or isinstance(second, GenevaDriver):
             continue
-        if isinstance(one, NonCircular):
-            assert isinstance(other, NonCircular)
-            _check_noncircular(name, one, other)
+        if isinstance(first, NonCircular):
+            assert isinstance(second, NonCircular)
+            _check_noncircular(name, first, second)
             if number not in held:
                 raise LinkageError(
                     "{name}: non-circular wheels need a link that carries both centres by pins", name=name
@@ -183,14 +184,14 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
                     "{name}: the centre distance on {link!r} is too small: it is 0", name=name, link=held[number].link
                 )
             continue
-        if isinstance(one, Line) or isinstance(other, Line):
-            _check_rack(name, other if isinstance(one, Line) else one)
+        if isinstance(first, Line) or isinstance(second, Line):
+            _check_rack(name, second if isinstance(first, Line) else first)
             continue
-        assert isinstance(one, Wheel | Circle)
-        assert isinstance(other, Wheel | Circle)
-        _check_pair(name, joint.pair.is_rolling, one, other)
-        apart = abs(one.radius + other.radius)
-        touching = joint.pair.is_rolling or isinstance(one, Circle)
+        assert isinstance(first, RoundElement)
+        assert isinstance(second, RoundElement)
+        _check_pair(name, joint.pair.is_rolling, first, second)
+        apart = abs(first.radius + second.radius)
+        touching = joint.pair.is_rolling or isinstance(first, Circle)
         if number in held and touching and abs(held[number].distance - apart) > _SAME * apart:
             raise LinkageError(
                 "{name}: the centres are {distance:.12g} apart on {link!r}, but the radii make {apart:.12g}",
@@ -201,18 +202,18 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             )
 
 
-def _check_noncircular(name: str, one: NonCircular, other: NonCircular) -> None:
-    if not all(isinstance(wheel.transfer, str) and wheel.transfer.strip() for wheel in (one, other)):
+def _check_noncircular(name: str, first: NonCircular, second: NonCircular) -> None:
+    if not all(isinstance(wheel.transfer, str) and wheel.transfer.strip() for wheel in (first, second)):
         raise LinkageError(
             "{name}: transfer: expected a text such as 'ellipse 0.5' or 'rise 20 180; fall 20 180'", name=name
         )
-    if (one.transfer == INVERSE) == (other.transfer == INVERSE):
+    if (first.transfer == INVERSE) == (second.transfer == INVERSE):
         raise LinkageError(
             "{name}: one of two non-circular wheels has a transfer function, the other {inverse!r}",
             name=name,
             inverse=INVERSE,
         )
-    if bool(one.teeth) != bool(other.teeth):
+    if bool(first.teeth) != bool(second.teeth):
         raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
 
 
@@ -238,13 +239,13 @@ def _check_disc(name: str, disc: Element, other: Element) -> None:
 
 
 def _check_rack(name: str, wheel: Element) -> None:
-    assert isinstance(wheel, Wheel | Circle)
+    assert isinstance(wheel, RoundElement)
     if wheel.radius < 0 or (isinstance(wheel, Wheel) and wheel.belt):
         raise LinkageError("{name}: along a line rolls a wheel of positive radius, without a belt", name=name)
 
 
-def _check_pair(name: str, rolling: bool, one: Wheel | Circle, other: Wheel | Circle) -> None:
-    low, high = sorted((one.radius, other.radius))
+def _check_pair(name: str, rolling: bool, first: RoundElement, second: RoundElement) -> None:
+    low, high = sorted((first.radius, second.radius))
     if high < 0:
         raise LinkageError("{name}: two internal wheels do not touch", name=name)
     if low < 0 <= low + high:
@@ -254,29 +255,31 @@ def _check_pair(name: str, rolling: bool, one: Wheel | Circle, other: Wheel | Ci
             low=low,
             high=high,
         )
-    if not isinstance(one, Wheel) or not isinstance(other, Wheel):
+    if not isinstance(first, Wheel) or not isinstance(second, Wheel):
         return
-    if one.belt != other.belt:
+    if first.belt != second.belt:
         raise LinkageError("{name}: both wheels of a belt are 'open' or both 'crossed'", name=name)
-    if one.belt and rolling:
+    if first.belt and rolling:
         raise LinkageError("{name}: a belt is not a rolling contact; write it as a roll-slide joint G", name=name)
-    if bool(one.teeth) != bool(other.teeth):
+    if bool(first.teeth) != bool(second.teeth):
         raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
-    if one.teeth and abs(one.radius / one.teeth - other.radius / other.teeth) > _SAME * abs(one.radius / one.teeth):
-        modules = " and ".join(f"{2 * wheel.radius / wheel.teeth:.9g}" for wheel in (one, other))
+    if first.teeth and abs(first.radius / first.teeth - second.radius / second.teeth) > _SAME * abs(
+        first.radius / first.teeth
+    ):
+        modules = " and ".join(f"{2 * wheel.radius / wheel.teeth:.9g}" for wheel in (first, second))
         raise LinkageError("{name}: the modules differ: {modules}", name=name, modules=modules)
 
 
 def redundant_wheels(mechanism: Mechanism, elements: Elements) -> set[int]:
     """The pairs of wheels on common arms that repeat what pairs before them say, such as those of a second planet."""
     known: list[dict[str, Fraction]] = []
-    out = set()
+    redundant = set()
     for number, arm in carriers(mechanism, elements).items():
         a, b = mechanism.chain.joints[number].links
-        one, other = elements[number, a], elements[number, b]
-        if not isinstance(one, Wheel) or not isinstance(other, Wheel):
+        first, second = elements[number, a], elements[number, b]
+        if not isinstance(first, Wheel) or not isinstance(second, Wheel):
             continue
-        size_a, size_b = (Fraction(x) for x in rolling_factors(one, other))
+        size_a, size_b = (Fraction(x) for x in rolling_factors(first, second))
         row = {a: size_a, b: size_b}
         row[arm.link] = row.get(arm.link, Fraction(0)) - size_a - size_b
         row.pop(mechanism.frame, None)
@@ -288,5 +291,5 @@ def redundant_wheels(mechanism: Mechanism, elements: Elements) -> set[int]:
         if row:
             known.append(row)
         else:
-            out.add(number)
-    return out
+            redundant.add(number)
+    return redundant

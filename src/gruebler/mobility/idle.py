@@ -73,10 +73,10 @@ def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple
 
     Each part with the numbers of its two balls. Cost O(joint elements).
     """
-    balls = [k for k, joint in enumerate(chain.joints) if joint.pair.name == "spherical"]
+    balls = [k for k, joint in enumerate(chain.joints) if joint.pair.is_spherical]
     sets = DisjointSets(chain.links)
     for joint in chain.joints:
-        if joint.pair.name != "spherical":
+        if not joint.pair.is_spherical:
             for other in joint.links[1:]:
                 sets.unite(joint.links[0], other)
     members = {sets.find(links[0]): links for links in sets.classes()}

@@ -25,8 +25,7 @@ from gruebler.text import Message, message
 
 __all__ = ["License", "pebble_mobility", "pebble_rank", "theorem"]
 
-_TURNING = {"revolute", "rolling"}
-_POINT_PAIRS = _TURNING | {"roll_slide"}
+_POINT_PAIRS = {"revolute", "rolling", "roll_slide"}
 _BARS = {
     Space.PLANAR: {"revolute": 2, "rolling": 2, "roll_slide": 1},
     Space.SPHERICAL: {"revolute": 2, "rolling": 2, "roll_slide": 1},
@@ -107,7 +106,7 @@ def _point_graph(chain: Chain) -> tuple[int, list[tuple[int, int]]]:
     edges = []
     vertices = 0
     for joint in chain.joints:
-        if joint.pair.name in _TURNING:
+        if joint.pair.is_revolute or joint.pair.is_rolling:
             for link in joint.links:
                 points[link].append(vertices)
             vertices += 1

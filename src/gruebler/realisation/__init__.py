@@ -4,7 +4,7 @@
 docs/theory/realisation.md explains why that works.
 """
 
-from gruebler.realisation.realise import realise, with_drives
+from gruebler.realisation.realise import realise, realise_all, with_drives
 from gruebler.realisation.result import Realisation
 
-__all__ = ["Realisation", "realise", "with_drives"]
+__all__ = ["Realisation", "realise", "realise_all", "with_drives"]

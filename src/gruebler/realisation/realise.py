@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Executor
+from functools import partial
 from itertools import combinations
 
 from gruebler.assur import decompose
+from gruebler.enumeration.worker_pool import run_work
 from gruebler.errors import LinkageError, expect
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic
@@ -14,7 +18,7 @@ from gruebler.realisation.result import Realisation
 from gruebler.realisation.search import search_layouts
 from gruebler.text import message
 
-__all__ = ["realise", "with_drives"]
+__all__ = ["realise", "realise_all", "with_drives"]
 
 _NOTHING_TO_DRIVE = message("There is nothing to drive: the chain has no mobility.")
 _AGAIN = 3  # searches with other random numbers if the first finds no full turn
@@ -70,6 +74,34 @@ def realise(
         return Realisation(driven, None, (), False, 0.0, tries, seed)
     finished, trial = best
     return Realisation(driven, finished.linkage, finished.ranges, trial.full, finished.quality, tries, seed)
+
+
+def realise_all(
+    mechanisms: Iterable[Mechanism],
+    *,
+    executor: Executor | Callable[[], Executor] | None = None,
+    seed: int = 0,
+    budget: int = 1500,
+    target_quality: float = 0.5,
+    unit: str = "mm",
+) -> Iterator[Realisation]:
+    """`realise` for each of several mechanisms, in their order.
+
+    Args:
+        mechanisms: taken as they are needed.
+        executor: see `enumeration.worker_pool.run_work`; the results are the same with any.
+        seed: as for `realise`; likewise the others.
+        budget: see there.
+        target_quality: see there.
+        unit: see there.
+
+    Raises as `realise`, during the iteration.
+
+    >>> [each.full for each in realise_all([Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)")])]
+    [True]
+    """
+    search = partial(realise, seed=seed, budget=budget, target_quality=target_quality, unit=unit)
+    return run_work(search, mechanisms, executor)
 
 
 def with_drives(mechanism: Mechanism) -> Mechanism:

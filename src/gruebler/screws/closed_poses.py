@@ -23,8 +23,8 @@ from gruebler.screws.rigid_motions import inverse_motion
 __all__ = ["closed_pose", "has_only_lower_pairs"]
 
 
-_EXACT = 1e-15  # a home that is closed so well is meant as it is
-_STARTS = 60  # random poses from which a linkage without a home is assembled
+_EXACT = 1e-15  # a reference pose that is closed so well is meant as it is
+_STARTS = 60  # random poses from which a linkage without a reference pose is assembled
 _NEARLY = 1e-8  # of the size: joints that may be closed at a double root, where a pose is known to that only
 _PATIENT = 60  # steps of Newton's method: beside a double root each halves the error only
 _ENOUGH = 6  # closed poses among which the best is taken
@@ -34,7 +34,7 @@ _GOOD = 0.01  # a smallest singular value, for each unknown, with which the sear
 def closed_pose(
     linkage: Linkage | SpatialLinkage, at: Sequence[float] | None = None, branch: str | Iterable[str] | None = None
 ) -> tuple[Closing, Reals]:
-    """The closing conditions of a linkage and a pose: at drive values, else its home, else one that is regular.
+    """The closing conditions of a linkage and a pose: at drive values, else its reference pose, else a regular one.
 
     Raises `LinkageError` if there is no such pose.
     """
@@ -42,13 +42,13 @@ def closed_pose(
         if branch is not None:
             raise LinkageError("a linkage given by its reference pose has no assembly mode to choose")
         closing = Closing.of(linkage)
-        return closing, closing.home if at is None else _driven(closing, closing.home, at, linkage.size)
+        return closing, closing.reference if at is None else _driven(closing, closing.reference, at, linkage.size)
     closing = _planar(linkage)
     if at is not None or branch is not None:
         return closing, _at(linkage, closing, at, branch)
     if linkage.reference_pose is None:
         return closing, _assembled(closing)
-    return closing, _centred(closing, _settled(closing, _home(linkage)))
+    return closing, _centred(closing, _settled(closing, _reference_pose(linkage)))
 
 
 def has_only_lower_pairs(linkage: Linkage) -> bool:
@@ -62,10 +62,10 @@ def _planar(linkage: Linkage) -> Closing:
     for number, joint in enumerate(chain.joints):
         first = joint.links[0]
         for other in joint.links[1:]:
-            one, two = linkage.elements[number, first], linkage.elements[number, other]
-            radii = (inf if isinstance(one, Line) else 0.0, inf if isinstance(two, Line) else 0.0)
+            element, other_element = linkage.elements[number, first], linkage.elements[number, other]
+            radii = (inf if isinstance(element, Line) else 0.0, inf if isinstance(other_element, Line) else 0.0)
             place = JointPlace(radii=radii if joint.pair.is_roll_slide else None)
-            ends = _frame(one, size), _frame(two, size)
+            ends = _frame(element, size), _frame(other_element, size)
             ties.append(JointFrames(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
     return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
 
@@ -83,20 +83,20 @@ def _matrix(x: float, y: float, angle: float) -> Reals:
     return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1.0]])
 
 
-def _home(linkage: Linkage) -> Reals:
+def _reference_pose(linkage: Linkage) -> Reals:
     places = [linkage.required_pose[link] for link in linkage.mechanism.chain.links]
     return np.array([_matrix(p.x / linkage.size, p.y / linkage.size, p.angle) for p in places])
 
 
-def _settled(closing: Closing, home: Reals) -> Reals:
-    """The pose near home in which the joints are closed."""
-    pose = closing.settled(home)
-    if abs(closing.residual(pose)).max() > CLOSED or abs(pose - home).max() > NEAR_REFERENCE:
-        gap = abs(closing.residual(home)).max()
+def _settled(closing: Closing, reference: Reals) -> Reals:
+    """The pose near the reference pose in which the joints are closed."""
+    pose = closing.settled(reference)
+    if abs(closing.residual(pose)).max() > CLOSED or abs(pose - reference).max() > NEAR_REFERENCE:
+        gap = abs(closing.residual(reference)).max()
         raise LinkageError(
             "the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size", gap=gap
         )
-    inexact = (pose != home).any() or abs(closing.residual(pose)).max() > _EXACT
+    inexact = (pose != reference).any() or abs(closing.residual(pose)).max() > _EXACT
     return refined_at_double_root(closing, pose) if inexact else pose
 
 
@@ -109,15 +109,15 @@ def _centred(closing: Closing, pose: Reals) -> Reals:
 
 
 def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: str | Iterable[str] | None) -> Reals:
-    """The pose at drive values, as `move` finds it; with redundant constraints followed from home."""
+    """The pose at drive values, as `move` finds it; with redundant constraints followed from the reference pose."""
     drives = linkage.mechanism.drives
     if at is None:
         raise LinkageError("an assembly mode is one of several at a drive value, which is missing")
     _check_count(at, len(drives))
     if linkage.reference_pose is not None and branch is None:
-        home = _settled(closing, _home(linkage))
+        reference = _settled(closing, _reference_pose(linkage))
         sided = [_sided(linkage, k, value) for k, value in enumerate(at)]
-        return _centred(closing, _driven(closing, home, sided, linkage.size))
+        return _centred(closing, _driven(closing, reference, sided, linkage.size))
     from gruebler.kinematics import move
 
     motion = move(linkage, [tuple(at)], branch=branch)
@@ -152,18 +152,18 @@ def _sided(linkage: Linkage, drive: int, value: float) -> float:
     return value if first == mechanism.chain.joints[mechanism.drives[drive].joint].links[0] else -value
 
 
-def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> Reals:
-    """The pose at the values of all drives, which are followed from home together."""
+def _driven(closing: Closing, reference: Reals, at: Sequence[float], size: float) -> Reals:
+    """The pose at the values of all drives, which are followed from the reference pose together."""
     mechanism = closing.mechanism
     _check_count(at, len(mechanism.drives))
     joints, values = [drive.joint for drive in mechanism.drives], []
     for joint, value in zip(joints, at, strict=True):
         if mechanism.chain.joints[joint].pair.is_revolute:
-            now = joint_value(closing, home, joint)
+            now = joint_value(closing, reference, joint)
             values.append(now + (value - now + np.pi) % (2 * np.pi) - np.pi)
         else:
             values.append(value / size)
-    return follow_joints(closing, home, joints, np.array([values]))[0]
+    return follow_joints(closing, reference, joints, np.array([values]))[0]
 
 
 def _assembled(closing: Closing) -> Reals:
@@ -174,7 +174,7 @@ def _assembled(closing: Closing) -> Reals:
     least = np.inf
     frame = closing.mechanism.chain.index(closing.mechanism.frame)
     for _ in range(_STARTS):
-        start = np.array([_matrix(x, y, np.pi * t) for x, y, t in random.uniform(-1, 1, (len(closing.home), 3))])
+        start = np.array([_matrix(x, y, np.pi * t) for x, y, t in random.uniform(-1, 1, (len(closing.reference), 3))])
         pose = closing.settled(inverse_motion(start[frame]) @ start, most=_PATIENT)
         open_by = float(abs(closing.residual(pose)).max())
         if CLOSED < open_by < _NEARLY:  # at a double root steps only halve

@@ -56,10 +56,10 @@ class Closing:
     each moving link: its twist about the origin, velocities divided by the size.
     """
 
-    def __init__(self, mechanism: Mechanism, ties: Sequence[JointFrames], home: Reals) -> None:
+    def __init__(self, mechanism: Mechanism, ties: Sequence[JointFrames], reference: Reals) -> None:
         chain = mechanism.chain
         self.mechanism = mechanism
-        self.home = home
+        self.reference = reference
         self.columns = np.array(_COLUMNS[chain.space])
         self.ties = tuple(ties)
         self.moving = np.array([k for k, link in enumerate(chain.links) if link != mechanism.frame])
@@ -82,7 +82,7 @@ class Closing:
 
     @classmethod
     def of(cls, linkage: SpatialLinkage) -> Closing:
-        """The equations of a linkage with home screws; a pose at home is n identities."""
+        """The equations of a linkage with joint screws; a pose in the reference pose is n identities."""
         chain = linkage.mechanism.chain
         size = linkage.size
         frames = linkage.frames.copy()
@@ -144,7 +144,7 @@ class Closing:
 
     def twists(self, motion: Reals) -> Reals:
         """The twists (n, 6) of all links in a motion (unknowns,)."""
-        twists = np.zeros((len(self.home), 6))
+        twists = np.zeros((len(self.reference), 6))
         twists[np.ix_(self.moving, self.columns)] = motion.reshape(len(self.moving), len(self.columns))
         return twists
 

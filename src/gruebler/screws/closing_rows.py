@@ -1,7 +1,8 @@
 """The closing conditions of a pair, as functions of the second link's joint frame seen from the first link's.
 
-Let E be that 4 x 4 matrix, the identity at home. A row is a function of E that is zero on the motions of the pair and
-has, at home, independent differentials with the others: u rows for u motions taken away. Most rows are linear in E:
+Let E be that 4 x 4 matrix, the identity in the reference pose. A row is a function of E that is zero on the motions of
+the pair and has, in the reference pose, independent differentials with the others: u rows for u motions taken away.
+Most rows are linear in E:
 
 - a shift along d taken away: the component d of the translation;
 - all turns taken away: the skew part of the rotation; all but the turn about d: d keeps its direction; the turn about
@@ -32,13 +33,13 @@ Row = Reals | Bent
 def joint_rows(pair: Pair, space: Space, place: JointPlace) -> list[Row]:
     """The rows of a joint, u of them."""
     free = pair.freedoms[space]
-    if space is Space.PLANAR and pair.name == "roll_slide":
+    if space is Space.PLANAR and pair.is_roll_slide:
         return _contact(place)
-    if space is Space.PLANAR and pair.name == "rolling":
+    if space is Space.PLANAR and pair.is_rolling:
         return [_touch(*_radii(place)), _arcs(*_radii(place), 0.0)]
-    if space is Space.SPHERICAL and pair.name in ("rolling", "roll_slide"):
+    if space is Space.SPHERICAL and pair.is_higher:
         touch, arcs = _cone_touch(*_radii(place)), _cone_arcs(*_radii(place))
-        return [touch, arcs] if pair.name == "rolling" else [touch if place.pressure is None else arcs]
+        return [touch, arcs] if pair.is_rolling else [touch if place.pressure is None else arcs]
     rows: list[Row] = _turns([d[1] for d in free if d[0] in "RH"], space)
     for direction in space.directions:
         if direction[0] == "T" and direction not in free:
@@ -74,11 +75,11 @@ def _turns(free: list[str], space: Space) -> list[Row]:
 
 
 def _shift(direction: str, pair: Pair, place: JointPlace) -> list[Row]:
-    if direction == "Tz" and pair.name == "helical":
+    if direction == "Tz" and pair.is_helical:
         return [_screw(place.pitch)]
     if direction == "Tz" and pair.name == "double_cylindrical":
         return [_crossed]
-    if direction == "Ty" and pair.name == "roll_slide":
+    if direction == "Ty" and pair.is_roll_slide:
         return _contact(place)
     return [_entry("xyz".index(direction[1]), 3)]
 
@@ -173,29 +174,29 @@ def _cones(r: float, s: float) -> tuple[Reals, Reals]:
 
 
 def _cone_touch(r: float, s: float) -> Bent:
-    one, other = _cones(r, s)
+    first, second = _cones(r, s)
 
     def row(e: Reals) -> tuple[float, Reals]:
         gradient = np.zeros((4, 4))
-        gradient[:3, :3] = -np.outer(one, other) / sin(r + s)
-        return float(cos(r + s) - one @ e[:3, :3] @ other) / sin(r + s), gradient
+        gradient[:3, :3] = -np.outer(first, second) / sin(r + s)
+        return float(cos(r + s) - first @ e[:3, :3] @ second) / sin(r + s), gradient
 
     return row
 
 
 def _cone_arcs(r: float, s: float) -> Bent:
-    one, other = _cones(r, s)
+    first, second = _cones(r, s)
     x = np.array([1.0, 0.0, 0.0])
     ahead, back = np.array([0.0, cos(r), sin(r)]), np.array([0.0, -cos(s), sin(s)])
     sign = np.sign(sin(r + s))
 
     def row(e: Reals) -> tuple[float, Reals]:
         turn = e[:3, :3]
-        m, n = sign * (turn @ other), sign * (turn.T @ one)
+        m, n = sign * (turn @ second), sign * (turn.T @ first)
         a, b, c, d = m @ x, m @ ahead, -n @ x, n @ back
         gradient = np.zeros((4, 4))
-        gradient[:3, :3] = sign * sin(r) * np.outer(b * x - a * ahead, other) / (a * a + b * b)
-        gradient[:3, :3] += sign * sin(s) * np.outer(one, -d * x - c * back) / (c * c + d * d)
+        gradient[:3, :3] = sign * sin(r) * np.outer(b * x - a * ahead, second) / (a * a + b * b)
+        gradient[:3, :3] += sign * sin(s) * np.outer(first, -d * x - c * back) / (c * c + d * d)
         return float(sin(r) * np.arctan2(a, b) + sin(s) * np.arctan2(c, d)), gradient
 
     return row

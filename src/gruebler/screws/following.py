@@ -20,7 +20,7 @@ _STEP = 0.05  # of the driven joint, in radians or sizes, between two correction
 
 
 def joint_value(closing: Closing, pose: Reals, joint: int) -> float:
-    """The turn about z of a turning joint, else the way along x (prismatic) in sizes; 0 at home."""
+    """The turn about z of a turning joint, else the way along x (prismatic) in sizes; 0 in the reference pose."""
     k = next(k for k, tie in enumerate(closing.ties) if tie.joint == joint)
     e = closing.seen(pose)[k]
     if closing.mechanism.chain.joints[joint].pair.is_prismatic:
@@ -29,7 +29,7 @@ def joint_value(closing: Closing, pose: Reals, joint: int) -> float:
 
 
 def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Reals:
-    """The poses (values, n, 4, 4) in which a revolute or prismatic joint has these values, counted from home.
+    """The poses (values, n, 4, 4) in which a revolute or prismatic joint has these values, from the reference pose.
 
     Translations are in units of the linkage's size, from its centre. Between values the joint goes in steps of at most
     0.05, so that the linkage stays on its way; where several ways lead on it takes the nearest pose. Redundant
@@ -46,7 +46,7 @@ def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -
     """
     closing = Closing.of(linkage)
     number = linkage.mechanism.chain.joint_number(joint, LinkageError)
-    return follow_from_pose(closing, closing.home, number, np.atleast_1d(np.asarray(values, float)))
+    return follow_from_pose(closing, closing.reference, number, np.atleast_1d(np.asarray(values, float)))
 
 
 def follow_from_pose(closing: Closing, pose: Reals, joint: int, values: Reals) -> Reals:

@@ -1,4 +1,4 @@
-"""Where a joint lies at home: its point, its axes, and what else its pair needs."""
+"""Where a joint lies in the reference pose: its point, its axes, and what else its pair needs."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _ROUND = ("rolling", "roll_slide")
 
 @dataclass(frozen=True, slots=True)
 class JointPlace:
-    """A joint at home, in coordinates common to all links.
+    """A joint in the reference pose, in coordinates common to all links.
 
     Attributes:
         at: a point of the joint: of its axis, the centre of a ball, the point of contact. On a sphere its centre.
@@ -110,7 +110,7 @@ def _fitting(place: JointPlace, pair: Pair, space: Space, where: str) -> None:
     joint_axes(place, space, where)
     if space is Space.SPHERICAL and any(place.at):
         raise LinkageError("{where}: on a sphere every joint is at its centre, the origin", where=where)
-    if place.pitch and pair.name != "helical":
+    if place.pitch and not pair.is_helical:
         raise LinkageError("{where}: a {pair} joint has no pitch", where=where, pair=pair.title)
     if pair.name not in _ROUND:
         if place.radii is not None or place.pressure is not None:
@@ -137,7 +137,7 @@ def _check_contact(place: JointPlace, pair: Pair, space: Space, where: str) -> N
             first=first,
             second=second,
         )
-    toothed = pair.name == "rolling" or place.pressure is not None
+    toothed = pair.is_rolling or place.pressure is not None
     if toothed and not isfinite(first + second):
         raise LinkageError(
             "{where}: wheels that roll on each other need finite radii, not {first:g} and {second:g}",
@@ -145,7 +145,7 @@ def _check_contact(place: JointPlace, pair: Pair, space: Space, where: str) -> N
             first=first,
             second=second,
         )
-    if place.pressure is not None and (pair.name == "rolling" or not abs(place.pressure) < 1.5):
+    if place.pressure is not None and (pair.is_rolling or not abs(place.pressure) < 1.5):
         raise LinkageError(
             "{where}: a pressure angle, below 1.5 radians, is for the teeth of a roll_slide joint", where=where
         )

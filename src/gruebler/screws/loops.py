@@ -31,9 +31,9 @@ def bennett(s: JointGeometry) -> Iterator[Reason]:
         yield Reason("bennett", s.chain.links, tuple(ring))
 
 
-def _bar(s: JointGeometry, one: int, other: int) -> tuple[float, float, tuple[Reals, Reals]] | None:
+def _bar(s: JointGeometry, first: int, second: int) -> tuple[float, float, tuple[Reals, Reals]] | None:
     """The distance of two axes, the sine of their angle, and the feet of their common normal; None if parallel."""
-    u, v, p, q = s.axis(one), s.axis(other), s.at(one), s.at(other)
+    u, v, p, q = s.axis(first), s.axis(second), s.at(first), s.at(second)
     normal = np.cross(u, v)
     sine = float(np.linalg.norm(normal))
     if sine < SAME:
@@ -63,11 +63,11 @@ def bricard(s: JointGeometry) -> Iterator[Reason]:
 
 def _maps(points: Reals, images: Reals, sense: int) -> bool:
     """Whether a half-turn (sense 1) or a mirror (-1) takes these points to those."""
-    one, other = (p.reshape(-1, 3) - p.reshape(-1, 3).mean(axis=0) for p in (points, images))
-    left, values, right = np.linalg.svd(one.T @ other)
+    first, second = (p.reshape(-1, 3) - p.reshape(-1, 3).mean(axis=0) for p in (points, images))
+    left, values, right = np.linalg.svd(first.T @ second)
     turn = right.T @ np.diag([1, 1, sense * np.linalg.det(left) * np.linalg.det(right)]) @ left.T
     return bool(
-        values[1] > SAME and abs(one @ turn.T - other).max() < 10 * SAME and abs(np.trace(turn) + sense) < 10 * SAME
+        values[1] > SAME and abs(first @ turn.T - second).max() < 10 * SAME and abs(np.trace(turn) + sense) < 10 * SAME
     )
 
 
@@ -120,11 +120,11 @@ def cardan(s: JointGeometry) -> Iterator[Reason]:
         if j not in hooke.joints and set(s.chain.joints[j].links) & hooke.shafts and s.on_axis(j, hooke.centre)
     ]
     reasons = []
-    for (j, one), (i, other) in itertools.combinations(hookes, 2):
-        shaft = one.shafts & other.shafts
+    for (j, first), (i, second) in itertools.combinations(hookes, 2):
+        shaft = first.shafts & second.shafts
         bearings = set(s.chain.joints[j].links) & set(s.chain.joints[i].links)
-        if one.joints != other.joints and j != i and shaft and bearings:
-            reasons.append(Reason("cardan", tuple(sorted(shaft)), (j, *one.joints, *other.joints, i)))
+        if first.joints != second.joints and j != i and shaft and bearings:
+            reasons.append(Reason("cardan", tuple(sorted(shaft)), (j, *first.joints, *second.joints, i)))
     # Of two crosses that are links the frame is a shaft as well, seen from the shaft between them: said once.
     frame = s.closing.mechanism.frame
     yield from [reason for reason in reasons if frame not in reason.links] or reasons

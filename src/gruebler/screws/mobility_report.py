@@ -226,14 +226,14 @@ def freedoms(
 
     Args:
         linkage: with its sizes.
-        at: drive values, in radians and the unit; of a `SpatialLinkage` counted from home. Without them the pose is
-            the home, or, where there is none, one that is regular if one is found.
+        at: drive values, in radians and the unit; of a `SpatialLinkage` from the reference pose. Without them the pose
+            is the reference pose, or, where there is none, one that is regular if one is found.
         branch: the assembly mode, as for `move`.
         tolerance: singular values below that times the largest count as zero, and joints that open by less than a
             hundredth of that times the way as closed.
 
     Raises:
-        LinkageError: no such pose, or a tolerance that is no positive number below 0.01.
+        LinkageError: no such pose, or a tolerance that is not a positive number below 0.01.
 
     Cost: a few milliseconds for ten links; up to a second where motions branch.
 

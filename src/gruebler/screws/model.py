@@ -22,10 +22,10 @@ _ORTHOGONAL = 1e-9  # by how much a rotation matrix may miss its transpose as in
 
 @dataclass(frozen=True, eq=True)
 class SpatialLinkage:
-    """A mechanism and where its joints lie in one position, its home; planar, spherical or spatial.
+    """A mechanism and where its joints lie in one position, its reference pose; planar, spherical or spatial.
 
-    The links need no coordinates of their own: at home all of them have those of the frame. The joints are closed
-    there by construction.
+    The links need no coordinates of their own: in the reference pose all of them have those of the frame. The joints
+    are closed there by construction.
 
     Args:
         mechanism: any mechanism.
@@ -64,7 +64,7 @@ class SpatialLinkage:
 
     @property
     def places(self) -> tuple[JointPlace, ...]:
-        """The joints at home, in the order of the chain."""
+        """The joints in the reference pose, in the order of the chain."""
         assert isinstance(self.joints, tuple)
         return self.joints
 
@@ -81,7 +81,7 @@ class SpatialLinkage:
 
     @cached_property
     def frames(self) -> Reals:
-        """Point and axes of each joint at home, (joints, 4, 4)."""
+        """Point and axes of each joint in the reference pose, (joints, 4, 4)."""
         frames = np.tile(np.eye(4), (len(self.places), 1, 1))
         for k, place in enumerate(self.places):
             frames[k, :3, :3] = joint_axes(place, self.mechanism.chain.space)

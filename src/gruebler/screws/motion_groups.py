@@ -92,7 +92,7 @@ def common_group(closing: Closing, pose: Reals) -> MotionGroup:
     >>> z = (0, 0, 1)
     >>> made = SpatialLinkage(winch, {0: {"z": z}, 1: {"z": z, "pitch": 0.8}, 2: {"x": z, "at": (0, 5, 0)}})
     >>> closing = Closing.of(made)
-    >>> common_group(closing, closing.home)
+    >>> common_group(closing, closing.reference)
     MotionGroup(kind=<MotionGroupKind.CYLINDER: 'cylinder'>, dimension=2)
     """
     chain = closing.mechanism.chain

@@ -56,9 +56,9 @@ class ObstructionMap:
     def second(self, step: float = 1e-3) -> Reals | None:
         """The quadratic forms of the second order, (redundancy, mobility, mobility): F(k) = k·Q·k / 2 + ..."""
         ahead = [(self(step * k), self(-step * k)) for k in np.eye(self.instant.mobility)]
-        if any(nearby_pose is None or other is None for nearby_pose, other in ahead):
+        if any(nearby_pose is None or second is None for nearby_pose, second in ahead):
             return None
-        slopes = [(one.slope - other.slope) / (2 * step) for one, other in ahead if one and other]
+        slopes = [(first.slope - second.slope) / (2 * step) for first, second in ahead if first and second]
         forms = np.stack(slopes, axis=2)
         forms = (forms + np.swapaxes(forms, 1, 2)) / 2
         forms[abs(forms) < _NOISE] = 0.0

@@ -57,10 +57,13 @@ def _parts(s: JointGeometry, ends: tuple[str, ...]) -> list[tuple[str, ...]]:
     root = {link: link for link in s.chain.links if link not in ends}
     for joint in s.chain.joints:
         left = [link for link in joint.links if link in root]
-        for other in left[1:]:
-            here, there = root[left[0]], root[other]
+        for link_of_part in left[1:]:
+            here, there = root[left[0]], root[link_of_part]
             root = {link: here if old_root == there else old_root for link, old_root in root.items()}
-    return [tuple(link for link, old_root in root.items() if old_root == one) for one in dict.fromkeys(root.values())]
+    return [
+        tuple(link for link, old_root in root.items() if old_root == group_root)
+        for group_root in dict.fromkeys(root.values())
+    ]
 
 
 def _copies(s: JointGeometry) -> Iterator[Reason]:
@@ -139,10 +142,10 @@ def _classes(s: JointGeometry, parts: list[tuple[str, ...]], ends: tuple[str, ..
     return classes
 
 
-def _congruent(s: JointGeometry, one: tuple[str, ...], other: tuple[str, ...], ends: tuple[str, ...]) -> bool:
+def _congruent(s: JointGeometry, first: tuple[str, ...], second: tuple[str, ...], ends: tuple[str, ...]) -> bool:
     """Whether two parts are alike but for a shift, measured against the first one's own extent."""
-    extent = _extent(s, one)
-    traits, other_traits = _traits(s, one, ends, extent), _traits(s, other, ends, extent)
+    extent = _extent(s, first)
+    traits, other_traits = _traits(s, first, ends, extent), _traits(s, second, ends, extent)
     if len(traits) != len(other_traits):
         return False
     same = max(SAME, _ROUNDING / extent)
@@ -157,7 +160,7 @@ def _congruent(s: JointGeometry, one: tuple[str, ...], other: tuple[str, ...], e
 def _pins(s: JointGeometry, part: tuple[str, ...]) -> Reals:
     """The points of a part's pins and balls, else of all its joints; (points, 3)."""
     joints = _joints(s, part)
-    pins = [k for k in joints if s.chain.joints[k].pair.name in ("revolute", "spherical")] or joints
+    pins = [k for k in joints if s.chain.joints[k].pair.is_revolute or s.chain.joints[k].pair.is_spherical] or joints
     return np.array([s.at(k) for k in pins])
 
 

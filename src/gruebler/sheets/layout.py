@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.panels import ratio_diagram
-from gruebler.drawing.canvas.shapes import text_width
-from gruebler.drawing.structure import draw
+from gruebler.drawing.canvas.shapes import wrapped_text
+from gruebler.drawing.structure import draw_structure
 from gruebler.errors import CatalogError
 from gruebler.sheets.messages import (
     example_lines,
@@ -18,7 +18,7 @@ from gruebler.sheets.messages import (
 )
 from gruebler.sheets.model import Sheet, StatedValue
 from gruebler.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
-from gruebler.sheets.picture import scale_picture
+from gruebler.sheets.picture import definition_picture, scale_picture
 from gruebler.text import translate
 
 __all__ = ["page"]
@@ -52,7 +52,7 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
     ]
     items.append(HorizontalRule(_LEFT, 57, _RIGHT - _LEFT, 1.2))
     y = 82.0
-    for line in _wrapped(sheet.record.title.in_language(lang), _RIGHT - _LEFT, 18 * 1.06):
+    for line in wrapped_text(sheet.record.title.in_language(lang), _RIGHT - _LEFT, 18 * 1.06):
         items.append(TextLine(_LEFT, y, line, 18, bold=True))
         y += 23
     for task in sheet.record.tasks:
@@ -76,11 +76,12 @@ def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     high = 288.0
     links = sheet.entry.links if lang == "de" else {link: link for link in sheet.entry.links}
     names = {link: name.partition(f" {translate('with', lang)} ")[0] for link, name in links.items()}
-    structure = draw(
+    structure = draw_structure(
         sheet.linkage.mechanism, labels=True, symbols=True, outputs=sheet.entry.outputs, lang=lang, names=names
     )
     _fitted(items, scale_picture(sheet, lang), _LEFT, y, 400, high)
-    _fitted(items, structure, 480, y + 20, _RIGHT - 480, high - 60)
+    right, middle = 470.0, y + 0.5 * high
+    _fitted(items, structure, right, y, _RIGHT - right, 0.42 * high)
     pose = f"{typeset_number(sheet.record.picture.pose, lang)}°"
     to_scale = translate(
         "To scale at φ = {pose}, coupler curve, tangent g, axis of symmetry"
@@ -92,6 +93,10 @@ def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     items.append(TextLine(_LEFT, y + high + 14, to_scale, 10, role="faint"))
     output = ", ".join(names[link] for link in sheet.entry.outputs)
     caption = translate("Structure, output {output}: double arrow", lang, output=output)
+    items.append(TextLine(_RIGHT, middle - 8, caption, 10, role="faint", anchor="end"))
+    definition, factor = definition_picture(sheet, lang)
+    _fitted(items, definition, right, middle + 4, _RIGHT - right, y + high - middle - 4)
+    caption = translate("For the definition of Q_G, enlarged {factor} times across g", lang, factor=f"{factor:.2g}")
     items.append(TextLine(_RIGHT, y + high + 14, caption, 10, role="faint", anchor="end"))
     return y + high + 14
 
@@ -146,6 +151,7 @@ def _diagram(sheet: Sheet, lang: str) -> Figure:
         curve.ratios[shown],
         curve.lengths[shown],
         at=(piece.end - piece.start, piece.ratio, piece.length),
+        begin=lambda width: float(sheet.window.ends(width)[0]),
         lang=lang,
         title=sheet.record.title.in_language(lang),
         size=_FIELD,
@@ -179,24 +185,11 @@ def _paragraphs(items: list[Item], heading: str, texts: Iterable[str], x: float,
     """Wrapped texts under a heading, to the right margin; the y below them."""
     y = _heading(items, heading, x, y, _RIGHT)
     for text in texts:
-        for line in _wrapped(text, _RIGHT - x, _BODY):
+        for line in wrapped_text(text, _RIGHT - x, _BODY):
             items.append(TextLine(x, y, line, _BODY))
             y += _LEAD
         y += apart
     return y
-
-
-def _wrapped(text: str, wide: float, size: float) -> list[str]:
-    """Lines that are not wider, broken at spaces."""
-    lines, line = [], ""
-    for word in text.split(" "):
-        longer = f"{line} {word}".strip()
-        if line and text_width(longer, size) > wide:
-            lines.append(line)
-            line = word
-        else:
-            line = longer
-    return [*lines, line]
 
 
 def _fitted(items: list[Item], figure: Figure, x: float, y: float, wide: float, high: float) -> None:

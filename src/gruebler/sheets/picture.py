@@ -5,18 +5,26 @@ from __future__ import annotations
 import cmath
 import math
 
+import numpy as np
+
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.labels import note_near
 from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.drawing.canvas.simplification import FINE, simplified
+from gruebler.drawing.canvas.symbols import arrow
 from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.sheets.messages import with_subscripts
 from gruebler.sheets.model import Sheet
+from gruebler.text import translate
 
-__all__ = ["scale_picture"]
+__all__ = ["definition_picture", "scale_picture"]
 
 _BEYOND = 22.0  # pixels
 _DASH, _GAP = 9.0, 4.0
+_LONG, _BAND = 190.0, 26.0  # pixels of L and Δy in the picture of the definition
+_SAMPLES = 241
+_MORE = 0.06  # of the window: how much of the curve is drawn beyond it
 
 
 def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
@@ -37,6 +45,58 @@ def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
         shapes.append(CircleShape(at, 3.0, "dot"))
         shapes.append(note_near(at, name, "value", shapes))
     return figure_of(shapes, plain.title, plain.description)
+
+
+def definition_picture(sheet: Sheet, lang: str = "en") -> tuple[Figure, float]:
+    """The piece of the curve that the example uses, with g, L and Δy, and how many times it is enlarged across g.
+
+    The drawing is the definition of Q_G = Δy/L: L between the ends K_A and K_E of the piece, along g; Δy the width of
+    the band parallel to g that holds the piece.
+    """
+    piece, window = sheet.example.sizing.piece, sheet.window
+    wide = piece.end - piece.start
+    beyond = np.linspace(0.0, _MORE * wide, 20)[1:]
+    used = np.linspace(piece.start, piece.end, _SAMPLES)
+    values = np.concatenate([piece.start - beyond[::-1], used, piece.end + beyond])
+    touch = sheet.place(sheet.motion(math.degrees(window.centre)), sheet.record.point)
+    local = (sheet.path(values) * sheet.unit_length - touch) * cmath.exp(-1j * window.direction)
+    inside = (values >= piece.start) & (values <= piece.end)
+    along, across = _LONG / np.ptp(local[inside].real), _BAND / np.ptp(local[inside].imag)
+    places = [Point(along * z.real, -across * z.imag) for z in local.tolist()]
+    kept = [place for place, here in zip(places, inside, strict=True) if here]
+    begin, end = kept[0], kept[-1]
+    left, right = min(kept).x, max(kept).x
+    top, bottom = min(place.y for place in kept), max(place.y for place in kept)
+    shapes: list[Shape] = [
+        *(_dashed(Point(left - _BEYOND, y), Point(right + _BEYOND, y)) for y in (top, bottom)),
+        Polylines(((Point(left - 2 * _BEYOND, 0.0), Point(right + 2 * _BEYOND, 0.0)),), "measure"),
+        Polylines((tuple(simplified(places, FINE)),), "curve"),
+        *(CircleShape(at, 3.0, "dot") for at in (begin, end, Point(0.0, 0.0))),
+    ]
+    level = bottom + 34.0
+    for at in (begin, end):
+        shapes.append(Polylines(((at.plus(Point(0.0, 1.0), 5.0), Point(at.x, level + 5.0)),), "dimension"))
+    shapes += _dimension_line(Point(left, level), Point(right, level))
+    shapes.append(TextShape(Point((left + right) / 2, level - 9.0), "L", "value"))
+    beside = right + 1.4 * _BEYOND
+    shapes += _dimension_line(Point(beside, top - 24.0), Point(beside, top), single_arrow=True)
+    shapes += _dimension_line(Point(beside, bottom + 24.0), Point(beside, bottom), single_arrow=True)
+    shapes.append(TextShape(Point(beside + 8.0, top - 16.0), "Δy", "value", "start"))
+    shapes.append(TextShape(Point(left - 2 * _BEYOND - 9.0, 0.0), "g", "value"))
+    name = sheet.record.point
+    for at, text in ((begin, f"{name}_A"), (end, f"{name}_E"), (Point(0.0, 0.0), f"{name}_I")):
+        shapes.append(note_near(at, text, "value", shapes))
+    title = translate("Definition of the relative deviation Q_G = Δy/L", lang)
+    return figure_of(shapes, title, title), float(across / along)
+
+
+def _dimension_line(a: Point, b: Point, *, single_arrow: bool = False) -> list[Shape]:
+    """A line with a head at its end, or at both."""
+    forward = b.minus(a).unit
+    heads = arrow(a if single_arrow else a.plus(forward, 7.0), b.plus(forward, -7.0), "dimension", "dimension-head")
+    if single_arrow:
+        return heads
+    return [*heads, *arrow(a.plus(forward, 8.0), a.plus(forward, 7.0), "dimension", "dimension-head")]
 
 
 def _offset(figure: Figure, posed: PosedLinkage) -> Point:

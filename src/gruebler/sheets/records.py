@@ -15,7 +15,16 @@ from gruebler.errors import CatalogError, GrueblerError
 from gruebler.sheets.expressions import Expression
 from gruebler.text import Message, Text, message
 
-__all__ = ["CognateLength", "Dimension", "Guide", "Picture", "Quantity", "RockerValue", "SheetRecord", "read_sheet"]
+__all__ = [
+    "CognateLength",
+    "Dimension",
+    "Guide",
+    "Quantity",
+    "RockerValue",
+    "SheetPicture",
+    "SheetRecord",
+    "read_sheet",
+]
 
 
 class Dimension(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -86,7 +95,7 @@ class Guide(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     """The printed values of phi_G, phi_A, ratio and scale."""
 
 
-class Picture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class SheetPicture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The picture to scale."""
 
     pose: float
@@ -111,7 +120,7 @@ class SheetRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     """The length that is the sheet's unit."""
     names: dict[str, str]
     """The sheet's names of joints and points."""
-    picture: Picture
+    picture: SheetPicture
     guide: Guide
     dimensions: tuple[Dimension, ...]
     quantities: tuple[Quantity, ...] = ()

@@ -12,12 +12,12 @@ from typing import NamedTuple
 
 from gruebler.drawing.canvas.construction import (
     Angle,
-    Circle,
     Construction,
     ConstructionStep,
     Dot,
     Drawn,
-    Line,
+    DrawnCircle,
+    DrawnLine,
     Segment,
     quantity,
 )
@@ -142,14 +142,14 @@ def _drawn(task: DeadCentreTask, points: AltConstruction) -> Iterator[tuple[Draw
         ]
     yield (*sides, Dot(far, "B₁"), Dot(near, "B₂"))
     if points.centre is None:
-        yield (Line(far, far - near, "curve"),)
+        yield (DrawnLine(far, far - near, "curve"),)
     else:
         yield (
             Segment(near, far),
             Segment(points.centre, far),
             Segment(points.centre, near),
             Dot(points.centre, "M"),
-            Circle(points.centre, abs(far - points.centre), "help"),
+            DrawnCircle(points.centre, abs(far - points.centre), "help"),
         )
     seen = cmath.phase((far - a0) / (near - a0))
     yield (
@@ -159,10 +159,10 @@ def _drawn(task: DeadCentreTask, points: AltConstruction) -> Iterator[tuple[Draw
         Dot(a0, "A₀"),
     )
     cut = a0 + abs(near - a0) * (far - a0) / abs(far - a0)
-    yield Circle(a0, abs(near - a0)), Dot(cut), Segment(cut, far, "line-2", "2a")
+    yield DrawnCircle(a0, abs(near - a0)), Dot(cut), Segment(cut, far, "line-2", "2a")
     outward, inward = points.pins
     yield (
-        Circle(a0, points.crank, "curve-rest"),
+        DrawnCircle(a0, points.crank, "curve-rest"),
         Segment(a0, outward, "edge"),
         Segment(outward, far, "edge"),
         Segment(a0, inward, "ghost"),

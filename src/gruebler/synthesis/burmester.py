@@ -276,10 +276,10 @@ def _centres(given: Displacements, x: Complexes) -> tuple[Complexes, NDArray[np.
     right = (np.abs(places) ** 2 - np.abs(x[:, None]) ** 2) / 2
     gram = np.einsum("ni,ni->n", gaps.real, gaps.real), np.einsum("ni,ni->n", gaps.imag, gaps.imag)
     mixed = np.einsum("ni,ni->n", gaps.real, gaps.imag)
-    one, two = np.einsum("ni,ni->n", gaps.real, right), np.einsum("ni,ni->n", gaps.imag, right)
+    first, second = np.einsum("ni,ni->n", gaps.real, right), np.einsum("ni,ni->n", gaps.imag, right)
     det = gram[0] * gram[1] - mixed**2
     with np.errstate(divide="ignore", invalid="ignore"):
-        m = ((gram[1] * one - mixed * two) + 1j * (gram[0] * two - mixed * one)) / det
+        m = ((gram[1] * first - mixed * second) + 1j * (gram[0] * second - mixed * first)) / det
     good = (det > 1e-14 * (gram[0] + gram[1]) ** 2) & (np.abs(m) < 1e4)
     return m, good
 

@@ -115,14 +115,14 @@ class DesignClosure:
         self.equations = 2 * len(joints)
         self.unknowns = 3 * len(self.links)
 
-    def poses(self, found: Poses) -> Reals:
+    def poses(self, solved: Poses) -> Reals:
         """(rows, unknowns) of positions on a circuit."""
-        out = np.empty((len(found), self.unknowns))
+        unknowns = np.empty((len(solved), self.unknowns))
         for link, c in self.column.items():
-            k = found.lower.mechanism.chain.links.index(link)
-            z = found.places[0, :, k]
-            out[:, c], out[:, c + 1], out[:, c + 2] = z.real, z.imag, found.angles[:, k]
-        return out
+            k = solved.lower.mechanism.chain.links.index(link)
+            z = solved.places[0, :, k]
+            unknowns[:, c], unknowns[:, c + 1], unknowns[:, c + 2] = z.real, z.imag, solved.angles[:, k]
+        return unknowns
 
     def drive_values(self, q: Reals, p: Reals) -> Reals:
         """(poses, drives) the values of all drives as `move` takes them, turning ones without jumps from row to row."""
@@ -250,7 +250,7 @@ class DesignClosure:
         good[open_] = False
         return q, good
 
-    def with_sizes(self, p: Reals, points: dict[str, tuple[str, float, float]], home: Reals) -> Linkage:
+    def with_sizes(self, p: Reals, points: dict[str, tuple[str, float, float]], pose: Reals) -> Linkage:
         """The linkage of other dimensions, standing in a pose."""
         elements: dict[str, dict[str | int, object]] = {link: {} for link in self.linkage.mechanism.chain.links}
         for key in self.keys:
@@ -259,7 +259,7 @@ class DesignClosure:
             x, y = float(p[at]), float(p[at + 1])
             changed: Element = Line(x, y, float(p[at + 2])) if isinstance(element, Line) else Pin(x, y)
             elements[key[1]][key[0]] = changed
-        places = {link: Pose2D(*(float(v) for v in home[c : c + 3])) for link, c in self.column.items()}
+        places = {link: Pose2D(*(float(v) for v in pose[c : c + 3])) for link, c in self.column.items()}
         places[self.linkage.mechanism.frame] = Pose2D(0.0, 0.0, 0.0)
         return Linkage(
             self.linkage.mechanism,

@@ -140,8 +140,8 @@ def coordinations_with_one_free_start(kind: CoordinationKind, task: FunctionTask
 
         starts = np.roots(np.polyfit(at, [plain(v) for v in at], 2))
     elif not task.start_input and kind.input_degree == 1:
-        one, other = (np.linalg.det(kind.columns(*shifted(v))) for v in (0.0, np.pi / 2))
-        starts = np.array([np.arctan2(-one, other)])
+        first, second = (np.linalg.det(kind.columns(*shifted(v))) for v in (0.0, np.pi / 2))
+        starts = np.array([np.arctan2(-first, second)])
     else:
         # A quadratic form in cosine and sine of the start: constant, cos 2t, sin 2t, from three values.
         angles = np.pi * np.arange(3) / 3

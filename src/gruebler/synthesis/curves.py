@@ -25,7 +25,7 @@ from gruebler.synthesis.results import Design, Progress, SolutionCount, Synthesi
 from gruebler.synthesis.tasks import PathTask
 from gruebler.text import message
 
-__all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
+__all__ = ["CurveAtlas", "Fit", "atlas", "fit_curve", "fit_path"]
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
 _NEAR = 4e-3  # of the size: if the best of the first come nearer, more are not tried
@@ -34,7 +34,7 @@ ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
 
 
-class Atlas(NamedTuple):
+class CurveAtlas(NamedTuple):
     """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
 
     kind: FourBarKind
@@ -59,21 +59,21 @@ def _halton(count: int, base: int) -> Reals:
 
 
 @cache
-def atlas(kind: FourBarKind, count: int = 0) -> Atlas:
+def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
     """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
     count = count or (90_000 if kind is FOUR_BAR else 12_000)
-    one, two, three, four, five = (_halton(count, base) for base in (2, 3, 5, 7, 11))
+    first, second, third, fourth, fifth = (_halton(count, base) for base in (2, 3, 5, 7, 11))
     spread = np.log(6.0)
     if kind is FOUR_BAR:
-        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (one, two, three))
+        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (first, second, third))
         zero = 0 * b
         rows = np.stack([zero, zero, d, zero, zero + 1, b, c, zero, zero])
     else:
-        b, h = np.exp(spread * one) * 1.05, 3 * two
+        b, h = np.exp(spread * first) * 1.05, 3 * second
         zero = 0 * b
         rows = np.stack([zero, zero, zero, h, zero + 1, b, zero, zero])
     reach = np.maximum(rows[kind.unknowns.index("b")], 1.0)
-    w = reach * (0.5 + 2.0 * np.sqrt(four) * np.exp(2j * np.pi * five))
+    w = reach * (0.5 + 2.0 * np.sqrt(fourth) * np.exp(2j * np.pi * fifth))
     rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
     rows = rows[:, _turns(kind, rows)]
     branch = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)
@@ -82,7 +82,7 @@ def atlas(kind: FourBarKind, count: int = 0) -> Atlas:
     good = np.isfinite(z).all(axis=1)
     rows, branch, z = rows[:, good], branch[good], z[good]
     at = evenly_along(z, phi)
-    return Atlas(kind, rows, branch, at, curve_points(kind, rows[:, :, None], at, branch[:, None]).z)
+    return CurveAtlas(kind, rows, branch, at, curve_points(kind, rows[:, :, None], at, branch[:, None]).z)
 
 
 class _Start(NamedTuple):
@@ -102,7 +102,7 @@ def _neighbours(kind: FourBarKind, z: Complexes, closed: bool, number: int) -> l
     return [_placed(book, match) for match in best_matches(book.z, z, number, closed=closed)]
 
 
-def _placed(book: Atlas, match: CurveMatch) -> _Start:
+def _placed(book: CurveAtlas, match: CurveMatch) -> _Start:
     """A curve of the atlas turned, scaled and shifted onto the target."""
     n = match.number
     row = _transformed(book.kind, book.rows[:, n], match.turn, match.shift)

@@ -185,8 +185,8 @@ def _places(task: DeadCentreTask, a: float, b: float) -> DeadCentrePlaces:
 
 def _same_sense(centre: complex, outer: complex, inner: complex) -> bool:
     """Whether the pin lies on one side of the frame line in both dead centres, so that they are of one branch."""
-    one, two = ((np.conj(centre) * pin).imag for pin in (outer, inner))
-    return bool(one * two > 0)
+    first, second = ((np.conj(centre) * pin).imag for pin in (outer, inner))
+    return bool(first * second > 0)
 
 
 def synthesise_dead_centres(

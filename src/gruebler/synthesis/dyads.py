@@ -224,8 +224,8 @@ def all_dyads(given: Displacements) -> Dyads:
         )
     kernel = np.conj(basis[4:].T)  # (8, 4): evaluations at the four solutions span it
     products = np.stack([_times(kernel, shift) for shift in ((1, 0), (0, 1), (0, 0))])
-    one, other = np.tensordot(_FORMS, products, axes=1)
-    vectors = np.linalg.eig(np.linalg.solve(other, one))[1]
+    first, second = np.tensordot(_FORMS, products, axes=1)
+    vectors = np.linalg.eig(np.linalg.solve(second, first))[1]
     points = [_point(products @ vectors[:, k]) for k in range(4)]
     slides = [dyad for dyad in sliding_dyads(given) if misfit(given, dyad) <= 1e-8 * (1 + abs(dyad.moving))]
     turning = [dyad for x in points if (dyad := _turning_dyad(given, x)) is not None]

@@ -85,22 +85,22 @@ def curve_points(
         by_crank = moved(1j * a * turned, 0.0)
         if not slopes:
             return CurvePoints(z, by_crank, np.zeros((0, *np.shape(z)), np.complex128))
-        one = np.ones_like(turned)
+        ones = np.ones_like(turned)
         columns = {
-            "a0x": moved(one, 0.0),
-            "a0y": moved(1j * one, 0.0),
+            "a0x": moved(ones, 0.0),
+            "a0y": moved(1j * ones, 0.0),
             "a": moved(turned, 0.0),
-            "b": moved(0 * one, -np.real(normal * theta)),
+            "b": moved(0 * ones, -np.real(normal * theta)),
             "u": theta,
             "v": 1j * theta,
         }
         if kind is FOUR_BAR:
             columns |= {
-                "b0x": moved(0 * one, np.real(normal * one)),
-                "b0y": moved(0 * one, np.real(normal * 1j * one)),
-                "c": moved(0 * one, 1.0),
+                "b0x": moved(0 * ones, np.real(normal * ones)),
+                "b0y": moved(0 * ones, np.real(normal * 1j * ones)),
+                "c": moved(0 * ones, 1.0),
             }
         else:
             far = pin + b * theta
-            columns |= {"h": moved(0 * one, 1.0), "angle": moved(0 * one, np.real(np.conj(slide) * far))}
+            columns |= {"h": moved(0 * ones, 1.0), "angle": moved(0 * ones, np.real(np.conj(slide) * far))}
     return CurvePoints(z, by_crank, np.stack([np.broadcast_to(columns[name], z.shape) for name in kind.unknowns]))

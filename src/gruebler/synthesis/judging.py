@@ -1,8 +1,8 @@
 """Whether a design does what was wanted: one judgement for every kind of task, by following the whole circuit.
 
 docs/theory/synthesis.md defines the criteria. What a synthesis computed is not believed: the circuit is followed from
-the linkage's home without regard to the drive, the places where it meets each target are sought on it, and `move`
-carries the linkage through them.
+the linkage's reference pose without regard to the drive, the places where it meets each target are sought on it, and
+`move` carries the linkage through them.
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], 
 
 
 def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
-    """The design of a linkage with a home, and its verdict. Cost: 3 to 30 ms, most for the circuit.
+    """The design of a linkage with a reference pose, and its verdict. Cost: 3 to 30 ms, most for the circuit.
 
     >>> from gruebler.fourbar import FourBar
     >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
@@ -448,7 +448,7 @@ def _carried(
     begin = int(rows[0])
     worst, least = 0.0, np.inf
     values = tuple(float(drive[rows[k]]) for k in range(len(path.arcs)))
-    # From target 1, where the home is, to both ends.
+    # From target 1, where the reference pose is, to both ends.
     for part, forward in ((drive[begin:], True), (drive[: begin + 1][::-1], False)):
         motion = move(linkage, part, order=2)
         if not motion.complete:

@@ -82,8 +82,8 @@ def find_generic(
     return GenericSolutions(p, z)
 
 
-def write_generic(folder: Path, problem: Problem, found: GenericSolutions) -> Path:
+def write_generic(folder: Path, problem: Problem, solutions: GenericSolutions) -> Path:
     """Store generic solutions as data of the package: in single precision, since reading sharpens them."""
     path = folder / f"{problem.name.replace(' ', '_')}.npz"
-    np.savez_compressed(path, parameters=found.parameters, solutions=found.z.astype(np.complex64))
+    np.savez_compressed(path, parameters=solutions.parameters, solutions=solutions.z.astype(np.complex64))
     return path

@@ -220,8 +220,8 @@ def _reduced(task: PathTask, problem: Problem, oriented: list[int], first: int) 
     rotations = np.exp(1j * (angles[1:] - angles[0]))
     pivots = None
     if task.fixed_pivots:
-        one, two = ((complex(*p) - z[first]) / size for p in task.fixed_pivots)
-        pivots = complex(one), complex(two)
+        a0, b0 = ((complex(*p) - z[first]) / size for p in task.fixed_pivots)
+        pivots = complex(a0), complex(b0)
     p = parameters((places - z[first]) / size, rotations, pivots)
     return _Reduced(p, complex(z[first]), size, extra, first)
 
@@ -264,9 +264,11 @@ def _dyad_pairs(problem: Problem, complete: Solutions) -> Iterator[tuple[Guiding
         yield GuidingDyad("RR", b - y, b), GuidingDyad("RR", k * (b - y), c)
 
 
-def _judged(task: PathTask, demands: Demands, one: GuidingDyad, two: GuidingDyad, first: int) -> list[Design]:
+def _judged(
+    task: PathTask, demands: Demands, first_dyad: GuidingDyad, second_dyad: GuidingDyad, first: int
+) -> list[Design]:
     try:
-        linkages = four_bar_linkages(one, two, complex(task.z[first]), unit=task.unit)
+        linkages = four_bar_linkages(first_dyad, second_dyad, complex(task.z[first]), unit=task.unit)
     except LinkageError:
         return []
     return [best_of(linkages, partial(_targets, task, first), demands, "RR-RR")]
@@ -277,8 +279,8 @@ def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
         return point_targets("P", task.z, task.size)
     start = task.angles[first]
     assert start is not None
-    home = linkage.required_pose["coupler"].angle
-    angles = [None if a is None else home + a - start for a in task.angles]
+    start_angle = linkage.required_pose["coupler"].angle
+    angles = [None if a is None else start_angle + a - start for a in task.angles]
     return position_targets("P", "coupler", task.z, angles, task.size)
 
 

@@ -107,8 +107,8 @@ def designs_figure(result: SynthesisResult, *, lang: str = "en", most: int = 6) 
         for k, design in enumerate(shown, 1)
     ]
     title = translate("Designs", lang)
-    one = pictures_in_one(figures, title, min(_COLUMNS, len(figures)))
-    return _stacked([*plots, one], title)
+    page = pictures_in_one(figures, title, min(_COLUMNS, len(figures)))
+    return _stacked([*plots, page], title)
 
 
 def _captioned(figure: Figure, caption: str) -> Figure:

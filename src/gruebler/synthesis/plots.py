@@ -11,7 +11,7 @@ import numpy as np
 from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.panels import Curve, Panel, PointMarker, draw_panels
+from gruebler.drawing.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import LinkageError
 from gruebler.kinematics import move
@@ -21,7 +21,7 @@ from gruebler.synthesis.results import Design
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.text import translate
 
-__all__ = ["burmester_plot", "function_plot", "output_of", "poles"]
+__all__ = ["burmester_plot", "finite_poles", "function_plot", "output_of"]
 
 _LONGER_SIDE = 560.0  # pixels
 _FAR = 2.5  # sizes of the task from its middle: poles and pivots that are farther do not enlarge the picture
@@ -29,15 +29,15 @@ _SAMPLES = 201
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
-def poles(task: PositionTask) -> dict[str, complex]:
+def finite_poles(task: PositionTask) -> dict[str, complex]:
     """The poles of all pairs of positions, by names such as ``P₁₂``; without those at infinity."""
-    found = {}
+    named_poles = {}
     for j, k in combinations(range(len(task)), 2):
         turn = task.turns[k] / task.turns[j]
         if abs(turn - 1) > 1e-9:
             name = "P" + f"{j + 1}{k + 1}".translate(_SUBSCRIPTS)
-            found[name] = complex((task.origins[k] - turn * task.origins[j]) / (1 - turn))
-    return found
+            named_poles[name] = complex((task.origins[k] - turn * task.origins[j]) / (1 - turn))
+    return named_poles
 
 
 def burmester_plot(task: PositionTask, design: Design | None = None, *, lang: str = "en") -> Figure:
@@ -53,7 +53,7 @@ def burmester_plot(task: PositionTask, design: Design | None = None, *, lang: st
     curves = burmester_curves(task)
     middle, size = complex(task.origins.mean()), task.size
     lines = [] if design is None else _link_lines(design)
-    shown = [*task.origins, *poles(task).values(), *(complex(z) for line in lines for _, z in line)]
+    shown = [*task.origins, *finite_poles(task).values(), *(complex(z) for line in lines for _, z in line)]
     shown = [z for z in shown if abs(z - middle) < _FAR * size]
     low = complex(min(z.real for z in shown), min(z.imag for z in shown))
     high = complex(max(z.real for z in shown), max(z.imag for z in shown))
@@ -63,7 +63,7 @@ def burmester_plot(task: PositionTask, design: Design | None = None, *, lang: st
         for side in ("real", "imag")
     )
     scale = _LONGER_SIDE / max(x.high - x.low, y.high - y.low)
-    spots = [PointMarker(z.real, z.imag, name, style="node") for name, z in poles(task).items()]
+    spots = [PointMarker(z.real, z.imag, name, style="node") for name, z in finite_poles(task).items()]
     spots += [PointMarker(z.real, z.imag, str(k), style="ring") for k, z in enumerate(task.origins, 1)]
     spots += [PointMarker(z.real, z.imag, name) for line in lines for name, z in line]
     spots += _tenths(curves)
@@ -73,7 +73,9 @@ def burmester_plot(task: PositionTask, design: Design | None = None, *, lang: st
         "edge": (translate("links between frame and body", lang), [np.array([z for _, z in line]) for line in lines]),
         "dead": (translate("positions", lang), _frames(task)),
     }
-    drawn = [Curve(piece.real, piece.imag, name, style) for style, (name, pieces) in named.items() for piece in pieces]
+    drawn = [
+        PlottedCurve(piece.real, piece.imag, name, style) for style, (name, pieces) in named.items() for piece in pieces
+    ]
     panel = Panel(
         Axis(f"x in {task.unit}", x),
         Axis(f"y in {task.unit}", y),
@@ -137,7 +139,7 @@ def output_of(design: Design, inputs: Reals) -> Reals:
         for number, joint in enumerate(linkage.mechanism.chain.joints)
         if joint.pair.is_prismatic and {link, linkage.mechanism.frame} <= set(joint.links)
     ]
-    out = np.full(len(inputs), np.nan)
+    outputs = np.full(len(inputs), np.nan)
     order = np.argsort(inputs)
     for sign in (1, -1):
         rows = order[::sign]
@@ -149,8 +151,8 @@ def output_of(design: Design, inputs: Reals) -> Reals:
             continue
         value = motion.displacement(slides[0]) if slides else np.unwrap(motion.angle(link))
         done = rows[: len(value) - 1]
-        out[done] = value[1:] - value[0]
-    return out
+        outputs[done] = value[1:] - value[0]
+    return outputs
 
 
 def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Figure:
@@ -182,9 +184,9 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
     across_name = translate("input from the first pair in °", lang)
     spots = tuple(PointMarker(degrees(a), b, str(k)) for k, (a, b) in enumerate(zip(*pairs, strict=True), 1))
     everything = np.concatenate([output[np.isfinite(output)], wanted[np.isfinite(wanted)], pairs[1]])
-    curves = [Curve(across, output, translate("output of the design", lang), "line-1")]
+    curves = [PlottedCurve(across, output, translate("output of the design", lang), "line-1")]
     if task.law is not None:
-        curves.append(Curve(across, wanted, translate("wanted", lang), "line-2"))
+        curves.append(PlottedCurve(across, wanted, translate("wanted", lang), "line-2"))
     panels = [
         Panel(
             Axis(across_name, scale),
@@ -206,7 +208,7 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
                     translate("structural error in {unit}", lang, unit=measure),
                     decimals(min(0.0, float(np.nanmin(error))), max(0.0, float(np.nanmax(error)))),
                 ),
-                (Curve(across, error, translate("structural error", lang), "line-3"),),
+                (PlottedCurve(across, error, translate("structural error", lang), "line-3"),),
                 spots=zeros,
             )
         )

@@ -191,35 +191,42 @@ def _targets(task: PositionTask, linkage: Linkage) -> Targets:
     return position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
 
 
-def four_bar_linkages(one: GuidingDyad, two: GuidingDyad, point: complex, *, unit: str = "mm") -> list[Linkage]:
+def four_bar_linkages(
+    first_dyad: GuidingDyad, second_dyad: GuidingDyad, point: complex, *, unit: str = "mm"
+) -> list[Linkage]:
     """The linkage of two dyads in its first position with a coupler point P, driven at each side: the better first.
 
     The side that turns fully drives; of two that do not, each is tried. Raises `LinkageError` if pivots coincide.
     """
-    orders = [(one, two), (two, one)]
-    if one.form == two.form == "RR":
-        turning = grashof(one.length, abs(one.moving - two.moving), two.length, abs(one.fixed - two.fixed)).turning
+    orders = [(first_dyad, second_dyad), (second_dyad, first_dyad)]
+    if first_dyad.form == second_dyad.form == "RR":
+        turning = grashof(
+            first_dyad.length,
+            abs(first_dyad.moving - second_dyad.moving),
+            second_dyad.length,
+            abs(first_dyad.fixed - second_dyad.fixed),
+        ).turning
         if "c" in turning and "a" not in turning:
             orders.reverse()
         if turning and "b" not in turning:
             orders = orders[:1]
-    elif one.form == "PR" and two.form != "PR":
+    elif first_dyad.form == "PR" and second_dyad.form != "PR":
         orders.reverse()
     return [linkage_of_dyads(first, second, point, unit) for first, second in orders]
 
 
-def linkage_of_dyads(one: GuidingDyad, two: GuidingDyad, point: complex, unit: str) -> Linkage:
+def linkage_of_dyads(first_dyad: GuidingDyad, other_dyad: GuidingDyad, point: complex, unit: str) -> Linkage:
     """The linkage of two dyads in its first position, driven at the first; P lies on the coupler.
 
     Raises `LinkageError` if pivots of a link coincide.
     """
-    first = _SIDES[one.form][0]
-    second = _SIDES[two.form][1 if one.form == two.form else int(two.form == "RR")]
-    if one.form == two.form and one.form != "RR":
+    first = _SIDES[first_dyad.form][0]
+    second = _SIDES[other_dyad.form][1 if first_dyad.form == other_dyad.form else int(other_dyad.form == "RR")]
+    if first_dyad.form == other_dyad.form and first_dyad.form != "RR":
         second = second.replace(" ", "_")
     parts: list[str] = []
     places: dict[str | int, object] = {}
-    for side, dyad in ((first, one), (second, two)):
+    for side, dyad in ((first, first_dyad), (second, other_dyad)):
         for kind, a, b, at in (
             (dyad.form[0], "frame", side, dyad.moving if dyad.form == "PR" else dyad.fixed),
             (dyad.form[1], side, "coupler", dyad.fixed if dyad.form == "RP" else dyad.moving),
@@ -291,9 +298,9 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
     return distinct
 
 
-def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:
-    gap = abs(one.moving - other.moving) + abs(one.fixed - other.fixed)
-    return one.form != other.form or gap > 1e-3 * (1 + abs(one.moving) + abs(one.fixed))
+def _apart(first: GuidingDyad, second: GuidingDyad) -> bool:
+    gap = abs(first.moving - second.moving) + abs(first.fixed - second.fixed)
+    return first.form != second.form or gap > 1e-3 * (1 + abs(first.moving) + abs(first.fixed))
 
 
 def _approximate(

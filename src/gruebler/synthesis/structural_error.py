@@ -28,11 +28,11 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
     The starts are those of x at the begin of the interval.
     """
     linkage = design.linkage
-    chain, home = linkage.mechanism.chain, linkage.reference_pose
-    if home is None or any(not joint.pair.is_revolute for joint in chain.joints[:3]):
+    chain, reference_pose = linkage.mechanism.chain, linkage.reference_pose
+    if reference_pose is None or any(not joint.pair.is_revolute for joint in chain.joints[:3]):
         return None
     places = [
-        complex(*home[link].put(*linkage.elements[number, link][:2]))
+        complex(*reference_pose[link].put(*linkage.elements[number, link][:2]))
         for number, link in ((0, "frame"), (0, "crank"), (1, "crank"), (2, "coupler"), (3, "frame"))
     ]
     pivot, pin, far, other = places[0], places[2], places[3], places[4]
@@ -125,8 +125,8 @@ def minimax(start: Coordination, law: FunctionLaw, *, samples: int = 121, steps:
     for _ in range(steps):
         values, slopes = _errors(best, law, x)
         slopes = slopes * scale
-        one = np.ones((samples, 1))
-        matrix = np.block([[slopes, -one], [-slopes, -one]])
+        ones = np.ones((samples, 1))
+        matrix = np.block([[slopes, -ones], [-slopes, -ones]])
         limits = [(-radius, radius)] * 3 + [(0, 0) if h else (-radius, radius) for h in held] + [(0, None)]
         answer = linprog([0] * 5 + [1], A_ub=matrix, b_ub=np.concatenate([-values, values]), bounds=limits)
         if answer.status != 0:

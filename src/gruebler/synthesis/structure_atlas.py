@@ -92,9 +92,12 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> d
     Returns (..., angles) each; NaN where a dyad cannot be assembled. Cost: 0.1 us for each dyad and angle.
     """
     places = drawn[..., None]
-    one = np.ones(np.broadcast_shapes(places.shape[1:], turned.shape), np.complex128)
-    spin = np.exp(1j * turned) * one
-    motions = {structure.mechanism.frame: (one, 0 * one), structure.crank: (spin, places[structure.pivot] * (1 - spin))}
+    ones = np.ones(np.broadcast_shapes(places.shape[1:], turned.shape), np.complex128)
+    spin = np.exp(1j * turned) * ones
+    motions = {
+        structure.mechanism.frame: (ones, 0 * ones),
+        structure.crank: (spin, places[structure.pivot] * (1 - spin)),
+    }
     for dyad in structure.dyads:
         ends = [
             rotation * places[joint] + shift

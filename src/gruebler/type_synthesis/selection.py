@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import pickle
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from functools import partial
+from itertools import chain as chain_of
+from zlib import compress, decompress
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import pair
+from gruebler.enumeration.worker_pool import run_work
 from gruebler.errors import GrueblerError, expect
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
@@ -23,35 +29,64 @@ def typed_chains(requirements: Requirements) -> Iterator[Chain]:
     other pairs replace revolutes among the remaining ones; each chain once. Different chains of revolutes give
     different chains with contacts (the inverse of a contact is unique), so no isomorphism test is needed.
     """
+    return chain_of.from_iterable(_typed(chain, requirements) for chain in _turning_chains(requirements))
+
+
+def _turning_chains(requirements: Requirements) -> Iterator[Chain]:
+    """The chains of revolutes from which the typed chains are made."""
     from gruebler.enumeration import chains
 
     if requirements.links < 3:
         raise GrueblerError("a chain has at least three links, not {links}", links=requirements.links)
-    kinds = {pair("prismatic"): requirements.prismatic, pair("rolling"): requirements.rolling}
-    base = chains(
+    return chains(
         requirements.links + requirements.roll_slide,
         requirements.mobility,
         fractionated="all",
         multiple_joints=requirements.multiple_joints,
     )
-    for chain in base:
-        for touching in with_contacts(chain, requirements.roll_slide):
-            if sum(kinds.values()) > sum(j.pair.is_revolute and j.count == 1 for j in touching.joints):
-                continue
-            for typed in assignments(touching, {k: number for k, number in kinds.items() if number}):
-                if requirements.assortment in (None, typed.assortment) and (
-                    not requirements.prismatic or every_joint_moves(typed, requirements.mobility)
-                ):
-                    yield typed
 
 
-def variants(requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
+def _typed(chain: Chain, requirements: Requirements) -> Iterator[Chain]:
+    """The typed chains that one chain of revolutes gives."""
+    kinds = {pair("prismatic"): requirements.prismatic, pair("rolling"): requirements.rolling}
+    for touching in with_contacts(chain, requirements.roll_slide):
+        if sum(kinds.values()) > sum(j.pair.is_revolute and j.count == 1 for j in touching.joints):
+            continue
+        for typed in assignments(touching, {k: number for k, number in kinds.items() if number}):
+            if requirements.assortment in (None, typed.assortment) and (
+                not requirements.prismatic or every_joint_moves(typed, requirements.mobility)
+            ):
+                yield typed
+
+
+def variants(
+    requirements: Requirements, *, executor: Executor | Callable[[], Executor] | None = None
+) -> Iterator[Chain | DrivenMechanism]:
     """All results that satisfy the requirements: typed chains, or mechanisms where frame, drive or output matter.
 
-    Drives fix the motion: as many as the mobility, none against another.
+    Args:
+        requirements: what is required.
+        executor: see `enumeration.worker_pool.run_work`; a piece of work is what one chain of revolutes gives. The
+            results and their order are the same.
+
+    Drives fix the motion: as many as the mobility, none of them in conflict.
     """
     expect(requirements, Requirements)
-    for chain in typed_chains(requirements):
+    turning = _turning_chains(requirements)
+    if executor is None:
+        return chain_of.from_iterable(_variants(chain, requirements) for chain in turning)
+    packed = run_work(partial(_packed_variants, requirements), turning, executor)
+    return chain_of.from_iterable(pickle.loads(decompress(each)) for each in packed)
+
+
+def _packed_variants(requirements: Requirements, chain: Chain) -> bytes:
+    """What one chain gives, small enough to be sent between processes."""
+    return compress(pickle.dumps(list(_variants(chain, requirements))))
+
+
+def _variants(turning: Chain, requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
+    """The results that one chain of revolutes gives."""
+    for chain in _typed(turning, requirements):
         if not requirements.about_mechanisms:
             yield chain
         elif not requirements.about_drives:

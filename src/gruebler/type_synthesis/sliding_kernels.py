@@ -14,6 +14,17 @@ PRIME = 2**31 - 1
 
 
 @njit(cache=True)
+def _residue(value: int) -> int:
+    """The residue of a number from 0 to (PRIME - 1) PRIME.
+
+    The residue of 2^31 is 1, so the two digits of that base add up. Their sum is at most 2^32 - 4, so
+    one subtraction is enough.
+    """
+    value = (value & PRIME) + (value >> 31)
+    return value - PRIME if value >= PRIME else value
+
+
+@njit(cache=True)
 def _inverse(value: int) -> int:
     """The inverse modulo the prime."""
     a, b = value, PRIME
@@ -35,18 +46,18 @@ def _support(depth: int, factors: Int64, inverses: Int64, free: Int64, left: Int
         if free[b] or left[b] == 0:
             continue
         support |= 1 << b
-        own = left[b] * inverses[b] % PRIME
+        own = _residue(left[b] * inverses[b])
         for c in range(b):
             if factors[b, c]:
-                left[c] = (left[c] + (PRIME - own) * factors[b, c]) % PRIME
+                left[c] = _residue(left[c] + (PRIME - own) * factors[b, c])
     return support
 
 
 @njit(cache=True)
 def _fixing(choice: int, columns: int, group: Int64) -> int:
     """The number of automorphisms that leave a set of columns as it is."""
-    number = 0
-    for g in range(group.shape[0]):
+    number = 1
+    for g in range(1, group.shape[0]):  # the first one moves nothing
         image = 0
         for k in range(columns):
             if choice >> k & 1:
@@ -111,7 +122,7 @@ def count_sliding(vectors: Int64, simple: int, joint: Int64, mobility: int, grou
                 factors[depth, b] = factor
                 other = PRIME - factor
                 for r in range(rows):
-                    vector[r] = (vector[r] + other * basis[b, r]) % PRIME
+                    vector[r] = _residue(vector[r] + other * basis[b, r])
         at = 0
         while at < rows and vector[at] == 0:
             at += 1
@@ -124,7 +135,7 @@ def count_sliding(vectors: Int64, simple: int, joint: Int64, mobility: int, grou
             pivot[depth] = at
             inverses[depth] = _inverse(vector[at])
             for r in range(at, rows):
-                vector[r] = vector[r] * inverses[depth] % PRIME
+                vector[r] = _residue(vector[r] * inverses[depth])
         if nulls > mobility or (nulls == mobility == 1 and depth < simple - 1):
             continue  # a simple joint behind would stay at rest
         if depth < columns - 1:

@@ -10,6 +10,9 @@ from gruebler.drawing.canvas.figure import Figure
 __all__ = ["AnswerLines", "Block", "Document", "Heading", "PageBreak", "Paragraph", "Pictures", "Rows"]
 
 
+_LEGIBLE = 0.8  # names of 13 pixels are then printed with 7.8 points, the smallest texts with 6.6
+
+
 class Heading(NamedTuple):
     """A heading; level 1 is that of a part."""
 
@@ -25,11 +28,27 @@ class Paragraph(NamedTuple):
 
 
 class Pictures(NamedTuple):
-    """Pictures side by side, at most so many pixels high, with a caption for each."""
+    """Pictures side by side, about so many pixels high, with a caption for each."""
 
     figures: tuple[Figure, ...]
     captions: tuple[str, ...] = ()
     height: float = 230.0
+
+    def scales(self, width: float) -> list[float]:
+        """Their scales: to the height, but no text becomes too small to read, and all fit side by side into a width.
+
+        >>> wide = Figure((), 600, 400, "", "")
+        >>> Pictures((wide,), height=200).scales(700), Pictures((wide, wide), height=400).scales(600)
+        ([0.8], [0.5, 0.5])
+        """
+        scales = [min(1.0, max(self.height / figure.height, _LEGIBLE)) for figure in self.figures]
+        by_width = sorted(range(len(scales)), key=lambda k: scales[k] * self.figures[k].width)
+        for place, k in enumerate(by_width):  # where they do not fit, the widest give way
+            wanted = scales[k] * self.figures[k].width
+            given = min(wanted, width / (len(scales) - place))
+            scales[k] *= given / wanted
+            width -= given
+        return scales
 
 
 class Rows(NamedTuple):

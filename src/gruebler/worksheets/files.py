@@ -36,10 +36,11 @@ def _pdf(document: Document) -> bytes:
 
 # --- HTML --------------------------------------------------------------------------------------------
 
+_HTML_WIDTH = 740.0
 _HTML_STYLE = (
     "body{max-width:50rem;margin:1rem auto;padding:0 1rem;font:15px/1.45 sans-serif;color:#22262b;background:#fff}"
     "h1{font-size:1.5rem}h2{font-size:1.15rem;break-after:avoid}h3{font-size:1rem;break-after:avoid}"
-    ".row{display:flex;gap:1rem;align-items:end;break-inside:avoid}figure{margin:.3rem 0;flex:1}"
+    ".row{display:flex;gap:1rem;align-items:end;break-inside:avoid}figure{margin:.3rem 0;flex:1 1 0}"
     "figcaption,.small{font-size:.82rem;color:#5c636b}svg{max-width:100%;height:auto}"
     "table{border-collapse:collapse;margin:.5rem 0}th,td{padding:.1rem .8rem .1rem "
     "0;text-align:left;vertical-align:top}"
@@ -78,12 +79,13 @@ def _html_block(block: Block) -> Iterator[str]:
             yield f"<h{level + 1}>{_markup(text)}</h{level + 1}>"
         case Paragraph(text, small):
             yield f"<p{' class=small' if small else ''}>{'<br>'.join(map(_markup, text.split(chr(10))))}</p>"
-        case Pictures(figures, captions, height):
+        case Pictures(figures, captions):
             items = []
-            for k, figure in enumerate(figures):
-                wide = min(1.0, height / figure.height) * figure.width
+            for k, (figure, scale) in enumerate(zip(figures, block.scales(_HTML_WIDTH), strict=True)):
+                wide = scale * figure.width
                 caption = f"<figcaption>{_markup(captions[k])}</figcaption>" if k < len(captions) else ""
-                items.append(f'<figure style="max-width:{wide:.0f}px">{figure.svg(styled=False)}{caption}</figure>')
+                style = f"flex-grow:{wide:.0f};max-width:{wide:.0f}px"
+                items.append(f'<figure style="{style}">{figure.svg(styled=False)}{caption}</figure>')
             yield f'<div class="row">{"".join(items)}</div>'
         case Rows(headers, rows):
             yield f"<table><tr>{''.join(f'<th>{_markup(cell)}</th>' for cell in headers)}</tr>"
@@ -131,52 +133,52 @@ def _markdown_block(block: Block) -> Iterator[str]:
 
 # --- LaTeX -------------------------------------------------------------------------------------------
 
+_LATEX_WIDTH = 620.0  # of the lines on A4 with margins of 20 mm
 _SPECIAL = {
     **{sign: f"\\{sign}" for sign in "&%$#_{}"},
     "\\": r"\textbackslash{}",
     "~": r"\textasciitilde{}",
     "^": r"\textasciicircum{}",
 }
+_GREEK = (
+    "alpha beta gamma delta varepsilon zeta eta theta iota kappa lambda mu nu xi o pi rho varsigma sigma tau upsilon \
+varphi chi psi omega"
+)
 _MATHS = {
-    "√": r"$\surd$",
-    "²": "$^2$",
-    "³": "$^3$",
-    "°": r"$^\circ$",
-    "≤": r"$\leq$",
-    "≥": r"$\geq$",
-    "·": r"$\cdot$",
-    "±": r"$\pm$",
-    "→": r"$\to$",
-    "′": "$'$",
-    "″": "$''$",
-    "∞": r"$\infty$",
-    "Σ": r"$\Sigma$",
-    "Δ": r"$\Delta$",
-    "…": r"\dots{}",
+    **{chr(0x3B1 + k): rf"$\{name}$" if name != "o" else "$o$" for k, name in enumerate(_GREEK.split())},
+    **{sign: f"$^{k}$" for k, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")},
     **{chr(0x2080 + k): f"$_{k}$" for k in range(10)},
-    **dict(
-        zip(
-            "αβγδεθκλμφψω",
-            (
-                rf"$\{name}$"
-                for name in [
-                    "alpha",
-                    "beta",
-                    "gamma",
-                    "delta",
-                    "varepsilon",
-                    "theta",
-                    "kappa",
-                    "lambda",
-                    "mu",
-                    "varphi",
-                    "psi",
-                    "omega",
-                ]
-            ),
-            strict=True,
-        )
-    ),
+    **{
+        "⁻": "$^-$",
+        "ᵢ": "$_i$",
+        "ẋ": r"$\dot x$",
+        "ẏ": r"$\dot y$",
+        "µ": r"$\mu$",
+        "√": r"$\surd$",
+        "°": r"$^\circ$",
+        "−": "$-$",
+        "≤": r"$\leq$",
+        "≥": r"$\geq$",
+        "≈": r"$\approx$",
+        "≠": r"$\neq$",
+        "·": r"$\cdot$",
+        "×": r"$\times$",
+        "±": r"$\pm$",
+        "∓": r"$\mp$",
+        "∩": r"$\cap$",
+        "→": r"$\to$",
+        "′": "$'$",
+        "″": "$''$",
+        "∞": r"$\infty$",
+        "Γ": r"$\Gamma$",
+        "Σ": r"$\Sigma$",
+        "Δ": r"$\Delta$",
+        "Φ": r"$\Phi$",
+        "Ψ": r"$\Psi$",
+        "Ω": r"$\Omega$",
+        "…": r"\dots{}",
+        "\u00a0": "~",
+    },
 }
 _SIGNS = str.maketrans({**_SPECIAL, **_MATHS})
 
@@ -208,20 +210,24 @@ def _latex_block(block: Block) -> Iterator[str]:
     match block:
         case Heading(text, level):
             command = {1: "section", 2: "subsection", 3: "subsubsection"}[level]
-            yield f"\\{command}*{{{_latex_text(text)}}}"
+            # Pages end before headings if they can.
+            yield f"\\filbreak\n\\{command}*{{{_latex_text(text)}}}"
         case Paragraph(text, small):
             lines = r"\\ ".join(map(_latex_text, text.split("\n")))
             yield f"{{\\small {lines}\\par}}\n" if small else f"{lines}\\par\n"
-        case Pictures(figures, captions, height):
-            for k, figure in enumerate(figures):
-                scale = min(1.0, height / figure.height, 480 / len(figures) / figure.width)
+        case Pictures(figures, captions):
+            scales = block.scales(_LATEX_WIDTH)
+            every = sum(scale * figure.width for scale, figure in zip(scales, figures, strict=True))
+            for k, (figure, scale) in enumerate(zip(figures, scales, strict=True)):
                 caption = rf"\\ {{\footnotesize {_latex_text(captions[k])}}}" if k < len(captions) else ""
-                wide = 0.98 / len(figures)
+                wide = 0.98 * scale * figure.width / every
                 picture = _tikz(figure, scale)
                 yield f"\\begin{{minipage}}[b]{{{wide:.2f}\\linewidth}}{picture}{caption}\\end{{minipage}}%"
             yield "\\par\n"
         case Rows(headers, rows):
-            yield f"\\begin{{longtable}}{{@{{}}{'l' * (len(headers) - 1)}p{{0.4\\linewidth}}@{{}}}}"
+            widest = max(range(len(headers)), key=lambda k: max(len(row[k]) for row in [headers, *rows]))
+            columns = "".join(r"p{0.5\linewidth}" if k == widest else "l" for k in range(len(headers)))
+            yield f"\\begin{{longtable}}[l]{{@{{}}{columns}@{{}}}}"
             for number, row in enumerate([headers, *rows]):
                 yield " & ".join(map(_latex_text, row)) + r" \\" + (r" \hline" if number == 0 else "")
             yield "\\end{longtable}\n"

@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from gruebler.chain.pairs import PAIRS, Alphabet, Pair, Space
+from gruebler.convex_hull import convex_hull
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, TextShape
 from gruebler.drawing.canvas.symbols import arrow
@@ -64,33 +65,20 @@ def _block(centre: Space3, size: Space3, style: str = "block") -> Iterator[Shape
 def _round(centre: Space3, radius: float, axis: str) -> list[Point]:
     """A circle across an axis."""
     x, y, z = centre
-    out = []
+    rim = []
     for k in range(_SIDES):
         c, s = radius * math.cos(2 * math.pi * k / _SIDES), radius * math.sin(2 * math.pi * k / _SIDES)
         place = {"x": (x, y + c, z + s), "y": (x + c, y, z + s), "z": (x + c, y + s, z)}[axis]
-        out.append(_at(place))
-    return out
+        rim.append(_at(place))
+    return rim
 
 
 def _cylinder(begin: Space3, end: Space3, radius: float, axis: str, style: str = "block") -> Iterator[Shape]:
     """The silhouette of a cylinder and its visible end."""
     first, last = _round(begin, radius, axis), _round(end, radius, axis)
-    yield Polylines((tuple(_hull([*first, *last])),), style, closed=True)
+    corners = convex_hull(complex(*p) for p in (*first, *last))
+    yield Polylines((tuple(Point(z.real, z.imag) for z in corners),), style, closed=True)
     yield Polylines((tuple(last),), style, closed=True)
-
-
-def _hull(points: list[Point]) -> list[Point]:
-    """The convex hull, counter-clockwise."""
-    ranked = sorted(set(points))
-    halves = []
-    for ordered in (ranked, ranked[::-1]):
-        half: list[Point] = []
-        for p in ordered:
-            while len(half) > 1 and half[-1].minus(half[-2]).across.dot(p.minus(half[-1])) <= 0:
-                half.pop()
-            half.append(p)
-        halves.append(half[:-1])
-    return [*halves[0], *halves[1]]
 
 
 def _ball(centre: Space3, radius: float, style: str = "block") -> Iterator[Shape]:
@@ -243,16 +231,16 @@ def _motions(pair: Pair) -> Iterator[Shape]:
     names = _AXES.get(pair.name, {})
     for freedom in pair.freedoms[Space.SPATIAL]:
         axis = names.get(freedom, freedom[1])
-        way = {"x": _X, "y": _Y, "z": _Z}[axis].unit
+        direction = {"x": _X, "y": _Y, "z": _Z}[axis].unit
         foot = {"x": Point(0, 74), "y": Point(70, 26), "z": Point(-84, 20)}[axis]
         if freedom[0] in "TH":
             for sign in (1, -1):
-                yield from arrow(foot, foot.plus(way, sign * 15), "velocity", "velocity-head")
+                yield from arrow(foot, foot.plus(direction, sign * 15), "velocity", "velocity-head")
         if freedom[0] in "RH":
-            centre = foot.plus(way, 30)
-            side = way.across
+            centre = foot.plus(direction, 30)
+            side = direction.across
             curve = [
-                centre.plus(side, 13 * math.sin(x)).plus(way, 5 * math.cos(x))
+                centre.plus(side, 13 * math.sin(x)).plus(direction, 5 * math.cos(x))
                 for x in (math.radians(20 + 12 * k) for k in range(26))
             ]
             yield Polylines((tuple(curve[:-1]),), "drive")

@@ -15,7 +15,7 @@ from gruebler.drawing.linkage.contact_shapes import contact_shapes
 from gruebler.drawing.linkage.curve_plots import coupler_plot
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.formats.catalog_records import source_text
@@ -104,7 +104,7 @@ def _machine_blocks(
 def _pictures(mechanism: Mechanism, linkage: Linkage | None, lang: str, outputs: Sequence[str]) -> Pictures:
     """The linkage to scale, if there are dimensions, and the structure with the symbols of the joints."""
     contacts = None if linkage is None else contact_shapes(linkage)
-    structure = draw(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
+    structure = draw_structure(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
     caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
     if linkage is not None:
         try:
@@ -123,10 +123,10 @@ def _lengths(linkage: Linkage, lang: str) -> Iterator[tuple[str, str, str]]:
     for link in chain.links:
         pins = [(names[k], e) for (k, holder), e in linkage.elements.items() if holder == link and isinstance(e, Pin)]
         points = [(name, Pin(point.x, point.y)) for name, point in linkage.points.items() if point.link == link]
-        for k, (first, one) in enumerate(pins):
+        for k, (first, pin) in enumerate(pins):
             others = [*pins[k + 1 :], *(points if k == 0 else [])]
-            for second, other in others:
-                distance = hypot(other.x - one.x, other.y - one.y)
+            for second, other_pin in others:
+                distance = hypot(other_pin.x - pin.x, other_pin.y - pin.y)
                 yield link, f"{first} – {second}", number(distance, lang, ".6g")
 
 
@@ -141,9 +141,9 @@ def _diagram(linkage: Linkage, mechanism: Mechanism, lang: str, between: tuple[f
     if len(mechanism.drives) == 1:
         ways.append(lambda: transfer_plot(linkage, between=shown, lang=lang))
         ways.append(lambda: transmission_plot(linkage, between=shown, lang=lang))
-    for way in ways:
+    for branch in ways:
         try:
-            return way()
+            return branch()
         except GrueblerError:
             continue
     return None
@@ -182,7 +182,7 @@ def catalog_book(*, lang: str = "en", ids: Sequence[str] = ()) -> Document:
 
 def _index(chosen: Mapping[str, Entry], lang: str) -> Iterator[Block]:
     """The machines by what they have: number of links, joints, drives, kind of output, mobility."""
-    found: dict[tuple[str, str], list[str]] = {}
+    ids_by_feature: dict[tuple[str, str], list[str]] = {}
     for id, entry in chosen.items():
         mechanism = entry_mechanism(entry)
         features = access_features(mechanism, entry.outputs)
@@ -201,10 +201,12 @@ def _index(chosen: Mapping[str, Entry], lang: str) -> Iterator[Block]:
         kind = translate("guide mechanism", lang) if guided else translate("transmits a motion", lang)
         marks.append((translate("purpose", lang), kind))
         for mark in marks:
-            found.setdefault(mark, []).append(id)
+            ids_by_feature.setdefault(mark, []).append(id)
     yield Heading(translate("Index by feature", lang), 1)
     headers = translate("feature", lang), translate("value", lang), translate("machines", lang)
-    yield Rows(headers, tuple((*mark, ", ".join(found[mark])) for mark in sorted(found, key=_natural)))
+    yield Rows(
+        headers, tuple((*mark, ", ".join(ids_by_feature[mark])) for mark in sorted(ids_by_feature, key=_natural))
+    )
 
 
 def _natural(mark: tuple[str, str]) -> tuple[str, int, str]:

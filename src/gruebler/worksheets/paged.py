@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
-from itertools import pairwise
+from collections.abc import Iterator, Sequence
+from itertools import takewhile
 
-from gruebler.drawing.canvas.construction import wrapped_text
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.shapes import text_width
+from gruebler.drawing.canvas.shapes import text_width, wrapped_text
 from gruebler.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
 from gruebler.text import translate
 from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
@@ -19,6 +18,8 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 60.0, WIDTH - 60.0, 86.0, HEIGHT - 66.0
 _BODY, _LEAD = 11.5, 16.0
 _SIZES = {1: 17.0, 2: 13.5, 3: 12.0}
 _GAP = 12.0
+_HEAD = 10.0
+_KEPT = 0.45 * HEIGHT  # what is higher than that may be divided
 _FILL = 1.04  # texts are set a little wider than estimated
 
 Item = TextLine | HorizontalRule | PlacedPicture
@@ -28,15 +29,20 @@ def document_pages(document: Document) -> tuple[Page, ...]:
     """The pages, with title and number on each."""
     pages: list[list[Item]] = [[]]
     y = _TOP
-    for block, following in pairwise([*document.blocks, None]):
-        if block is None or isinstance(block, PageBreak):
+    blocks = document.blocks
+    if _shortened(document) != document.title and not any(
+        isinstance(block, Heading) and block.level == 1 for block in blocks[:1]
+    ):
+        blocks = (Heading(document.title, 1), *blocks)
+    for number, block in enumerate(blocks):
+        if isinstance(block, PageBreak):
             if pages[-1]:
                 pages.append([])
                 y = _TOP
             continue
+        # A heading stays with all that it heads, or with the beginning if that is much.
+        more = _headed(blocks[number:]) if isinstance(block, Heading) else 0.0
         for items, high in _parts(block):
-            # A heading stays with the beginning of what it heads.
-            more = min(_needed(following), 0.4 * HEIGHT) if isinstance(block, Heading) else 0.0
             if y + high + more > _BOTTOM and pages[-1]:
                 pages.append([])
                 y = _TOP
@@ -74,9 +80,16 @@ def _parts(block: Block) -> Iterator[Part]:
             yield _heading(text, _SIZES[level])
         case Paragraph(text, small):
             size, lead = (9.5, 13.0) if small else (_BODY, _LEAD)
-            for paragraph in text.split("\n"):
-                for line in wrapped_text(paragraph, _RIGHT - _LEFT, size * _FILL):
-                    yield [_Lowered(TextLine(_LEFT, size, line, size, role="faint" if small else "ink"))], lead
+            lines = [
+                line for paragraph in text.split("\n") for line in wrapped_text(paragraph, _RIGHT - _LEFT, size * _FILL)
+            ]
+            role = "faint" if small else "ink"
+            placed = [
+                _Lowered(TextLine(_LEFT, size + k * lead, line, size, role=role)) for k, line in enumerate(lines[:2])
+            ]
+            yield placed, lead * len(placed)  # the first line is never left alone
+            for line in lines[2:]:
+                yield [_Lowered(TextLine(_LEFT, size, line, size, role=role))], lead
             yield [], _GAP / 2
         case Pictures():
             yield _pictures(block)
@@ -98,23 +111,22 @@ def _heading(text: str, size: float) -> Part:
 
 
 def _pictures(block: Pictures) -> Part:
-    count = len(block.figures)
-    wide = (_RIGHT - _LEFT - _GAP * (count - 1)) / count
+    scales = block.scales(_RIGHT - _LEFT - _GAP * (len(block.figures) - 1))
+    sizes = [(scale * figure.width, scale * figure.height) for scale, figure in zip(scales, block.figures, strict=True)]
+    spare = (_RIGHT - _LEFT - sum(wide for wide, _ in sizes)) / len(sizes) - _GAP  # given to all captions alike
+    high = max(height for _, height in sizes)
     items: list[_Lowered] = []
-    scales = [min(1.0, wide / figure.width, block.height / figure.height) for figure in block.figures]
-    high = max(scale * figure.height for scale, figure in zip(scales, block.figures, strict=True))
-    below = 0.0
-    for k, (figure, scale) in enumerate(zip(block.figures, scales, strict=True)):
-        left = _LEFT + k * (wide + _GAP)
-        x = left if count == 1 else left + (wide - scale * figure.width) / 2
-        items.append(_Lowered(PlacedPicture(x, high - scale * figure.height, scale, figure)))
+    left, below = _LEFT, 0.0
+    for k, (figure, scale, (wide, height)) in enumerate(zip(block.figures, scales, sizes, strict=True)):
+        items.append(_Lowered(PlacedPicture(left, high - height, scale, figure)))
         if k < len(block.captions):
-            lines = wrapped_text(block.captions[k], wide, 9.5 * _FILL)
+            lines = wrapped_text(block.captions[k], wide + max(spare, 0.0), 9.5 * _FILL)
             items += [
                 _Lowered(TextLine(left, high + 13 + 12.5 * row, line, 9.5, role="faint"))
                 for row, line in enumerate(lines)
             ]
             below = max(below, 12.5 * len(lines) + 4)
+        left += wide + _GAP + max(spare, 0.0)
     return items, high + below + _GAP
 
 
@@ -138,16 +150,31 @@ def _table(block: Rows) -> Iterator[Part]:
     yield [], _GAP
 
 
-def _needed(block: Block | None) -> float:
-    """How much space the beginning of a block needs."""
-    return 0.0 if block is None or isinstance(block, PageBreak) else next(_parts(block), ([], 0.0))[1]
+def _headed(blocks: Sequence[Block]) -> float:
+    """The height of what a heading heads, down to the next one of its level; of much, that of the first part."""
+    heading, *others = blocks
+
+    def belongs(block: Block) -> bool:
+        ends = isinstance(block, Heading) and isinstance(heading, Heading) and block.level <= heading.level
+        return not ends and not isinstance(block, PageBreak)
+
+    heights = [[high for _, high in _parts(block)] for block in takewhile(belongs, others)]
+    whole = sum(map(sum, heights))
+    return whole if whole <= _KEPT else min(next((high for part in heights for high in part), 0.0), _KEPT)
+
+
+def _shortened(document: Document) -> str:
+    """The title as far as the head of a page has space for it."""
+    wide = _RIGHT - _LEFT - text_width(document.subtitle, _HEAD * _FILL) - 2 * _GAP
+    first, *others = wrapped_text(document.title, wide, _HEAD * _FILL)
+    return f"{first.rstrip(',')} …" if others else first
 
 
 def _page(document: Document, items: list[Item], number: int, count: int) -> Page:
     lang = document.lang
     head: list[Item] = [
-        TextLine(_LEFT, 50, document.title, 10, role="faint"),
-        TextLine(_RIGHT, 50, document.subtitle, 10, role="faint", anchor="end"),
+        TextLine(_LEFT, 50, _shortened(document), _HEAD, role="faint"),
+        TextLine(_RIGHT, 50, document.subtitle, _HEAD, role="faint", anchor="end"),
         HorizontalRule(_LEFT, 57, _RIGHT - _LEFT),
         TextLine(
             WIDTH / 2,

@@ -8,7 +8,7 @@ from itertools import groupby
 from gruebler.assur import AssurGroup, assur_groups
 from gruebler.chain.pairs import Space
 from gruebler.drawing.canvas.gallery import Item, Section
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.drawing.structure.messages import chain_name
 from gruebler.enumeration import chains
 from gruebler.errors import GrueblerError, nearest
@@ -53,14 +53,14 @@ def poster(name: str, links: int | None = None, lang: str = "en") -> tuple[str, 
 def _chains(links: int, lang: str) -> tuple[str, tuple[Section, ...]]:
     sections = []
     for count in range(4, links + 1, 2):
-        found = sorted(chains(count, 1), key=lambda chain: [-k for k in chain.assortment])
+        ranked = sorted(chains(count, 1), key=lambda chain: [-k for k in chain.assortment])
         number = 0
-        for assortment, group in groupby(found, key=lambda chain: chain.assortment):
+        for assortment, group in groupby(ranked, key=lambda chain: chain.assortment):
             items = []
             for chain in group:
                 number += 1
                 name = chain_name(chain, lang)
-                items.append(Item(draw(chain, lang=lang), f"{count}.{number} {name}".strip()))
+                items.append(Item(draw_structure(chain, lang=lang), f"{count}.{number} {name}".strip()))
             heading = translate(
                 "{count} links; binary, ternary, ...: {assortment}",
                 lang,
@@ -76,7 +76,10 @@ def _inversions(links: int, lang: str) -> tuple[str, tuple[Section, ...]]:
     for count in range(4, links + 1, 2):
         for number, chain in enumerate(chains(count, 1), 1):
             items = [
-                Item(draw(mechanism, lang=lang), f"{count}.{number}.{k} {family(mechanism, lang) or ''}".strip())
+                Item(
+                    draw_structure(mechanism, lang=lang),
+                    f"{count}.{number}.{k} {family(mechanism, lang) or ''}".strip(),
+                )
                 for k, mechanism in enumerate(inversions(chain), 1)
             ]
             heading = translate("{count} links, chain {number}", lang, count=count, number=number)
@@ -88,7 +91,7 @@ def _assur(links: int, lang: str) -> tuple[str, tuple[Section, ...]]:
     sections = []
     for count in range(2, links + 1, 2):
         items = [
-            Item(draw(group.chain, lang=lang), f"{count}.{k} {_group_name(group, lang)}")
+            Item(draw_structure(group.chain, lang=lang), f"{count}.{k} {_group_name(group, lang)}")
             for k, group in enumerate(assur_groups(count), 1)
         ]
         sections.append(Section(translate("{count} links", lang, count=count), tuple(items)))

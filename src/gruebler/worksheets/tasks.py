@@ -13,10 +13,19 @@ from gruebler.constructions import construction
 from gruebler.drawing.canvas.construction import Construction
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.structure import draw
+from gruebler.drawing.structure import draw_structure
 from gruebler.errors import GrueblerError
-from gruebler.exercises import KINDS, Table, ascii_key, generate, solve, value_text
-from gruebler.exercises import Heading as PartHeading
+from gruebler.exercises import (
+    KINDS,
+    PartHeading,
+    Result,
+    Solution,
+    TeachingTable,
+    ascii_key,
+    generate,
+    solve,
+    value_text,
+)
 from gruebler.exercises.messages import asked_text, cells_of_table, step_lines
 from gruebler.formats import Exercise
 from gruebler.fourbar import FourBar, SliderCrank
@@ -38,15 +47,16 @@ class TaskSheet(NamedTuple):
 
 
 def task_sheet(kinds: Sequence[str], count: int, *, level: int = 1, seed: int = 0, lang: str = "en") -> TaskSheet:
-    """So many tasks of the kinds in turn, with seeds from ``seed`` on.
+    """So many tasks of the kinds in turn, with seeds from ``seed`` on; kinds may stand in the plural.
 
     Cost: some tenths of a second a task. Raises `GrueblerError` for unknown kinds, levels and counts.
 
-    >>> task_sheet(["grashof", "dead-centre"], 3, seed=7).ids
+    >>> task_sheet(["grashof", "dead-centres"], 3, seed=7).ids
     ('grashof-1-7', 'dead-centre-1-8', 'grashof-1-9')
     """
     if not kinds:
         raise GrueblerError("expected at least one kind of task among {kinds}", kinds=", ".join(KINDS))
+    kinds = [kind if kind in KINDS else kind.removesuffix("s") for kind in kinds]
     if not 1 <= count <= _MOST:
         raise GrueblerError("--count is a number from 1 to {most}, not {count}", most=_MOST, count=count)
     exercises = [generate(kind, seed + k, level) for k, kind in enumerate(islice(cycle(kinds), count))]
@@ -77,7 +87,7 @@ def _task_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
     if figure is not None:
         yield Pictures((figure,), height=170.0)
     asked = [solution.results[question.key] for question in exercise.asked]
-    names = tuple(f"{ascii_key(result.key)}: {asked_text(result, lang)}" for result in asked)
+    names = tuple(f"{_symbol(solution, result)}: {asked_text(result, lang)}" for result in asked)
     yield AnswerLines(names, _SPACE.get(_kind(exercise), 110.0))
     yield Paragraph(exercise.id, small=True)
 
@@ -113,7 +123,7 @@ def exercise_figure(exercise: Exercise, lang: str = "en") -> Figure | None:
     given = exercise.given
     if isinstance(given.get("chain"), str):
         # Names of the links would give away how many there are; a dyad is put between named links.
-        return draw(_chain(exercise), labels=exercise.method != "mobility.chain", lang=lang)
+        return draw_structure(_chain(exercise), labels=exercise.method != "mobility.chain", lang=lang)
     size = _size(exercise)
     if size is None:
         return None
@@ -199,7 +209,7 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         if isinstance(part, PartHeading):
             count = 0
             yield Heading(part.text.in_language(lang), 3)
-        elif isinstance(part, Table):
+        elif isinstance(part, TeachingTable):
             head, *rows = cells_of_table(part, lang)
             yield Paragraph(part.title.in_language(lang))
             yield Rows(tuple(head), tuple(map(tuple, rows)))
@@ -209,18 +219,23 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
     asked = [solution.results[question.key] for question in exercise.asked]
     headers = translate("answer", lang), translate("value", lang)
     yield Rows(
-        headers, tuple((_name(r.key, r.name.in_language(lang)), value_text(r.value, r.unit, lang)) for r in asked)
+        headers,
+        tuple(
+            (f"{_symbol(solution, r)}: {r.name.in_language(lang)}", value_text(r.value, r.unit, lang)) for r in asked
+        ),
     )
     if number and isinstance(exercise.given.get("chain"), str):
-        yield Pictures((draw(_chain(exercise), labels=True, lang=lang),), height=170.0)
+        yield Pictures((draw_structure(_chain(exercise), labels=True, lang=lang),), height=170.0)
     whole = construction_of(exercise)
     if whole is not None:
         steps = " ".join(f"{k}. {step.text.in_language(lang)}" for k, step in enumerate(whole.steps, 1))
-        yield Pictures((whole.figures(lang, captions=False)[-1],), (steps,), height=260.0)
+        yield Pictures((whole.figures(lang, captions=False)[-1],), (steps,), height=340.0)
 
 
-def _name(key: str, name: str) -> str:
-    return f"{ascii_key(key)}: {name}"
+def _symbol(solution: Solution, result: Result) -> str:
+    """The name under which an answer is marked: its symbol, or its key where other results have the same symbol."""
+    alone = sum(other.symbol == result.symbol for other in solution.results.values()) == 1
+    return result.symbol if alone else ascii_key(result.key)
 
 
 def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
@@ -230,7 +245,7 @@ def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
         solution = solve(exercise)
         for question in exercise.asked:
             result = solution.results[question.key]
-            rows.append((str(k), ascii_key(result.key), value_text(result.value, result.unit, lang), "1"))
+            rows.append((str(k), _symbol(solution, result), value_text(result.value, result.unit, lang), "1"))
         rows.append((str(k), translate("solution steps", lang), "", "1"))
         total += len(exercise.asked) + 1
     rows.append(("", translate("sum", lang), "", str(total)))

@@ -26,6 +26,7 @@ from gruebler.drawing.canvas.shapes import (
     TextShape,
     moved_shape,
     text_width,
+    wrapped_text,
 )
 from gruebler.drawing.canvas.styles import STYLES
 from gruebler.drawing.canvas.symbols import arrow
@@ -36,16 +37,15 @@ from gruebler.text import Message, message, translate
 __all__ = [
     "Angle",
     "Arrow",
-    "Circle",
     "Construction",
     "ConstructionStep",
-    "Curve",
     "Dot",
     "Drawn",
-    "Line",
+    "DrawnCircle",
+    "DrawnCurve",
+    "DrawnLine",
     "Segment",
     "quantity",
-    "wrapped_text",
 ]
 
 _WIDE, _HIGH = 560.0, 400.0  # pixels of the drawing
@@ -68,7 +68,7 @@ class Segment(NamedTuple):
     text: str | Message = ""
 
 
-class Line(NamedTuple):
+class DrawnLine(NamedTuple):
     """The line through a place in a direction, as far as the drawing reaches."""
 
     at: complex
@@ -76,7 +76,7 @@ class Line(NamedTuple):
     style: str = "help"
 
 
-class Circle(NamedTuple):
+class DrawnCircle(NamedTuple):
     """A circle, as far as the drawing reaches."""
 
     centre: complex
@@ -112,14 +112,14 @@ class Arrow(NamedTuple):
     """``velocity`` or ``acceleration``."""
 
 
-class Curve(NamedTuple):
+class DrawnCurve(NamedTuple):
     """A line through places."""
 
     places: tuple[complex, ...]
     style: str = "curve"
 
 
-Drawn = Segment | Line | Circle | Dot | Angle | Arrow | Curve
+Drawn = Segment | DrawnLine | DrawnCircle | Dot | Angle | Arrow | DrawnCurve
 
 
 class ConstructionStep(NamedTuple):
@@ -193,19 +193,6 @@ def quantity(name: str, value: float, unit: str = "") -> Message:
     return message("{name} = {value:.4g}{unit}", name=name, value=value, unit=unit)
 
 
-def wrapped_text(text: str, wide: float, size: float) -> list[str]:
-    """Lines that are not wider than so many pixels, broken at spaces."""
-    lines, line = [], ""
-    for word in text.split(" "):
-        longer = f"{line} {word}".strip()
-        if line and text_width(longer, size) > wide:
-            lines.append(line)
-            line = word
-        else:
-            line = longer
-    return [*lines, line]
-
-
 # --- from places to pixels ---------------------------------------------------------------------------
 
 
@@ -260,12 +247,12 @@ class _View:
         match item:
             case Segment(begin, end, style, _):
                 yield from self._straight(begin, end - begin, 0.0, look(style))
-            case Line(at, along, style):
+            case DrawnLine(at, along, style):
                 far = 4 * abs(self.top - self.low) + abs(at - self.low)
                 yield from self._straight(at, along / abs(along) * far, -1.0, look(style))
-            case Circle(_, _, style):
+            case DrawnCircle(_, _, style):
                 yield from self._circle(item, look(style))
-            case Curve(places, style):
+            case DrawnCurve(places, style):
                 yield from self._curve(np.array(places), look(style))
             case Dot(at) if self.holds(at):
                 yield CircleShape(self.at(at), 3.6, "joint")
@@ -276,11 +263,11 @@ class _View:
                     yield from self._arrow(self.at(ends[0]), self.at(ends[1]), style)
 
     def _arrow(self, tail: Point, tip: Point, style: str) -> Iterator[Shape]:
-        way = tip.minus(tail)
-        if way.length > _LEAST:
-            yield from arrow(tail, tip.plus(way.unit, -min(7.0, way.length / 2)), style, f"{style}-head")
+        shaft = tip.minus(tail)
+        if shaft.length > _LEAST:
+            yield from arrow(tail, tip.plus(shaft.unit, -min(7.0, shaft.length / 2)), style, f"{style}-head")
 
-    def _circle(self, circle: Circle, style: str) -> Iterator[Shape]:
+    def _circle(self, circle: DrawnCircle, style: str) -> Iterator[Shape]:
         z = circle.centre + circle.radius * np.exp(2j * math.pi * np.arange(721) / 720)
         if all(self.holds(complex(w)) for w in z[::30]):
             yield CircleShape(self.at(circle.centre), circle.radius * self.scale, style)
@@ -324,9 +311,9 @@ def _places(item: Drawn) -> Iterator[complex]:
             yield from (begin, end)
         case Dot(at) | Angle(at):
             yield at
-        case Curve(places):
+        case DrawnCurve(places):
             yield from places
-        case Circle(centre, radius, style) if style != "help":
+        case DrawnCircle(centre, radius, style) if style != "help":
             yield from (centre + radius, centre - radius, centre + 1j * radius, centre - 1j * radius)
 
 

@@ -39,15 +39,19 @@ def construction_bytes(whole: Construction, suffix: str, lang: str = "en", *, st
 
 
 def pictures_in_one(figures: Sequence[Figure], title: str, columns: int = _COLUMNS) -> Figure:
-    """Pictures side by side in cells of one size, in reading order."""
-    wide, high = max(figure.width for figure in figures), max(figure.height for figure in figures)
+    """Pictures in reading order, each in the middle of its cell; columns and rows are as large as needed."""
     columns = min(columns, len(figures))
+    wide = [max(figure.width for figure in figures[k::columns]) for k in range(columns)]
+    rows = [figures[k : k + columns] for k in range(0, len(figures), columns)]
     shapes: list[Shape] = []
-    for k, figure in enumerate(figures):
-        corner = Point(wide * (k % columns), high * (k // columns))
-        shapes += [moved_shape(shape, corner) for shape in figure.shapes]
-    rows = -(-len(figures) // columns)
-    return Figure(tuple(shapes), wide * columns, high * rows, title, " ".join(f.description for f in figures))
+    top = 0.0
+    for row in rows:
+        high = max(figure.height for figure in row)
+        for k, figure in enumerate(row):
+            left = sum(wide[:k]) + (wide[k] - figure.width) / 2
+            shapes += [moved_shape(shape, Point(left, top + (high - figure.height) / 2)) for shape in figure.shapes]
+        top += high
+    return Figure(tuple(shapes), sum(wide), top, title, " ".join(f.description for f in figures))
 
 
 _STYLE = (

@@ -75,12 +75,14 @@ def note_near(at: Point, text: str, style: str, shapes: Sequence[Shape]) -> Text
 
 
 def short_names(links: Sequence[str]) -> dict[str, str]:
-    """Names of up to three letters unchanged, numbers for others: their places from 1, if these are not names.
+    """Names of up to three letters unchanged; if there is a longer one, numbers for all that are not numbers.
 
-    >>> short_names(["1", "2", "diagonal"]), short_names(["3", "long", "arm", "2"])
-    ({'1': '1', '2': '2', 'diagonal': '3'}, {'3': '3', 'long': '1', 'arm': 'arm', '2': '2'})
+    The numbers are the places from 1, if these are not names.
+
+    >>> short_names(["a", "arm"]), short_names(["1", "2", "diagonal"]), short_names(["3", "long", "arm", "2"])
+    ({'a': 'a', 'arm': 'arm'}, {'1': '1', '2': '2', 'diagonal': '3'}, {'3': '3', 'long': '1', 'arm': '4', '2': '2'})
     """
-    short = {link: link for link in links if len(link) <= _SHORT}
+    short = {link: link for link in links if link.isdigit() or max(map(len, links)) <= _SHORT}
     used = set(short)
     for place, link in enumerate(links, 1):
         if link not in short:

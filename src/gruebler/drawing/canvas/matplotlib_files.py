@@ -46,8 +46,8 @@ def _library() -> Any:
         from matplotlib.backends import backend_agg, backend_pdf  # noqa: F401
     except ImportError:
         raise GrueblerError(
-            "pixel images and PDF need matplotlib, which is not installed: pip install 'gruebler[plot]', or write "
-            "an .svg or .html"
+            "pixel images and PDF need matplotlib, which is not installed: pip install 'gruebler[plot]'; .svg and "
+            ".html need no further package"
         ) from None
     return figure
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -19,7 +19,7 @@ from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.errors import GrueblerError
 from gruebler.text import decimal_sign_in, translate
 
-__all__ = ["AxisMarker", "Band", "Curve", "DwellMarker", "Panel", "PointMarker", "draw_panels", "ratio_diagram"]
+__all__ = ["AxisMarker", "Band", "DwellMarker", "Panel", "PlottedCurve", "PointMarker", "draw_panels", "ratio_diagram"]
 
 
 _SIZE = Point(520.0, 300.0)
@@ -31,7 +31,7 @@ _BESIDE = 20.0  # from the panels to the list of lines
 _ROW, _SAMPLE = 22.0, 34.0  # of the list
 
 
-class Curve(NamedTuple):
+class PlottedCurve(NamedTuple):
     """A line through points; NaN breaks it."""
 
     x: Reals
@@ -81,7 +81,7 @@ class Panel(NamedTuple):
 
     across: Axis
     up: Axis
-    curves: tuple[Curve, ...]
+    curves: tuple[PlottedCurve, ...]
     right: Axis | None = None
     bands: tuple[Band, ...] = ()
     marks: tuple[AxisMarker, ...] = ()
@@ -90,6 +90,8 @@ class Panel(NamedTuple):
     size: Point = _SIZE
     marked: str = ""
     """The name of the marks in the list of lines."""
+    top: Axis | None = None
+    """A second scale across, at the upper edge; its ticks are at the same places as those of the first."""
 
     def place(self, x: float, y: float, right: bool = False) -> Point:
         """A pair of values in pixels; the lower left corner is the origin."""
@@ -186,12 +188,25 @@ def _frame(panel: Panel) -> Iterator[Shape]:
     yield Polylines(tuple(strokes), "axis")
     yield from texts
     yield TextShape(Point(wide, _TICK + 27.0), panel.across.text, "value", "end")
-    above = -high - _ABOVE * (
-        2 if any([*(mark.text for mark in panel.marks), *(dwell.text for dwell in panel.dwells)]) else 1
-    )
+    rows = 2 if any([*(mark.text for mark in panel.marks), *(dwell.text for dwell in panel.dwells)]) else 1
+    if panel.top:
+        yield from _top_axis(panel, panel.top)
+        rows = 3
+    above = -high - _ABOVE * rows
     yield TextShape(Point(0.0, above), panel.up.text, "value", "start")
     if panel.right:
         yield TextShape(Point(wide, above), panel.right.text, "value", "end")
+
+
+def _top_axis(panel: Panel, top: Axis) -> Iterator[Shape]:
+    wide, high = panel.size
+    ends = [Point(wide * panel.across.scale.part(x), -high) for x in panel.across.scale.ticks]
+    yield Polylines(
+        ((Point(0.0, -high), Point(wide, -high)), *((at, at.plus(Point(0, -1), _TICK)) for at in ends)), "axis"
+    )
+    for at, name in zip(ends, top.scale.names, strict=True):
+        yield TextShape(at.plus(Point(0, -1), _TICK + 9.0), name, "tick")
+    yield TextShape(Point(wide / 2, -high - 2 * _ABOVE), top.text, "value")
 
 
 def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]:
@@ -223,7 +238,7 @@ def _marks(panel: Panel) -> Iterator[Shape]:
 # --- lines -----------------------------------------------------------------------------------------
 
 
-def _pieces(panel: Panel, curve: Curve) -> list[tuple[Point, ...]]:
+def _pieces(panel: Panel, curve: PlottedCurve) -> list[tuple[Point, ...]]:
     """The parts of a line within the panel, with fewer points."""
     axis = panel.right if curve.right and panel.right is not None else panel.up
     drawable = np.isfinite(curve.x) & np.isfinite(curve.y)
@@ -277,6 +292,7 @@ def ratio_diagram(
     length: Iterable[float],
     *,
     at: tuple[float, float, float] | None = None,
+    begin: Callable[[float], float] | None = None,
     lang: str = "en",
     title: str = "",
     size: tuple[float, float] = _SIZE,
@@ -288,6 +304,7 @@ def ratio_diagram(
         ratio: Q_G, the deviation by the length; its scale, on the left, is logarithmic.
         length: L/l₁, the length by that of the crank; its scale is on the right.
         at: phi_G, Q_G and L/l₁ of an example, marked as P₁ and P₂.
+        begin: the crank angle phi_A at the beginning of the window phi_G, both in radians: a scale at the top.
         lang: ``en`` or ``de``.
         title: of the picture; by default the kind of diagram.
         size: of the field between the axes, in pixels.
@@ -326,16 +343,23 @@ def ratio_diagram(
     def axis(text: str, scale: Scale) -> Axis:
         return Axis(text, scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
 
+    across = angles(0.0, float(degrees.max()), tight=True)
+    top = None
+    if begin is not None:
+        starts = tuple(math.degrees(begin(math.radians(x))) for x in across.ticks)
+        names = tuple(f"{start:.4g}" for start in starts)
+        top = axis(translate("φ_A in °", lang), across._replace(ticks=starts, names=names))
     panel = Panel(
-        axis(translate("φ_G in °", lang), angles(0.0, float(degrees.max()), tight=True)),
+        axis(translate("φ_G in °", lang), across),
         axis("Q_G", decades(float(q.min()), float(q.max()))),
         (
-            Curve(degrees, q, "Q_G", "line-1"),
-            Curve(degrees, lengths, "L/l₁", "line-2", right=True),
+            PlottedCurve(degrees, q, "Q_G", "line-1"),
+            PlottedCurve(degrees, lengths, "L/l₁", "line-2", right=True),
         ),
         axis("L/l₁", decimals(0.0, float(lengths.max()))),
         marks=(AxisMarker(spots[0].x, ""),) if spots else (),
         spots=spots,
         size=Point(*size),
+        top=top,
     )
     return draw_panels([panel], title or translate("Relative deviation of a straight-line guidance", lang), about)

@@ -24,6 +24,7 @@ __all__ = [
     "moved_shape",
     "split_subscripts",
     "text_width",
+    "wrapped_text",
 ]
 
 
@@ -164,3 +165,16 @@ def moved_shape(shape: Shape, by: Point) -> Shape:
             return ArcShape(at.plus(by), radius, begin, extent, style)
         case TextShape(at, text, style, anchor):
             return TextShape(at.plus(by), text, style, anchor)
+
+
+def wrapped_text(text: str, wide: float, size: float) -> list[str]:
+    """Lines that are not wider than so many pixels, broken at spaces."""
+    lines, line = [], ""
+    for word in text.split(" "):
+        longer = f"{line} {word}".strip()
+        if line and text_width(longer, size) > wide:
+            lines.append(line)
+            line = word
+        else:
+            line = longer
+    return [*lines, line]

@@ -165,13 +165,13 @@ def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -
     apart = 5.0 if "belt" in shapes or "crossed" in shapes else 0.0
     holds: list[Point] = []
     above: list[Shape] = []
-    for way, shape, member in zip((-1.0, 1.0), shapes, members, strict=True):
-        towards = Point(n.x * way, n.y * way)
+    for side, shape, member in zip((-1.0, 1.0), shapes, members, strict=True):
+        towards = Point(n.x * side, n.y * side)
         hold, parts = CONTACTS[shape](at.plus(towards, apart), towards, "block-frame" if member.is_frame else "block")
         holds.append(hold)
         above += parts
     if apart:
-        middles = [at.plus(n, way * (apart + _WHEEL)) for way in (-1.0, 1.0)]
+        middles = [at.plus(n, side * (apart + _WHEEL)) for side in (-1.0, 1.0)]
         turn = -1.0 if "crossed" in shapes else 1.0
         t = n.across
         sides = [(middles[0].plus(t, s * _WHEEL), middles[1].plus(t, turn * s * _WHEEL)) for s in (1, -1)]
@@ -211,8 +211,10 @@ def _ring_gear(at: Point, towards: Point, style: str) -> _Part:
     ]
     if style == "block-frame":
         turns = [2 * math.pi * k / 30 for k in range(30)]
-        out = [Point(math.cos(x), math.sin(x)) for x in turns]
-        strokes = [(middle.plus(u, 1.6 * _WHEEL + 6), middle.plus(u, 1.6 * _WHEEL + 10).plus(u.across, 3)) for u in out]
+        outer = [Point(math.cos(x), math.sin(x)) for x in turns]
+        strokes = [
+            (middle.plus(u, 1.6 * _WHEEL + 6), middle.plus(u, 1.6 * _WHEEL + 10).plus(u.across, 3)) for u in outer
+        ]
         parts.append(Polylines(tuple(strokes), "hatch"))
     return at.plus(towards, 3.0), parts
 
@@ -232,10 +234,10 @@ def _cam(at: Point, towards: Point, style: str) -> _Part:
     for k in range(48):
         turn = 2 * math.pi * k / 48
         u = towards.unit
-        way = Point(
+        outward = Point(
             -u.x * math.cos(turn) - u.across.x * math.sin(turn), -u.y * math.cos(turn) - u.across.y * math.sin(turn)
         )
-        rim.append(middle.plus(way, 0.85 * _WHEEL + 0.5 * _WHEEL * max(0.0, math.cos(turn)) ** 2))
+        rim.append(middle.plus(outward, 0.85 * _WHEEL + 0.5 * _WHEEL * max(0.0, math.cos(turn)) ** 2))
     return middle, [Polylines((tuple(rim),), style, closed=True)]
 
 

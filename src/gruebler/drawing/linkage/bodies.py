@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.convex_hull import convex_hull
 from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.drawing.canvas.symbols import JointMember, joint_sign, ticks
 from gruebler.drawing.linkage.posed_linkage import PosedLinkage
@@ -25,7 +26,6 @@ __all__ = [
     "barrel",
     "body_parts",
     "corners_of",
-    "hull",
     "in_link",
     "layered",
     "pins_of",
@@ -42,6 +42,7 @@ _BEYOND = 5.0  # pixels by which a guide extends beyond the block
 _SLOT_END = 9.0  # pixels by which a slot extends beyond the pin
 _FOOT = Point(13.0, 21.0)  # of a pedestal
 _FLAT = 1e-6  # sizes: points nearer to a line lie on it
+_LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
 _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
 _LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
 
@@ -167,7 +168,7 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
     frame = posed.lower.mechanism.frame
     links = [link for link in posed.lower.mechanism.chain.links if link != frame]
     bodies = {link: _body(posed, link, joint_slides) for link in links}
-    parts = [BodyPart(FRAME, *part) for part in round_parts(posed)]
+    parts = [BodyPart(FRAME, part.link, part.shapes) for part in round_parts(posed)]
     parts += [BodyPart(FRAME, frame, tuple(_ground(posed, joint_slides)))]
     parts += [
         BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
@@ -189,23 +190,10 @@ def corners_of(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) 
             offset = ((middle - slide.low) * slide.along.conjugate()).real
             more = _reach(slide) / posed.scale
             nodes.append(slide.low + slide.along * min(max(offset, -more), abs(slide.high - slide.low) + more))
-    return hull([posed.local(z) for z in nodes], _FLAT * lower.size * posed.scale)
-
-
-def hull(points: Sequence[Point], flat: float) -> tuple[Point, ...]:
-    """The convex hull; of points on a line its two ends."""
-    ordered = sorted({Point(round(p.x, 6), round(p.y, 6)) for p in points})
-    if len(ordered) < 3:
-        return tuple(ordered)
-    chains: list[list[Point]] = []
-    for run in (ordered, ordered[::-1]):
-        chain: list[Point] = []
-        for p in run:
-            while len(chain) > 1 and _height(chain[-2], chain[-1], p) <= max(flat, 1e-3):
-                chain.pop()
-            chain.append(p)
-        chains.append(chain[:-1])
-    return tuple(chains[0] + chains[1])
+    flat = max(_FLAT * lower.size * posed.scale, _LEAST_HEIGHT)
+    places = [posed.local(z) for z in nodes]
+    hull = convex_hull([complex(round(p.x, 6), round(p.y, 6)) for p in places], flat)
+    return tuple(Point(z.real, z.imag) for z in hull)
 
 
 def _height(a: Point, b: Point, c: Point) -> float:

@@ -28,15 +28,15 @@ def contact_shapes(linkage: Linkage) -> dict[tuple[int, str], str]:
     >>> sorted(contact_shapes(made).values())
     ['gear', 'gear']
     """
-    out = {}
+    shapes = {}
     for number, joint in enumerate(linkage.mechanism.chain.joints):
-        if joint.pair.name not in ("roll_slide", "rolling") or len(joint.links) != 2:
+        if not joint.pair.is_higher or len(joint.links) != 2:
             continue
         first, second = (linkage.elements[number, link] for link in joint.links)
-        rolls = joint.pair.name == "rolling"
+        rolls = joint.pair.is_rolling
         for link, element, other in zip(joint.links, (first, second), (second, first), strict=True):
-            out[number, link] = _shape(element, other, rolls=rolls)
-    return out
+            shapes[number, link] = _shape(element, other, rolls=rolls)
+    return shapes
 
 
 _SHAPES = {

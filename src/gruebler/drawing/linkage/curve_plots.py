@@ -11,7 +11,7 @@ import numpy as np
 from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.axes import Axis, Scale, decimals
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.panels import Curve, Panel, PointMarker, draw_panels
+from gruebler.drawing.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.drawing.canvas.styles import LINES
 from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
@@ -239,8 +239,8 @@ def _square(
     wide = [(low - _AROUND * longest, high + _AROUND * longest) for low, high in ranges]
     longest *= 1 + 2 * _AROUND
     x, y = (_even(low, high, longest) for low, high in wide)
-    curves = [Curve(line.real, line.imag, "", "ghost") for line in thin]
-    curves += [Curve(z.real, z.imag, name, style) for z, name, style in zip(paths, names, LINES, strict=False)]
+    curves = [PlottedCurve(line.real, line.imag, "", "ghost") for line in thin]
+    curves += [PlottedCurve(z.real, z.imag, name, style) for z, name, style in zip(paths, names, LINES, strict=False)]
     size = Point(*(_SQUARE / longest * (scale.high - scale.low) for scale in (x, y)))
     visible = tuple(spot for spot in spots if x.low <= spot.x <= x.high and y.low <= spot.y <= y.high)
     return Panel(Axis(axes[0], x), Axis(axes[1], y), tuple(curves), spots=visible, size=size)

@@ -10,12 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.arrays import Complexes, Reals
+from gruebler.convex_hull import convex_hull
 from gruebler.drawing.canvas.axes import as_text
 from gruebler.drawing.canvas.free_space import HALF, Obstacles, complexes
 from gruebler.drawing.canvas.labels import note_near
 from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.canvas.styles import STYLES
-from gruebler.drawing.linkage.bodies import hull, pins_of, slides
+from gruebler.drawing.linkage.bodies import pins_of, slides
 from gruebler.drawing.linkage.layer_context import LayerContext
 from gruebler.drawing.linkage.posed_linkage import PosedLinkage
 from gruebler.linkages import Line, LinkPoint
@@ -37,7 +38,7 @@ _START, _BEYOND = 8.0, 4.0  # of the extension lines: their beginning, and their
 _STARTS = (_START, 18.0, 28.0, 38.0, 48.0, 60.0)
 _HEAD = (8.0, 2.2)
 _GAP = 4.0  # pixels between a number and its line
-_SAME = 1e-9  # sizes: dimensions are not drawn below
+_SAME = 1e-9  # sizes: dimensions are not drawn below, lengths that differ by less are equal
 
 
 class _Measure(NamedTuple):
@@ -72,7 +73,8 @@ def _measures(posed: PosedLinkage) -> list[_Measure]:
     ]
     measures = [_Measure(_named(link, a), _named(link, b), abs(b - a)) for link, a, b in pairs]
     measures += _cylinders(posed)
-    return sorted((_measure for _measure in measures if _measure.length > least), key=lambda measure: measure.length)
+    drawn = (measure for measure in measures if measure.length > least)
+    return sorted(drawn, key=lambda measure: round(measure.length / least))  # equal lengths in the order of the links
 
 
 def _named(link: str, z: complex) -> LinkPoint:
@@ -87,7 +89,7 @@ def _sides(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
     points = [point for point in linkage.points.values() if point.link == link]
     places = list(dict.fromkeys([*(complex(e.x, e.y) for e in nodes), *(complex(p.x, p.y) for p in points)]))
     flat = 1e-6 * linkage.size
-    corners = [complex(p.x, p.y) for p in hull([Point(z.real, z.imag) for z in places], flat)]
+    corners = convex_hull(places, flat)
     rim = list(pairwise([*corners, corners[0]])) if len(corners) > 2 else list(pairwise(corners))
     inner = [z for z in places if min((abs(z - corner) for corner in corners), default=0.0) > flat]
     for a, b in rim:

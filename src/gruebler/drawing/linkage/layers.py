@@ -147,13 +147,15 @@ def _dead_centres(context: LayerContext) -> list[Shape]:
 
 
 def ghosts(posed: PosedLinkage, count: int) -> list[Shape]:
-    """``count`` positions, evenly through the turns of the drive; in a range from one end to the other."""
-    drives = posed.path.drives[:, 0]
-    places = (
-        np.linspace(drives[0], drives[-1], count + 1)[:-1]
-        if posed.repeats
-        else np.linspace(drives[0], drives[-1], count)
-    )
+    """``count`` other positions, evenly through the turns of the drive or through its range."""
+    first, last = (float(posed.path.drives[k, 0]) for k in (0, -1))
+    shown = float(posed.pose.drives[0, 0])
+    if posed.repeats:
+        steps = np.arange(1, count + 1) / (count + 1)
+        places = np.sort(first + (shown - first + steps * (last - first)) % (last - first))
+    else:  # of one more, that next to the pose itself is left out
+        places = np.linspace(first, last, count + 1)
+        places = np.delete(places, np.argmin(abs(places - shown)))
     motion = posed.driven().at(places, 0)
     return [shape for row in range(count) for shape in ghost(posed, motion, row)]
 

@@ -12,7 +12,7 @@ from gruebler.drawing.linkage.bodies import FRAME, PINS, body_parts, layered
 from gruebler.drawing.linkage.layers import curve_of, drive_arrows, ghost, point_names
 from gruebler.drawing.linkage.posed_linkage import posed_along_motion
 from gruebler.drawing.structure.messages import describe, title
-from gruebler.drawing.structure.picture import draw
+from gruebler.drawing.structure.picture import draw_structure
 from gruebler.kinematics import Motion
 from gruebler.text import translate
 
@@ -39,7 +39,7 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
     about = describe(mechanism, lang)
     if not len(motion):
         return replace(
-            draw(mechanism, labels=True, lang=lang, name=name), description=f"{about} {motion.message(lang)}"
+            draw_structure(mechanism, labels=True, lang=lang, name=name), description=f"{about} {motion.message(lang)}"
         )
     posed = posed_along_motion(motion)
     rows = sorted({round(row) for row in np.linspace(0, len(motion) - 1, _GHOSTS + 1)[1:]} - {0})

@@ -13,7 +13,7 @@ from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import measure_transmission
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.panels import AxisMarker, Band, Curve, DwellMarker, Panel, PointMarker, draw_panels
+from gruebler.drawing.canvas.panels import AxisMarker, Band, DwellMarker, Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.drawing.canvas.styles import LINES
 from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
@@ -73,7 +73,7 @@ def transfer_plot(
         scale = angles if output_quantity.turning and order == 0 else decimals
         axis = Axis(_order_words(run, output_quantity, order), scale(*run.bulk(values), few=6))
         shown = marks if order == 0 else tuple(mark._replace(text="") for mark in marks)
-        curves = (Curve(run.x, values, "", LINES[0]),)
+        curves = (PlottedCurve(run.x, values, "", LINES[0]),)
         named = dwells if order == 0 else tuple(dwell._replace(text="") for dwell in dwells)
         panels.append(
             Panel(run.across, axis, curves, marks=shown, dwells=named, size=_LOW, marked=translate("dead centre", lang))
@@ -193,7 +193,7 @@ def transmission_plot(
     panel = Panel(
         run.across,
         Axis("μ in °", decimals(0.0, 90.0, few=9)),
-        (Curve(run.x, values, "", LINES[0]),),
+        (PlottedCurve(run.x, values, "", LINES[0]),),
         bands=(Band(0.0, _GOOD, "μ < 40°"),),
         marks=marks,
         dwells=dwells,

@@ -32,7 +32,7 @@ from gruebler.drawing.linkage.layer_context import LayerContext
 from gruebler.drawing.linkage.layers import BELOW, coupler_curve_lines, drive_arrows, ghosts, layer, point_names
 from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.structure.messages import describe, title
-from gruebler.drawing.structure.picture import draw
+from gruebler.drawing.structure.picture import draw_structure
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import Linkage
 from gruebler.text import message, number, number_separator, plural, translate
@@ -145,7 +145,7 @@ def shown_linkage(linkage: Linkage) -> Figure:
     try:
         return draw_linkage(linkage, labels=True)
     except GrueblerError as reason:
-        figure = draw(linkage.mechanism, labels=True)
+        figure = draw_structure(linkage.mechanism, labels=True)
         return replace(figure, description=f"{figure.description} {reason}", notes=(str(reason),))
 
 

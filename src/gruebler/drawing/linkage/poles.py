@@ -86,8 +86,8 @@ def inflection_lines(context: LayerContext) -> list[Shape]:
     lines = _within(posed, circle, box)
     shapes: list[Shape] = [Polylines(tuple(lines), "inflection")] if lines else []
     # The pole tangent t, to both sides of P, and the pole normal n, from P over W.
-    for way, first, last, name in ((shift, -0.5, 0.5, "t"), (-1j * shift, -0.1, 1.15, "n")):
-        along: Complexes = np.asarray(pole + way * np.linspace(first, last, _SAMPLES), dtype=np.complex128)
+    for direction, first, last, name in ((shift, -0.5, 0.5, "t"), (-1j * shift, -0.1, 1.15, "n")):
+        along: Complexes = np.asarray(pole + direction * np.linspace(first, last, _SAMPLES), dtype=np.complex128)
         (line, *_) = _within(posed, along, box) or [()]
         if lines and line:
             shapes += [Polylines((line,), "dead"), note_near(line[-1], name, "value", [*context.drawn, *shapes])]

@@ -19,6 +19,7 @@ from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, LinkPoint, Pin
 from gruebler.linkages.conversion import LinkageLike, as_linkage
+from gruebler.linkages.elements import Circle, Wheel
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, message
 
@@ -26,6 +27,7 @@ __all__ = ["PosedLinkage", "drive_rows", "floating_link", "link_nodes", "posed_a
 
 
 _PIXELS = 380.0  # for the longer side of all that the pins reach
+_WITH_WHEELS = 520.0  # for that of all that wheels reach, too
 _SHORTEST = 34.0  # pixels between two pins of one link, unless the picture becomes too large
 _LARGEST = 2.2  # times the usual size
 _ROWS = 72  # poses of a turn, or of a range
@@ -268,11 +270,26 @@ def _reached(lower: Linkage, path: Motion) -> Complexes:
     return np.concatenate([path.complex_point(place) for place in (*places, *lower.points.values())])
 
 
+def _round_extent(lower: Linkage, path: Motion) -> float:
+    """The longer side of all that wheels and circles reach; 0 without any."""
+    rims = [
+        (path.complex_point(LinkPoint(link, e.x, e.y)), abs(e.radius))
+        for (_, link), e in lower.elements.items()
+        if isinstance(e, Wheel | Circle)
+    ]
+    sides = (
+        max((float(part(z).max()) + r for z, r in rims), default=0.0)
+        - min((float(part(z).min()) - r for z, r in rims), default=0.0)
+        for part in (np.real, np.imag)
+    )
+    return max(sides)
+
+
 def _scale(lower: Linkage, path: Motion) -> float:
     """Pixels to a unit, so that all poses fit and short links are longer than the diameter of their pins."""
     links, z = lower.mechanism.chain.links, _reached(lower, path)
     extent = max(float(np.ptp(z.real)), float(np.ptp(z.imag)), 1e-9 * lower.size)
-    usual = _PIXELS / extent
+    usual = min(_PIXELS / extent, _WITH_WHEELS / max(_round_extent(lower, path), extent))
     pins = {
         link: {e for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)} for link in links
     }

@@ -26,13 +26,15 @@ class RoundPart(NamedTuple):
 
     link: str
     shapes: tuple[Shape, ...]
+    between: tuple[complex, complex] | None = None
+    """Of a belt: the centres of its wheels, in the unit of the linkage; its shapes go with them."""
 
 
 def round_parts(posed: PosedLinkage) -> Iterator[RoundPart]:
     """The round parts of a linkage, the larger first, each once for each link and centre."""
     parts: dict[tuple[object, ...], RoundPart] = {}
     for (joint, link), element in posed.linkage.elements.items():
-        if isinstance(element, elements.Wheel | elements.Circle):
+        if isinstance(element, elements.RoundElement):
             key = (link, element.x, element.y, element.radius)
             parts.setdefault(key, _disc(posed, link, element))
         elif isinstance(element, elements.CamDisc):
@@ -55,7 +57,7 @@ def _size(part: RoundPart) -> float:
     return max(math.hypot(p.x, p.y) for p in shape.parts[0]) if isinstance(shape, Polylines) else 0.0
 
 
-def _disc(posed: PosedLinkage, link: str, element: elements.Wheel | elements.Circle) -> RoundPart:
+def _disc(posed: PosedLinkage, link: str, element: elements.RoundElement) -> RoundPart:
     """A disc with a cross, or a ring for an internal wheel; fixed wheels in the style of the frame."""
     centre, radius = complex(element.x, element.y), posed.scale * abs(element.radius)
     at = posed.local(centre)
@@ -86,7 +88,7 @@ def _face(posed: PosedLinkage, joint: int, link: str, line: elements.Line) -> tu
             relative = (axis - posed.pose.places[0, 0, k]) / posed.pose.turns[0, k] - complex(line.x, line.y)
             offset = float((relative * cmath.rect(1, -line.angle)).real)
             return min(0.0, offset - wide), max(0.0, offset + wide)
-        if number == joint and isinstance(element, elements.Wheel | elements.Circle):
+        if number == joint and isinstance(element, elements.RoundElement):
             return -1.5 * abs(element.radius), 1.5 * abs(element.radius)
     return None
 
@@ -195,4 +197,4 @@ def _belts(posed: PosedLinkage) -> Iterator[RoundPart]:
         for side in (1, -1):
             touch = along * cmath.rect(1, side * lean)
             runs.append((posed.local(a + r * touch), posed.local(b + (-s if crossed else s) * touch)))
-        yield RoundPart(mechanism.frame, (Polylines(tuple(runs), "rail"),))
+        yield RoundPart(mechanism.frame, (Polylines(tuple(runs), "rail"),), (a, b))

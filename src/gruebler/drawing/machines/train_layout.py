@@ -170,7 +170,7 @@ def _clear(stage: GearStage, near: Mesh, known: str, link: str) -> complex:
     for direction in (1, -1j, 1j, -1):
         place = start + d * direction
         others = [link for link in stage.axes if link != known and link in reach]
-        if all(abs(stage.axes[one] - place) > reach[one] + reach[link] - _CLOSE for one in others):
+        if all(abs(stage.axes[neighbour] - place) > reach[neighbour] + reach[link] - _CLOSE for neighbour in others):
             return place
     return start + d
 

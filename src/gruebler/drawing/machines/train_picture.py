@@ -177,8 +177,8 @@ def _listed(stage: GearStage, at: Point, lang: str) -> list[Shape]:
             link_sizes.append(size)
     several = {wheel.link for wheel in stage.wheels if wheel.planet and stage.copies > 1}
     rows = [
-        f"{link}: {number_separator(lang).join(mine)}{f' × {stage.copies}' if link in several else ''}"
-        for link, mine in sizes.items()
+        f"{link}: {number_separator(lang).join(wheels)}{f' × {stage.copies}' if link in several else ''}"
+        for link, wheels in sizes.items()
     ]
     others = [
         link

@@ -11,7 +11,7 @@ from gruebler.arrays import Reals
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.moving_picture import Body, Shift, at_time
-from gruebler.drawing.canvas.panels import AxisMarker, Curve, Panel, draw_panels
+from gruebler.drawing.canvas.panels import AxisMarker, Panel, PlottedCurve, draw_panels
 from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, bounds, moved_shape
 from gruebler.drawing.canvas.styles import LINES
 from gruebler.text import number
@@ -41,7 +41,7 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
     for k, (text, y) in enumerate(rows):
         axis = Axis(text, decimals(float(y.min()), float(y.max()), few=4))
         shown = tuple(mark._replace(text=mark.text if k == 0 else "") for mark in marks)
-        curves = (Curve(np.degrees(x), y, "", LINES[0]),)
+        curves = (PlottedCurve(np.degrees(x), y, "", LINES[0]),)
         panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
     return draw_panels(panels, title, "", lang)
 

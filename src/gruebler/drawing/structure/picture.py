@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
 
@@ -36,7 +36,7 @@ from gruebler.drawing.structure.orientation import upright
 from gruebler.isomorphism import canonical_order
 from gruebler.mechanism import Mechanism
 
-__all__ = ["PlacedChain", "chain_of", "draw", "letters", "mean_scale", "paint", "place_joints"]
+__all__ = ["PlacedChain", "chain_of", "draw_structure", "letters", "mean_scale", "paint", "place_joints"]
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
 _ASIDE = 17.0  # pixels between the middle of a link and its output arrow
@@ -61,7 +61,7 @@ class PlacedChain:
     """What the bodies of higher pairs are, by joint and link."""
 
 
-def draw(
+def draw_structure(
     structure: Chain | Mechanism,
     *,
     labels: bool = False,
@@ -93,9 +93,7 @@ def draw(
     """
     from gruebler.drawing.canvas.labels import labels_or_numbers, note_near
 
-    placed = place_joints(structure)
-    if contacts:
-        placed = replace(placed, contacts=_renumbered(chain_of(structure), placed.chain, contacts))
+    placed = place_joints(structure, contacts)
     shapes = paint(placed)
     for link in outputs:
         shapes += _output(placed, link, shapes)
@@ -115,8 +113,11 @@ def chain_of(structure: Chain | Mechanism) -> Chain:
     return structure if isinstance(structure, Chain) else structure.chain
 
 
-def place_joints(structure: Chain | Mechanism) -> PlacedChain:
-    """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure."""
+def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str], str] | None = None) -> PlacedChain:
+    """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure.
+
+    ``contacts`` are those of `draw`.
+    """
     frame, drives = (None, ()) if isinstance(structure, Chain) else (structure.frame, structure.drives)
     chain, number = _ordered(chain_of(structure), frame, {drive.joint for drive in drives})
     plain, places = _ordered(chain)
@@ -135,6 +136,7 @@ def place_joints(structure: Chain | Mechanism) -> PlacedChain:
         tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
         frozenset(plain.links[max(pair)] for pair in layout.crossings),
         tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
+        _renumbered(chain_of(structure), chain, contacts or {}),
     )
 
 
@@ -239,7 +241,7 @@ def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
     sides = [middle.plus(along.across, side) for side in (_ASIDE, -_ASIDE)]
     free = Obstacles(shapes).free(complexes(sides), 2 * _ASIDE)
     at = sides[0] if free[0] >= free[1] else sides[1]
-    return [shape for way in (1, -1) for shape in arrow(at, at.plus(along, way * 11.0), "velocity", "velocity-head")]
+    return [shape for sign in (1, -1) for shape in arrow(at, at.plus(along, sign * 11.0), "velocity", "velocity-head")]
 
 
 def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:

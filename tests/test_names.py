@@ -1,0 +1,82 @@
+"""One name, one thing: a class or a public function has its name alone, unless both are the same thing."""
+
+import ast
+from collections import defaultdict
+from functools import cache
+
+import pytest
+
+from tests.test_floors import FILES, room, tree
+
+# Names that several files define, with the reason why a reader is not led astray.
+SHARED = {
+    "add": "the protocol of a command: its arguments",
+    "run": "the protocol of a command: what it does",
+    "main": "where a process begins",
+    "central_crank_rocker": "a fact of dead centres: constructed, and as an exercise",
+    "inflection_circle": "one circle: computed, and constructed step by step",
+    "four_bar": "methods of exercises are called by file and name: velocities.four_bar",
+    "slider_crank": "methods of exercises are called by file and name: velocities.slider_crank",
+}
+
+
+# Names that say nothing of what they name. Arrays that a kernel fills are `out`, as in numpy.
+EMPTY = {"found", "made", "mine", "one", "out", "told", "way"}
+ALLOWED = {
+    ("synthesis.dyads", "found"),  # fields of results: how many were found
+    ("synthesis.results", "found"),
+    ("text", "one"),  # the singular of `plural(one, many)`
+    ("cli.coverage", "out"),  # standard output, beside err
+}
+
+
+@cache
+def definitions(kinds):
+    """The public classes or functions at the top of all files, each with the files that define it."""
+    places = defaultdict(list)
+    for module in FILES:
+        for node in tree(module).body:
+            if isinstance(node, kinds) and not node.name.startswith("_"):
+                places[node.name].append(module)
+    return places
+
+
+def repeated(kinds):
+    return {name: modules for name, modules in definitions(kinds).items() if len(modules) > 1}
+
+
+def test_a_class_has_its_name_alone():
+    assert repeated(ast.ClassDef) == {}
+
+
+def test_a_public_function_has_its_name_alone():
+    assert {name: modules for name, modules in repeated(ast.FunctionDef).items() if name not in SHARED} == {}
+
+
+def bound_names(module):
+    for node in ast.walk(tree(module)):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.arg):
+            yield node.arg
+
+
+def test_local_names_say_what_they_name():
+    kernels = {name for name in FILES if "kernels" in name or room(name) == "_numeric"}
+    empty = {(module, name) for module in FILES.keys() - kernels for name in EMPTY & set(bound_names(module))}
+    assert empty == ALLOWED
+
+
+def test_no_class_has_the_name_of_a_function_but_for_capitals():
+    functions = definitions(ast.FunctionDef)
+    assert [name for name in definitions(ast.ClassDef) if name in functions] == []
+
+
+@pytest.mark.parametrize("name", SHARED)
+def test_shared_names_are_shared(name):
+    assert len(repeated(ast.FunctionDef)[name]) > 1
+
+
+def test_methods_of_exercises_are_in_their_room():
+    for name in ("four_bar", "slider_crank"):
+        assert {room(module) for module in definitions(ast.FunctionDef)[name]} == {"exercises"}
