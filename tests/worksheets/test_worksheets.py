@@ -2,6 +2,9 @@
 
 import base64
 import re
+import shutil
+import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -16,10 +19,12 @@ from gruebler.errors import GrueblerError
 from gruebler.exercises import KINDS, exercise, grade, solve
 from gruebler.mechanism import Mechanism
 from gruebler.worksheets import catalog_book, document_bytes, machine_document, poster, task_sheet
-from gruebler.worksheets.blocks import AnswerLines, Document, Heading, Pictures, Rows
+from gruebler.worksheets.blocks import AnswerLines, Document, Heading, Paragraph, Pictures, Rows
 from gruebler.worksheets.joint_pictures import joint_pictures
 from gruebler.worksheets.paged import document_pages
 from gruebler.worksheets.tasks import construction_of, exercise_figure
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +110,35 @@ def test_files(sheet, suffix):
         inside = re.findall(r"data:image/svg\+xml;base64,([\w+/=]+)\)", text)
         assert len(inside) == pictures
         assert all(base64.b64decode(data).startswith(b"<svg") for data in inside)
+
+
+def test_latex_knows_every_sign_of_the_texts():
+    """All signs of messages, of catalogs and of the code are letters that LaTeX takes, or have a command."""
+    signs = set()
+    for pattern in ("src/gruebler/**/*.py", "src/gruebler/locale/**/*.po", "catalogs/**/*.toml"):
+        for path in ROOT.glob(pattern):
+            signs |= set(path.read_text(encoding="utf-8"))
+    written = document_bytes(Document("x", "", (Paragraph("".join(sorted(signs - {"_", chr(10)}))),)), "tex").decode()
+    known = set("–—„“”‚‘’" + "".join(chr(k) for k in range(0xC0, 0x180)))  # letters and quotation marks of T1
+    assert {sign for sign in written if ord(sign) > 0x7E} <= known
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_latex_files_compile(lang, tmp_path):
+    if shutil.which("pdflatex") is None:
+        pytest.skip("pdflatex is not here")
+    made = [
+        *(task_sheet(list(KINDS), 6, level=level, seed=3, lang=lang)[:2] for level in (1, 2, 3)),
+        (machine_document(entries()["crankrocker"], lang=lang), machine_document(entries()["geartrain"], lang=lang)),
+    ]
+    for k, document in enumerate(document for pair in made for document in pair):
+        (tmp_path / f"{k}.tex").write_bytes(document_bytes(document, "tex"))
+        command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", f"{k}.tex"]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=300, check=False)
+        log = done.stdout.decode("utf-8", "replace")
+        assert done.returncode == 0, log[-2000:]
+        assert "Missing character" not in log
 
 
 def test_nothing_leaves_the_page(sheet):

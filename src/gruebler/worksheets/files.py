@@ -140,46 +140,45 @@ _SPECIAL = {
     "~": r"\textasciitilde{}",
     "^": r"\textasciicircum{}",
 }
+_GREEK = (
+    "alpha beta gamma delta varepsilon zeta eta theta iota kappa lambda mu nu xi o pi rho varsigma sigma tau upsilon \
+varphi chi psi omega"
+)
 _MATHS = {
-    "√": r"$\surd$",
-    "²": "$^2$",
-    "³": "$^3$",
-    "°": r"$^\circ$",
-    "≤": r"$\leq$",
-    "≥": r"$\geq$",
-    "·": r"$\cdot$",
-    "±": r"$\pm$",
-    "→": r"$\to$",
-    "′": "$'$",
-    "″": "$''$",
-    "∞": r"$\infty$",
-    "Σ": r"$\Sigma$",
-    "Δ": r"$\Delta$",
-    "…": r"\dots{}",
+    **{chr(0x3B1 + k): rf"$\{name}$" if name != "o" else "$o$" for k, name in enumerate(_GREEK.split())},
+    **{sign: f"$^{k}$" for k, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")},
     **{chr(0x2080 + k): f"$_{k}$" for k in range(10)},
-    **dict(
-        zip(
-            "αβγδεθκλμφψω",
-            (
-                rf"$\{name}$"
-                for name in [
-                    "alpha",
-                    "beta",
-                    "gamma",
-                    "delta",
-                    "varepsilon",
-                    "theta",
-                    "kappa",
-                    "lambda",
-                    "mu",
-                    "varphi",
-                    "psi",
-                    "omega",
-                ]
-            ),
-            strict=True,
-        )
-    ),
+    **{
+        "⁻": "$^-$",
+        "ᵢ": "$_i$",
+        "ẋ": r"$\dot x$",
+        "ẏ": r"$\dot y$",
+        "µ": r"$\mu$",
+        "√": r"$\surd$",
+        "°": r"$^\circ$",
+        "−": "$-$",
+        "≤": r"$\leq$",
+        "≥": r"$\geq$",
+        "≈": r"$\approx$",
+        "≠": r"$\neq$",
+        "·": r"$\cdot$",
+        "×": r"$\times$",
+        "±": r"$\pm$",
+        "∓": r"$\mp$",
+        "∩": r"$\cap$",
+        "→": r"$\to$",
+        "′": "$'$",
+        "″": "$''$",
+        "∞": r"$\infty$",
+        "Γ": r"$\Gamma$",
+        "Σ": r"$\Sigma$",
+        "Δ": r"$\Delta$",
+        "Φ": r"$\Phi$",
+        "Ψ": r"$\Psi$",
+        "Ω": r"$\Omega$",
+        "…": r"\dots{}",
+        "\u00a0": "~",
+    },
 }
 _SIGNS = str.maketrans({**_SPECIAL, **_MATHS})
 
