@@ -116,6 +116,8 @@ def test_a_region_without_solutions_gives_the_reason_in_each_language():
     (design,) = result.rejected
     assert [reason.in_language("en") for reason in design.verdict.reasons] == ["a fixed pivot lies outside the region"]
     assert said(result)["de"].endswith("ein Gestellgelenk liegt außerhalb des Gebiets")
+    reasons = {"en": "a fixed pivot lies outside the region", "de": "ein Gestellgelenk liegt außerhalb des Gebiets"}
+    assert {lang: text.endswith(reasons[lang]) for lang, text in said(result).items()} == {"en": True, "de": True}
 
 
 def test_five_points_alone_have_infinitely_many_solutions_by_theorem():
