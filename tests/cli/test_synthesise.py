@@ -105,7 +105,7 @@ def test_the_file_holds_the_minimax_optimum(tmp_path, capsys):
     begin = linkage.reference_pose["crank"].angle
     rocker = move(linkage, begin + np.radians(60) * (x - 1)).angle("rocker")
     error = np.degrees(rocker) - 60 * np.log10(x) / np.log10(2)
-    assert np.ptp(error) / 2 == pytest.approx(0.0036657, rel=1e-3)  # as printed; the largest miss, on either side
+    assert np.ptp(error) / 2 == pytest.approx(0.0036657, rel=2e-3)  # as printed, from fewer values of x
 
 
 def test_a_function_file_gives_the_same_optimum(tmp_path, capsys):
