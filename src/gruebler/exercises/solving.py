@@ -99,7 +99,7 @@ def with_values(exercise: Exercise, values: Mapping[str, float | str]) -> Exerci
         for other in set().union(*(group for group in _ALTERNATIVES if key in group)) - {key, *values}:
             given.pop(other, None)
         given[key] = _number(key, value) if "float" in str(parameters[key].annotation) else value
-    shown = {key: figure(value) if isinstance(value, float | int) else value for key, value in given.items()}
+    shown = {key: figure(given[key]) if isinstance(given[key], float | int) else given[key] for key in values}
     changed = joined([message("{name} = {value}", name=key, value=value) for key, value in shown.items()], ", ")
     task = message("{task} Here with other values: {values}.", task=exercise.task, values=changed)
     asked = tuple(Question(question.key) for question in exercise.asked)
