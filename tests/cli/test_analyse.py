@@ -171,7 +171,7 @@ REFUSED = [
         ["winch_screw"],
         "the screws of its joints in one position, not the dimensions of its links: `gruebler check winch_screw",
     ),
-    (["R(0-1) R(1-2) R(2-0)"], "has no dimensions; give a file"),
+    (["R(0-1) R(1-2) R(2-0)"], "has no dimensions, which `gruebler realise` finds; give a file"),
     (["none.toml"], "none.toml: cannot be read"),
     ([__file__], "a linkage is in a .toml or .json file"),
     ([CRANK_ROCKER, "--output", "rokcer"], "did you mean 'rocker'?"),

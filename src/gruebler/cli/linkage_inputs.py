@@ -122,7 +122,9 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
         return read_linkage(path), None
     if "(" in word:
         raise GrueblerError(
-            "{word!r} has no dimensions; give a file, a catalog entry or {forms}", word=word[:40], forms=_forms()
+            "{word!r} has no dimensions, which `gruebler realise` finds; give a file, a catalog entry or {forms}",
+            word=word[:40],
+            forms=_forms(),
         )
     from gruebler.catalog import entries, entry
     from gruebler.errors import nearest
