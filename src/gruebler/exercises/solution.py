@@ -151,7 +151,7 @@ def formula_number(value: float) -> str:
 
 
 def figure(value: float) -> Message:
-    """The number of `number` for a text, with the decimal sign of its language.
+    """The number of `formula_number` for a text, with the decimal sign of its language.
 
     >>> figure(78.46304096718453).in_language("de")
     '78,463'
