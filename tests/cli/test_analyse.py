@@ -209,7 +209,7 @@ def test_who_turns_fully_is_told(capsys):
 def test_a_linkage_with_one_position_says_so_in_both_languages(capsys):
     assert run(capsys, "four-bar:10,20,30,60")[:2] == (
         1,
-        "The drive cannot move: all that can be assembled is one position, drive = 0°.\n",
+        "The drive cannot move: the linkage can be assembled in one position only, drive = 0°.\n",
     )
     assert run(capsys, "four-bar:10,20,30,60", "--lang", "de")[1].startswith("Der Antrieb ist unbeweglich: ")
 

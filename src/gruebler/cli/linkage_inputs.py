@@ -104,7 +104,7 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
 
     The links of lengths and of catalog entries have their names in the language.
 
-    >>> linkage_of("slider-crank:25,70")[0].length("coupler", 1, 2)
+    >>> linkage_of_word("slider-crank:25,70")[0].length("coupler", 1, 2)
     70.0
     """
     if (size := size_of(word)) is not None:
