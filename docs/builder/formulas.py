@@ -51,7 +51,7 @@ _SCRIPT = re.compile(
     r"|(?<=\b[A-Za-zΑ-ω])_(?:\{(?P<below>[^{}]*)\}|(?P<letters>[A-Za-z0-9]{1,3})\b)"
 )
 _NO_FORMULA = re.compile(r'"|gruebler|--|\$|://|\[\w+\]|->| # ')
-_IS_CODE = re.compile(r'["\[\]{}]|--|_[A-Za-z]{3,}|\w\w_')
+_IS_CODE = re.compile(r'["\[\]{}]|--|_[A-Za-z]{3,}|[A-Za-z]{2}_')
 _IS_FORMULA = re.compile(r"^[a-z]'?$|[=^_√\u0391-\u03c9\u00b2\u00b3\u2080-\u2089]")
 _HAS_RELATION = re.compile(r"[=≤≥<>≡∈⊂→]")
 
