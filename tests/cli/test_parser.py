@@ -2,6 +2,7 @@
 
 import pytest
 
+from gruebler.cli import main
 from gruebler.cli.commands import FORMER, command, command_names
 from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
@@ -41,6 +42,15 @@ def test_an_option_with_a_new_meaning_answers_only_its_former_values(parser, cap
     with pytest.raises(SystemExit):
         parser.parse_args(["--output", "crank.svg"])
     assert "--output crank.svg is now --out crank.svg" in capsys.readouterr().err
+
+
+def test_a_value_of_another_kind_is_not_answered_by_the_present_name(capsys):
+    assert main(["analyse", "four-bar:2,5,4,5", "--drive", "0:360:30"]) == 2
+    assert "--drive 0:360:30 is now --range 0:360:30" in capsys.readouterr().err
+    assert main(["analyse", "four-bar:2,5,4,5", "--drive", "coupler"]) == 2
+    answer = capsys.readouterr().err
+    assert "is now" not in answer
+    assert "unknown arguments: --drive coupler" in answer
 
 
 def test_after_two_dashes_nothing_is_an_option(parser):

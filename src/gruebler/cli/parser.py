@@ -136,9 +136,9 @@ class Parser(argparse.ArgumentParser):
         """Answer an option that has another name now by the new name.
 
         Args:
-            old: Its former name. If an option has this name today, only values of the former kind are answered.
+            old: Its former name.
             new: What to write instead.
-            like: A regular expression for the former values.
+            like: A regular expression for the former values; only these are answered.
         """
         self._replaced[old] = (new, like)
 
@@ -160,7 +160,7 @@ class Parser(argparse.ArgumentParser):
                 continue
             new, like = self._replaced[option]
             value = value if equals else "" if following.startswith("--") else following
-            if option not in self._option_string_actions or re.fullmatch(like, value):
+            if re.fullmatch(like, value):
                 sign = "=" if equals else " " * bool(value)
                 self.error(
                     translate("{old} is now {new}", self.lang, old=f"{option}{sign}{value}", new=f"{new}{sign}{value}")
