@@ -62,6 +62,7 @@ _PLACEHOLDERS = {
 }
 """What stands for a value in the list of options."""
 _NAMES_A_LINK = re.compile(r"\b(LINK|JOINT|POINT)\b")
+_DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+")
 _KINDS = {int: message("a whole number"), float: message("a number")}
 
 
@@ -175,6 +176,8 @@ class Parser(argparse.ArgumentParser):
             kind = _KINDS.get(action.type)  # type: ignore[call-overload]  # whatever the type is
             if kind is None:
                 raise
+            if action.type is float and _DECIMAL_COMMA.fullmatch(arg_string):
+                kind = message("a number with a decimal point")
             text = translate("expected {kind}, but found {found!r}", self.lang, kind=kind, found=arg_string)
             raise argparse.ArgumentError(action, text) from None
 
