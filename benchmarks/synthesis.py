@@ -54,6 +54,30 @@ def finite_problems(tasks: int = 5) -> None:
         )
 
 
+JANSEN = {"m": 15, "a": 38, "l": 7.8, "j": 50, "k": 61.9, "b": 41.5, "c": 39.3, "d": 40.1, "e": 55.8, "f": 39.4}
+JANSEN |= {"g": 36.7, "h": 65.7, "i": 49}
+
+
+def jansens_foot(places: int = 64) -> np.ndarray:
+    """The curve of the foot of Jansen's leg (2007), by intersections of circles; lengths as published."""
+    s = JANSEN
+    pin = s["m"] * np.exp(1j * np.linspace(0, 2 * pi, places, endpoint=False))
+    pivot = complex(-s["a"], -s["l"])
+
+    def joint(p: np.ndarray, r: float, q: np.ndarray | complex, t: float, side: int) -> np.ndarray:
+        """At distances r from p and t from q, on one side of the line from p to q."""
+        gap = q - p
+        far = np.abs(gap)
+        along = (r * r - t * t + far**2) / (2 * far)
+        return p + gap / far * (along + side * 1j * np.sqrt(r * r - along**2))
+
+    upper = joint(pin, s["j"], pivot, s["b"], -1)
+    left = joint(upper, s["e"], pivot, s["d"], -1)
+    lower = joint(pin, s["k"], pivot, s["c"], 1)
+    knee = joint(left, s["f"], lower, s["g"], -1)
+    return joint(knee, s["h"], lower, s["i"], -1)
+
+
 def targets() -> dict[str, tuple[np.ndarray, bool]]:
     """Drawn curves: closed ones and open ones."""
     s = np.linspace(0, 2 * pi, 64, endpoint=False)
@@ -73,6 +97,7 @@ def targets() -> dict[str, tuple[np.ndarray, bool]]:
         "D": (np.concatenate([half, flat]), True),
         "figure eight": (np.sin(s) + 0.5j * np.sin(2 * s), True),
         "leg, flat foot": (leg, True),
+        "Jansen's foot": (jansens_foot(), True),
         "leg, low": (leg.real + 0.4j * leg.imag, True),
         "triangle": (triangle, True),
         "rounded triangle": (np.exp(1j * s) + 0.12 * np.exp(-2j * s), True),

@@ -11,6 +11,7 @@ from gruebler import Chain, GrueblerError, Linkage, Mechanism, SpatialLinkage, c
 from gruebler.chain.notation import link_text
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import ChainError, NotationError, PairError
+from gruebler.text import error_in_language
 from tests.strategies import PLANAR, SPATIAL, chains
 
 VEE = "R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) P(frame-piston1) P(frame-piston2)"
@@ -221,3 +222,13 @@ def test_a_missing_joint_has_one_message_everywhere():
     for call in (lambda: quad.without_joint(4), lambda: Mechanism(quad, "0", [4]), lambda: code(quad, drives=[4])):
         with pytest.raises(ChainError, match="there is no joint number 4; the chain has joints 0 to 3"):
             call()
+
+
+def test_a_missing_joint_is_said_in_the_letters_of_the_reader():
+    chain = Chain.parse("R(0-1) R(1-2) P(2-0)")
+    with pytest.raises(ChainError, match=r"they are R\(0-1\), R\(1-2\), P\(2-0\)$") as caught:
+        chain.joint_number("S(1-3)")
+    german = error_in_language(caught.value, "de")
+    assert "D(0-1), D(1-2), S(2-0)" in german
+    assert "R(" not in german
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)

@@ -105,3 +105,14 @@ def test_refusals_in_german():
     with pytest.raises(GrueblerError) as refused:
         draw.run(arguments_of("draw", "four-bar:60,30,40,50", at="171"))
     assert "der Antrieb geht in dieser Einbaulage" in error_in_language(refused.value, "de")
+
+
+def test_a_gallery_tells_higher_pairs_apart(tmp_path):
+    """Gears, a belt, a cam and a Geneva drive of one structure have pictures of their own."""
+    pictures = set()
+    for id in ("geartrain", "belt", "geneva"):
+        path = tmp_path / "page.html"
+        assert gallery.run(arguments_of("gallery", id, "-o", str(path))) == 0
+        figure = path.read_text(encoding="utf-8").partition("<svg")[2].partition("</svg>")[0]
+        pictures.add(figure.partition('<rect class="gr-ground"')[2])
+    assert len(pictures) == 3

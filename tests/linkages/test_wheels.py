@@ -78,7 +78,7 @@ def test_ratios_are_exact():
         (Wheel(0, 0, 20, 20), Wheel(50, 0, 30, 40), "G", "modules differ: 2 and 1.5"),
         (Wheel(0, 0, 20, 20), Wheel(50, 0, 30), "G", "on both wheels or on none"),
         (Wheel(0, 0, 20, belt="open"), Wheel(50, 0, 30), "G", "both wheels of a belt"),
-        (Wheel(0, 0, 20, belt="open"), Wheel(50, 0, 30, belt="open"), "W", "a belt is no rolling contact"),
+        (Wheel(0, 0, 20, belt="open"), Wheel(50, 0, 30, belt="open"), "W", "a belt is not a rolling contact"),
         (Wheel(0, 0, 20, -20), Wheel(50, 0, 30, 30), "G", "both negative"),
         (Wheel(0, 0, 0), Wheel(50, 0, 30), "G", "a radius is positive"),
         (Wheel(0, 0, float("nan")), Wheel(50, 0, 30), "G", "finite"),

@@ -5,7 +5,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis import measures
 from gruebler.errors import LinkageError, SynthesisError
+from gruebler.fourbar import FourBar
 from gruebler.kinematics import circuit, move
 from gruebler.synthesis import (
     DeadCentreTask,
@@ -75,6 +77,84 @@ def test_moved_mixed_tasks_have_moved_designs(seed, angle, scale, mirror):
     moved = synthesise(PathTask(pairs(image(z, angle, scale, mirror)), angles=tuple(turned)))
     assert plain.count.found == moved.count.found == 30
     same_designs(plain, moved, scale)
+
+
+def moved_like(plain, moved, scale):
+    """The same counts, and the same designs in another place, size and sense."""
+    assert (plain.count.found, plain.count.real) == (moved.count.found, moved.count.real)
+    same_designs(plain, moved, scale)
+
+
+MIXED = {"(3, 4)": (7, (0, 3, 6)), "(2, 6)": (8, (0, 5)), "nine points": (9, ())}
+"""How many points in all, and at which of them the coupler's angle is given."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", MIXED)
+@settings(max_examples=4, deadline=None)
+@given(seed=st.integers(0, 10**6), angle=turns, scale=scales, mirror=st.booleans())
+def test_moved_finite_tasks_have_moved_designs(kind, seed, angle, scale, mirror):
+    count, oriented = MIXED[kind]
+    z, at = random_path(seed, count)
+    sign = -1 if mirror else 1
+    plain = tuple(0.3 * a if k in oriented else None for k, a in enumerate(at)) if oriented else ()
+    turned = tuple(None if a is None else sign * a + angle for a in plain)
+    moved = PathTask(pairs(image(z, angle, scale, mirror)), angles=turned)
+    moved_like(synthesise(PathTask(pairs(z), angles=plain)), synthesise(moved), scale)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", MIXED)
+@pytest.mark.parametrize("seed", range(4))
+def test_finite_tasks_give_a_random_four_bar_back(kind, seed):
+    """From points, and angles of the coupler at some of them, of a four-bar drawn at random."""
+    count, oriented = MIXED[kind]
+    rng = np.random.default_rng(seed)
+    while True:
+        lengths = rng.uniform(1, 4, 4)
+        if 2 * lengths.max() < 0.95 * lengths.sum() and np.diff(np.sort(lengths)).min() > 0.1:
+            break
+    known = FourBar(*lengths).linkage({"P": tuple(rng.uniform(0.4, 2, 2))})
+    drive = circuit(known, step=0.05).drive
+    span = 0.6 * np.ptp(drive) if np.ptp(drive) < 6 else 4.5
+    values = drive.min() + 0.2 * np.ptp(drive) + span * np.sort(rng.uniform(0, 1, count))
+    motion = move(known, values)
+    assert motion.complete
+    angles = tuple(a if k in oriented else None for k, a in enumerate(motion.angle("coupler"))) if oriented else ()
+    result = synthesise(PathTask(motion.point("P"), angles=angles))
+    assert result.count.found == result.count.theorem
+    wanted = np.sort(lengths)
+    gaps = [np.abs(own - wanted).max() for d in everything(result) if len(own := pins(d)) == 4]
+    assert min(gaps) < 1e-5
+
+
+@settings(max_examples=3, deadline=None)
+@given(st.integers(0, 10**6), turns, scales, st.booleans(), st.sampled_from([3, 4]))
+def test_moved_positions_with_chosen_pivots_have_moved_designs(seed, angle, scale, mirror, count):
+    """Three positions with pivots that are moved along; four with pivots of Burmester's curves."""
+    rng = np.random.default_rng(seed)
+    z, a = rng.normal(size=count) + 1j * rng.normal(size=count), np.cumsum(rng.uniform(0.2, 0.7, count))
+    sign = -1 if mirror else 1
+    places = z.mean() + rng.normal(size=3) + 1j * rng.normal(size=3)
+    plain = PositionTask([(w.real, w.imag, t) for w, t in zip(z, a, strict=True)], moving_pivots=pairs(places))
+    rows = [(w.real, w.imag, sign * t + angle) for w, t in zip(image(z, angle, scale, mirror), a, strict=True)]
+    moved = PositionTask(rows, moving_pivots=pairs(image(places, angle, scale, mirror)))
+    moved_like(synthesise(plain), synthesise(moved), scale)
+
+
+@settings(max_examples=3, deadline=None)
+@given(st.floats(20, 120), st.floats(0.2, 0.8))
+def test_swings_of_the_other_sense_have_mirrored_designs(swing, share):
+    """Seen in a mirror the crank goes the other way round: slow and quick travel are exchanged with 360 degrees."""
+    angle = np.radians(90 + swing / 2 + 180 * share)
+    assume(abs(angle - np.pi) > 0.02)
+    family = dead_centre_family(DeadCentreTask(swing=np.radians(swing), crank_angle=angle))
+    for member in family.members[::180]:
+        own = member.linkage.linkage()
+        for linkage in (own, own.mirrored()):
+            found = measures(linkage)
+            assert found.travel == pytest.approx(np.radians(swing), abs=1e-8)
+            assert sorted((found.phi_forward, found.phi_back)) == pytest.approx(sorted((angle, 2 * np.pi - angle)))
 
 
 @settings(max_examples=5, deadline=None)

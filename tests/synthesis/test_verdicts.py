@@ -1,16 +1,27 @@
 """Verdicts against the motion itself: accepted designs carry out their task, rejected ones fail as is said of them."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis.transmission import transmission_angle
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar
 from gruebler.kinematics import circuit, move
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
-from gruebler.synthesis import FunctionTask, PathTask, PositionTask, synthesise, synthesise_path
+from gruebler.synthesis import (
+    DeadCentreTask,
+    Demands,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    synthesise,
+    synthesise_path,
+)
 from gruebler.synthesis.pictures import design_figure
 from gruebler.synthesis.results import Design, DesignVerdict
 
@@ -173,6 +184,101 @@ def test_verdicts_of_tasks_taken_from_four_bars(kind):
     accepted, out_of_reach = verdicts_of_drawn_tasks(kind, tasks)
     assert accepted >= tasks / 2  # the four-bar of the task itself, where the drive is not asked for otherwise
     assert out_of_reach > 0 or kind.startswith("function")
+
+
+def mixed_gaps(task):
+    z = np.array([complex(*p) for p in task.points])
+    given = np.array([a is not None for a in task.angles]) if task.angles else np.zeros(len(z), bool)
+    wanted = np.array([0.0 if a is None else a for a in task.angles]) if task.angles else np.zeros(len(z))
+
+    def gaps(rows, linkage):
+        near = np.abs(rows.complex_point("P")[:, None] - z) / task.size
+        if not given.any():
+            return near
+        first = int(np.argmax(given))
+        # The coupler's angle is compared where the point of the first given one lies on the circuit.
+        start = rows.angle("coupler")[int(np.argmin(near[:, first]))] - wanted[first]
+        return np.where(given, np.hypot(near, angle_gap(rows.angle("coupler")[:, None] - start, wanted)), near)
+
+    return gaps
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["nine points", "mixed"])
+@pytest.mark.parametrize("seed", range(3))
+def test_verdicts_of_nine_points_and_mixed_tasks(kind, seed):
+    """Accepted designs pass in order, by `move`; rejected ones miss a point by what is said, or meet all of them."""
+    rng = np.random.default_rng(seed)
+    count = 9 if kind == "nine points" else 6
+    turn = np.sort(rng.uniform(0, 4, count))
+    z = 2 * np.cos(turn) + 1j * np.sin(turn) + 0.1 * (rng.normal(size=count) + 1j * rng.normal(size=count))
+    angles = () if kind == "nine points" else tuple(0.3 * a if k in (0, 1, 3, 4) else None for k, a in enumerate(turn))
+    task = PathTask([(w.real, w.imag) for w in z], angles=angles)
+    result = synthesise(task)
+    gaps = mixed_gaps(task)
+    for design in result.designs:
+        way = np.concatenate([np.linspace(*pair, 15) for pair in zip(design.drives, design.drives[1:], strict=False)])
+        motion = move(design.linkage, way)
+        assert motion.complete
+        at = np.minimum(15 * np.arange(count), len(way) - 1)
+        assert np.diag(gaps(motion, design.linkage)[at]).max() < 1e-7
+    told = 0
+    for design in result.rejected:
+        reasons = [str(reason) for reason in design.verdict.reasons]
+        assert reasons
+        if any("followed" in reason for reason in reasons):
+            continue
+        path, spread = dense_path(design.linkage)
+        nearest = np.abs(path[:, None] - z).min(axis=0) / task.size
+        if any("cannot be reached" in reason for reason in reasons):
+            # A target may be missed by the angle alone: the points are no farther than is said.
+            assert nearest.max() <= design.verdict.error + spread / task.size
+            told += kind == "mixed" or abs(nearest.max() - design.verdict.error) <= spread / task.size
+        else:
+            assert nearest.max() <= spread / task.size
+            assert any("order" in reason or "branches" in reason or "differ" in reason for reason in reasons)
+            told += 1
+    assert told == sum(not any("followed" in str(r) for r in d.verdict.reasons) for d in result.rejected)
+
+
+@pytest.mark.parametrize(
+    ("demands", "reason"),
+    [
+        (Demands(transmission=np.radians(38)), "the transmission angle falls to"),
+        (Demands(size_ratio=3), "its lengths differ too much"),
+        (Demands(region=(10, 10, 11, 11)), "outside the region"),
+    ],
+)
+def test_rejected_dead_centre_designs_fail_as_said(demands, reason):
+    result = synthesise(DeadCentreTask(swing=1, time_ratio=1.1), demands=demands, number=8)
+    assert result.rejected
+    for design in result.rejected:
+        reasons = " ".join(map(str, design.verdict.reasons))
+        mu = transmission_angle(move(design.linkage, np.linspace(0, 2 * np.pi, 721), order=2)).min()
+        assert mu == pytest.approx(design.verdict.transmission, abs=1e-4)
+        assert reason in reasons
+        assert (mu < demands.transmission) == ("transmission" in reasons)
+    for design in result.designs:
+        assert design.verdict.transmission >= demands.transmission
+        assert design.verdict.size_ratio <= demands.size_ratio
+
+
+@pytest.mark.slow
+def test_rejected_curve_designs_fail_as_said():
+    """A triangle is met by no four-bar: each says by how much its circuit misses the worst place."""
+    corners = [0, 3, 1.5 + 2.6j, 0]
+    z = np.concatenate([a + (b - a) * np.linspace(0, 1, 8, endpoint=False) for a, b in pairwise(corners)])
+    task = PathTask([(w.real, w.imag) for w in z], closed=True)
+    result = synthesise(task, demands=Demands(tolerance=2e-3), number=3)
+    extent = max(np.ptp(z.real), np.ptp(z.imag))
+    assert result.rejected
+    assert not result.designs
+    for design in result.rejected:
+        path, spread = dense_path(design.linkage)
+        nearest = np.abs(path[:, None] - z).min(axis=0).max()
+        assert nearest > 2e-3 * extent
+        assert any("cannot be reached" in str(reason) for reason in design.verdict.reasons)
+        assert abs(nearest - design.verdict.error * extent) <= spread
 
 
 def test_targets_are_marked_where_links_have_numbers():

@@ -17,9 +17,10 @@ from gruebler import notebook
 from gruebler.chain import notation
 from gruebler.chain.documents import read_document, read_graph6
 from gruebler.chain.joint import Joint
-from gruebler.chain.pairs import Alphabet, Pair, Space
+from gruebler.chain.pairs import Alphabet, Pair, Space, SymbolText, in_alphabets
 from gruebler.chain.soundness import check_connected, checked_joint, checked_links
 from gruebler.errors import ChainError, GrueblerError, expect, nearest
+from gruebler.text import message
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -263,6 +264,14 @@ class Chain:
             names.append(notation.joint_text(symbols[j.pair], j.links) + again)
         return tuple(names)
 
+    def joint_title(self, number: int) -> SymbolText:
+        """The text of a joint, for messages: in the letters that the reader expects.
+
+        >>> Chain.parse("R(0-1) R(1-2) P(2-0)").joint_title(2).in_language("de")
+        'S(2-0)'
+        """
+        return in_alphabets(lambda alphabet: self.joint_names(alphabet)[number])
+
     def find_joint(self, text: str) -> int | None:
         """The number of the joint that a text names, or None.
 
@@ -297,15 +306,19 @@ class Chain:
             if 0 <= joint < len(self.joints):
                 return joint
             count = len(self.joints) - 1
-            raise error("there is no joint number {joint}; the chain has joints 0 to {count}", joint=joint, count=count)
+            raise error(
+                message("there is no joint number {joint}; the chain has joints 0 to {count}", joint=joint, count=count)
+            )
         number = self.find_joint(joint)
         if number is None:
-            names = self.joint_names()
+            names = [name for alphabet in Alphabet for name in self.joint_names(alphabet)]
             raise error(
-                "{joint!r} is not one of the joints{suggestion}; they are {joints}",
-                joint=joint,
-                suggestion=nearest(joint, names),
-                joints=", ".join(names),
+                message(
+                    "{joint!r} is not one of the joints{suggestion}; they are {joints}",
+                    joint=joint,
+                    suggestion=nearest(joint, names),
+                    joints=in_alphabets(lambda alphabet: ", ".join(self.joint_names(alphabet))),
+                )
             )
         return number
 

@@ -40,6 +40,7 @@ from gruebler.text import joined, translate
 
 __all__ = [
     "add",
+    "contacts_of",
     "entry_of",
     "german",
     "linkage_and_range",
@@ -196,7 +197,7 @@ def _figure(arguments: argparse.Namespace) -> Figure:
         return _block(thing, record, arguments, name, names)
     if view is not None:
         return view(thing, lang=arguments.lang, name=name)
-    contacts = _contacts(record) if isinstance(thing, Mechanism) else None
+    contacts = contacts_of(record) if isinstance(thing, Mechanism) else None
     return draw_structure(
         thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names
     )
@@ -222,7 +223,7 @@ def _block(
     return draw_block(thing, outputs=outputs, lang=arguments.lang, name=name, names=names)
 
 
-def _contacts(record: Entry | None) -> Mapping[tuple[int, str], str] | None:
+def contacts_of(record: Entry | None) -> Mapping[tuple[int, str], str] | None:
     """What the bodies of the higher pairs of a catalog entry are; None without dimensions."""
     if record is None or record.dimensions is None:
         return None

@@ -11,7 +11,7 @@ from typing import Any
 
 from gruebler.catalog import entries, entry
 from gruebler.chain import Chain
-from gruebler.cli.draw import german, subject
+from gruebler.cli.draw import contacts_of, german, subject
 from gruebler.cli.inputs import assortment_of, outputs_of
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
@@ -24,6 +24,7 @@ from gruebler.enumeration.estimates import estimate
 from gruebler.errors import GrueblerError
 from gruebler.formats.structures import is_structure_text
 from gruebler.isomorphism import code
+from gruebler.mechanism import Mechanism
 from gruebler.mechanism.inversion import family, inversions
 from gruebler.text import Message, message, plural, reason_of, translate
 
@@ -177,7 +178,10 @@ def _machine(id: str, arguments: argparse.Namespace) -> Item:
     if arguments.side:
         figure = draw_side_view(shown, lang=arguments.lang, name=name)
     else:
-        figure = draw_structure(shown, labels=arguments.labels, lang=arguments.lang, name=name, names=names)
+        contacts = contacts_of(record) if isinstance(shown, Mechanism) else None
+        figure = draw_structure(
+            shown, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names
+        )
     return Item(figure, name, id)
 
 

@@ -50,7 +50,7 @@ def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
         if not joint.pair.is_basic:
             raise LinkageError(
                 "joint forces are known for turning and sliding joints; {joint} is neither",
-                joint=chain.joint_names()[number],
+                joint=chain.joint_title(number),
             )
         for second in joint.links[1:]:
             first = chain.links.index(joint.links[0])

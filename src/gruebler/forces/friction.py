@@ -81,7 +81,7 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
     linkage = statics.motion.linkage
     number, mu = linkage.mechanism.chain.joint_number(joint, LinkageError), as_friction(coefficient)
     if not linkage.mechanism.chain.joints[number].pair.slides_along_one_line:
-        raise LinkageError("{joint} does not slide along one line", joint=linkage.mechanism.chain.joint_names()[number])
+        raise LinkageError("{joint} does not slide along one line", joint=linkage.mechanism.chain.joint_title(number))
     if len(linkage.mechanism.drives) != 1:
         raise LinkageError(
             "friction is computed for one drive; this linkage has {count}", count=len(linkage.mechanism.drives)

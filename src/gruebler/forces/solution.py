@@ -133,7 +133,7 @@ class Statics(Brief):
             return number, next(candidate for candidate in reversed(links) if candidate != mechanism.frame)
         if link not in links:
             raise LinkageError(
-                "{joint} is not a joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
+                "{joint} is not a joint of {link!r}", joint=mechanism.chain.joint_title(number), link=link
             )
         return number, link
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Flags, Reals, cross, dot
+from gruebler.arrays import Complexes, Flags, Reals, cross_product, scalar_product
 from gruebler.geometry.point_path import PointPath
 from gruebler.geometry.sampling import PathPolygon
 
@@ -63,7 +63,7 @@ def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tu
         return ()
     crossing, crossed = _newton(point_path, near, _crossing_step)
     z, w = point_path.at(crossing.first, 1), point_path.at(crossing.second, 1)
-    sine = np.abs(cross(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
+    sine = np.abs(cross_product(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
     crossed &= (np.abs(z[0] - w[0]) <= _CLOSED * point_path.size) & (sine > _FLAT) & _apart(point_path, crossing)
     points = _double_points(point_path, crossing.pick(crossed), touching=False)
     rest = near.pick(~crossed)
@@ -111,9 +111,9 @@ def _near_sides(samples: PathPolygon, closed: bool, pad: float) -> _Pairs:
 def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Reals, Reals, Reals]:
     """The distance of sides pq and ab, and where on both it is."""
     first, second = q - p, b - a
-    sine = cross(first, second)
+    sine = cross_product(first, second)
     with np.errstate(divide="ignore", invalid="ignore"):
-        t, u = cross(a - p, second) / sine, cross(a - p, first) / sine
+        t, u = cross_product(a - p, second) / sine, cross_product(a - p, first) / sine
     inside = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
     best = np.where(inside, 0.0, np.inf)
     t, u = np.where(inside, t, 0.0), np.where(inside, u, 0.0)
@@ -148,18 +148,18 @@ def _newton(point_path: PointPath, start: _Pairs, step: _Step) -> tuple[_Pairs, 
 
 def _crossing_step(z: Complexes, w: Complexes) -> tuple[Reals, Reals]:
     """Towards z(s) = w(t)."""
-    sine = cross(z[1], w[1])
+    sine = cross_product(z[1], w[1])
     sine = np.where(sine == 0, 1e-300, sine)
     gap = z[0] - w[0]
-    return _finite(-cross(gap, w[1]) / sine), _finite(-cross(gap, z[1]) / sine)
+    return _finite(-cross_product(gap, w[1]) / sine), _finite(-cross_product(gap, z[1]) / sine)
 
 
 def _touching_step(z: Complexes, w: Complexes) -> tuple[Reals, Reals]:
     """Towards parallel tangents and a gap at right angles to them."""
     gap = z[0] - w[0]
-    f, g = dot(gap, z[1]), cross(z[1], w[1])
-    fs, ft = np.abs(z[1]) ** 2 + dot(gap, z[2]), -dot(w[1], z[1])
-    gs, gt = cross(z[2], w[1]), cross(z[1], w[2])
+    f, g = scalar_product(gap, z[1]), cross_product(z[1], w[1])
+    fs, ft = np.abs(z[1]) ** 2 + scalar_product(gap, z[2]), -scalar_product(w[1], z[1])
+    gs, gt = cross_product(z[2], w[1]), cross_product(z[1], w[2])
     det = fs * gt - ft * gs
     det = np.where(det == 0, 1e-300, det)
     with np.errstate(over="ignore"):  # what has no bounds is no step
@@ -192,7 +192,7 @@ def _double_points(point_path: PointPath, pairs: _Pairs, touching: bool) -> list
     if not len(pairs.first):
         return []
     z, w = point_path.at(pairs.first, 1), point_path.at(pairs.second, 1)
-    angle = np.abs(np.arctan2(cross(z[1], w[1]), dot(z[1], w[1])))
+    angle = np.abs(np.arctan2(cross_product(z[1], w[1]), scalar_product(z[1], w[1])))
     angle = np.minimum(angle, np.pi - angle)
     drives = np.sort(np.stack([point_path.drive(pairs.first), point_path.drive(pairs.second)]), axis=0)
     points: list[DoublePoint] = []

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.arrays import Reals, cross, dot
+from gruebler.arrays import Reals, cross_product, scalar_product
 from gruebler.errors import LinkageError
 from gruebler.geometry.point_path import PointPath
 from gruebler.geometry.series import taylor_series
@@ -98,14 +98,14 @@ def cusps(point_path: PointPath) -> tuple[Cusp, ...]:
 
     def slowing(s: Reals) -> Reals:
         _, v, a, j = point_path.at(s)
-        return np.stack([dot(v, a), np.abs(a) ** 2 + dot(v, j)])
+        return np.stack([scalar_product(v, a), np.abs(a) ** 2 + scalar_product(v, j)])
 
     usual = _usual(point_path)
     zeros = find_zeros(slowing, point_path.grid, _LEAST * usual**2)
     cusps = []
     for zero, z in _seen(point_path, zeros):
         if abs(z[1]) <= _STILL * usual:
-            sine = abs(cross(z[2], z[3])) / (abs(z[2]) * max(abs(z[3]), abs(z[2])) or 1.0)
+            sine = abs(cross_product(z[2], z[3])) / (abs(z[2]) * max(abs(z[3]), abs(z[2])) or 1.0)
             cusps.append(Cusp(_drive(point_path, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
     return tuple(sorted(cusps))
 
@@ -115,8 +115,8 @@ def goes_back(point_path: PointPath, cusp: Cusp) -> bool:
     before, behind = point_path.at(cusp.parameter - _BESIDE, 0)[0], cusp.parameter + _BESIDE
     for _ in range(20):
         z, v, a = point_path.at(behind, 2)
-        slope = np.abs(v) ** 2 + dot(z - before, a)
-        behind = behind - np.clip(dot(z - before, v) / np.where(slope == 0, 1e-300, slope), -0.01, 0.01)
+        slope = np.abs(v) ** 2 + scalar_product(z - before, a)
+        behind = behind - np.clip(scalar_product(z - before, v) / np.where(slope == 0, 1e-300, slope), -0.01, 0.01)
     return bool((np.abs(point_path.at(behind, 0)[0] - before) <= _BACK * point_path.size).all())
 
 
@@ -125,7 +125,7 @@ def inflections(point_path: PointPath, known: tuple[Cusp, ...]) -> tuple[Inflect
 
     def bend(s: Reals) -> Reals:
         _, v, a, j = point_path.at(s)
-        return np.stack([cross(v, a), cross(v, j)])
+        return np.stack([cross_product(v, a), cross_product(v, j)])
 
     zeros = _away(point_path, find_zeros(bend, point_path.grid, _LEAST * _usual(point_path) ** 2), known)
     settled = tuple(_settled(point_path, zero) for zero in zeros)
@@ -168,7 +168,7 @@ def vertices(point_path: PointPath, known: tuple[Cusp, ...], flat: tuple[Inflect
 
     def change(s: Reals) -> Reals:
         _, v, a, j = point_path.at(s)
-        return np.stack([np.abs(v) ** 2 * cross(v, j) - 3 * cross(v, a) * dot(v, a)])
+        return np.stack([np.abs(v) ** 2 * cross_product(v, j) - 3 * cross_product(v, a) * scalar_product(v, a)])
 
     _, v, a, j = point_path.at(point_path.grid)
     natural = float(np.median(np.abs(v) ** 2 * (np.abs(v) * np.abs(j) + 3 * np.abs(a) ** 2)))
@@ -179,7 +179,7 @@ def vertices(point_path: PointPath, known: tuple[Cusp, ...], flat: tuple[Inflect
             Vertex(
                 _drive(point_path, zero),
                 z[0],
-                float(cross(z[1], z[2]) / abs(z[1]) ** 3),
+                float(cross_product(z[1], z[2]) / abs(z[1]) ** 3),
                 "minimum" if zero.rises else "maximum",
                 zero.at,
             )

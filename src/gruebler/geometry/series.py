@@ -113,7 +113,7 @@ def _conditions(lower: Linkage) -> list[_Condition]:
         if not joint.pair.is_basic:
             raise LinkageError(
                 "a series needs turning and sliding joints; {joint} is neither",
-                joint=chain.joint_names()[number],
+                joint=chain.joint_title(number),
             )
         for other in joint.links[1:]:
             ends = _ends(lower, number, joint.links[0], other)

@@ -357,6 +357,6 @@ class _Planner:
                         conditions += contact_conditions(self.lower, member.pair, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
-                            "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error
+                            "{joint}: {error}", joint=self.chain.joint_title(joint), error=error
                         ) from None
         return tuple(conditions)

@@ -24,7 +24,7 @@ from gruebler.linkages.elements import direction
 from gruebler.linkages.model import NEAR_REFERENCE
 from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism import Drive, Mechanism
-from gruebler.text import message
+from gruebler.text import joined, message
 
 __all__ = [
     "Independent",
@@ -104,7 +104,7 @@ def independent_part(linkage: Linkage) -> Independent:
     forces, locked = _stresses(matrix), _stresses(np.vstack([matrix, drives]))
     freedoms = matrix.shape[1] - len(matrix) + forces.shape[1]
     if freedoms < len(drives):
-        names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
+        names = joined(mechanism.chain.joint_title(k) for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
             "In the given position its joints leave mobility {freedoms}, less than the number of drives "
             "({count}); the drives are blocked by {joints}. `gruebler check --explain` analyses its mobility with "
@@ -192,7 +192,7 @@ class ReferenceConditions:
         residual = self.linearised(x)[0]
         far = np.abs(residual)
         if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < NEAR_REFERENCE:
-            worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
+            worst = self.chain.joint_title(self.rows[int(np.argmax(far))].joint)
             raise LinkageError(
                 "reference pose: the joints are not closed there; {worst} is open by {gap:.1e} of the linkage's size",
                 worst=worst,

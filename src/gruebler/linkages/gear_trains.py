@@ -212,7 +212,7 @@ def train_of(linkage: Linkage) -> Train:
     meshes = []
     for number, (a, b) in round_joints(mechanism, elements).items():
         first, second = elements[number, a], elements[number, b]
-        joint = mechanism.chain.joint_names()[number]
+        joint = mechanism.chain.joint_title(number)
         if isinstance(first, Wheel) and isinstance(second, Wheel) and number in held:
             rolling = mechanism.chain.joints[number].pair.is_rolling
             kind = {"open": "belt", "crossed": "crossed"}.get(first.belt, "friction" if rolling else "gear")
@@ -235,7 +235,7 @@ def _size(wheel: Wheel) -> Fraction:
 def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
     """A rack on the frame or on a slide, with a wheel whose axis is on the frame or on a slide."""
     chain, frame, pose = linkage.mechanism.chain, linkage.mechanism.frame, linkage.required_pose
-    joint = chain.joint_names()[number]
+    joint = chain.joint_title(number)
     a, b = chain.joints[number].links
     if isinstance(linkage.elements[number, a], Line):
         a, b = b, a

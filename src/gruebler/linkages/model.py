@@ -94,7 +94,7 @@ class Linkage:
             for joint, raw in by_joint.items():
                 number = chain.joint_number(joint, LinkageError)
                 if link not in chain.joints[number].links:
-                    raise LinkageError("{joint} is not a joint of {link!r}", joint=names[number], link=link)
+                    raise LinkageError("{joint} is not a joint of {link!r}", joint=chain.joint_title(number), link=link)
                 checked[number, link] = read_element(raw, f"{link}, {names[number]}")
         self._check_joints(mechanism, checked)
         checked = resolve_wheels(mechanism, checked)
@@ -125,7 +125,9 @@ class Linkage:
         for number, joint in enumerate(mechanism.chain.joints):
             for link in joint.links:
                 if (number, link) not in elements:
-                    raise LinkageError("{joint} has no dimensions on {link!r}", joint=names[number], link=link)
+                    raise LinkageError(
+                        "{joint} has no dimensions on {link!r}", joint=mechanism.chain.joint_title(number), link=link
+                    )
             check_elements_fit(joint.pair, names[number], {link: elements[number, link] for link in joint.links})
         if any(isinstance(element, CENTRED) for element in elements.values()):
             return  # shafts on one axis
@@ -139,8 +141,8 @@ class Linkage:
                             "on {link!r} the points of {joint} and {other} coincide: a link needs a length "
                             "(turning joints of several links at one place are written as one, such as R(a-b-c))",
                             link=link,
-                            joint=names[m],
-                            other=names[n],
+                            joint=mechanism.chain.joint_title(m),
+                            other=mechanism.chain.joint_title(n),
                         )
 
     @classmethod
@@ -176,7 +178,7 @@ class Linkage:
         if (number, link) not in self.elements:
             raise LinkageError(
                 "{joint} is not a joint of {link!r}",
-                joint=self.mechanism.chain.joint_names()[number],
+                joint=self.mechanism.chain.joint_title(number),
                 link=link,
             )
         return self.elements[number, link]
@@ -452,28 +454,32 @@ def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) ->
     drawn: dict[tuple[int, str], Element] = {}
     for number, joint in enumerate(chain.joints):
         if number not in given:
-            raise LinkageError("the place of {joint} is missing", joint=names[number])
+            raise LinkageError("the place of {joint} is missing", joint=chain.joint_title(number))
         raw, slot = given[number], None
         if isinstance(raw, Mapping):
             for link in joint.links:
                 if link not in raw:
-                    raise LinkageError("{joint}: the element of {link!r} is missing", joint=names[number], link=link)
+                    raise LinkageError(
+                        "{joint}: the element of {link!r} is missing", joint=chain.joint_title(number), link=link
+                    )
                 drawn[number, link] = read_element(raw[link], f"{link}, {names[number]}")
             continue
         if isinstance(raw, list | tuple) and len(raw) == 4:
             *raw, slot = raw
             if slot not in joint.links:
                 raise LinkageError(
-                    "{joint}: the slot is in one of its links, not in {slot!r}", joint=names[number], slot=slot
+                    "{joint}: the slot is in one of its links, not in {slot!r}",
+                    joint=chain.joint_title(number),
+                    slot=slot,
                 )
         element = read_element(raw, names[number])
         if joint.pair.is_roll_slide and slot is None:
             raise LinkageError(
                 "{joint}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
-                joint=names[number],
+                joint=chain.joint_title(number),
             )
         if isinstance(element, CENTRED):
-            raise LinkageError("{joint}: wheels are given for each of its links", joint=names[number])
+            raise LinkageError("{joint}: wheels are given for each of its links", joint=chain.joint_title(number))
         for link in joint.links:
             drawn[number, link] = Pin(element.x, element.y) if slot not in (None, link) else element
     for (number, link), element in list(drawn.items()):

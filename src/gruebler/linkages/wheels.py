@@ -26,6 +26,7 @@ from gruebler.linkages.elements import (
     Wheel,
 )
 from gruebler.mechanism import Mechanism
+from gruebler.text import Message
 
 __all__ = [
     "Carrier",
@@ -149,7 +150,7 @@ def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, 
             raise LinkageError(
                 "{joint}: tooth numbers without a radius or module need wheels with tooth numbers on both "
                 "links, and a link that carries both centres by pins",
-                joint=mechanism.chain.joint_names()[number],
+                joint=mechanism.chain.joint_title(number),
             )
         for link, wheel in zip(links, wheels, strict=True):
             resolved[number, link] = wheel._replace(radius=held[number].distance * wheel.teeth / abs(teeth))
@@ -160,7 +161,7 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
     """`LinkageError` names the joint whose wheels do not fit together."""
     held = carriers(mechanism, elements)
     for number, links in round_joints(mechanism, elements).items():
-        name = mechanism.chain.joint_names()[number]
+        name = mechanism.chain.joint_title(number)
         joint = mechanism.chain.joints[number]
         if len(joint.links) > 2:
             raise LinkageError("{name}: wheels touch in pairs; write a joint for each two of them", name=name)
@@ -202,7 +203,7 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             )
 
 
-def _check_noncircular(name: str, first: NonCircular, second: NonCircular) -> None:
+def _check_noncircular(name: Message, first: NonCircular, second: NonCircular) -> None:
     if not all(isinstance(wheel.transfer, str) and wheel.transfer.strip() for wheel in (first, second)):
         raise LinkageError(
             "{name}: transfer: expected a text such as 'ellipse 0.5' or 'rise 20 180; fall 20 180'", name=name
@@ -222,7 +223,7 @@ def _reach(elements: Elements, link: str) -> float:
     return max(hypot(e.x, e.y) for (_, owner), e in elements.items() if owner == link)
 
 
-def _check_disc(name: str, disc: Element, other: Element) -> None:
+def _check_disc(name: Message, disc: Element, other: Element) -> None:
     assert isinstance(disc, CamDisc)
     if disc.flat != isinstance(other, Line):
         raise LinkageError(
@@ -238,13 +239,13 @@ def _check_disc(name: str, disc: Element, other: Element) -> None:
         )
 
 
-def _check_rack(name: str, wheel: Element) -> None:
+def _check_rack(name: Message, wheel: Element) -> None:
     assert isinstance(wheel, RoundElement)
     if wheel.radius < 0 or (isinstance(wheel, Wheel) and wheel.belt):
         raise LinkageError("{name}: along a line rolls a wheel of positive radius, without a belt", name=name)
 
 
-def _check_pair(name: str, rolling: bool, first: RoundElement, second: RoundElement) -> None:
+def _check_pair(name: Message, rolling: bool, first: RoundElement, second: RoundElement) -> None:
     low, high = sorted((first.radius, second.radius))
     if high < 0:
         raise LinkageError("{name}: two internal wheels do not touch", name=name)

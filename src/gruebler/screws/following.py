@@ -61,7 +61,7 @@ def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: 
         if not chain.joints[joint].pair.is_basic or chain.joints[joint].count > 1:
             raise LinkageError(
                 "{joint}: only a revolute or prismatic joint of two links is driven",
-                joint=chain.joint_names()[joint],
+                joint=chain.joint_title(joint),
             )
     now, poses = np.array([joint_value(closing, pose, joint) for joint in joints]), []
     for row in values:
@@ -85,7 +85,7 @@ def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals
             return pose
         system = np.vstack([by_twist, *(row(pose) for row in drivers)])
         pose = closing.moved(pose, np.linalg.lstsq(system, np.append(-value, missing), rcond=RANK)[0])
-    names = ", ".join(chain.joint_names()[joint] for joint in joints)
+    names = joined(chain.joint_title(joint) for joint in joints)
     values = joined(message("{value:.6g}", value=float(value)) for value in target)
     raise LinkageError(
         "{joints} does not reach {values}" if len(joints) == 1 else "{joints} do not reach {values}",

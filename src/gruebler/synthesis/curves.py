@@ -27,6 +27,8 @@ from gruebler.text import message
 
 __all__ = ["CurveAtlas", "Fit", "atlas", "fit_curve", "fit_path"]
 
+_STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
+_NEAR = 4e-3  # of the size: if the best of the first come nearer, more are not tried
 _STEPS = 300
 ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
@@ -154,7 +156,7 @@ def fit_curve(
     closed: bool,
     timing: Reals | None = None,
     kinds: tuple[FourBarKind, ...] = (FOUR_BAR, SLIDER_CRANK),
-    starts: int = 40,
+    starts: int | None = None,
     number: int = 6,
 ) -> list[Fit]:
     """The linkages whose coupler curves come nearest to points in the mean, the best first.
@@ -164,15 +166,21 @@ def fit_curve(
         closed: whether the curve returns to its begin.
         timing: (points,) crank angles, of which differences count; without them the crank angle of each point is free.
         kinds: of linkages.
-        starts: how many neighbours of each kind are made better.
+        starts: how many neighbours of each kind are made better; by default 40, and 240 if these do not come near.
         number: how many are returned.
 
-    Cost: 1 s for the atlas at the first call, then about 0.5 s.
+    Cost: 1 s for the atlas at the first call, then about 0.5 s, 2 s for curves that no linkage comes near.
     """
+    if starts is None:
+        first, more = _STARTS
+        fits = fit_curve(z, closed=closed, timing=timing, kinds=kinds, starts=first, number=number)
+        if timing is not None or (fits and fits[0].error < _NEAR):
+            return fits
+        return fit_curve(z, closed=closed, timing=timing, kinds=kinds, starts=more, number=number)
     size = _extent(z)
     middle = z.mean()
     reduced = (z - middle) / size
-    fits: list[Fit] = []
+    fits = []
     for kind in kinds:
         _starts = (
             _neighbours(kind, reduced, closed, starts)

@@ -334,16 +334,16 @@ def _sampled(task: PathTask, demands: Demands, number: int, progress: Progress |
     """
     z = task.z if len(task) > 2 else np.insert(task.z, 1, _between(task.z, 1))
     points = tuple((float(w.real), float(w.imag)) for w in z)
-    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
+    lengths = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
     turns = [sign * np.radians(turn) for turn in _TURNS for sign in (1, -1)]
     designs: list[Design] = []
     real = 0
     for done, turn in enumerate(turns, 1):
-        timing = tuple(float(angle) for angle in turn * way / way[-1])
+        timing = tuple(float(angle) for angle in turn * lengths / lengths[-1])
         few = max(2, number * _SHARES.get(len(task), 1) // 2)
-        found = _timed(PathTask(points, crank_angles=timing, unit=task.unit), demands, few)
-        designs += [*found.designs, *found.rejected]
-        real += found.count.real
+        result = _timed(PathTask(points, crank_angles=timing, unit=task.unit), demands, few)
+        designs += [*result.designs, *result.rejected]
+        real += result.count.real
         if progress is not None:
             progress(done, len(turns))
     note = message(

@@ -84,6 +84,7 @@ p{{margin:0 0 .6rem}}
 figure{{margin:0;text-align:center;break-inside:avoid}}
 figure svg{{max-width:100%;max-height:14rem;height:auto}}
 .wide figure svg{{max-height:22rem}}
+.wide figure:only-child{{grid-column:1/-1;text-align:left}}.wide figure:only-child svg{{max-height:none}}
 figcaption{{font-size:.85rem}}
 code{{display:block;font-size:.62rem;color:{faint[0]};overflow-wrap:anywhere}}
 @media(prefers-color-scheme:dark){{body{{color:{ink[1]};background:{paper[1]}}}code{{color:{faint[1]}}}}}

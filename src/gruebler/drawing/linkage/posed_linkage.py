@@ -191,7 +191,7 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
             continue
         if len(pose):
             return _posed(replace(pose, linkage=linkage))
-    name = mechanism.chain.joint_names()[0]
+    name = mechanism.chain.joint_title(0)
     raise LinkageError("no joint is driven, so there is no pose; name a drive, such as {name}", name=name)
 
 

@@ -80,9 +80,9 @@ def _axes(chain: Chain) -> list[tuple[str, ...]]:
 def _wheels(chain: Chain, axes: Sequence[tuple[str, ...]], links: Sequence[str]) -> _Column:
     """The two wheels of a gear joint on the axes that their carrier has in common."""
     a, b = links
-    for (k, one), (m, other) in combinations(enumerate(axes), 2):
+    for (k, shaft), (m, other_shaft) in combinations(enumerate(axes), 2):
         for first, second in ((a, b), (b, a)):
-            if first in one and second in other and set(one) & set(other) - {a, b}:
+            if first in shaft and second in other_shaft and set(shaft) & set(other_shaft) - {a, b}:
                 return _Column(((first, k), (second, m)), meshes=True)
     raise GrueblerError("the wheels {a} and {b} of {chain} have no common carrier", a=a, b=b, chain=chain)
 
