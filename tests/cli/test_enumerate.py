@@ -224,4 +224,6 @@ def test_graph6_files_are_taken_back(tmp_path, capsys):
 def test_an_empty_list_gives_its_reason(capfd, links, mobility, why):
     status, out, err = run(capfd, "enumerate", "--links", links, "--mobility", mobility)
     assert (status, out, err) == (0, "", f"gruebler enumerate: {why}\n")
+    status, out, err = run(capfd, "enumerate", "--links", links, "--mobility", mobility, "--count")
+    assert (status, out, err) == (0, "chains: 0\n", f"gruebler enumerate: {why}\n")
     assert json.loads(run(capfd, "enumerate", "--links", links, "--mobility", mobility, "--json")[1]) == []

@@ -2,6 +2,7 @@
 
 import pytest
 
+from gruebler.cli import main
 from gruebler.cli.commands import FORMER, command, command_names
 from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
@@ -13,6 +14,7 @@ def parser():
     parser.add_out(help="a picture")
     parser.add_argument("--at")
     parser.add_argument("--links", type=int)
+    parser.add_argument("--size", type=float)
     parser.replaced("--pose", "--at")
     return parser
 
@@ -26,6 +28,8 @@ def parser():
         (["--pose", "--links", "4"], "--pose is now --at"),
         (["--output", "x.svg"], "--output x.svg is now --out x.svg"),
         (["--links", "four"], "argument --links: expected a whole number, but found 'four'"),
+        (["--size", "1,2"], "argument --size: expected a number with a decimal point, but found '1,2'"),
+        (["--size", "1,2,3"], "argument --size: expected a number, but found '1,2,3'"),
     ],
 )
 def test_a_former_spelling_is_answered_by_the_present_one(parser, words, answer, capsys):
@@ -41,6 +45,17 @@ def test_an_option_with_a_new_meaning_answers_only_its_former_values(parser, cap
     with pytest.raises(SystemExit):
         parser.parse_args(["--output", "crank.svg"])
     assert "--output crank.svg is now --out crank.svg" in capsys.readouterr().err
+
+
+def test_a_value_of_another_kind_is_not_answered_by_the_present_name(capsys):
+    with pytest.raises(SystemExit):
+        main(["analyse", "four-bar:2,5,4,5", "--drive", "0:360:30"])
+    assert "--drive 0:360:30 is now --range 0:360:30" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["analyse", "four-bar:2,5,4,5", "--drive", "coupler"])
+    answer = capsys.readouterr().err
+    assert "is now" not in answer
+    assert "unknown arguments: --drive coupler" in answer
 
 
 def test_after_two_dashes_nothing_is_an_option(parser):

@@ -133,7 +133,7 @@ def test_dead_centres_in_german(capsys):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["dead-centres", "--swing", "60", "--crank-angle", "110"], "between 120 and 300 degrees"),
+        (["dead-centres", "--swing", "60", "--crank-angle", "110"], "more than 120 and less than 300 degrees"),
         (["dead-centres"], "expected one of swing and stroke"),
         (["function", "log10(x", "--interval", "1", "2", "--swings", "60", "60"], "cannot be read"),
         (["function", "log10(x)"], "needs --interval"),

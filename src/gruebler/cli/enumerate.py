@@ -210,6 +210,8 @@ def _count(
         print_json(document)
     else:
         _print_count(count, request, arguments.lang)
+        if not count.chains:
+            _say_none(request, arguments.lang)
     return 0
 
 

@@ -38,7 +38,7 @@ _ROWS = {
     "wheel": (message("wheel radius at the slot's mouth"), ""),
     "slot_end": (message("least distance of the pin from the wheel's axis"), ""),
     "locking_arc_deg": (message("locking arc of the driver"), "°"),
-    "greatest_speed": (message("greatest wheel speed"), ""),
+    "greatest_speed": (message("greatest wheel speed"), " 1/min"),
     "greatest_acceleration_rad_s2": (message("greatest acceleration"), " rad/s²"),
     "entry_acceleration_rad_s2": (message("jump of the acceleration at start and stop"), " rad/s²"),
     "dwell_s": (message("dwell time"), " s"),

@@ -62,6 +62,7 @@ _PLACEHOLDERS = {
 }
 """What stands for a value in the list of options."""
 _NAMES_A_LINK = re.compile(r"\b(LINK|JOINT|POINT)\b")
+_DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+")
 _KINDS = {int: message("a whole number"), float: message("a number")}
 
 
@@ -136,9 +137,9 @@ class Parser(argparse.ArgumentParser):
         """Answer an option that has another name now by the new name.
 
         Args:
-            old: Its former name. If an option has this name today, only values of the former kind are answered.
+            old: Its former name.
             new: What to write instead.
-            like: A regular expression for the former values.
+            like: A regular expression for the former values; only these are answered.
         """
         self._replaced[old] = (new, like)
 
@@ -160,7 +161,7 @@ class Parser(argparse.ArgumentParser):
                 continue
             new, like = self._replaced[option]
             value = value if equals else "" if following.startswith("--") else following
-            if option not in self._option_string_actions or re.fullmatch(like, value):
+            if re.fullmatch(like, value):
                 sign = "=" if equals else " " * bool(value)
                 self.error(
                     translate("{old} is now {new}", self.lang, old=f"{option}{sign}{value}", new=f"{new}{sign}{value}")
@@ -175,6 +176,8 @@ class Parser(argparse.ArgumentParser):
             kind = _KINDS.get(action.type)  # type: ignore[call-overload]  # whatever the type is
             if kind is None:
                 raise
+            if action.type is float and _DECIMAL_COMMA.fullmatch(arg_string):
+                kind = message("a number with a decimal point")
             text = translate("expected {kind}, but found {found!r}", self.lang, kind=kind, found=arg_string)
             raise argparse.ArgumentError(action, text) from None
 

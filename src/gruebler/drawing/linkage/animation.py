@@ -22,7 +22,7 @@ from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
-from gruebler.text import translate
+from gruebler.text import plural, translate
 
 __all__ = ["AnimationOptions", "Scene", "animated_svg", "scene", "svg_of"]
 
@@ -99,10 +99,12 @@ def scene(
     curve = [shape for point in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, point)]
     still = tuple(curve)
     corner, size = bounds([*poses, *still], MARGIN)
-    moves = translate(
-        "It moves through {turns} turn(s) of its drive." if posed.repeats else "It moves to and fro through its range.",
-        lang,
-        turns=turns,
+    moves = (
+        plural(
+            "It moves through {count} turn of its drive.", "It moves through {count} turns of its drive.", turns, lang
+        )
+        if posed.repeats
+        else translate("It moves to and fro through its range.", lang)
     )
     described = f"{describe(linkage.mechanism, lang)} {moves}"
     page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
