@@ -171,7 +171,7 @@ REFUSED = [
         ["winch_screw"],
         "the screws of its joints in one position, not the dimensions of its links: `gruebler check winch_screw",
     ),
-    (["R(0-1) R(1-2) R(2-0)"], "has no dimensions; give a file"),
+    (["R(0-1) R(1-2) R(2-0)"], "has no dimensions, which `gruebler realise` finds; give a file"),
     (["none.toml"], "none.toml: cannot be read"),
     ([__file__], "a linkage is in a .toml or .json file"),
     ([CRANK_ROCKER, "--output", "rokcer"], "did you mean 'rocker'?"),
@@ -209,7 +209,7 @@ def test_who_turns_fully_is_told(capsys):
 def test_a_linkage_with_one_position_says_so_in_both_languages(capsys):
     assert run(capsys, "four-bar:10,20,30,60")[:2] == (
         1,
-        "The drive cannot move: all that can be assembled is one position, drive = 0°.\n",
+        "The drive cannot move: the linkage can be assembled in one position only, drive = 0°.\n",
     )
     assert run(capsys, "four-bar:10,20,30,60", "--lang", "de")[1].startswith("Der Antrieb ist unbeweglich: ")
 

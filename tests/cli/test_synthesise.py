@@ -2,10 +2,12 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from gruebler.cli import main
 from gruebler.formats import read_linkage
+from gruebler.kinematics import move
 from gruebler.synthesis import task_from_json
 from gruebler.synthesis.positions import guiding_dyads
 
@@ -88,14 +90,29 @@ def test_a_region_without_designs_is_status_1_with_the_reason(five, capsys):
 def test_an_expression_and_its_minimax_optimum(capsys):
     words = ["synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60", "--minimax"]
     assert main(words) == 0
-    assert "Minimax optimum: largest error 0.0036" in capsys.readouterr().out
+    assert "Minimax optimum, which -o writes: largest error 0.0036" in capsys.readouterr().out
+
+
+def test_the_file_holds_the_minimax_optimum(tmp_path, capsys):
+    path = tmp_path / "best.toml"
+    words = ["synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60", "--minimax"]
+    assert main([*words, "-o", str(path)]) == 0
+    out = capsys.readouterr().out
+    linkage = read_linkage(path)
+    length = linkage.length("crank", "R(frame-crank)", "R(crank-coupler)")
+    assert f"a = {length:.6g}, b = " in out
+    x = np.linspace(1, 2, 201)
+    begin = linkage.reference_pose["crank"].angle
+    rocker = move(linkage, begin + np.radians(60) * (x - 1)).angle("rocker")
+    error = np.degrees(rocker) - 60 * np.log10(x) / np.log10(2)
+    assert np.ptp(error) / 2 == pytest.approx(0.0036657, rel=2e-3)  # as printed, from fewer values of x
 
 
 def test_a_function_file_gives_the_same_optimum(tmp_path, capsys):
     path = tmp_path / "log.toml"
     path.write_text('function = "log10(x)"\ninterval = [1, 2]\ninput_swing = 60\noutput_swing = 60\n', encoding="utf-8")
     assert main(["synthesise", "function", str(path), "--minimax"]) == 0
-    assert "Minimax optimum: largest error 0.0036" in capsys.readouterr().out
+    assert "Minimax optimum, which -o writes: largest error 0.0036" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("options", ["--swing 60 --crank-angle 200", "--stroke 50 --time-ratio 1"])

@@ -240,7 +240,7 @@ def without_arm():
         (lambda: pair(HARMONIC.replace("20", "120")), "it must be positive everywhere"),
         (lambda: pair("rise 90 90; dwell 90; fall 90 90; dwell"), "it must be positive everywhere"),
         (lambda: pair("rise 20 180 linear; fall 20 180 linear"), "the ratio jumps by"),
-        (lambda: pair("rise 20 180; dwell"), "ends where it began"),
+        (lambda: pair("rise 20 180; dwell"), "must end where it began"),
         (lambda: pair("ellipse 0.5", (2, 1)), "curve does not close: with a mean ratio of 2 .* every 180°"),
         (lambda: pair(WAVES, (20, 30)), "curve does not close: with a mean ratio of 2/3"),
         (lambda: pair("ellipse 0", (101, 103)), "numbers up to 100, not 101/103"),

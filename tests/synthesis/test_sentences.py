@@ -113,6 +113,9 @@ def test_a_region_without_solutions_gives_the_reason_in_each_language():
     rows = [(*p, a) for p, a in zip(motion.point("P"), motion.angle("coupler"), strict=True)]
     result = synthesise(PositionTask(rows), demands=Demands(region=(10, 10, 20, 20)))
     assert not result.designs
+    (design,) = result.rejected
+    assert [reason.in_language("en") for reason in design.verdict.reasons] == ["a fixed pivot lies outside the region"]
+    assert said(result)["de"].endswith("ein Gestellgelenk liegt außerhalb des Gebiets")
     reasons = {"en": "a fixed pivot lies outside the region", "de": "ein Gestellgelenk liegt außerhalb des Gebiets"}
     assert {lang: text.endswith(reasons[lang]) for lang, text in said(result).items()} == {"en": True, "de": True}
 

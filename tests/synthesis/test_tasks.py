@@ -65,6 +65,15 @@ def test_files_give_the_task_back(tmp_path_factory, task, form):
     assert task_from_json(task_to_json(task)) == task
 
 
+def test_a_csv_file_with_semicolons_has_decimal_commas(tmp_path):
+    commas, points = tmp_path / "commas.csv", tmp_path / "points.csv"
+    commas.write_text("\ufeffx;y;angle\n0,0;0,0;0,0\n1,0;0,5;20\n2;-0,4;4,5e1\n", encoding="utf-8")
+    points.write_text("x,y,angle\n0,0,0\n1,0.5,20\n2,-0.4,45\n", encoding="utf-8")
+    assert read_task(commas) == read_task(points)
+    commas.write_text("1,5;2\n2,5;3\n", encoding="utf-8")
+    assert read_task(commas).points == ((1.5, 2.0), (2.5, 3.0))
+
+
 def test_a_csv_file_without_a_header_is_points_or_positions(tmp_path):
     """Two columns are points, three positions; an empty angle is free."""
     for text, header in (

@@ -55,7 +55,7 @@ def space_of(name: str | Space) -> Space:
 def read_joints(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple[Pair, tuple[str, ...]]]]:
     """The space and the joints (pair, link names) that a text describes, in its order.
 
-    >>> read("R(0-1) R(1-2) R(2-0)")[1][0]
+    >>> read_joints("R(0-1) R(1-2) R(2-0)")[1][0]
     (<pair revolute>, ('0', '1'))
 
     Raises `NotationError` with the position of the first error, `PairError` for an unsuitable symbol.
@@ -229,7 +229,7 @@ def write_joints(
 ) -> str:
     """The text of these joints, such that `read` gives them back.
 
-    >>> write(*read("D(0-1) D(1-2) S(2-0)"))
+    >>> write_joints(*read_joints("D(0-1) D(1-2) S(2-0)"))
     'R(0-1) R(1-2) P(2-0)'
     """
     symbols = symbols_for((pair for pair, _ in joints), space, alphabet)

@@ -57,7 +57,7 @@ def add(parser: Parser) -> None:
     show = parser.add_command("show", help="show a task without its solution")
     solve = parser.add_command(
         "solve",
-        help="solve a task step by step, checked by a second method; -o also .pdf, .html, .tex, .md with figures",
+        help="solve a task step by step, checked by a second method",
     )
     for action in (show, solve):
         action.add_argument(
@@ -96,8 +96,12 @@ def add(parser: Parser) -> None:
     sheet.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the first task (default: 0)")
     sheet.add_argument("--count", type=int, default=6, metavar="K", help="number of tasks (default: 6)")
     sheet.add_out(help="the sheet: .pdf, .html, .tex or .md", required=True, endings=("pdf", "html", "tex", "md"))
-    for action in (listing, show, solve, new, check):
+    for action in (listing, show, new, check):
         action.add_printed(help="print JSON, with texts in both languages")
+    solve.add_argument("--json", action="store_true", help="print JSON, with texts in both languages")
+    solve.add_out(
+        help="write into a file instead: with figures .pdf, .html, .tex or .md; as text .txt, or .json as with --json"
+    )
     solve.set_defaults(written=_DOCUMENTS)
 
 

@@ -32,9 +32,9 @@ def add(parser: Parser) -> None:
         "linkage",
         nargs="?",
         default="crankrocker",
-        metavar="FILE|ID|CHAIN|LENGTHS|LINK",
-        help="a file, a catalog entry, a chain or mechanism as text, lengths such as four-bar:25,70,40,70, or a link "
-        "copied from the page (default: crankrocker)",
+        metavar="FILE|ID|CHAIN|LENGTHS|ADDRESS",
+        help="a file, a catalog entry, a chain or mechanism as text, lengths such as four-bar:25,70,40,70, or an "
+        "address copied from the page (default: crankrocker)",
     )
     parser.add_out(help="one file .html instead of a server", endings=("html", "htm"))
     parser.add_argument("--port", type=int, metavar="N", help="the port (default: 8117, or any free one)")

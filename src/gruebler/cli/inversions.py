@@ -55,7 +55,11 @@ def add(parser: Parser) -> None:
     parser.replaced("--output", "--with-output")
     parser.add_argument("--text", action="store_true", help="one mechanism per line, as other commands read it")
     parser.add_argument("--count", action="store_true", help="print only the number")
-    parser.add_printed(help="print an object with count and items")
+    parser.add_argument("--json", action="store_true", help="print an object with count and items")
+    parser.add_out(
+        help="write into a file instead: every inversion drawn to scale, .html or .pdf; or what is printed: .txt, or "
+        ".json as with --json"
+    )
     parser.set_defaults(written=_PICTURES)
 
 

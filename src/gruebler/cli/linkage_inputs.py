@@ -104,7 +104,7 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
 
     The links of lengths and of catalog entries have their names in the language.
 
-    >>> linkage_of("slider-crank:25,70")[0].length("coupler", 1, 2)
+    >>> linkage_of_word("slider-crank:25,70")[0].length("coupler", 1, 2)
     70.0
     """
     if (size := size_of(word)) is not None:
@@ -122,7 +122,9 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
         return read_linkage(path), None
     if "(" in word:
         raise GrueblerError(
-            "{word!r} has no dimensions; give a file, a catalog entry or {forms}", word=word[:40], forms=_forms()
+            "{word!r} has no dimensions, which `gruebler realise` finds; give a file, a catalog entry or {forms}",
+            word=word[:40],
+            forms=_forms(),
         )
     from gruebler.catalog import entries, entry
     from gruebler.errors import nearest

@@ -56,6 +56,8 @@ _PLACEHOLDERS = {
         message("RPM"),
         message("ACTION"),
         message("DIR"),
+        message("ADDRESS"),
+        message("KIND"),
     )
 }
 """What stands for a value in the list of options."""

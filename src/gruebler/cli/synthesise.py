@@ -36,7 +36,7 @@ from gruebler.synthesis import (
 )
 from gruebler.synthesis.results import FITTED, in_order_of
 from gruebler.synthesis.structural_error import Minimax
-from gruebler.text import joined, message, number, numbers, plural, translate
+from gruebler.text import joined, message, number, plural, translate
 
 __all__ = ["add", "run"]
 
@@ -125,7 +125,7 @@ def add(parser: Parser) -> None:
     )
     function.add_argument("--points", type=int, default=5, metavar="N", help="number of precision points (default: 5)")
     function.add_argument("--travel", action="store_true", help="the output is a slider")
-    function.add_argument("--minimax", action="store_true", help="minimise the largest error")
+    function.add_argument("--minimax", action="store_true", help="minimise the largest error; -o writes that linkage")
     path = parser.add_command(
         "path",
         help="guide a coupler point through points or along a curve",
@@ -206,7 +206,7 @@ def run(arguments: argparse.Namespace) -> int:
     best = result.designs[0] if result.designs else None
     optimum = _minimax(result) if arguments.action == "function" and arguments.minimax else None
     if best is not None and arguments.out is not None:
-        write_linkage(arguments.out, best.linkage)
+        write_linkage(arguments.out, best.linkage if optimum is None else optimum.linkage(task.unit))
         say_written(arguments.out, arguments.lang)
     if result.designs and arguments.draw is not None:
         _draw(arguments.draw, result, arguments.lang)
@@ -468,6 +468,7 @@ def _minimax(result: SynthesisResult) -> Minimax:
 
 def _print_optimum(optimum: Minimax, lang: str) -> None:
     solution = optimum.solution
+    names = "abcd" if solution.kind == "four-bar" else "abe"
 
     def output(value: float) -> str:
         turns = solution.kind == "four-bar"
@@ -475,12 +476,14 @@ def _print_optimum(optimum: Minimax, lang: str) -> None:
 
     print(
         translate(
-            "Minimax optimum: largest error {error} (before: {start}); lengths {lengths}; input from {phi:.6g}°, "
-            "output from {psi}.",
+            "Minimax optimum, which -o writes: largest error {error} (before: {start}); {lengths}; input from "
+            "{phi:.6g}°, output from {psi}.",
             lang,
             error=output(optimum.error),
             start=output(optimum.start_error),
-            lengths=numbers(solution.lengths, lang),
+            lengths=", ".join(
+                f"{name} = {number(length, lang, '.6g')}" for name, length in zip(names, solution.lengths, strict=True)
+            ),
             phi=degrees(solution.input_start),
             psi=output(solution.output_start),
         )

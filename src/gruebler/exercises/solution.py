@@ -142,7 +142,7 @@ class Solution(Brief):
 def formula_number(value: float) -> str:
     """A number with up to six digits, as people write it in a formula.
 
-    >>> number(40.0), number(78.46304096718453), number(-1e-14), number(2024475.3)
+    >>> formula_number(40.0), formula_number(78.46304096718453), formula_number(-1e-14), formula_number(2024475.3)
     ('40', '78.463', '0', '2024475')
     """
     if abs(value) < 5e-10:
@@ -151,7 +151,7 @@ def formula_number(value: float) -> str:
 
 
 def figure(value: float) -> Message:
-    """The number of `number` for a text, with the decimal sign of its language.
+    """The number of `formula_number` for a text, with the decimal sign of its language.
 
     >>> figure(78.46304096718453).in_language("de")
     '78,463'

@@ -99,8 +99,14 @@ def with_values(exercise: Exercise, values: Mapping[str, float | str]) -> Exerci
         for other in set().union(*(group for group in _ALTERNATIVES if key in group)) - {key, *values}:
             given.pop(other, None)
         given[key] = _number(key, value) if "float" in str(parameters[key].annotation) else value
-    shown = {key: figure(value) if isinstance(value, float | int) else value for key, value in given.items()}
-    changed = joined([message("{name} = {value}", name=key, value=value) for key, value in shown.items()], ", ")
+    shown = [(key, given[key]) for key in values]
+    changed = joined(
+        [
+            message("{name} = {value}", name=key, value=value if isinstance(value, str) else figure(value))
+            for key, value in shown
+        ],
+        ", ",
+    )
     task = message("{task} Here with other values: {values}.", task=exercise.task, values=changed)
     asked = tuple(Question(question.key) for question in exercise.asked)
     return Exercise(

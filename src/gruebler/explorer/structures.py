@@ -26,7 +26,7 @@ _MOST_DRIVEN = 60
 def mechanism_of_text(text: str) -> Mechanism:
     """The mechanism of a text; of a chain alone the one whose frame is its first link, without drives.
 
-    >>> mechanism_of("R(0-1) R(1-2) R(2-0)").frame
+    >>> mechanism_of_text("R(0-1) R(1-2) R(2-0)").frame
     '0'
     """
     return Mechanism.parse(text)

@@ -96,7 +96,7 @@ def linkage_of_drawing(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
     >>> pins = [("a", 0, 0, "frame crank"), ("b", 0, 2, "crank rod"), ("c", 6, 4, "rod rocker"),
     ...         ("d", 6, 0, "frame rocker"), ("pen", 3, 5, "rod")]
     >>> joints = tuple(DrawnJoint(name, x, y, tuple(links.split())) for name, x, y, links in pins)
-    >>> linkage = linkage_of(PinDrawing("frame", joints, (DrawnDrive("a", "frame", "crank"),)), [])
+    >>> linkage = linkage_of_drawing(PinDrawing("frame", joints, (DrawnDrive("a", "frame", "crank"),)), [])
     >>> round(linkage.length("rod", "R(crank-rod)", "R(rod-rocker)"), 9), list(linkage.points)
     (6.32455532, ['pen'])
     """

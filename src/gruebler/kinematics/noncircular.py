@@ -28,7 +28,7 @@ _LOBES = 100  # equal parts of a curve: each has 36 points or more
 class WheelTransfer(NamedTuple):
     """The turn of the second wheel by that of the first, in opposite senses, both from the line of centres.
 
-    >>> pair = Transfer(Fraction(1), kappa=0.5)
+    >>> pair = WheelTransfer(Fraction(1), kappa=0.5)
     >>> pair.ratio([0.0, pi]).round(12).tolist()
     [3.0, 0.333333333333]
     """

@@ -76,7 +76,7 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
         if not low < task.angle < high:
             raise SynthesisError(
                 "no crank-rocker swings by {swing:g} degrees with the dead centres {angle:g} degrees apart: the "
-                "crank angle lies between {low:g} and {high:g} degrees",
+                "crank angle is more than {low:g} and less than {high:g} degrees",
                 swing=degrees(task.swing),
                 angle=degrees(task.angle),
                 low=degrees(low),
@@ -84,8 +84,8 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
             )
     elif not pi / 2 < task.angle < 3 * pi / 2:
         raise SynthesisError(
-            "no slider-crank has its dead centres {angle:g} degrees apart: the crank angle lies between 90 "
-            "and 270 degrees",
+            "no slider-crank has its dead centres {angle:g} degrees apart: the crank angle is more "
+            "than 90 and less than 270 degrees",
             angle=degrees(task.angle),
         )
     grid = _parameters(task)

@@ -14,6 +14,8 @@ from numpy.typing import ArrayLike
 
 from gruebler.arrays import Reals
 from gruebler.errors import SynthesisError
+from gruebler.kinematics import move
+from gruebler.linkages import Linkage
 from gruebler.synthesis.coordination import Coordination
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.results import Design
@@ -87,6 +89,13 @@ class Minimax(NamedTuple):
     """The largest structural error, in radians or the unit of the travel."""
     start_error: float
     """The same of the linkage from which the search began."""
+
+    def linkage(self, unit: str = "mm") -> Linkage:
+        """The linkage in the position where the interval begins, on its branch."""
+        solution = self.solution
+        own = solution.linkage().linkage(unit=unit)
+        start = move(own, [solution.input_start], branch="+" if solution.branch > 0 else "-")
+        return own.with_reference_pose(start.pose(0))
 
 
 def minimax(start: Coordination, law: FunctionLaw, *, samples: int = 121, steps: int = 60) -> Minimax:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -217,7 +217,7 @@ def read_task(path: Path | str) -> Task:
     The columns of a CSV file say what it is: ``x,y,angle`` positions (an empty angle is free: a mixed task), ``x,y``
     points, ``x,y,crank`` points with crank angles, ``input,output`` or ``input,travel`` a function, ``swing`` or
     ``stroke`` with ``crank_angle`` or ``time_ratio`` dead centres. Without a header two columns are points, three
-    positions.
+    positions. With semicolons between the columns a comma is the decimal sign.
 
     Raises `SynthesisError` with file and key or line of the first thing that does not fit.
     """
@@ -243,8 +243,11 @@ def _text(path: Path) -> str:
 
 
 def _from_csv(text: str) -> Task:
+    rows: Iterable[list[str]] = csv.reader(io.StringIO(text))
+    if ";" in text.partition("\n")[0]:  # as spreadsheets write where the comma is the decimal sign
+        rows = ([cell.replace(",", ".") for cell in row] for row in csv.reader(io.StringIO(text), delimiter=";"))
     try:
-        lines = [row for row in csv.reader(io.StringIO(text)) if any(cell.strip() for cell in row)]
+        lines = [row for row in rows if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise SynthesisError("is not a table: {reason}", reason=error) from None
     if not lines:

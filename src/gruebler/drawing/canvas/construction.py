@@ -136,7 +136,7 @@ class Construction(Brief):
     >>> whole = Construction(message("A middle"), (
     ...     ConstructionStep(message("Two points are given."), (Dot(0j, "A"), Dot(4 + 0j, "B"))),
     ...     ConstructionStep(message("The circles about them meet above and below the middle."),
-    ...                      (Circle(0j, 3), Circle(4 + 0j, 3)))), {"middle": 2.0})
+    ...                      (DrawnCircle(0j, 3), DrawnCircle(4 + 0j, 3)))), {"middle": 2.0})
     >>> len(whole.figures()), whole.values["middle"]
     (2, 2.0)
     """

@@ -103,7 +103,8 @@ def draw_panels(panels: Sequence[Panel], title: str, description: str, lang: str
     """The figure of panels one below the other; all lines with a name are listed on the right.
 
     >>> x = np.linspace(0, 360, 100)
-    >>> panel = Panel(Axis("x", angles(0, 360)), Axis("y", decimals(-1, 1)), (Curve(x, np.sin(x), "", "line-1"),))
+    >>> sine = PlottedCurve(x, np.sin(x), "", "line-1")
+    >>> panel = Panel(Axis("x", angles(0, 360)), Axis("y", decimals(-1, 1)), (sine,))
     >>> draw_panels([panel], "sine", "A wave.").title
     'sine'
     """

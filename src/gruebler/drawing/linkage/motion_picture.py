@@ -32,8 +32,8 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
     >>> from gruebler.kinematics import from_degrees, move
     >>> from gruebler.fourbar import FourBar
     >>> motion = move(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), from_degrees(0, 90, 5))
-    >>> draw_motion(motion).description[-39:]
-    'A motion of 19 poses; 5 of them thinly.'
+    >>> draw_motion(motion).description[-46:]
+    'A motion of 19 poses; 5 of them in thin lines.'
     """
     mechanism = motion.linkage.mechanism
     about = describe(mechanism, lang)

@@ -87,7 +87,7 @@ def draw_structure(
 
     Raises `gruebler.errors.ChainError` for an output that is no link.
 
-    >>> picture = draw(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"))
+    >>> picture = draw_structure(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"))
     >>> len(picture.svg()) < 5000
     True
     """
