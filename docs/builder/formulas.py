@@ -17,7 +17,7 @@ _UPRIGHT = {"Re", "Im", "mod", "rank", "conj", "sign", "atan2", "arcsin", "arcco
 _GREEK = {"alpha", "beta", "gamma", "delta", "kappa", "lambda", "phi", "psi", "rho", "sigma", "theta"}
 _SMALL = {"at", "by", "if", "in", "is", "of", "on", "or", "to"}
 _TOKEN = re.compile(
-    r"(?P<gap> {2,})|(?P<space> )|(?P<raised>[⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁽⁾ᵏⁿⁱ]+)|(?P<lowered>[₀₁₂₃₄₅₆₇₈₉₊₋ᵢⱼₖₙ]+)"
+    r"(?P<gap> {2,})|(?P<space> )|(?P<raised>[⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁽⁾ᵏⁿⁱʲᵐ]+)|(?P<lowered>[₀₁₂₃₄₅₆₇₈₉₊₋ᵢⱼₖₙ]+)"
     r"|(?P<number>\d+(?:\.\d+)?)"
     r"|(?P<word>atan2|[A-Za-zäöüß]{2,}(?:-[A-Za-z]+)*)|(?P<script>[\^_](?:\{[^{}]*\}|\([^()]*\)|-?[A-Za-z0-9α-ω]+|[-+*]))"
     r"|(?P<sign>.)"
@@ -51,6 +51,8 @@ _SCRIPT = re.compile(
     r"|(?<=\b[A-Za-zΑ-ω])_(?:\{(?P<below>[^{}]*)\}|(?P<letters>[A-Za-z0-9]{1,3})\b)"
 )
 _NO_FORMULA = re.compile(r'"|gruebler|--|\$|://|\[\w+\]|->| # ')
+_IS_CODE = re.compile(r'["\[\]{}]|--|_[A-Za-z]{3,}|[A-Za-z]{2}_')
+_IS_FORMULA = re.compile(r"^[a-z]'?$|[=^_√\u0391-\u03c9\u00b2\u00b3\u2080-\u2089]")
 _HAS_RELATION = re.compile(r"[=≤≥<>≡∈⊂→]")
 
 
@@ -106,12 +108,31 @@ def _is_text(word: str) -> bool:
     )
 
 
+def is_formula(code: str) -> bool:
+    """Whether what stands between backticks is a formula, and no name, file or option.
+
+    >>> [is_formula(text) for text in ("P_jk", "ω = θ'", "t = e^{iθ}", "q")]
+    [True, True, True, True]
+    >>> [is_formula(text) for text in ("R", "left_out", "flat = true", "{ at, teeth = z }", 'belt = "open"', "-o")]
+    [False, False, False, False, False, False]
+    """
+    bare = re.sub(r"[_^]\{[^{}]*\}", "", code)
+    if _IS_CODE.search(bare):
+        return False
+    words = set(re.findall(r"[A-Za-z]{3,}", re.sub(r"[_^]\w+", "", bare)))
+    return words <= _FUNCTIONS | _UPRIGHT | _GREEK and bool(_IS_FORMULA.search(code))
+
+
 def _typeset(app: Any, tree: nodes.document, page: str) -> None:
-    """Replace the indented blocks of theory pages that are formulas."""
+    """Replace the formulas of theory pages, in running text and as indented blocks."""
     del app
     if not page.startswith("theory/"):
         return
     _set_scripts(tree)
+    for code in list(tree.findall(nodes.literal)):
+        formula = latex_of(code.astext()) if is_formula(code.astext()) else None
+        if formula and _parses(formula) and not isinstance(code.parent, nodes.title):
+            code.replace_self(nodes.math(formula, formula))
     for block in list(tree.findall(nodes.literal_block)):
         if block.get("language", "none") not in {"none", "default", "text"}:
             continue
