@@ -88,7 +88,9 @@ def exact_number(value: object, what: str | Message) -> Fraction:
             return Fraction(str(value))
     except (ValueError, ZeroDivisionError):
         pass
-    raise GearError("{what}: expected a finite number such as 24, 12.5 or 7/2, not {value!r}", what=what, value=value)
+    raise GearError(
+        "{what}: expected a number such as 24, 12.5 or 7/2, without exponent, not {value!r}", what=what, value=value
+    )
 
 
 @dataclass(frozen=True, slots=True)

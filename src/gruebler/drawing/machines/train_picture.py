@@ -103,7 +103,7 @@ def animate_train(
     >>> from gruebler.gears import read_train
     >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
     >>> animate_train(train, {"sun": 7, "ring": 0}).page.description.partition("everything ")[2]
-    'repeats: sun 21 turn(s), planet -14 turn(s), arm 6 turn(s), ring 0 turn(s).'
+    'repeats: sun 21, planet -14, arm 6, ring 0.'
     """
     shown = gear_stages(train, planets or {})
     motion = train_motion(train, drives or {}, always(seconds), most)
@@ -134,18 +134,21 @@ def _cycle(motion: TrainMotion, lang: str) -> str:
     def turns(link: str, time: Fraction) -> str:
         if link in motion.slides:
             return translate("{link} moves", lang, link=link)
-        return translate(
-            "{link} {turns} turn(s)", lang, link=link, turns=fraction_text(motion.rates[link] * time, lang)
-        )
+        return f"{link} {fraction_text(motion.rates[link] * time, lang)}"
 
     shown = ", ".join(turns(link, motion.time) for link in motion.rates)
     if motion.slides:
-        return translate("To and fro: {turns}.", lang, turns=shown)
+        return translate("Turns to and fro: {turns}.", lang, turns=shown)
     if motion.time != motion.cycle:
         whole = fraction_text(abs(motion.rates[motion.drive]) * motion.cycle, lang)
-        cycle = translate("{link} {turns} turn(s)", lang, link=motion.drive, turns=whole)
-        return translate("It repeats only after {cycle}; shown: {turns}.", lang, cycle=cycle, turns=shown)
-    return translate("Until everything repeats: {turns}.", lang, turns=shown)
+        return translate(
+            "It repeats only after {whole} turns of {link}; turns shown: {turns}.",
+            lang,
+            whole=whole,
+            link=motion.drive,
+            turns=shown,
+        )
+    return translate("Turns until everything repeats: {turns}.", lang, turns=shown)
 
 
 def _bodies(shown: list[GearStage], motion: TrainMotion | None, teeth: bool, lang: str) -> list[Body]:
