@@ -155,6 +155,10 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["check", "--lang", "fr"], "invalid choice"),
         (["check", "--nonsense"], "unknown arguments: --nonsense"),
         (["check", "--explian", "vcomp"], "did you mean '--explain'?"),
+        (
+            ["exercise", "sheet", "--kind", "mobility", "-o", "x.pdf", "--solutions"],
+            "unknown arguments: --solutions (see",
+        ),
         (["chek"], "there is no command 'chek' (did you mean 'check'?); see gruebler --help"),
         (["help", "chek"], "did you mean 'check'?"),
         (["catalog", "sho"], "did you mean 'show'?"),

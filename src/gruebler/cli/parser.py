@@ -185,8 +185,10 @@ class Parser(argparse.ArgumentParser):
         """As argparse; an unknown option is answered by the nearest known one."""
         arguments, unknown = self.parse_known_args(args, namespace)
         if unknown:
+            option = unknown[0].partition("=")[0]
             known = [option for parser in self._all() for option in parser._option_string_actions]
-            suggestion = nearest(unknown[0].partition("=")[0], known) if unknown[0].startswith("-") else ""
+            guess = option.startswith("-") and option not in known  # one of another action is known
+            suggestion = nearest(option, known) if guess else ""
             self.error(
                 translate(
                     "unknown arguments: {arguments}{suggestion}",
