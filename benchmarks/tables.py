@@ -15,6 +15,7 @@ from time import perf_counter
 import gruebler as gr
 from gruebler.assur import count_assur_groups
 from gruebler.enumeration import Request, count_simple_chains
+from gruebler.enumeration.worker_pool import ProcessPools
 from gruebler.type_synthesis import count_sliding_variants
 
 FOLDER = Path(__file__).parents[1] / "docs" / "tables"
@@ -43,9 +44,9 @@ def assur_groups(most: int | None = None) -> Rows:
 def sliding(most: int | None = None) -> Rows:
     """Typed chains by the number of sliding joints, all other joints turning, all joints moving."""
     yield "mobility", "links", "sliding", "chains"
-    for mobility, largest in ((1, 10), (2, 9), (3, 8)):
+    for mobility, largest in ((1, 12), (2, 9), (3, 8)):
         for links in range(mobility + 3, min(largest, most or largest) + 1, 2):
-            numbers = count_sliding_variants(Request(links, mobility, "all"))
+            numbers = count_sliding_variants(Request(links, mobility, "all"), executor=ProcessPools(2))
             yield from ((mobility, links, k, number) for k, number in enumerate(numbers))
 
 
