@@ -274,7 +274,9 @@ def test_every_link_of_a_row_makes_whole_turns_in_the_shortest_time(teeth, speed
 def test_long_cycles_are_cut_and_said():
     reading = read_train("in:20 lay:41; lay:19 out:42; in=1")
     assert "repeats only after 861 turns of in;" in animate_train(reading.train, reading.drives).page.description
-    assert "erst nach 861 Umdrehungen von in;" in animate_train(reading.train, reading.drives, lang="de").page.description
+    assert (
+        "erst nach 861 Umdrehungen von in;" in animate_train(reading.train, reading.drives, lang="de").page.description
+    )
     assert "Turns until everything repeats" in animate_train(reading.train, reading.drives, most=861).page.description
 
 
