@@ -172,8 +172,12 @@ def shared_by(pool):
         )
     alone = synthesise_structures(TASKS["positions"], chains, starts=1)
     assert calls == [(1, 2), (2, 2)]
-    assert [d.to_json() for d in shared.designs] == [d.to_json() for d in alone.designs]
-    assert [d.to_json() for d in shared.rejected] == [d.to_json() for d in alone.rejected]
+    for there, here in ((shared.designs, alone.designs), (shared.rejected, alone.rejected)):
+        rows, wanted = [d.to_json() for d in there], [d.to_json() for d in here]
+        # an error of nothing but rounding hangs on the tier of the kernels, which each process chooses for itself
+        errors = [[row.pop("error") for row in side] for side in (rows, wanted)]
+        assert rows == wanted
+        assert errors[0] == pytest.approx(errors[1], rel=1e-6, abs=1e-12, nan_ok=True)
 
 
 def test_threads_share_the_starts():
