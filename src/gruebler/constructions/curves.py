@@ -15,7 +15,7 @@ from gruebler.constructions.compass import (
     meet_left,
     mirrored,
 )
-from gruebler.constructions.plans import four_bar_given
+from gruebler.constructions.given_linkages import four_bar_given
 from gruebler.drawing.canvas.construction import Angle, Construction, Dot, DrawnCircle, DrawnCurve, DrawnLine, Segment
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar

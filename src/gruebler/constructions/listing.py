@@ -7,6 +7,13 @@ from collections.abc import Callable, Mapping
 from math import radians
 from typing import NamedTuple
 
+from gruebler.constructions.accelerations import (
+    accelerations_of_four_bar,
+    accelerations_of_inverted_slider_crank,
+    accelerations_of_scotch_yoke,
+    accelerations_of_slider_crank,
+    accelerations_of_tangent_mechanism,
+)
 from gruebler.constructions.curves import (
     bobillier,
     coupler_curve_by_points,
@@ -22,22 +29,16 @@ from gruebler.constructions.dead_centres import (
     transmission_of_crank_rocker,
     transmission_of_slider_crank,
 )
+from gruebler.constructions.instant_centres import instant_centres_of_four_bar, instant_centres_of_slider_crank
 from gruebler.constructions.machines import cam_profile, geneva_drive
-from gruebler.constructions.plans import (
-    accelerations_of_four_bar,
-    accelerations_of_inverted_slider_crank,
-    accelerations_of_scotch_yoke,
-    accelerations_of_slider_crank,
-    accelerations_of_tangent_mechanism,
-    instant_centres_of_four_bar,
-    instant_centres_of_slider_crank,
+from gruebler.constructions.positions import three_positions, two_positions
+from gruebler.constructions.velocities import (
     velocities_of_four_bar,
     velocities_of_inverted_slider_crank,
     velocities_of_scotch_yoke,
     velocities_of_slider_crank,
     velocities_of_tangent_mechanism,
 )
-from gruebler.constructions.positions import three_positions, two_positions
 from gruebler.drawing.canvas.construction import Construction
 from gruebler.errors import GrueblerError, nearest
 from gruebler.synthesis.alt_construction import alt_steps
