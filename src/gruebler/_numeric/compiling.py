@@ -220,16 +220,16 @@ def _jitted(function: Callable[..., Any], recipe: _Recipe) -> Any:
     folder = prepared_folder()
     if folder is None:
         options.pop("cache", None)
-    asked: Any = caching.CacheImpl  # it asks a list of classes where a function is kept
-    before = asked._locator_classes
-    asked._locator_classes = [_Place, *before]
+    numba_cache: Any = caching.CacheImpl  # it asks a list of classes where a function is kept
+    before = numba_cache._locator_classes
+    numba_cache._locator_classes = [_KernelLocator, *before]
     try:
         return numba.njit(*signature, **options)(function)
     finally:
-        asked._locator_classes = before
+        numba_cache._locator_classes = before
 
 
-class _Place:
+class _KernelLocator:
     """Where numba keeps a kernel: in the folder of `kernel_cache`, by names that are the same in every installation.
 
     The folder is named after the sources, so that nothing else has to say whether what lies there is fresh.
@@ -240,7 +240,7 @@ class _Place:
         self.line = line
 
     @classmethod
-    def from_function(cls, function: Callable[..., Any], file: str) -> _Place | None:
+    def from_function(cls, function: Callable[..., Any], file: str) -> _KernelLocator | None:
         folder = prepared_folder()
         return None if folder is None else cls(folder / Path(file).parent.name, function.__code__.co_firstlineno)
 
