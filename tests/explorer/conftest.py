@@ -72,15 +72,21 @@ def server(tmp_path_factory) -> Iterator[Server]:
 
 
 @pytest.fixture(scope="session")
-def browser():
+def chromium() -> Iterator["BrowserType"]:
+    """Playwright's one session of a test process: a second one beside it would be refused."""
     playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     with playwright.sync_playwright() as play:
-        path = find_browser(play.chromium)
-        if path is None:
-            pytest.skip(f"no browser is here: {', '.join(BROWSERS)}, or that of `playwright install chromium`")
-        made = play.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
-        yield made
-        made.close()
+        yield play.chromium
+
+
+@pytest.fixture(scope="session")
+def browser(chromium):
+    path = find_browser(chromium)
+    if path is None:
+        pytest.skip(f"no browser is here: {', '.join(BROWSERS)}, or that of `playwright install chromium`")
+    made = chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
+    yield made
+    made.close()
 
 
 class Tab:

@@ -10,13 +10,11 @@ from tests.explorer.conftest import find_browser
 
 
 @pytest.mark.skipif("CI" not in os.environ, reason="elsewhere a missing tool skips the tests that need it")
-def test_nothing_that_the_page_is_tested_with_is_missing():
+def test_nothing_that_the_page_is_tested_with_is_missing(request):
     programs = [name for name in ("node", "npm") if shutil.which(name) is None]
     packages = [
         name for name in ("starlette", "uvicorn", "websockets", "anywidget", "playwright") if not find_spec(name)
     ]
     assert (programs, packages) == ([], [])
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as play:
-        assert find_browser(play.chromium)
+    # Asked for only now: the fixture would skip the test where playwright is missing.
+    assert find_browser(request.getfixturevalue("chromium"))
