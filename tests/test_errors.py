@@ -74,6 +74,7 @@ def test_a_motion_in_an_error_is_one_line():
         ("cat", ["dog"], []),
         ("cycloid", ["cycloidal"], ["cycloidal"]),
         ("dead", ["dead-centres"], ["dead-centres"]),
+        ("HH", ["H"], ["H"]),
         ("sphere", ["spatial", "spherical"], ["spherical"]),
         ("", ["rod"], []),
     ],

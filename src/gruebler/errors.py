@@ -7,7 +7,6 @@ raises; a failure (a budget spent, a proof not found) is a result and never one 
 import re
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
-from os.path import commonprefix
 from typing import Any, Protocol
 
 LONGEST = 1000
@@ -137,8 +136,8 @@ class Suggestion(str):
 def near_words(word: str, known: Iterable[str], most: int = 1) -> list[str]:
     """The known words that a wrong word may stand for, the nearest first.
 
-    At most a third of the letters are wrong, missing, too many or exchanged with the next; or the words begin alike for
-    three letters at least and two thirds of the shorter one.
+    At most a third of the letters, or one, are wrong, missing, too many or exchanged with the next; or the words begin
+    alike, for three letters at least and two thirds of the shorter one.
 
     >>> near_words("cranck", ["frame", "crank"]), near_words("dead", ["dead-centres"]), near_words("foo", ["hood"])
     (['crank'], ['dead-centres'], [])
@@ -149,10 +148,11 @@ def near_words(word: str, known: Iterable[str], most: int = 1) -> list[str]:
 
 
 def _is_near(word: str, known: str) -> bool:
-    alike = len(commonprefix([word, known]))
-    if alike > 2 and 3 * alike >= 2 * min(len(word), len(known)):
+    shorter = min(len(word), len(known))
+    alike = next((k for k in range(shorter) if word[k] != known[k]), shorter)
+    if alike > 2 and 3 * alike >= 2 * shorter:
         return True
-    return 3 * _slips(word, known[:60]) <= max(len(word), len(known))
+    return _slips(word, known[:60]) <= max(1, max(len(word), len(known)) // 3)
 
 
 def _slips(word: str, other: str) -> int:
