@@ -99,7 +99,7 @@ def largest_error(solution: Coordination, law: FunctionLaw) -> float:
 def extremes(solution: Coordination, law: FunctionLaw) -> Reals:
     """(extremes,) x where the structural error has an extreme, and both ends of the interval.
 
-    None if the linkage cannot be assembled throughout.
+    Empty if the linkage cannot be assembled throughout.
     """
     return _extremes(solution, law)[1]
 
