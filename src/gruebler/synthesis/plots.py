@@ -19,7 +19,7 @@ from gruebler.synthesis.burmester import BurmesterCurves, burmester_curves
 from gruebler.synthesis.coordination import Coordination
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.results import Design
-from gruebler.synthesis.structural_error import extremes, structural_error
+from gruebler.synthesis.structural_error import error_extremes, structural_error
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.text import translate
 
@@ -232,7 +232,7 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
 
 def _extremes(task: FunctionTask, law: FunctionLaw, solution: Coordination, unit: float) -> tuple[PointMarker, ...]:
     """The extremes of the structural error, in the coordinates of its plot."""
-    x = extremes(solution, law)
+    x = error_extremes(solution, law)
     inputs = replace(law, input_start=0.0).inputs(x) - _first(task)[0]
     errors = structural_error(solution, law, x) * unit
     return tuple(PointMarker(degrees(a), b, "") for a, b in zip(inputs, errors, strict=True))

@@ -18,7 +18,7 @@ from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.results import Design
 from gruebler.synthesis.tasks import FunctionTask
 
-__all__ = ["coordination_of", "extremes", "largest_error", "minimax", "structural_error"]
+__all__ = ["coordination_of", "error_extremes", "largest_error", "minimax", "structural_error"]
 
 _SAMPLES = 121
 _ZOOMS, _PARTS = 4, 20
@@ -96,7 +96,7 @@ def largest_error(solution: Coordination, law: FunctionLaw) -> float:
     return _extremes(solution, law)[0]
 
 
-def extremes(solution: Coordination, law: FunctionLaw) -> Reals:
+def error_extremes(solution: Coordination, law: FunctionLaw) -> Reals:
     """(extremes,) x where the structural error has an extreme, and both ends of the interval.
 
     Empty if the linkage cannot be assembled throughout.
