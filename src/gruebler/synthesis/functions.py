@@ -104,12 +104,12 @@ def synthesise_function(
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result
 
 
-def _optima(result: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:
+def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:
     """The minimax optimum near each design of a result; designs without one are rejected."""
-    task = result.task
+    task = exact.task
     assert isinstance(task, FunctionTask)
     optima, candidates = list[Minimax](), list[Design]()
-    for design in (*result.designs, *result.rejected):
+    for design in (*exact.designs, *exact.rejected):
         start = coordination_of(design, task, law)
         try:
             if start is None:
@@ -124,19 +124,19 @@ def _optima(result: SynthesisResult, law: FunctionLaw, demands: Demands) -> Synt
             optima.append(optimum)
             candidates.append(_judged_optimum(task, law, demands, optimum))
     accepted, rejected = ranked(candidates)
-    return replace(result, designs=in_order_of(accepted, ["error"]), rejected=rejected)
+    return replace(exact, designs=in_order_of(accepted, ["error"]), rejected=rejected)
 
 
 _SAME_OPTIMUM = 1e-4  # relative: optima are flat, so that two searches for one end near each other, not in one place
 
 
 def _same_optimum(first: Minimax, second: Minimax) -> bool:
-    a, b = first.solution, second.solution
-    if (a.kind, a.branch) != (b.kind, b.branch):
+    own, other = first.solution, second.solution
+    if (own.kind, own.branch) != (other.kind, other.branch):
         return False
-    turn = np.exp(1j * a.input_start) - np.exp(1j * b.input_start)
-    gaps = np.abs(np.subtract(a.lengths, b.lengths))
-    return bool(abs(turn) < _SAME_OPTIMUM and (gaps < _SAME_OPTIMUM * max(map(abs, a.lengths))).all())
+    turn = np.exp(1j * own.input_start) - np.exp(1j * other.input_start)
+    gaps = np.abs(np.subtract(own.lengths, other.lengths))
+    return bool(abs(turn) < _SAME_OPTIMUM and (gaps < _SAME_OPTIMUM * max(map(abs, own.lengths))).all())
 
 
 def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, optimum: Minimax) -> Design:
