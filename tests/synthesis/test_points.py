@@ -1,7 +1,8 @@
 """Points and mixed tasks: counts of the theorems, linkages that come back, certified solutions."""
 
 from fractions import Fraction
-from itertools import pairwise
+from functools import cache
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -359,16 +360,24 @@ OPEN = {
     "zigzag": [(0, 0), (10, 3), (20, 1), (28, 9)],
     "three": [(0, 0), (1, 1), (2, 0)],
     "two": [(0, 0), (1, 1)],
+    "six on a wave": [(6 * s, np.sin(6 * s)) for s in np.linspace(0, 1, 6)],
+    "seven round a corner": [(3 * min(s, 0.6), 3 * max(s - 0.6, 0)) for s in np.linspace(0, 1, 7)],
+    "eight on an arc": [(4 * s, 1.3 * np.sin(2.5 * s)) for s in np.linspace(0, 1, 8)],
 }
+SLOW = ("arc", "zigzag", "three", "seven round a corner", "eight on an arc")
+
+
+@cache
+def solved_open(name):
+    return synthesise_path(PathTask(OPEN[name]))
 
 
 @pytest.mark.parametrize(
-    "name", ["corners", "two", *(pytest.param(name, marks=pytest.mark.slow) for name in ("arc", "zigzag", "three"))]
+    "name", [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in OPEN]
 )
 def test_few_open_points_are_met_by_some_of_a_family(name):
     """As many parameters are free as are left of the nine of a coupler curve; every design passes in order."""
-    points = OPEN[name]
-    found = synthesise_path(PathTask(points))
+    points, found = OPEN[name], solved_open(name)
     assert f"a family of {9 - len(points)} parameters" in str(found.notes[0])
     assert found.count.theorem is None
     z = np.array([complex(*p) for p in points])
@@ -381,6 +390,25 @@ def test_few_open_points_are_met_by_some_of_a_family(name):
         passed = [int(np.argmin(np.abs(places - w))) for w in z]
         assert passed == sorted(passed)
         assert np.abs(places[passed] - z).max() < 1e-8 * np.abs(z - z[0]).max()
+
+
+def test_designs_of_six_points_are_different():
+    """They come from as many curves: no two have the same lengths."""
+    linkages = [design.linkage for design in solved_open("six on a wave").designs]
+    shapes = [
+        np.array([own.length("crank", 0, 1), own.length("coupler", 1, 2), *np.abs(own.points["P"][1:])])
+        for own in linkages
+    ]
+    assert len(linkages) >= 12
+    assert all(np.abs(np.log(one / other)).max() > 1e-3 for one, other in combinations(shapes, 2))
+
+
+@pytest.mark.slow
+def test_points_that_no_linkage_was_found_for_show_the_nearest():
+    found = synthesise_path(PathTask([(6 * s, np.sin(6 * s)) for s in np.linspace(0, 1, 8)]), number=2)
+    assert "a family of 1 parameters: 0 of them" in str(found.notes[0])
+    assert (found.count.real, len(found.designs)) == (0, 0)
+    assert all(1e-4 < design.verdict.error < 0.1 for design in found.rejected)
 
 
 def test_fewer_points_are_completed():

@@ -71,6 +71,21 @@ def test_the_marking_key_has_every_answer(sheet):
     assert key.rows[-1][-1] == str(asked + 6)
 
 
+@pytest.mark.parametrize(("lang", "word", "other"), [("en", "good", "gut"), ("de", "gut", "good")])
+def test_the_marking_key_names_answers_in_the_language(lang, word, other):
+    sheet = task_sheet(["transmission-angle"], 1, level=3, seed=1, lang=lang)
+    names = {row[1] for row in blocks_of(sheet.solutions, Rows)[-1].rows}
+    assert word in names
+    assert other not in names
+
+
+@pytest.mark.parametrize(("name", "answer"), [("good", "yes"), ("gut", "ja")])
+def test_an_answer_is_marked_by_its_name_in_either_language(name, answer):
+    task = exercise("transmission-angle-3-1")
+    (mark,) = grade(task, {name: answer})
+    assert mark.mark.value == ("right" if solve(task).results["good"].value else "wrong")
+
+
 def test_constructions_give_the_results_of_the_solutions():
     for seed in range(2):
         for level in (1, 2, 3):

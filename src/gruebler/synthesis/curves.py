@@ -22,14 +22,15 @@ from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKi
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
 from gruebler.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
 from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
-from gruebler.synthesis.tasks import PathTask
+from gruebler.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.text import message
 
-__all__ = ["CurveAtlas", "Fit", "atlas", "fit_curve", "fit_path"]
+__all__ = ["CurveAtlas", "Fit", "atlas", "fit_curve", "fit_open_points", "fit_path"]
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
 _NEAR = 4e-3  # of the size: if the best of the first come nearer, more are not tried
 _STEPS = 300
+_MET = 1e-10  # of the size: fits that come so near are equally good, and the most alike at the start comes first
 ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
 
@@ -166,7 +167,8 @@ def fit_curve(
         closed: whether the curve returns to its begin.
         timing: (points,) crank angles, of which differences count; without them the crank angle of each point is free.
         kinds: of linkages.
-        starts: how many neighbours of each kind are made better; by default 40, and 240 if these do not come near.
+        starts: how many neighbours of each kind are made better; by default 40, and 240 if these do not come near, or
+            too few of them meet fewer than nine points of an open curve exactly.
         number: how many are returned.
 
     Cost: 1 s for the atlas at the first call, then about 0.5 s, 2 s for curves that no linkage comes near.
@@ -174,7 +176,8 @@ def fit_curve(
     if starts is None:
         first, more = _STARTS
         fits = fit_curve(z, closed=closed, timing=timing, kinds=kinds, starts=first, number=number)
-        if timing is not None or (fits and fits[0].error < _NEAR):
+        enough, near = (number, _MET) if not closed and len(z) < MOST_POINTS else (1, _NEAR)
+        if timing is not None or (len(fits) >= enough and fits[enough - 1].error < near):
             return fits
         return fit_curve(z, closed=closed, timing=timing, kinds=kinds, starts=more, number=number)
     size = _extent(z)
@@ -188,7 +191,7 @@ def fit_curve(
             else _timed_neighbours(kind, reduced, timing, starts)
         )
         fits += _improved(kind, reduced, _starts, timing, turning=closed)
-    fits.sort(key=lambda fit: fit.error)
+    fits.sort(key=lambda fit: max(fit.error, _MET))
     chosen: list[Fit] = []
     for fit in fits:
         if all(fit.kind is not o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o in chosen):
@@ -286,13 +289,11 @@ def _improved(
         gain = np.where(better, cost - trial, 0.0)
         cost = np.where(better, trial, cost)
         damping = np.clip(np.where(better, damping * 0.3, damping * 4.0), 1e-12, 1e6)
-        if not ((gain > 1e-10 * cost) | (damping < 1e5)).any() or cost.min() < 1e-28:
+        met = cost < 1e-28
+        if not (((gain > 1e-10 * cost) | (damping < 1e5)) & ~met).any() or (met.any() and len(z) > unknowns):
             break
-    fits = []
-    for n in np.argsort(cost):
-        if np.isfinite(cost[n]):
-            fits.append(Fit(kind, rows[:, n], float(branch[n]), phi[n], float(np.sqrt(cost[n] / len(z)))))
-    return fits
+    errors = np.sqrt(cost / len(z))
+    return [Fit(kind, rows[:, n], float(branch[n]), phi[n], float(errors[n])) for n in np.flatnonzero(errors < np.inf)]
 
 
 def _slider_branches(rows: Reals, phi: Reals, branch: Reals, z: Complexes) -> Reals:
@@ -335,14 +336,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     timing = np.array(task.crank_angles) if task.crank_angles else None
     fits = fit_curve(task.z, closed=task.closed, timing=timing, number=4 * number)
     limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
-    designs: list[Design] = []
-    for k, fit in enumerate(fits):
-        designs += _judged(task, replace(demands, tolerance=limit), fit)
-        if progress is not None:
-            progress(k + 1, len(fits))
-        if sum(design.verdict.accepted for design in designs) == number:
-            break
-    accepted, rejected = ranked(designs)
+    accepted, rejected = _judged_fits(task, replace(demands, tolerance=limit), fits, number, progress)
     accepted = in_order_of(accepted, ["error"])
     note = message(
         "So many points are met by least squares; designs that come nearer than {limit:g} of the size are accepted.",
@@ -350,6 +344,41 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     )
     count = SolutionCount(message("linkages"), 0, len(fits), len(fits))
     return SynthesisResult(task, accepted, rejected, count, (note,))
+
+
+def fit_open_points(
+    task: PathTask, demands: Demands, *, number: int = 6, progress: Progress | None = None
+) -> SynthesisResult:
+    """Six to eight points of an open curve: some of the infinitely many linkages that meet them exactly.
+
+    Curves of the atlas, or pieces of them, pass similar points in their order; least squares makes many of them meet
+    the points. If none does, the nearest are rejected designs.
+    """
+    fits = fit_curve(task.z, closed=False, number=4 * number)
+    exact = [fit for fit in fits if fit.error < _MET]
+    accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
+    note = message(
+        "There are infinitely many solutions, a family of {parameters} parameters: {count} of them were found by least "
+        "squares from linkages with similar curves.",
+        parameters=MOST_POINTS - len(task),
+        count=len(exact),
+    )
+    count = SolutionCount(message("linkages"), None, len(exact), len(exact))
+    return SynthesisResult(task, accepted, rejected, count, (note,))
+
+
+def _judged_fits(
+    task: PathTask, demands: Demands, fits: list[Fit], number: int, progress: Progress | None
+) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
+    """Accepted and rejected designs of fits, until so many are accepted."""
+    designs: list[Design] = []
+    for k, fit in enumerate(fits, 1):
+        designs += _judged(task, demands, fit)
+        if progress is not None:
+            progress(k, len(fits))
+        if sum(design.verdict.accepted for design in designs) == number:
+            break
+    return ranked(designs)
 
 
 def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:

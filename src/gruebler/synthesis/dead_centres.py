@@ -192,7 +192,7 @@ def _same_sense(centre: complex, outer: complex, inner: complex) -> bool:
 def synthesise_dead_centres(
     task: DeadCentreTask, demands: Demands | None = None, *, number: int = 12
 ) -> SynthesisResult:
-    """The best linkage with given dead centres first, then others spread over the family.
+    """The best linkage with given dead centres and others spread over the family, so many in all.
 
     A rocker has the length 1, a slider the stroke of the task. Raises `SynthesisError` as `dead_centre_family`.
 
@@ -202,7 +202,8 @@ def synthesise_dead_centres(
     """
     wanted = demands or Demands()
     family = dead_centre_family(task)
-    steps = np.unique(np.linspace(0, len(family.members) - 1, number).astype(int))
+    others = max(number - 1, 0)  # in the middle of equal parts: at the limits of the family nothing moves well
+    steps = np.unique(((np.arange(others) + 0.5) * len(family.members) / max(others, 1)).astype(int))
     chosen = [family.best, *(family.members[k] for k in steps)]
     designs = [_design(task, member, wanted) for member in chosen]
     accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: -d.verdict.transmission))

@@ -1,4 +1,4 @@
-"""Dimensions improved for any task by Levenberg and Marquardt's method with exact derivatives.
+"""Dimensions improved for any task by Newton's and by Levenberg and Marquardt's method with exact derivatives.
 
 docs/theory/synthesis-any.md. Each target is compared with one pose; where the pose may move along its freedoms without
 any change of the dimensions, that is no error.
@@ -23,6 +23,11 @@ _STEPS = 150
 _MOTIONS = 4  # of the poses to their targets after each step
 _LEAST = 1e-12  # damping of the motion of poses, of their mean square rate: a pose may stand at a dead centre
 _FARTHEST = 0.2  # radians or sizes: how far a pose moves at once
+_FEW_STEPS = 20  # of least squares, after which Newton's method is tried again
+_NEWTON_STEPS = 60
+_SHORTEST = 1e-4  # part of a step of Newton's method: if not even so much is good, it is given up
+_RANK = 1e-13  # of the largest singular value: smaller ones are rounding
+_MET = 1e-26  # sum of squared errors by the squared size of the task: all targets are met
 _ASIDE = (0.1, 0.01, 1e-3)
 """Radians: a dead centre lies where the output is the same so far before and after it, but for the square of this."""
 
@@ -196,23 +201,91 @@ def compared(closure: DesignClosure, targets: FitTargets, state: FitState) -> _C
 
 
 def improved(closure: DesignClosure, state: FitState, targets: FitTargets, *, steps: int = _STEPS) -> FitState:
-    """The state at a minimum nearby of the sum of squared errors.
+    """The state at a minimum nearby of the sum of squared errors: where it vanishes, if that can be reached.
 
-    The place of each pose along its freedoms is eliminated: only the part of an error counts that no motion changes,
-    and after each step of the dimensions the poses move to where they are nearest to their targets. Cost: for a six-bar
-    2 ms a step.
+    Few targets are met exactly by many linkages: Newton's method looks for the nearest of them, again after some
+    steps of least squares if that fails at first. Cost: for a six-bar 2 ms a step.
     """
     # Errors are in the task's size; the poses of a function task have that of the linkage.
     size = closure.linkage.size if targets.z is None else float(np.abs(targets.z - targets.z.mean()).max())
     q, good = closure.closed(state.q, state.p, size=size)
     if not good.all():
         return state
-    now = _nearest(closure, targets, replace(state, q=q), size)
-    damping, dimensions = 1e-3, len(state.p)
     units = _units(closure, targets, state, size)
+    start = _at(closure, targets, replace(state, q=q), size)
+    errors, freedoms = start.by_motion.shape[1:]
+    if len(targets) * (errors - freedoms) > len(units):
+        return _least_squares(closure, targets, start, size, units, steps).state
+    for more in (0, min(steps, _FEW_STEPS), steps):
+        start = _least_squares(closure, targets, start, size, units, more)
+        if (met := _met(closure, targets, start, size, units)) is not None:
+            return met.state
+    return start.state
+
+
+def _met(closure: DesignClosure, targets: FitTargets, now: _Nearest, size: float, units: Reals) -> _Nearest | None:
+    """The state nearby that meets all targets, by Newton's method with least steps; None if it is not reached.
+
+    Targets close to each other make the sum of squares a narrow curved valley. So a part of a step is good if the next
+    step from there, with the same Jacobian, is shorter, however large the errors (Deuflhard's natural monotonicity).
+    """
+    part = 1.0
+    numbers = len(units)
+    for _ in range(_NEWTON_STEPS):
+        if now.cost < _MET * targets.size**2:
+            return now
+        count, errors, freedoms = now.by_motion.shape
+        slopes = np.zeros((count, errors, numbers + count * freedoms))
+        slopes[:, :, :numbers] = now.slopes(units)
+        for k in range(count):
+            at = numbers + k * freedoms
+            slopes[k, :, at : at + freedoms] = now.by_motion[k]
+        inverse = np.linalg.pinv(slopes.reshape(count * errors, -1), rcond=_RANK)
+        step = -inverse @ now.own.errors.ravel()
+        length = float(np.linalg.norm(step)) + 1e-300
+        part = min(1.0, 4 * part)
+        while True:
+            change, along = units * part * step[:numbers], part * step[numbers:].reshape(count, freedoms, 1)
+            slide = (now.derivatives.motion @ along)[:, :, 0]
+            trial = _changed(closure, targets, now.state, slide, change, size)
+            shrunk = part / 4
+            if trial is not None:
+                rest = -inverse @ trial.own.errors.ravel()
+                if np.linalg.norm(rest) <= (1 - part / 4) * length:
+                    now = trial
+                    break
+                # The rest is (1 - part) step + curvature part^2/2: the largest part whose curvature is no larger.
+                curvature = 2 * float(np.linalg.norm(rest - (1 - part) * step)) / (part**2 * length)
+                shrunk = min(part / 2, 1 / curvature)
+            part = shrunk
+            if part < _SHORTEST:
+                return None
+    return None
+
+
+def _changed(
+    closure: DesignClosure, targets: FitTargets, state: FitState, slide: Reals, change: Reals, size: float
+) -> _Nearest | None:
+    """The state with all numbers changed and the poses moved, then closed again; None if a pose cannot be closed."""
+    p = state.p + change[: len(state.p)]
+    q, good = closure.closed(state.q + slide, p, size=size)
+    if not good.all():
+        return None
+    return _at(closure, targets, replace(state, p=p, q=q, free=state.free + change[len(state.p) :]), size)
+
+
+def _least_squares(
+    closure: DesignClosure, targets: FitTargets, start: _Nearest, size: float, units: Reals, steps: int
+) -> _Nearest:
+    """Levenberg and Marquardt's method.
+
+    The place of each pose along its freedoms is eliminated: only the part of an error counts that no motion changes,
+    and after each step of the dimensions the poses move to where they are nearest to their targets.
+    """
+    now = _nearest(closure, targets, start, size)
+    damping = 1e-3
     for _ in range(steps):
-        slopes = now.derivatives.gradient(now.own.by_pose) + now.own.by_sizes
-        slopes = np.concatenate([slopes, now.own.by_free], axis=2) * units
+        slopes = now.slopes(units)
         back = now.motion_against(damping)
         errors = now.own.errors[:, :, None]
         left = slopes - now.by_motion @ (back @ slopes)  # what the motion of the poses does not make up for
@@ -221,23 +294,19 @@ def improved(closure: DesignClosure, state: FitState, targets: FitTargets, *, st
         weight = np.diag(gram).mean() + 1e-30
         step = -np.linalg.solve(gram + damping * weight * np.eye(len(gram)), right)
         slide = now.slide(back @ (errors + slopes @ step[:, None]))
-        step = units * step
-        state = now.state
-        q, good = closure.closed(state.q + slide, state.p + step[:dimensions], size=size)
-        trial = None
-        if good.all():
-            moved = replace(state, p=state.p + step[:dimensions], q=q, free=state.free + step[dimensions:])
-            trial = _nearest(closure, targets, moved, size)
+        trial = _changed(closure, targets, now.state, slide, units * step, size)
+        if trial is not None:
+            trial = _nearest(closure, targets, trial, size)
         if trial is not None and trial.cost < now.cost:
             gain, now = now.cost - trial.cost, trial
             damping = max(damping * 0.3, 1e-12)
-            if gain < 1e-9 * now.cost or now.cost < 1e-26 * targets.size**2:
+            if gain < 1e-9 * now.cost or now.cost < _MET * targets.size**2:
                 break
         else:
             damping *= 5
             if damping > 1e8:
                 break
-    return now.state
+    return now
 
 
 def _units(closure: DesignClosure, targets: FitTargets, state: FitState, size: float) -> Reals:
@@ -262,6 +331,11 @@ class _Nearest(NamedTuple):
     """(targets, errors, freedoms)"""
     cost: float
 
+    def slopes(self, units: Reals) -> Reals:
+        """(targets, errors, numbers) how errors change with dimensions and what else is free, counted in units."""
+        by_sizes = self.derivatives.gradient(self.own.by_pose) + self.own.by_sizes
+        return np.asarray(np.concatenate([by_sizes, self.own.by_free], axis=2) * units)
+
     def motion_against(self, damping: float) -> Reals:
         """(targets, freedoms, errors) the motion whose negative makes up for errors, as far as damping lets it."""
         square = self.by_motion.transpose(0, 2, 1) @ self.by_motion
@@ -284,15 +358,14 @@ def _at(closure: DesignClosure, targets: FitTargets, state: FitState, size: floa
     return _Nearest(state, derivatives, own, own.by_pose @ derivatives.motion, float(np.sum(own.errors**2)))
 
 
-def _nearest(closure: DesignClosure, targets: FitTargets, state: FitState, size: float) -> _Nearest:
+def _nearest(closure: DesignClosure, targets: FitTargets, now: _Nearest, size: float) -> _Nearest:
     """The state with each pose moved to where it is nearest to its target."""
-    now = _at(closure, targets, state, size)
     damping = _LEAST
+    at_rest = np.zeros(len(now.state.p) + len(now.state.free))
     for _ in range(_MOTIONS):
         along = now.motion_against(damping) @ now.own.errors[:, :, None]
-        q, good = closure.closed(now.state.q + now.slide(along), state.p, size=size)
-        trial = _at(closure, targets, replace(now.state, q=q), size) if good.all() else now
-        if trial.cost < now.cost:
+        trial = _changed(closure, targets, now.state, now.slide(along), at_rest, size)
+        if trial is not None and trial.cost < now.cost:
             settled = trial.cost > now.cost * (1 - 1e-4)
             now = trial
             if settled:

@@ -46,9 +46,9 @@ def synthesise_path(
 
     Nine points, five points and two fixed pivots, five points with crank angles, and the finite mixed tasks have
     finitely many solutions, all of which are found. Fewer points have infinitely many: up to five are met with several
-    choices of the crank angles; to six and more, and where pivots or coupler angles are given, points on a smooth curve
-    through them are added until the number is finite. For more points, and for a closed curve, the four-bars that come
-    nearest are sought.
+    choices of the crank angles, six to eight by linkages whose curves are similar; where pivots or coupler angles are
+    given, points on a smooth curve through them are added until the number is finite. For more points, and for a closed
+    curve, the four-bars that come nearest are sought.
 
     Args:
         task: points, perhaps with coupler angles, crank angles or fixed pivots.
@@ -75,8 +75,14 @@ def synthesise_path(
         raise SynthesisError("fixed pivots go with points alone, without coupler angles")
     if len(oriented) == len(task) and len(task) > 1 and not task.closed:
         return _as_positions(task, wanted, progress)
-    if len(task) <= MOST_TIMED and not oriented and not task.fixed_pivots and not task.closed:
+    points_alone = not oriented and not task.fixed_pivots and not task.closed
+    if points_alone and len(task) <= MOST_TIMED:
         return _sampled(task, wanted, number, progress)
+    if points_alone and len(task) < MOST_POINTS:
+        from gruebler.synthesis.curves import fit_open_points
+
+        _check_general(task)
+        return fit_open_points(task, wanted, number=number, progress=progress)
     poses = max(0, len(oriented) - 1)
     needed = 4 if task.fixed_pivots else 8 - 2 * poses
     free = len(task) - 1 - poses
