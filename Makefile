@@ -90,6 +90,7 @@ BROAD := $(addprefix tests/,analysis catalog cli/test_cli.py cli/test_analyse.py
 	isomorphism kinematics linkages mobility test_chain.py test_front_door.py)
 # Environments of their own, kept in build/: another version of the compiler does not touch the kernels of .venv.
 NEWEST ?= $(PYTHON)
+EXTRAS := $(addprefix tests/,atlas/test_building.py enumeration/test_schedulers.py explorer/test_widget.py formats/test_dxf.py)
 test-lowest: export NUMBA_CACHE_DIR = $(CURDIR)/build/lowest/kernels
 test-lowest:
 	@mkdir -p build/lowest
@@ -97,7 +98,7 @@ test-lowest:
 	$(PYTHON) .ci/lowest.py > build/lowest/constraints.txt
 	build/lowest/venv/bin/python -m pip install --quiet --disable-pip-version-check -e ".[test]" \
 		-c build/lowest/constraints.txt
-	build/lowest/venv/bin/python -m pytest -q -n 2 $(BROAD)
+	build/lowest/venv/bin/python -m pytest -q -n 2 $(BROAD) $(EXTRAS)
 
 NEWEST_DIR = build/newest/$(shell $(NEWEST) -c "import sys; print('%d.%d' % sys.version_info[:2])")
 test-newest: export NUMBA_CACHE_DIR = $(CURDIR)/$(NEWEST_DIR)/kernels

@@ -1,5 +1,6 @@
 """The choice of the tier, the cache of compiled kernels, and what is said while they are compiled."""
 
+import ast
 import os
 import re
 import shutil
@@ -210,6 +211,21 @@ def test_another_source_gives_another_folder(tmp_path: Path) -> None:
     with (tmp_path / "gruebler" / "_numeric" / "labelling" / "partition.py").open("a", encoding="utf-8") as file:
         file.write("# changed\n")
     assert folder() != first
+
+
+def test_the_sources_of_all_kernels_give_the_name() -> None:
+    """So are the files from which kernels import: numba sees neither another number nor another kernel called."""
+    package = NUMERIC.parent
+    kernels = [path for path in package.rglob("*.py") if "\n@njit" in path.read_text(encoding="utf-8")]
+    imported = {
+        package.parent.joinpath(*node.module.split(".")).with_suffix(".py")
+        for path in kernels
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("gruebler.")
+    }
+    assert len(kernels) > len(list(NUMERIC.rglob("*/*.py"))) // 2
+    choice_of_tier = NUMERIC / "work_estimates.py"  # nothing of it is compiled
+    assert {*kernels, *imported} - {choice_of_tier} <= set(kernel_cache.kernel_sources())
 
 
 def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:

@@ -21,23 +21,35 @@ from gruebler.enumeration.epicyclic import (
 )
 from gruebler.errors import GrueblerError
 from gruebler.isomorphism import code
+from tests.enumeration.train_oracle import count_by_speeds, link_axis_trees
 
 
 @pytest.mark.parametrize(
     ("links", "displacement", "rotation"),
-    [(3, 1, 1), (4, 3, 2), (5, 13, 6), (6, 81, 27), (7, 647, 152), pytest.param(8, 6360, 1070, marks=pytest.mark.slow)],
+    [(3, 1, 1), (4, 3, 2), (5, 13, 6), (6, 81, 27)],
 )
-def test_printed_numbers(links, displacement, rotation):
-    """Six to eight links: Yang, Ding et al., J. Mech. Des. 141(4) 043301 (2019)."""
+def test_small_trains(links, displacement, rotation):
     assert count_epicyclic_trains(links) == EpicyclicCount(displacement, rotation)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    ("links", "mobility", "displacement", "rotation"), [(7, 2, 441, 81), (7, 3, 103, 13), (8, 2, 4361, 559)]
+    ("links", "mobility", "displacement", "rotation"),
+    [
+        (5, 2, 7, 3),
+        (6, 2, 45, 12),
+        (6, 3, 6, 1),
+        (7, 1, 647, 152),
+        (7, 2, 441, 81),
+        (7, 3, 103, 13),
+        pytest.param(8, 1, 6360, 1070, marks=pytest.mark.slow),
+        pytest.param(8, 2, 4361, 559, marks=pytest.mark.slow),
+        pytest.param(8, 3, 1289, 103, marks=pytest.mark.slow),
+    ],
 )
-def test_numbers_of_the_table(links, mobility, displacement, rotation):
+def test_numbers_of_the_table_by_two_methods(links, mobility, displacement, rotation):
+    """F = 1 with six to eight links is in print: Yang, Ding et al., J. Mech. Des. 141(4) 043301 (2019)."""
     assert count_epicyclic_trains(links, mobility) == EpicyclicCount(displacement, rotation)
+    assert count_by_speeds(links, mobility) == (displacement, rotation)
 
 
 @pytest.mark.slow
@@ -53,6 +65,7 @@ def test_hypertrees_are_the_connected_graphs_whose_blocks_are_complete():
             blocks = [graph.subgraph(block) for block in nx.biconnected_components(graph)]
             counts[len(graph)] += all(b.number_of_edges() == len(b) * (len(b) - 1) // 2 for b in blocks)
     assert {n: len(hypertrees(n)) for n in counts} == counts
+    assert {n: sum(1 for _ in link_axis_trees(n)) for n in counts} == counts
 
 
 def speeds_of(links, gears, random):

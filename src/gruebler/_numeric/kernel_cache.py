@@ -20,19 +20,25 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-__all__ = ["cache_folder", "is_cached", "prepared_folder"]
+__all__ = ["cache_folder", "is_cached", "kernel_sources", "prepared_folder"]
 
 _SOURCES = Path(__file__).parent
+_PACKAGE = _SOURCES.parent
 _UNUSED_DAYS = 60  # after so long without use the kernels of another version are removed
+
+
+def kernel_sources() -> list[Path]:
+    """The files that go into compiled code: kernels, and the numbers and the memory that they use."""
+    inner = (path for path in _SOURCES.rglob("*.py") if path.name not in ("kernel_cache.py", "work_estimates.py"))
+    return sorted([*inner, *_PACKAGE.glob("*/*_kernels.py"), *_PACKAGE.glob("*/*_memory.py")])
 
 
 @cache
 def _name() -> str:
     digest = sha256()
-    for path in sorted(_SOURCES.rglob("*.py")):
-        if path.name not in ("kernel_cache.py", "work_estimates.py"):  # nothing of these goes into compiled code
-            digest.update(path.name.encode())
-            digest.update(path.read_bytes())
+    for path in kernel_sources():
+        digest.update(path.name.encode())
+        digest.update(path.read_bytes())
     return f"kernels-{digest.hexdigest()[:16]}"
 
 

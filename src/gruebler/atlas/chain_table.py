@@ -30,7 +30,7 @@ _INTERPRETED = 2.5e-4  # seconds for each link of a chain, if the kernel is inte
 
 
 class ChainArrays(NamedTuple):
-    """Chains of one number of links as graphs: see `chain_kernels`."""
+    """Chains of one number of links as graphs: see `chain_memory`."""
 
     links: int
     mobility: int
@@ -95,7 +95,8 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
     pa = arrow_library()
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.counting.chain_lists import line_length
-    from gruebler.atlas import chain_kernels as kernels
+    from gruebler.atlas import chain_memory as memory
+    from gruebler.atlas.chain_kernels import describe_chains
 
     n, count = chains.links, len(chains.sizes)
     loops = (n - 1 - chains.mobility) // 2
@@ -103,31 +104,31 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
     simple = chains.hubs == 0
     members, degrees = _members(chains)
     joints = chains.sizes - members.sum(axis=1) + chains.hubs
-    if n > kernels.MOST_LINKS or members.max(initial=0) > kernels.MOST_MEMBERS:
+    if n > memory.MOST_LINKS or members.max(initial=0) > memory.MOST_MEMBERS:
         raise GrueblerError(
             "the atlas describes chains of at most {links} links with at most {members} links in a joint",
-            links=kernels.MOST_LINKS,
-            members=kernels.MOST_MEMBERS,
+            links=memory.MOST_LINKS,
+            members=memory.MOST_MEMBERS,
         )
-    numbers = np.zeros((count, kernels.COLUMNS), np.int64)
+    numbers = np.zeros((count, memory.COLUMNS), np.int64)
     ends = np.zeros(count, np.int64)
     text = np.empty(int((joints * 8 + members.sum(axis=1) * 3 + 8).sum()), np.uint8)
     graph6 = np.zeros((count, line_length(n) - 1), np.uint8)
     certificates = np.zeros((count, widest), np.uint8)
     letters = np.array([ord(p.symbols.get(Alphabet.INTERNATIONAL, "?")[0]) for p in PAIRS], np.uint8)
     most = n + int(chains.hubs.max(initial=0))
-    describe = for_work(kernels.describe_chains, count * n * _INTERPRETED)
+    describe = for_work(describe_chains, count * n * _INTERPRETED)
     described = describe(
         n, chains.mobility, loops, chains.hubs, chains.sizes, chains.edges, chains.pairs, letters,
-        kernels.make_chain_memory(most, widest), numbers, ends, text, graph6, certificates,
+        memory.make_chain_memory(most, widest), numbers, ends, text, graph6, certificates,
     )  # fmt: skip
     if described < count:
         raise GrueblerError("a chain of {links} links has too many circuits for the atlas", links=n)
     column = {name: numbers[:, k] for name, k in (
-        ("group_order", kernels.GROUP_ORDER), ("inversions", kernels.INVERSIONS),
-        ("joint_orbits", kernels.JOINT_ORBITS), ("drives", kernels.DRIVES),
-        ("smallest_circuit", kernels.GIRTH), ("largest_circuit", kernels.CIRCUMFERENCE),
-        ("diameter", kernels.DIAMETER),
+        ("group_order", memory.GROUP_ORDER), ("inversions", memory.INVERSIONS),
+        ("joint_orbits", memory.JOINT_ORBITS), ("drives", memory.DRIVES),
+        ("smallest_circuit", memory.GIRTH), ("largest_circuit", memory.CIRCUMFERENCE),
+        ("diameter", memory.DIAMETER),
     )}  # fmt: skip
     turning = ((chains.pairs == _PLACE["revolute"]) | ~_present(chains)).all(axis=1)
     if contracted is None:
@@ -152,7 +153,7 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
         "contracted_code": graph_codes,
         "planar": crossings == 0,
         "crossings": pa.array(crossings, pa.int16(), mask=crossings < 0),
-        "dyadic": numbers[:, kernels.DYADIC] == 1,
+        "dyadic": numbers[:, memory.DYADIC] == 1,
         "certificate": _texts(certificates, chains.sizes, simple & turning),
     }
     schema = arrow_schema("chains")

@@ -11,16 +11,9 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.counting.bits import lowest, popcount
+from gruebler._numeric.labelling.automorphism import generator_image, join_orbits, orbit_root
 from gruebler._numeric.labelling.canonical import adjacency, label_graph
-from gruebler._numeric.labelling.label_workspace import (
-    GENERATORS,
-    IMAGE_OF,
-    LABELLING,
-    MOVED,
-    START,
-    Workspace,
-    make_workspace,
-)
+from gruebler._numeric.labelling.label_workspace import GENERATORS, LABELLING, Workspace, make_workspace
 from gruebler.assur.group_kernels import longest_contour
 
 Int16 = NDArray[np.int16]
@@ -52,7 +45,8 @@ class MechanismMemory(NamedTuple):
 
     ends: Int64  # (2, joint): its links
     near: Int64  # link -> its neighbours, as bits
-    parent: Int64
+    parent: Int32  # (1, element): of sets that are united
+    degree: Int64
     size: Int64
     image: Int64
     taken: Int64  # (2, joint): which end takes each of the two constraints
@@ -78,7 +72,8 @@ def make_mechanism_memory(links: int, joints: int, groups: int) -> MechanismMemo
     return MechanismMemory(
         ends=np.zeros((2, joints), np.int64),
         near=np.zeros(links, np.int64),
-        parent=np.zeros(links * links, np.int64),
+        parent=np.zeros((1, links * links), np.int32),
+        degree=np.zeros(links, np.int64),
         size=np.zeros(links * links, np.int64),
         image=np.zeros(links, np.int64),
         taken=np.zeros((2, joints), np.int64),
@@ -97,23 +92,6 @@ def make_mechanism_memory(links: int, joints: int, groups: int) -> MechanismMemo
         state=np.zeros(1, np.int64),
         workspace=make_workspace(vertices, joints),
     )
-
-
-@njit(cache=True)
-def _root(parent: Int64, i: int) -> int:
-    while parent[i] != i:
-        parent[i] = parent[parent[i]]
-        i = parent[i]
-    return i
-
-
-@njit(cache=True)
-def _unite(parent: Int64, i: int, j: int) -> None:
-    a, b = _root(parent, i), _root(parent, j)
-    if a < b:
-        parent[b] = a
-    else:
-        parent[a] = b
 
 
 @njit(cache=True)
@@ -194,7 +172,7 @@ def _group(n: int, joints: int, block: int, desk: MechanismMemory) -> int:
         if block >> v & 1:
             number[v] = links
             links += 1
-    first, second, inner_degree = desk.scratch[2], desk.scratch[3], desk.parent
+    first, second, inner_degree = desk.scratch[2], desk.scratch[3], desk.degree
     for v in range(links):
         inner_degree[v] = 0
     order, inner, size = 0, 0, 0
@@ -366,24 +344,21 @@ def list_mechanisms(
         for flags in range(2):
             size = n * n if flags else n
             for i in range(size):
-                desk.parent[i] = i
+                desk.parent[0, i] = i
                 desk.size[i] = 0
             for g in range(generators):
-                for v in range(n):
-                    desk.image[v] = v
-                for i in range(ws.rows[START, g], ws.rows[START, g + 1]):
-                    desk.image[ws.pool[MOVED, i]] = ws.pool[IMAGE_OF, i]
+                generator_image(g, n, ws, desk.image)
                 for i in range(size):
                     if flags:
-                        _unite(desk.parent, i, desk.image[i // n] * n + desk.image[i % n])
+                        join_orbits(desk.parent, 0, i, desk.image[i // n] * n + desk.image[i % n])
                     else:
-                        _unite(desk.parent, i, desk.image[i])
+                        join_orbits(desk.parent, 0, i, desk.image[i])
             if flags and driven.shape[0] == 0:
                 break
             for i in range(size):
                 desk.size[i] = 0
             for i in range(size):
-                desk.size[_root(desk.parent, i)] += 1
+                desk.size[orbit_root(desk.parent, 0, i)] += 1
             if not flags:
                 for v in range(n):
                     if desk.size[v]:

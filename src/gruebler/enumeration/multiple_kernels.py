@@ -12,16 +12,9 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.counting.bits import lowest, popcount
+from gruebler._numeric.labelling.automorphism import generator_image, join_orbits, orbit_root
 from gruebler._numeric.labelling.canonical import adjacency, label_graph
-from gruebler._numeric.labelling.label_workspace import (
-    GENERATORS,
-    IMAGE_OF,
-    LABELLING,
-    MOVED,
-    START,
-    Workspace,
-    make_workspace,
-)
+from gruebler._numeric.labelling.label_workspace import GENERATORS, LABELLING, Workspace, make_workspace
 
 Int8 = NDArray[np.int8]
 Int32 = NDArray[np.int32]
@@ -47,7 +40,7 @@ class MergeMemory(NamedTuple):
     near: Int64
     degree: Int64
     around: Int64
-    parent: Int64
+    parent: Int32  # (1, element): of sets that are united
     image: Int64
     edges: Int32
     colour: Int32
@@ -71,7 +64,7 @@ def make_merge_memory(links: int, joints: int) -> MergeMemory:
         near=np.zeros(links, np.int64),
         degree=np.zeros(links, np.int64),
         around=np.zeros(links, np.int64),
-        parent=np.zeros(max(joints * joints, links * links), np.int64),
+        parent=np.zeros((1, max(joints * joints, links * links)), np.int32),
         image=np.zeros(vertices, np.int64),
         edges=np.zeros((edges, 2), np.int32),
         colour=np.zeros(edges, np.int32),
@@ -82,14 +75,6 @@ def make_merge_memory(links: int, joints: int) -> MergeMemory:
         workspace=make_workspace(vertices, edges),
         state=np.array([-1, -1], np.int64),
     )
-
-
-@njit(cache=True)
-def _root(parent: Int64, i: int) -> int:
-    while parent[i] != i:
-        parent[i] = parent[parent[i]]
-        i = parent[i]
-    return i
 
 
 @njit(cache=True)
@@ -117,15 +102,6 @@ def _label(n: int, number: int, joints: Int64, desk: MergeMemory) -> int:
     adjacency(total, edges[:size], desk.colour, desk.indptr, desk.neighbour, desk.row_colour)
     label_graph(total, desk.vertex_colour, desk.indptr, desk.neighbour, desk.row_colour, desk.workspace)
     return total
-
-
-@njit(cache=True)
-def _read_generator(g: int, total: int, desk: MergeMemory) -> None:
-    ws = desk.workspace
-    for v in range(total):
-        desk.image[v] = v
-    for i in range(ws.rows[START, g], ws.rows[START, g + 1]):
-        desk.image[ws.pool[MOVED, i]] = ws.pool[IMAGE_OF, i]
 
 
 @njit(cache=True)
@@ -246,14 +222,13 @@ def _is_canonical(n: int, number: int, joints: Int64, a: int, b: int, size: int,
     if count == 0:
         return False
     for i in range(n * n):
-        desk.parent[i] = i
+        desk.parent[0, i] = i
     for g in range(count):
-        _read_generator(g, total, desk)
+        generator_image(g, total, desk.workspace, desk.image)
         for u in range(n):
             for v in range(n):
-                p, q = _root(desk.parent, u * n + v), _root(desk.parent, desk.image[u] * n + desk.image[v])
-                desk.parent[p] = q
-    return _root(desk.parent, a * n + b) == _root(desk.parent, best_u * n + best_v)
+                join_orbits(desk.parent, 0, u * n + v, desk.image[u] * n + desk.image[v])
+    return orbit_root(desk.parent, 0, a * n + b) == orbit_root(desk.parent, 0, best_u * n + best_v)
 
 
 @njit(cache=True)
@@ -294,20 +269,18 @@ def _list_mergings(n: int, level: int, most: int, largest: int, desk: MergeMemor
     total = _label(n, number, joints, desk)
     generators = desk.workspace.state[GENERATORS]
     for i in range(count):
-        desk.parent[i] = i
+        desk.parent[0, i] = i
     for g in range(generators):
-        _read_generator(g, total, desk)
+        generator_image(g, total, desk.workspace, desk.image)
         for i in range(count):
             big, small = _moved(mergings[i, BIG], desk.image), _moved(mergings[i, SMALL], desk.image)
             for other in range(count):
                 if mergings[other, BIG] == big and mergings[other, SMALL] == small:
-                    p, q = _root(desk.parent, i), _root(desk.parent, other)
-                    if p != q:
-                        desk.parent[max(p, q)] = min(p, q)
+                    join_orbits(desk.parent, 0, i, other)
                     break
     firsts = 0
     for i in range(count):
-        if desk.parent[i] == i:
+        if desk.parent[0, i] == i:
             for c in range(4):
                 mergings[firsts, c] = mergings[i, c]
             firsts += 1

@@ -24,6 +24,7 @@ from gruebler._numeric.labelling.label_workspace import (
     IMAGE_OF,
     INVERSE,
     LAB,
+    LONG_ROW,
     MOVED,
     NEAR,
     NOTHING,
@@ -66,6 +67,15 @@ def join_orbits(rows: Int32, row: int, v: int, w: int) -> bool:
     else:
         rows[row, v] = w
     return v != w
+
+
+@njit(signature(NOTHING, COUNT, COUNT, WORKSPACE, LONG_ROW), cache=True)
+def generator_image(g: int, vertices: int, ws: Workspace, image: Int64) -> None:
+    """Write out where generator g of the labelled graph takes each vertex."""
+    for v in range(vertices):
+        image[v] = v
+    for i in range(ws.rows[START, g], ws.rows[START, g + 1]):
+        image[ws.pool[MOVED, i]] = ws.pool[IMAGE_OF, i]
 
 
 @njit(signature(COUNT, COUNT, COUNT, COUNT, COUNT, ROW, ROW, ROW, WORKSPACE), cache=True)
