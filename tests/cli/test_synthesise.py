@@ -260,6 +260,22 @@ def test_wrong_input_is_one_sentence(words, sentence, capsys):
     assert error.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("kind", "content", "options", "sentence"),
+    [
+        ("function", "input,output\n0,0\n20,15\n", "--points 3 --travel", "--points and --travel: the file"),
+        ("dead-centres", "stroke,time_ratio\n50,1.2\n", "--swing 30", "--swing: the file"),
+        ("positions", FIVE, "--link coupler", "--link: only with --structure"),
+        ("positions", FIVE, "--number 0", "--number: expected at least 1"),
+    ],
+)
+def test_options_that_would_do_nothing_are_refused(kind, content, options, sentence, tmp_path, capsys):
+    path = tmp_path / "task.csv"
+    path.write_text(content, encoding="utf-8")
+    assert main(["synthesise", kind, str(path), *options.split()]) == 2
+    assert sentence in capsys.readouterr().err
+
+
 def test_a_task_of_another_kind_names_its_command(five, capsys):
     assert main(["synthesise", "path", str(five)]) == 2
     assert "this is a task for 'synthesise positions'" in capsys.readouterr().err
