@@ -33,6 +33,8 @@ def test_positions_give_a_linkage_that_the_other_commands_take(five, tmp_path, c
     out = capsys.readouterr().out
     assert "Solutions: 4 by theorem (dyads), 4 found, 2 real." in out
     assert "Designs: 1 accepted, 0 rejected." in out
+    assert "fixed pivots" in out
+    assert "  (0, 0) (3.5, 0)\n" in out  # not 1e-11
     assert read_linkage(best).length("coupler", 1, 2) == pytest.approx(3, rel=1e-8)
     assert "<svg" in page.read_text(encoding="utf-8")
     assert main(["analyse", str(best)]) == 0

@@ -40,7 +40,7 @@ from gruebler.synthesis import (
 )
 from gruebler.synthesis.coordination import Minimax
 from gruebler.synthesis.results import EXACT, FITTED, in_order_of
-from gruebler.text import Message, joined, joined_by_and, message, number, number_separator, plural, translate
+from gruebler.text import Message, joined, joined_by_and, message, number, number_separator, numbers, plural, translate
 
 __all__ = ["add", "run"]
 
@@ -447,7 +447,11 @@ def _print(result: SynthesisResult, shown: SynthesisResult, rejected: bool, lang
     totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
     print(translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals))
     if result.designs:
-        print_table(_COLUMNS, [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)], lang=lang)
+        headers, rows = [*_COLUMNS], [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)]
+        if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
+            headers.append(message("fixed pivots"))
+            rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
+        print_table(headers, rows, lang=lang)
         more = len(result.designs) - len(shown.designs)
         if more:
             print(plural("and {count} more", "and {count} more", more, lang))
@@ -459,10 +463,10 @@ def _print(result: SynthesisResult, shown: SynthesisResult, rejected: bool, lang
     if (rejected or not result.designs) and result.rejected:
         print()
         designs = result.rejected if rejected else result.rejected[:_REJECTED]
-        rows: list[list[Cell]] = [
+        reasons: list[list[Cell]] = [
             [design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs
         ]
-        print_table((message("rejected"), message("reason")), rows, lang=lang)
+        print_table((message("rejected"), message("reason")), reasons, lang=lang)
         more = len(result.rejected) - len(designs)
         if more:
             print(
@@ -526,10 +530,23 @@ def _lengths(linkage: Linkage, lang: str) -> str:
             lengths.append(f"{_LETTERS.get(link, name)} = {values}")
         for line in lines if len(pins) == 1 else ():
             across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.angle), -math.sin(line.angle))
-            offset = across.imag if abs(across.imag) > EXACT * linkage.size else 0.0
+            offset = _without_rounding(across.imag, linkage)
             if offset or link == linkage.mechanism.frame:
                 lengths.append(f"e = {number(offset, lang, '.5g')}")
     return number_separator(lang).join(lengths)
+
+
+def _pivots(design: Design, lang: str) -> str:
+    """Where the turning joints of the frame lie."""
+    linkage = design.linkage
+    own = [element for (_, owner), element in linkage.elements.items() if owner == linkage.mechanism.frame]
+    pins = [[_without_rounding(v, linkage) for v in (e.x, e.y)] for e in own if isinstance(e, Pin)]
+    return " ".join(f"({numbers(pin, lang, '.5g')})" for pin in pins)
+
+
+def _without_rounding(length: float, linkage: Linkage) -> float:
+    """A length, or 0 for what designs are not held to."""
+    return length if abs(length) > EXACT * linkage.size else 0.0
 
 
 def _by_letter(names: tuple[str, str]) -> str:
