@@ -137,6 +137,21 @@ def test_manifests_that_cannot_be_used(whole, tmp_path, change, problem):
         gr.atlas.open(tmp_path)
 
 
+def test_a_damaged_file_is_named_in_a_sentence(tmp_path):
+    """The first file is read for its columns, the others with the query; building again restores them."""
+    task = AtlasTask("4-6")
+    build(task, tmp_path)
+    parts = sorted(tmp_path.rglob("*.parquet"))
+    for part in parts:
+        content = part.read_bytes()
+        part.write_bytes(b"dear")
+        with pytest.raises(GrueblerError, match=f"{part.name}.*too small to be a Parquet file") as caught:
+            gr.atlas.open(tmp_path).query("select sum(links) from chains")
+        assert "\n" not in str(caught.value)
+        build(task, tmp_path)
+        assert part.read_bytes() == content
+
+
 def test_what_is_missing_is_named(whole, tmp_path):
     with pytest.raises(RunError, match="is not an atlas"):
         gr.atlas.open(tmp_path)

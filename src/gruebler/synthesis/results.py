@@ -60,6 +60,11 @@ class DesignVerdict:
         """Whether nothing speaks against it."""
         return not self.reasons
 
+    @property
+    def misses(self) -> bool:
+        """Whether its circuit was followed and misses a target."""
+        return self.assembles and not self.one_circuit
+
 
 Progress = Callable[[int, int], None]
 """Called with how much is done, and of how much."""
