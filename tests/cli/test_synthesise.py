@@ -168,6 +168,18 @@ def test_the_number_is_that_of_designs(kind, tmp_path, capsys):
     assert len(json.loads(capsys.readouterr().out)["designs"]) == 2
 
 
+def test_a_page_of_so_many_designs_counts_all(tmp_path, capsys):
+    task, page = tmp_path / "four.csv", tmp_path / "page.html"
+    task.write_text(FOUR, encoding="utf-8")
+    assert main(["synthesise", "positions", str(task), "--number", "2", "--draw", str(page)]) == 0
+    accepted = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("Designs: "))
+    assert not accepted.startswith("Designs: 2 ")
+    text = page.read_text(encoding="utf-8")
+    assert accepted in text
+    assert "2 RR-RR, " in text
+    assert "3 RR-" not in text
+
+
 def test_the_number_leaves_a_finite_list_whole(tmp_path, capsys):
     path = tmp_path / "five.toml"
     path.write_text("points = [[0, 0], [1, 0.6], [2, 0.8], [3, 0.6], [4, 0.1]]\nfixed_pivots = [[0, -3], [4, -2]]\n")

@@ -130,14 +130,12 @@ def wanted_tier() -> str:
 def price(kernel: Callable[..., Any]) -> float:
     """About how many seconds of interpreting make up for loading or compiling a kernel."""
     ready = _dispatchers.get(kernel)
-    if ready is not None and ready.signatures:
+    if ready is not None and ready.overloads:  # `signatures` makes a list at each call: 5 to 20 us
         return 0.0
     loading = _LOADING_KERNEL + (0.0 if "numba" in sys.modules else _LOADING_NUMBA)
     if is_cached(kernel):
         return loading
-    missing = [
-        called for called in _called(kernel) if called not in _dispatchers or not _dispatchers[called].signatures
-    ]
+    missing = [called for called in _called(kernel) if called not in _dispatchers or not _dispatchers[called].overloads]
     instructions = sum(len(called.__code__.co_code) // 2 for called in missing if not is_cached(called))
     return loading + (_FIRST_COMPILING + _COMPILING * instructions) / _RUNS
 

@@ -308,8 +308,7 @@ def refine_solutions(z: Complexes, p: Complexes, poses: int, points: int, steps:
         steps[n] = np.inf
         for _ in range(8):
             evaluate_system(z[n], p, still, poses, points, f, jac, ft)
-            if _norm(z[n]) > _LARGE:
-                sharp_residuals(z[n], p, poses, points, f)
+            sharp_residuals(z[n], p, poses, points, f)  # of ill-conditioned solutions near by, too
             if not _solve(jac, f):
                 steps[n] = np.inf
                 break

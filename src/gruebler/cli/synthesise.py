@@ -45,6 +45,7 @@ from gruebler.text import Message, joined, message, number, number_separator, pl
 __all__ = ["add", "run"]
 
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
+_ON_A_PAGE, _IN_A_PICTURE = 24, 6  # designs that are drawn
 _COLUMNS = (
     *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),
     message("lengths"),
@@ -74,6 +75,7 @@ _OPTIONS = {
     "moving_pivots": "--moving-pivot",
     "fixed_pivots": "--fixed-pivot",
     "curve_parameters": "--curve-parameter",
+    "region": "--region",
 }
 """The options for keys of task files."""
 _LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 1}
@@ -252,7 +254,7 @@ def run(arguments: argparse.Namespace) -> int:
         write_linkage(arguments.out, result.designs[0].linkage)
         say_written(arguments.out, arguments.lang)
     if drawn:
-        _draw(arguments.draw, shown, arguments.lang)
+        _draw(arguments.draw, result, len(shown.designs), arguments.lang)
     if arguments.json:
         print_json(shown.to_json())
     else:
@@ -287,7 +289,8 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         count = getattr(arguments, option.removeprefix("--").replace("-", "_"))
         if count is not None and count < 1:
             raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
-    return Demands(arguments.crank, radians(arguments.transmission), arguments.size_ratio, region)
+    with _keys_as_options():
+        return Demands(arguments.crank, radians(arguments.transmission), arguments.size_ratio, region)
 
 
 def _task(arguments: argparse.Namespace) -> Task:
@@ -536,15 +539,17 @@ def _check_picture(path: Path) -> None:
         raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
-def _draw(path: Path, result: SynthesisResult, lang: str) -> None:
-    """The best designs side by side, or all on a page."""
+def _draw(path: Path, result: SynthesisResult, number: int, lang: str) -> None:
+    """The best designs side by side, or all on a page; so many at most, if there are any."""
     from gruebler.synthesis.pictures import designs_figure, designs_page
 
     suffix = suffix_of(path, (*SUFFIXES, "html"))
     if suffix == "html":
-        content = designs_page(result, lang=lang).encode("utf-8")
+        content = designs_page(result, lang=lang, most=min(number or _ON_A_PAGE, _ON_A_PAGE)).encode("utf-8")
     else:
-        content = picture_bytes(designs_figure(result, lang=lang), suffix)
+        content = picture_bytes(
+            designs_figure(result, lang=lang, most=min(number or _IN_A_PICTURE, _IN_A_PICTURE)), suffix
+        )
     write_file(path, content, lang)
 
 

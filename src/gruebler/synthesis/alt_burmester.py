@@ -132,6 +132,8 @@ class Solutions(NamedTuple):
     """How many paths end at singular solutions: several at one of them, or at one of infinitely many."""
     missing: int
     """How many paths are not resolved: they could not be followed, and where they end is not known."""
+    lost: int = 0
+    """How many paths needed the endgame."""
 
     @property
     def real(self) -> Complexes:
@@ -176,13 +178,25 @@ def follow_from_generic(
 
 
 def solutions(
-    problem: Problem, p: Complexes, *, threads: int | None = None, progress: Progress | None = None
+    problem: Problem,
+    p: Complexes,
+    *,
+    most_lost: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Solutions:
     """All solutions of a task whose displacements are of the order of 1.
 
     Paths that fail, and those whose ends coincide, are followed again with fine steps, then to where an endgame says
     how they end. What is still missing is sought along other ways through the space of tasks. Cost: 1442 paths 1.5 s on
-    one core.
+    one core, and up to 0.5 s for each path that needs the endgame.
+
+    Args:
+        problem: the kind of task.
+        p: the parameters of the task.
+        most_lost: if the endgame has more paths, the task is given up with all solutions missing.
+        threads: how many follow paths; as many as there are processors if None.
+        progress: called with the paths done and their number.
     """
     from gruebler._numeric.homotopy import ARRIVED
 
@@ -197,14 +211,26 @@ def solutions(
     lost = ~arrived | _repeated(problem, ends, arrived)
     doubtful = ~lost
     doubtful[doubtful] = ~certified(problem.poses, problem.points, ends[doubtful], p)
+    if doubtful.any():  # paths end with residuals of double precision
+        sharp = ends[doubtful]
+        _sharpened(problem, sharp, p)
+        same = np.abs(sharp - ends[doubtful]).max(axis=1) < _NEAR
+        ends[doubtful] = np.where(same[:, None], sharp, ends[doubtful])
+        doubtful[doubtful] = ~certified(problem.poses, problem.points, ends[doubtful], p)
+    if most_lost is not None and np.count_nonzero(lost | doubtful) > most_lost:
+        none = base.z[:0]
+        return Solutions(none, np.zeros(0, bool), none, 0, 0, problem.classes, problem.classes)
     outcome = _outcome(problem, base, p, lost | doubtful, threads)
     # What arrived, though it is not certified, is believed unless the endgame finds others, or branches, at its end.
     near = np.abs(outcome.z - ends[lost | doubtful]).max(axis=1, initial=0.0) < _NEAR
     single = doubtful[lost | doubtful] & ~(outcome.several & near)
+    endgame = int(np.count_nonzero(lost | doubtful))
     lost |= doubtful
     lost[np.flatnonzero(lost)[single]] = False
     outcome = outcome.without(single)
-    regular = _distinct(problem, np.concatenate([ends[~lost], outcome.z[outcome.regular]]))
+    regular = np.concatenate([ends[~lost], outcome.z[outcome.regular]])
+    _sharpened(problem, regular, p)
+    regular = _distinct(problem, regular)
     missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
     rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
     for bend in _BENDS:
@@ -216,12 +242,13 @@ def solutions(
         halfway, status = follow_from_generic(problem, starts, base.parameters, middle, loose, threads=threads)
         ends, status = follow_from_generic(problem, halfway[status == ARRIVED], middle, p, loose, threads=threads)
         more = ends[status == ARRIVED]
-        regular = _distinct(problem, np.concatenate([regular, more[_regular(problem, more, p)]]))
+        more = more[_regular(problem, more, p)]
+        _sharpened(problem, more, p)
+        regular = _distinct(problem, np.concatenate([regular, more]))
         missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
-    _sharpened(problem, regular, p)
     proved = certified(problem.poses, problem.points, regular, p)
     multiple = _distinct(problem, outcome.multiple)
-    return Solutions(regular, proved, multiple, outcome.infinite, outcome.singular, max(missing, 0))
+    return Solutions(regular, proved, multiple, outcome.infinite, outcome.singular, max(missing, 0), endgame)
 
 
 class _Outcome(NamedTuple):

@@ -202,9 +202,11 @@ def synthesise_dead_centres(
     """
     wanted = demands or Demands()
     family = dead_centre_family(task)
-    others = max(number - 1, 0)  # in the middle of equal parts: at the limits of the family nothing moves well
-    steps = np.unique(((np.arange(others) + 0.5) * len(family.members) / max(others, 1)).astype(int))
-    chosen = [family.best, *(family.members[k] for k in steps)]
+    # The best stands for its part of the family, the middle for each other part: at the limits nothing moves well.
+    parts = np.array_split(np.arange(len(family.members)), max(number, 1))
+    nearest = min(range(len(family.members)), key=lambda k: abs(family.members[k].parameter - family.best.parameter))
+    others = [part[len(part) // 2] for part in parts if len(part) and nearest not in part]
+    chosen = [family.best, *(family.members[k] for k in others)]
     designs = [_design(task, member, wanted) for member in chosen]
     accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: -d.verdict.transmission))
     rejected = tuple(d for d in designs if not d.verdict.accepted)

@@ -8,7 +8,7 @@ the linkage's reference pose without regard to the drive, the places where it me
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +32,7 @@ __all__ = [
     "faults_of_size",
     "judge_design",
     "judge_with_drives",
+    "missing_alike",
     "point_targets",
     "position_targets",
     "transmission_fault",
@@ -132,16 +133,26 @@ def point_targets(point: str, z: Complexes, size: float) -> Targets:
 
 
 def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
-    """The first accepted one of linkages that differ in their drive, else the one with the fewest faults."""
+    """The first accepted one of linkages that differ in their drive, else the one with the fewest faults.
+
+    Their circuits are the same: where the first misses a target, so do all.
+    """
     best: Design | None = None
     for linkage in linkages:
         design = judge_design(linkage, targets(linkage), demands, form)
-        if design.verdict.accepted:
+        if design.verdict.accepted or design.verdict.misses:
             return design
         if best is None or len(design.verdict.reasons) < len(best.verdict.reasons):
             best = design
     assert best is not None
     return best
+
+
+def missing_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, form: str) -> Design:
+    """The design of a linkage whose point has the path of another one that misses its targets, a cognate of it."""
+    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    reasons = (*faults_of_size(ratio, inside, demands), verdict.reasons[-1])
+    return Design(linkage, replace(verdict, size_ratio=ratio, inside=inside, reasons=reasons), form)
 
 
 def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
@@ -159,20 +170,19 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     try:
         course = circuit(linkage, step=0.05)
         met = _met(course, targets, demands.tolerance)
+        missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
+        if missed:
+            reasons.append(_missed(missed, met.error))
+            verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
+            return Design(linkage, verdict, form)
+        path, full = _path(course, met.arcs), _turns_fully(course)
+        drives: tuple[float, ...] = ()
+        missed_by, transmission = met.error, np.nan
+        if path.one_branch:
+            drives, missed_by, transmission = _carried(linkage, course, path, targets)
     except LinkageError as error:
         reasons.append(message("it cannot be followed from its first position: {error}", error=error))
         return Design(linkage, DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
-    missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
-    if missed:
-        reasons.append(_missed(missed, met.error))
-        verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
-        return Design(linkage, verdict, form)
-    path = _path(course, met.arcs)
-    full = _turns_fully(course)
-    drives: tuple[float, ...] = ()
-    missed_by, transmission = met.error, np.nan
-    if path.one_branch:
-        drives, missed_by, transmission = _carried(linkage, course, path, targets)
     limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
     if not path.in_order and demands.in_order:
         reasons.append(message("the targets are met in another order"))

@@ -5,7 +5,7 @@ docs/theory/synthesis-points.md has the equations and the counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import combinations
 from typing import NamedTuple
@@ -17,9 +17,18 @@ from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
 from gruebler.synthesis.dyads import GuidingDyad
-from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judge_design, point_targets, position_targets
+from gruebler.synthesis.judging import (
+    Demands,
+    Probe,
+    Targets,
+    best_of,
+    judge_design,
+    missing_alike,
+    point_targets,
+    position_targets,
+)
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
-from gruebler.synthesis.results import Design, Progress, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import MOST_POINTS, SAME, PathTask, PositionTask
 from gruebler.text import Message, message
 
@@ -128,12 +137,11 @@ def _exact(
     _check_general(task)
     reduced, complete = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
-    pairs = list(_dyad_pairs(problem, complete))
-    for done, pair in enumerate(pairs, 1):
+    for done, alike in enumerate(classes := list(_classes(problem, complete)), 1):
         if progress is not None:
-            progress(done, len(pairs))
-        first, second = (dyad.moved(reduced.size, reduced.origin) for dyad in pair)
-        designs += _judged(task, demands, first, second, reduced.first)
+            progress(done, len(classes))
+        pairs = [[dyad.moved(reduced.size, reduced.origin) for dyad in pair] for pair in alike]
+        designs += _judged(task, demands, pairs, reduced.first)
     cognate = problem.poses == 0 and not problem.given_pivots
     what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
@@ -199,14 +207,18 @@ def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Messag
 def _best_reference(
     task: PathTask, problem: Problem, oriented: list[int], threads: int | None, progress: Progress | None
 ) -> tuple[_Reduced, Solutions]:
-    """The solutions with the most central point as origin, where the equations cancel least; else with the next."""
+    """The solutions with the most central point as origin, where the equations cancel least.
+
+    If some are missing, with the next point, if no more paths need the endgame there.
+    """
     candidates = list(oriented) or list(range(len(task)))
     z = task.z
     candidates.sort(key=lambda k: float(np.abs(z - z[k]).mean()))
     best: tuple[_Reduced, Solutions] | None = None
     for first in candidates[:2]:
         reduced = _reduced(task, problem, oriented, first)
-        complete = solutions(problem, reduced.parameters, threads=threads, progress=progress)
+        most = None if best is None else best[1].lost
+        complete = solutions(problem, reduced.parameters, most_lost=most, threads=threads, progress=progress)
         if best is None or complete.missing < best[1].missing:
             best = reduced, complete
         if not complete.missing:
@@ -256,28 +268,34 @@ def _between(z: Complexes, count: int) -> Complexes:
     return np.array(points)
 
 
-def _dyad_pairs(problem: Problem, complete: Solutions) -> Iterator[tuple[GuidingDyad, GuidingDyad]]:
-    """The real linkages of all real classes: with Roberts' cognates where only points are given."""
+def _classes(problem: Problem, complete: Solutions) -> Iterator[list[tuple[GuidingDyad, GuidingDyad]]]:
+    """The real linkages of each real class: with Roberts' cognates where only points are given."""
     for row in complete.real:
         x, y, a, b = (complex(row[k] + np.conj(row[k + 1])) / 2 for k in (0, 2, 4, 6))
-        yield GuidingDyad("RR", x, a), GuidingDyad("RR", y, b)
-        if problem.poses or problem.given_pivots or abs(y - x) < 1e-12:
+        alike = [(GuidingDyad("RR", x, a), GuidingDyad("RR", y, b))]
+        if not (problem.poses or problem.given_pivots or abs(y - x) < 1e-12):
+            # The coupler triangle: the point, at the origin, lies at the part k of the way from x to y.
+            k = -x / (y - x)
+            c = a + k * (b - a)
+            alike.append((GuidingDyad("RR", a - x, a), GuidingDyad("RR", (a - x) * (1 - k), c)))
+            alike.append((GuidingDyad("RR", b - y, b), GuidingDyad("RR", k * (b - y), c)))
+        yield alike
+
+
+def _judged(task: PathTask, demands: Demands, pairs: Iterable[Sequence[GuidingDyad]], first: int) -> Iterator[Design]:
+    """The designs of a class: cognates have the same path, so that where one misses a point, so do the others."""
+    missed: DesignVerdict | None = None
+    for own, other in pairs:
+        try:
+            linkages = four_bar_linkages(own, other, complex(task.z[first]), unit=task.unit)
+        except LinkageError:
             continue
-        # The coupler triangle: the point, at the origin, lies at the part k of the way from x to y.
-        k = -x / (y - x)
-        c = a + k * (b - a)
-        yield GuidingDyad("RR", a - x, a), GuidingDyad("RR", (a - x) * (1 - k), c)
-        yield GuidingDyad("RR", b - y, b), GuidingDyad("RR", k * (b - y), c)
-
-
-def _judged(
-    task: PathTask, demands: Demands, first_dyad: GuidingDyad, second_dyad: GuidingDyad, first: int
-) -> list[Design]:
-    try:
-        linkages = four_bar_linkages(first_dyad, second_dyad, complex(task.z[first]), unit=task.unit)
-    except LinkageError:
-        return []
-    return [best_of(linkages, partial(_targets, task, first), demands, "RR-RR")]
+        if missed is not None:
+            yield missing_alike(linkages[0], missed, demands, "RR-RR")
+            continue
+        design = best_of(linkages, partial(_targets, task, first), demands, "RR-RR")
+        missed = design.verdict if design.verdict.misses else None
+        yield design
 
 
 def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
@@ -295,7 +313,8 @@ def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
     problem = PROBLEMS[4 if task.fixed_pivots else 0]
     reduced, complete = _best_reference(task, problem, [], None, None)
     size, origin = reduced.size, reduced.origin
-    return [(first.moved(size, origin), second.moved(size, origin)) for first, second in _dyad_pairs(problem, complete)]
+    every = [pair for alike in _classes(problem, complete) for pair in alike]
+    return [(own.moved(size, origin), other.moved(size, origin)) for own, other in every]
 
 
 def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:

@@ -60,6 +60,11 @@ class DesignVerdict:
         """Whether nothing speaks against it."""
         return not self.reasons
 
+    @property
+    def misses(self) -> bool:
+        """Whether its circuit was followed and misses a target."""
+        return self.assembles and not self.one_circuit
+
 
 Progress = Callable[[int, int], None]
 """Called with how much is done, and of how much."""
@@ -251,7 +256,7 @@ class SynthesisResult:
         >>> from gruebler.synthesis import DeadCentreTask, synthesise
         >>> found = synthesise(DeadCentreTask(stroke=50, time_ratio=1.2), number=4)
         >>> [round(design.linkage.size, 1) for design in found.sorted_by("size").designs][:3]
-        [64.0, 67.4, 134.8]
+        [64.0, 113.0, 151.1]
         """
         return replace(self, designs=in_order_of(self.designs, orders), rejected=in_order_of(self.rejected, orders))
 
