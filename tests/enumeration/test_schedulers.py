@@ -18,7 +18,7 @@ from gruebler.enumeration.worker_pool import run_work
 from gruebler.errors import RunError
 
 distributed = pytest.importorskip("distributed")
-QUIET = {"dashboard_address": None, "silence_logs": 50}
+QUIET = {"dashboard_address": ":0", "silence_logs": 50}
 
 
 def test_no_scheduler_there(monkeypatch, capsys):
@@ -114,7 +114,7 @@ def test_many_workers_get_many_pieces(cluster):
 
 CLUSTER = """
 import sys, distributed
-cluster = distributed.LocalCluster(n_workers=1, processes=False, protocol="tcp://", dashboard_address=None)
+cluster = distributed.LocalCluster(n_workers=1, processes=False, protocol="tcp://", dashboard_address=":0")
 print(cluster.scheduler_address, flush=True)
 sys.stdin.read()
 """
