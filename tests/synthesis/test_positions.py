@@ -298,6 +298,25 @@ def test_a_region_without_solutions():
     assert list(map(str, found.rejected[0].verdict.reasons)) == ["a fixed pivot lies outside the region"]
 
 
+@pytest.mark.parametrize(
+    ("count", "region"), [(2, (0, 0, 1, 1)), (3, (0, 0, 1, 1)), (3, (-3, 0, 3, 4)), (4, (1, 2, 3, 6))]
+)
+def test_dyads_of_an_infinite_family_are_taken_from_the_region(count, region):
+    """Their pivots lie in it, and the body keeps its distance from them in all positions."""
+    task = task_of([(0, 0, 0), (1, 0.5, 20), (2, 0.4, 45), (3, 0, 60)][:count])
+    found = synthesise_positions(task, Demands(region=region))
+    turning = [d for d in guiding_dyads(task, 16, region) if d.form == "RR"]
+    assert len(turning) >= 12
+    for dyad in turning:
+        assert region[0] <= dyad.fixed.real <= region[2]
+        assert region[1] <= dyad.fixed.imag <= region[3]
+        images = task.origins + task.turns / task.turns[0] * (dyad.moving - task.origins[0])
+        assert np.abs(images - dyad.fixed) == pytest.approx(dyad.length)
+    outside = [d for d in found.rejected if "a fixed pivot lies outside the region" in map(str, d.verdict.reasons)]
+    assert not [design for design in outside if design.form == "RR-RR"]  # slides are no family: each is judged
+    assert found.designs
+
+
 @pytest.mark.parametrize("number", [16, 24, 40])
 def test_dyads_of_four_positions_are_different(number):
     """A closed piece of Burmester's curve holds its first point twice."""

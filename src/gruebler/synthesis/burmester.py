@@ -45,10 +45,11 @@ class BurmesterCurves:
     pieces: tuple[CurvePiece, ...]
     sliding: tuple[GuidingDyad, ...]
 
-    def dyads(self, number: int) -> tuple[GuidingDyad, ...]:
+    def dyads(self, number: int, region: tuple[float, float, float, float] | None = None) -> tuple[GuidingDyad, ...]:
         """So many RR dyads spread over the pieces, and the sliding ones.
 
-        Those are left out whose pivots lie further away than 30 sizes of the task.
+        Those are left out whose pivots lie further away than 30 sizes of the task, and those whose fixed pivots lie
+        outside the region, if the curve passes through it.
         """
         origin, size = complex(*self.task.positions[0][:2]), self.task.size
         moving = np.concatenate([piece.moving for piece in self.pieces])
@@ -56,6 +57,10 @@ class BurmesterCurves:
         near = (np.abs(moving - origin) < 30 * size) & (np.abs(fixed - origin) < 30 * size)
         apart = np.abs(moving - fixed) > 1e-6 * size
         chosen = np.flatnonzero(near & apart)
+        if region is not None:
+            x, y = fixed[chosen].real, fixed[chosen].imag
+            inside = (region[0] <= x) & (x <= region[2]) & (region[1] <= y) & (y <= region[3])
+            chosen = chosen[inside] if inside.any() else chosen
         chosen = chosen[np.unique(np.linspace(0, len(chosen) - 1, min(number, len(chosen))).astype(int))]
         # A closed piece ends in its first point.
         given, *_ = Displacements.of(self.task.origins, self.task.turns)

@@ -66,8 +66,13 @@ THEOREM = {2: None, 3: None, 4: None, 5: 4}
 """How many complex dyads a general task has, by the number of positions."""
 
 
-def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ...]:
+def guiding_dyads(
+    task: PositionTask, number: int = 24, region: tuple[float, float, float, float] | None = None
+) -> tuple[GuidingDyad, ...]:
     """The dyads that guide the body: all four of five positions, else those chosen or so many of infinitely many.
+
+    Of infinitely many only those are taken whose fixed pivots lie in the region, where one is given; of four positions
+    all, if the curve does not pass through it.
 
     Raises `SynthesisError` where a chosen pivot serves no dyad or any.
     """
@@ -82,17 +87,21 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
         picked = [curves.nearest(complex(*p)) for p in task.moving_pivots]
         picked += [curves.nearest(complex(*p), fixed=True) for p in task.fixed_pivots]
         picked += [curves.at(place) for place in task.curve_parameters]
-        return tuple(picked) or curves.dyads(number)
+        return tuple(picked) or curves.dyads(number, region)
     if count > 5:
         return tuple(dyad.moved(size, origin) for dyad in _fitted_dyads(displacements))
     chosen: list[tuple[Callable[[Displacements, complex], GuidingDyad], complex]]
     chosen = [(dyad_of_moving_pivot, complex(*p)) for p in task.moving_pivots]
     chosen += [(dyad_of_fixed_pivot, complex(*p)) for p in task.fixed_pivots]
     if not chosen:
-        centre, reach = task.origins.mean(), 1.5 * size
         side = max(2, round(number**0.5))
-        steps = np.linspace(-1, 1, side)
-        chosen = [(dyad_of_moving_pivot, complex(centre + reach * complex(a, b))) for a in steps for b in steps]
+        if region is None:
+            centre, reach = task.origins.mean(), 1.5 * size
+            steps = np.linspace(-1, 1, side)
+            chosen = [(dyad_of_moving_pivot, complex(centre + reach * complex(a, b))) for a in steps for b in steps]
+        else:  # the middles of its fields: a pivot on the edge could fall outside by the last bit
+            x, y = (low + (high - low) * (np.arange(side) + 0.5) / side for low, high in (region[::2], region[1::2]))
+            chosen = [(dyad_of_fixed_pivot, complex(a, b)) for a in x for b in y]
     dyads = []
     if count == 2:
         displacements = Displacements(
@@ -139,7 +148,7 @@ def synthesise_positions(
     (4, 4, 6)
     """
     wanted = demands or Demands()
-    dyads = guiding_dyads(task, number)
+    dyads = guiding_dyads(task, number, wanted.region)
     if len(task) > 5:
         return _approximate(task, wanted, dyads, progress)
     candidates = _judged_pairs(task, wanted, dyads, progress)
