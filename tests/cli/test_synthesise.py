@@ -227,6 +227,16 @@ def test_a_page_of_dead_centres_has_the_construction_and_moving_designs(options,
     assert "<animateTransform" in text
 
 
+def test_the_best_dead_centres_are_the_same_however_many_are_listed(capsys):
+    angles = {}
+    for number in (2, 12):
+        words = ["synthesise", "dead-centres", "--swing", "60", "--time-ratio", "1.2", "--json"]
+        assert main([*words, "--number", str(number)]) == 0
+        designs = json.loads(capsys.readouterr().out)["designs"]
+        angles[number] = [design["transmission_over_range"] for design in designs]
+    assert angles[2] == angles[12][:2]
+
+
 def test_dead_centres_in_german(capsys):
     assert main(["synthesise", "dead-centres", "--swing", "60", "--crank-angle", "200", "--lang", "de"]) == 0
     assert "unendlich viele" in capsys.readouterr().out

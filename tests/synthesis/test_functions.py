@@ -249,3 +249,14 @@ def test_functions_without_values_and_too_many_pairs():
         FunctionLaw("x^2", (-1, 1), 1, 1)
     with pytest.raises(SynthesisError, match="at most 3"):
         synthesise_function(FunctionTask([0.1, 0.2, 0.3, 0.4], [1, 2, 3, 4]))
+
+
+def test_a_table_from_zero_names_free_starts():
+    """With both angles 0 at the first pair all links lie on the line of the frame."""
+    table = [np.radians([0.0, 30.0, 60.0]), np.radians([0.0, 10.0, 40.0])]
+    fixed = synthesise_function(FunctionTask(*table))
+    assert not fixed.designs
+    assert "with free starts only their differences count" in str(fixed.notes[-1])
+    free = synthesise_function(FunctionTask(*table, start_input=False, start_output=False))
+    assert free.designs
+    assert not [note for note in free.notes if "free starts" in str(note)]

@@ -217,6 +217,8 @@ def test_the_pareto_table_holds_what_nothing_beats():
         ("timed", SLIDING_FIVE_BAR.replace("; drive=P(4-0)", ""), "", "need a drive that turns at the frame"),
         ("positions", FOUR, "7", "the link that carries the point is one of 1, 2, 3, not '7'"),
         ("function", STEPHENSON, "2", "the output is one of 3, 5, not '2'"),
+        ("positions", "R(0-1) R(1-2) R(2-0); frame=0; drive=R(0-1)", "", "has no mobility: there is nothing to drive"),
+        ("positions", FIVE_BAR.replace("; drive=R(4-0)", ""), "", "Mobility 2, drives 1"),
     ],
 )
 def test_what_a_structure_cannot_do_is_refused(kind, text, link, sentence):

@@ -83,7 +83,7 @@ _TASK_OPTIONS = {
     "dead-centres": ("--swing", "--stroke", "--crank-angle", "--time-ratio"),
 }
 """The options that are a task by themselves."""
-_LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 1}
+_LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
 _TASKS: dict[str, type[Task]] = {
     "positions": PositionTask,
@@ -145,7 +145,8 @@ def add(parser: Parser) -> None:
     function.add_argument(
         "task",
         metavar="TASK|EXPRESSION",
-        help="a .toml, .json or .csv file (CSV columns input,output), or an expression such as 'log10(x)'",
+        help="a .toml, .json or .csv file (CSV columns input,output or input,travel), or an expression such as "
+        "'log10(x)', its angles in radians",
     )
     function.add_argument("--interval", type=float, nargs=2, metavar=("FROM", "TO"), help="interval of x")
     function.add_argument(

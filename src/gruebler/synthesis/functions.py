@@ -99,6 +99,13 @@ def synthesise_function(
         notes.append(message("There are infinitely many solutions: give more pairs."))
         theorem = None
     designs, rejected = ranked(candidates)
+    if not designs and task.law is None and free < 2:
+        notes.append(
+            message(
+                "The angles of the table count from the line of the frame; with free starts only their differences "
+                "count."
+            )
+        )
     count = SolutionCount(message("linkages"), theorem, complex_count, real)
     result = SynthesisResult(task, designs, rejected, count, tuple(notes))
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result

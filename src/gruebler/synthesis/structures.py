@@ -17,7 +17,7 @@ import numpy as np
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.mechanism import Mechanism, check_drives
 from gruebler.realisation import realise
 from gruebler.synthesis.closure import DesignClosure
 from gruebler.synthesis.curve_matching import best_matches, drive_angles
@@ -125,6 +125,11 @@ def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
             links=", ".join(other for other in chain.links if other != frame),
             link=link,
         )
+    report = check_drives(mechanism)
+    if report.mobility < 1:
+        raise SynthesisError("{mechanism!r} has no mobility: there is nothing to drive", mechanism=mechanism.text())
+    if drives and not report.fixed:
+        raise SynthesisError("{mechanism!r}: {reason}", mechanism=mechanism.text(), reason=report.message)
 
 
 def _limit(demands: Demands) -> float:
