@@ -192,11 +192,25 @@ def test_a_full_disc_loses_nothing(whole, tmp_path):
         (("8-4",), "links: the range 8-4 ends before it begins"),
         (("5",), "there is no chain of 5 links with mobility 1"),
         (("6", "1", "all", "many"), "multiple joints are a number"),
+        (("4-6", "1", "none", "0", "8-9"), "no chain of 4-6 links has 8 sliding joints"),
     ],
 )
 def test_tasks_that_make_no_sense(values, problem):
     with pytest.raises(GrueblerError, match=problem):
         AtlasTask(*values)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--links", "999", "--mobility", "2"], "999 links with mobility 2 make 498 loops"),
+        (["--links", "1000", "--mobility", "1"], "1000 links with mobility 1 make 499 loops"),
+        (["--links", "8", "--prismatic", "0-999"], "this takes about"),
+    ],
+)
+def test_sizes_without_measure_are_refused_in_a_sentence(options, sentence, tmp_path, capsys):
+    status = main(["atlas", "build", *options, str(tmp_path / "atlas")])
+    assert (status, sentence in capsys.readouterr().err) == (2, True)
 
 
 # --- opened ------------------------------------------------------------------------------------------

@@ -164,3 +164,8 @@ def test_the_command_lists_what_check_reads(tmp_path, capsys):
 def test_other_options_do_not_go_with_trains(words, capsys):
     assert main(["enumerate", "--links", "5", "--trains", *words.split()]) == 2
     assert "--trains" in capsys.readouterr().err or "graph6" in words
+
+
+def test_links_that_no_option_allows_are_not_offered(capsys):
+    assert main(["enumerate", "--links", "11", "--trains"]) == 2
+    assert "listed for 3 to 10 links" in capsys.readouterr().err

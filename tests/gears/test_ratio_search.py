@@ -105,3 +105,10 @@ def test_the_command_prints_trains_that_it_takes(capsys):
 def test_ranges_are_checked():
     with pytest.raises(GearError, match="from 5 to 250"):
         search_ratio(3, (2, 400))
+
+
+def test_at_least_one_train_is_listed(capsys):
+    with pytest.raises(GearError, match="number of trains: expected a whole number, at least 1, not 0"):
+        search_ratio(3, (17, 20), number=0)
+    assert main(["gears", "search", "--ratio", "4.2", "--number", "-1"]) == 2
+    assert "No train" not in capsys.readouterr().out

@@ -34,7 +34,7 @@ from gruebler.type_synthesis import joint_types
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_parquet"]
+__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "joint_count", "parts", "read_part", "write_parquet"]
 
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
 _AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part
@@ -82,6 +82,10 @@ class AtlasTask:
                 "there is no chain of {links} links with mobility {mobility}: n + F is odd, n at least F + 3",
                 links=self.links,
                 mobility=self.mobility,
+            )
+        if all(self.sliding[0] > joint_count(request) for request in self.requests()):
+            raise GrueblerError(
+                "no chain of {links} links has {count} sliding joints", links=self.links, count=self.sliding[0]
             )
 
     @property
@@ -152,8 +156,13 @@ class AtlasTask:
         return " ".join([*words, "DIR"])
 
 
+def joint_count(request: Request) -> int:
+    """The joints of each of its chains, a multiple joint of k links as k - 1: all have f = 1."""
+    return (3 * (request.links - 1) - request.mobility) // 2
+
+
 def _range(name: str, text: str) -> tuple[int, int]:
-    match = re.fullmatch(r"(\d{1,3})(?:-(\d{1,3}))?", str(text))
+    match = re.fullmatch(r"(\d{1,6})(?:-(\d{1,6}))?", str(text))
     if match is None:
         raise GrueblerError(
             "{name}: expected a number or a range such as 4-10, but found {found!r}", name=name, found=text

@@ -129,12 +129,15 @@ def _build(arguments: argparse.Namespace) -> int:
 
 def _expected(task: Any) -> tuple[int, float]:
     """About how many chains a task has, and how many seconds it takes."""
+    from gruebler.atlas.parts import joint_count
     from gruebler.enumeration.estimates import expected_chains
+    from gruebler.enumeration.pieces import refuse_too_large
 
     chains, seconds = 0, 0.0
     for request in task.requests():
+        refuse_too_large(request.links, request.mobility)
         number = expected_chains(request)[0]
-        sliding = sum(request.links**k for k in task.sliding)
+        sliding = sum(request.links**k for k in task.sliding if k <= joint_count(request))
         chains += number * sliding
         plain = request.only_simple and request.fractionated == "none" and sliding == 1
         each = _CHAIN if plain else _COMPOSED

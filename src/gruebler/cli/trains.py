@@ -8,6 +8,7 @@ from gruebler.cli.output import print_json
 from gruebler.cli.printed_file import printed_to_file
 from gruebler.cli.tables import print_text
 from gruebler.enumeration import count_epicyclic_trains, epicyclic_trains
+from gruebler.enumeration.epicyclic import MOST_LINKS
 from gruebler.errors import GrueblerError
 from gruebler.text import translate
 
@@ -30,7 +31,7 @@ def trains(arguments: argparse.Namespace) -> int:
             raise GrueblerError("{option} does not go with --trains", option=option)
     if arguments.format == "graph6":
         raise GrueblerError("graph6 describes chains with simple joints only; use --format text or json")
-    if arguments.links >= _LONG and not arguments.yes:
+    if _LONG <= arguments.links <= MOST_LINKS and not arguments.yes:  # more are refused, with --yes as well
         raise GrueblerError(
             "{links} links take about a minute or more; use --yes to run it anyway", links=arguments.links
         )

@@ -13,12 +13,12 @@ from gruebler._numeric.labelling.canonical import canonical_form, relabelled
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
 
-__all__ = ["EpicyclicCount", "EpicyclicTrain", "count_epicyclic_trains", "epicyclic_trains", "hypertrees"]
+__all__ = ["MOST_LINKS", "EpicyclicCount", "EpicyclicTrain", "count_epicyclic_trains", "epicyclic_trains", "hypertrees"]
 
 Axes = tuple[tuple[int, ...], ...]
 _Masks = NDArray[np.uint64]
 _Ints = NDArray[np.int64]
-_MOST = 10
+MOST_LINKS = 10
 """Links: 9 take seconds, 10 a minute; of 12 the sets of gear pairs would no longer fit into the digits of a double."""
 _IMAGES = 10**7  # how many images of sets are held at once
 
@@ -83,8 +83,10 @@ def epicyclic_trains(links: int, mobility: int = 1) -> Iterator[EpicyclicTrain]:
     >>> [sum(1 for _ in epicyclic_trains(n)) for n in (3, 4, 5, 6)]
     [1, 3, 13, 81]
     """
-    if not 3 <= links <= _MOST:
-        raise GrueblerError("{links} links: epicyclic trains are listed for 3 to {most} links", links=links, most=_MOST)
+    if not 3 <= links <= MOST_LINKS:
+        raise GrueblerError(
+            "{links} links: epicyclic trains are listed for 3 to {most} links", links=links, most=MOST_LINKS
+        )
     if mobility < 1:
         raise GrueblerError("mobility {mobility}: a train has at least 1", mobility=mobility)
     pairs = links - 1 - mobility

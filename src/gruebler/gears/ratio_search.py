@@ -108,6 +108,8 @@ def search_ratio(
         )
     if planets < 1:
         raise GearError("planets: expected a whole number, at least 1, not {number!r}", number=planets)
+    if number < 1:
+        raise GearError("number of trains: expected a whole number, at least 1, not {number!r}", number=number)
     if wanted == 0:
         raise GearError("a ratio of 0 would mean a driving shaft at rest")
     best: list[PlanetaryDesign] = []
