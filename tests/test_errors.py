@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gruebler import Chain, FourBar, GrueblerError, circuit, draw, measures, move
-from gruebler.errors import LONGEST, LinkageError, NotationError, shortened
+from gruebler.errors import LONGEST, LinkageError, NotationError, near_words, shortened
 from gruebler.formats import linkage_from_json
 from gruebler.text import error_in_language
 
@@ -61,3 +61,23 @@ def test_a_motion_in_an_error_is_one_line():
     with pytest.raises(LinkageError, match=r"but found <Motion linkage=") as caught:
         circuit(motion)
     assert len(str(caught.value)) < 500
+
+
+@pytest.mark.parametrize(
+    ("word", "known", "near"),
+    [
+        ("foo", ["hood"], []),
+        ("foo", ["food", "hood"], ["food"]),
+        ("rid", ["rod"], ["rod"]),
+        ("laed", ["lead"], ["lead"]),
+        ("cat", ["cam"], ["cam"]),
+        ("cat", ["dog"], []),
+        ("cycloid", ["cycloidal"], ["cycloidal"]),
+        ("dead", ["dead-centres"], ["dead-centres"]),
+        ("HH", ["H"], ["H"]),
+        ("sphere", ["spatial", "spherical"], ["spherical"]),
+        ("", ["rod"], []),
+    ],
+)
+def test_a_suggestion_differs_in_a_third_of_the_letters_at_most(word, known, near):
+    assert near_words(word, known) == near

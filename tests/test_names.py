@@ -14,6 +14,7 @@ SHARED = {
     "run": "the protocol of a command: what it does",
     "main": "where a process begins",
     "central_crank_rocker": "a fact of dead centres: constructed, and as an exercise",
+    "write_graph6": "one format: of many chains at once, and of one chain with its links in canonical order",
     "inflection_circle": "one circle: computed, and constructed step by step",
     "four_bar": "methods of exercises are called by file and name: velocities.four_bar",
     "slider_crank": "methods of exercises are called by file and name: velocities.slider_crank",

@@ -7,13 +7,13 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Mapping
-from difflib import get_close_matches
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
+from gruebler.errors import near_words
 from gruebler.text import Message, message, reason_of
 
 __all__ = ["Failing", "convert_document", "infinities_as_words", "load_document"]
@@ -131,7 +131,7 @@ def _refuse_strange_keys(data: Mapping[str, Any], kind: type[msgspec.Struct], fa
     fields = {f.name: f.type for f in msgspec.structs.fields(kind)}
     for key, value in data.items():
         if key not in fields:
-            close = get_close_matches(key[:50], fields, n=1, cutoff=0.4)
+            close = near_words(key, fields)
             raise fail(
                 message(
                     "unknown key {key!r}; did you mean {nearest!r}?"

@@ -133,13 +133,50 @@ class Suggestion(str):
     word: str
 
 
+def near_words(word: str, known: Iterable[str], most: int = 1) -> list[str]:
+    """The known words that a wrong word may stand for, the nearest first.
+
+    At most a third of the letters, or one, are wrong, missing, too many or exchanged with the next; or the words begin
+    alike, for three letters at least and two thirds of the shorter one.
+
+    >>> near_words("cranck", ["frame", "crank"]), near_words("dead", ["dead-centres"]), near_words("foo", ["hood"])
+    (['crank'], ['dead-centres'], [])
+    """
+    word = word[:50]
+    close = get_close_matches(word, list(known), n=3 * most, cutoff=0.4)
+    return [each for each in close if _is_near(word, each)][:most]
+
+
+def _is_near(word: str, known: str) -> bool:
+    shorter = min(len(word), len(known))
+    alike = next((k for k in range(shorter) if word[k] != known[k]), shorter)
+    if alike > 2 and 3 * alike >= 2 * shorter:
+        return True
+    return _slips(word, known[:60]) <= max(1, max(len(word), len(known)) // 3)
+
+
+def _slips(word: str, other: str) -> int:
+    """How many letters have to be changed, put in, left out or exchanged with the next (Damerau, Levenshtein)."""
+    before: list[int] = []
+    row = list(range(len(other) + 1))
+    for i, letter in enumerate(word, 1):
+        following = [i]
+        for j, own in enumerate(other, 1):
+            slips = min(following[-1] + 1, row[j] + 1, row[j - 1] + (letter != own))
+            if i > 1 and j > 1 and letter == other[j - 2] and word[i - 2] == own:
+                slips = min(slips, before[j - 2] + 1)
+            following.append(slips)
+        before, row = row, following
+    return row[-1]
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """A remark for behind a wrong word, which offers the known word nearest to it; empty if none is near.
 
     >>> nearest("cranck", ["frame", "crank"])
     " (did you mean 'crank'?)"
     """
-    close = get_close_matches(word, list(known), n=1, cutoff=0.5)
+    close = near_words(word, known)
     if not close:
         return ""
     suggestion = Suggestion(f" (did you mean {close[0]!r}?)")

@@ -1,5 +1,6 @@
 """An atlas as files: interrupted and resumed, damaged, foreign, too new; opened and queried."""
 
+import csv
 import json
 import os
 import random
@@ -134,6 +135,21 @@ def test_manifests_that_cannot_be_used(whole, tmp_path, change, problem):
     )
     with pytest.raises(RunError, match=problem):
         gr.atlas.open(tmp_path)
+
+
+def test_a_damaged_file_is_named_in_a_sentence(tmp_path):
+    """The first file is read for its columns, the others with the query; building again restores them."""
+    task = AtlasTask("4-6")
+    build(task, tmp_path)
+    parts = sorted(tmp_path.rglob("*.parquet"))
+    for part in parts:
+        content = part.read_bytes()
+        part.write_bytes(b"dear")
+        with pytest.raises(GrueblerError, match=f"{part.name}.*too small to be a Parquet file") as caught:
+            gr.atlas.open(tmp_path).query("select sum(links) from chains")
+        assert "\n" not in str(caught.value)
+        build(task, tmp_path)
+        assert part.read_bytes() == content
 
 
 def test_what_is_missing_is_named(whole, tmp_path):
@@ -314,6 +330,38 @@ def test_the_command(tmp_path, capsys):
     assert lines[0] == "code,links"
     assert [line.rsplit(",", 1) for line in lines[1:]] == [[row["code"], str(row["links"])] for row in rows]
     assert all(decode(row["code"]).chain.n == 6 for row in rows)
+
+
+def test_cells_are_written_as_python_writes_them(tmp_path, capsys):
+    """Arrow's text of the types of an atlas, quotes where they are needed, other types; against csv and str."""
+    sql = (
+        "select * from (values (1, true, 'plain', [3, 4], 1.5, ['a', NULL]), (NULL, NULL, NULL, NULL, NULL, NULL), "
+        "(-7, false, 'with, \"both\"', [], 1e20, []), (0, true, '', [5], 0.1, ['b', 'c'])) t(a, b, c, d, e, f)"
+    )
+    path = tmp_path / "cells.csv"
+    for chosen in (sql, f"select a, d, b from ({sql})", f"select c from ({sql})", f"select a from ({sql})"):
+        assert main(["atlas", "query", chosen, "-o", str(path)]) == 0
+        rows = gr.atlas.open().query(chosen).to_pylist()
+
+        def text(value):
+            if isinstance(value, list):
+                return " ".join(map(text, value))
+            return (
+                {None: "", True: "true", False: "false"}[value]
+                if value is None or isinstance(value, bool)
+                else str(value)
+            )
+
+        with path.open(newline="", encoding="utf-8") as file:
+            header, *written = csv.reader(file)
+        assert header == list(rows[0])
+        assert written == [[text(value) for value in row.values()] for row in rows]
+        capsys.readouterr()
+    assert path.read_text(encoding="utf-8") == 'a\n1\n""\n-7\n0\n'
+    assert main(["atlas", "query", f"select c from ({sql})"]) == 0
+    assert capsys.readouterr().out == 'plain\n\nwith, "both"\n\n'
+    assert main(["atlas", "query", "select c from (select 1 c) where c > 1"]) == 0
+    assert capsys.readouterr().out == ""
 
 
 def test_columns_are_listed(capsys):

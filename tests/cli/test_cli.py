@@ -155,6 +155,9 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["check", "--lang", "fr"], "invalid choice"),
         (["check", "--nonsense"], "unknown arguments: --nonsense"),
         (["check", "--explian", "vcomp"], "did you mean '--explain'?"),
+        (["enumerate", "--likns", "4"], "unknown arguments: --likns (did you mean '--links'?)"),
+        (["synthesise", "path", "--swing", "4"], "unknown arguments: --swing (see"),
+        (["check", "foo"], "the catalog has no entry 'foo'; `gruebler catalog list` shows them all"),
         (
             ["exercise", "sheet", "--kind", "mobility", "-o", "x.pdf", "--solutions"],
             "unknown arguments: --solutions (see",

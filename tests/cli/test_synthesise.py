@@ -33,6 +33,8 @@ def test_positions_give_a_linkage_that_the_other_commands_take(five, tmp_path, c
     out = capsys.readouterr().out
     assert "Solutions: 4 by theorem (dyads), 4 found, 2 real." in out
     assert "Designs: 1 accepted, 0 rejected." in out
+    assert "fixed pivots" in out
+    assert "  (0, 0) (3.5, 0)\n" in out  # not 1e-11
     assert read_linkage(best).length("coupler", 1, 2) == pytest.approx(3, rel=1e-8)
     assert "<svg" in page.read_text(encoding="utf-8")
     assert main(["analyse", str(best)]) == 0
@@ -90,7 +92,24 @@ def test_a_region_without_designs_is_status_1_with_the_reason(five, capsys):
 def test_an_expression_and_its_minimax_optimum(capsys):
     words = ["synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60", "--minimax"]
     assert main(words) == 0
-    assert "Minimax optimum, which -o writes: largest error 0.0036" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "Minimax optimum 1: largest error 0.0036697° (before: 0.011858°)" in out
+    assert "0.00367°" in out.partition("\nMinimax")[0]  # the table, too, has the optimum
+
+
+def test_the_picture_of_a_minimax_optimum_shows_it(tmp_path):
+    """The axis of the structural error reaches as far as that of the optimum, not of the design before it."""
+    path = tmp_path / "designs.svg"
+    words = ["synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60", "--draw", str(path)]
+    assert main(words) == 0
+    before = path.read_text(encoding="utf-8")
+    assert ">−0.010<" in before
+    assert main([*words, "--minimax"]) == 0
+    after = path.read_text(encoding="utf-8")
+    assert ">−0.004<" in after
+    assert ">−0.010<" not in after
+    assert "targets 37.4°" in before
+    assert "targets 35.9°" in after
 
 
 def test_the_file_holds_the_minimax_optimum(tmp_path, capsys):
@@ -105,14 +124,97 @@ def test_the_file_holds_the_minimax_optimum(tmp_path, capsys):
     begin = linkage.reference_pose["crank"].angle
     rocker = move(linkage, begin + np.radians(60) * (x - 1)).angle("rocker")
     error = np.degrees(rocker) - 60 * np.log10(x) / np.log10(2)
-    assert np.ptp(error) / 2 == pytest.approx(0.0036657, rel=2e-3)  # as printed, from fewer values of x
+    assert np.ptp(error) / 2 == pytest.approx(0.0036697, rel=1e-4)  # as printed
 
 
 def test_a_function_file_gives_the_same_optimum(tmp_path, capsys):
     path = tmp_path / "log.toml"
     path.write_text('function = "log10(x)"\ninterval = [1, 2]\ninput_swing = 60\noutput_swing = 60\n', encoding="utf-8")
     assert main(["synthesise", "function", str(path), "--minimax"]) == 0
-    assert "Minimax optimum, which -o writes: largest error 0.0036" in capsys.readouterr().out
+    assert "Minimax optimum 1: largest error 0.0036697" in capsys.readouterr().out
+
+
+def test_fixed_starts_have_three_precision_points(capsys):
+    words = ["synthesise", "function", "x**2", "--interval", "0", "1", "--swings", "90", "40", "--travel"]
+    assert main([*words, "--starts", "0", "50", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["task"]["precision_points"] == 3
+    assert main([*words, "--starts", "0", "50", "--points", "5"]) == 2
+    assert "at most 3" in capsys.readouterr().err
+
+
+def test_pairs_of_a_file_with_free_starts(tmp_path, capsys):
+    path = tmp_path / "pairs.csv"
+    path.write_text("input,output\n0,0\n20,15\n40,38\n", encoding="utf-8")
+    assert main(["synthesise", "function", str(path)]) == 1
+    capsys.readouterr()
+    assert main(["synthesise", "function", str(path), "--free-starts", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert not document["task"]["start_input"]
+    assert document["designs"]
+
+
+FAMILIES = {
+    "positions": "x,y,angle\n0,0,0\n2.1,0.9,20\n3.2,1.0,46\n",
+    "function": "input,travel\n0,0\n20,15\n",
+    "dead-centres": "stroke,time_ratio\n50,1.2\n",
+    "path": "x,y\n0,0\n2,1\n",
+}
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_the_number_is_that_of_designs(kind, tmp_path, capsys):
+    path = tmp_path / "task.csv"
+    path.write_text(FAMILIES[kind], encoding="utf-8")
+    words = ["synthesise", kind, str(path), *(["--free-starts"] if kind == "function" else [])]
+    assert main([*words, "--number", "2", "--json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)["designs"]) == 2
+
+
+def test_a_page_of_so_many_designs_counts_all(tmp_path, capsys):
+    task, page = tmp_path / "four.csv", tmp_path / "page.html"
+    task.write_text(FOUR, encoding="utf-8")
+    assert main(["synthesise", "positions", str(task), "--number", "2", "--draw", str(page)]) == 0
+    accepted = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("Designs: "))
+    assert not accepted.startswith("Designs: 2 ")
+    text = page.read_text(encoding="utf-8")
+    assert accepted in text
+    assert "2 RR-RR, " in text
+    assert "3 RR-" not in text
+
+
+def test_the_number_leaves_a_finite_list_whole(tmp_path, capsys):
+    path = tmp_path / "five.toml"
+    path.write_text("points = [[0, 0], [1, 0.6], [2, 0.8], [3, 0.6], [4, 0.1]]\nfixed_pivots = [[0, -3], [4, -2]]\n")
+    assert main(["synthesise", "path", str(path), "--number", "1"]) == 0
+    out = capsys.readouterr().out
+    assert "36 found, 14 real" in out
+    assert "Designs: 1 accepted, 13 rejected." in out
+
+
+def test_lengths_have_their_letters_and_german_names_their_language(capsys):
+    words = ["synthesise", "dead-centres", "--stroke", "50", "--time-ratio", "1.2", "--number", "1"]
+    assert main(words) == 0
+    assert "a = 23.524, b = 63.955, e = -19.929" in capsys.readouterr().out
+    assert main([*words, "--lang", "de"]) == 0
+    out = capsys.readouterr().out
+    assert "D(Gestell-Kurbel)" in out
+    assert "a = 23,524; b = 63,955; e = -19,929" in out
+
+
+def test_the_two_sides_of_a_design_have_the_symbols_of_the_language(five, capsys):
+    assert main(["synthesise", "positions", str(five), "--lang", "de"]) == 0
+    out = capsys.readouterr().out
+    assert "1 DD-DD" in out
+    assert "RR-RR" not in out
+
+
+def test_rejected_designs_are_drawn_if_there_are_no_others(five, tmp_path, capsys):
+    page, best = tmp_path / "designs.html", tmp_path / "best.toml"
+    words = ["synthesise", "positions", str(five), "--region", "10", "10", "20", "20", "-o", str(best)]
+    assert main([*words, "--draw", str(page)]) == 1
+    assert "best.toml is not written: no design was accepted" in capsys.readouterr().out
+    assert "a fixed pivot lies outside the region" in page.read_text(encoding="utf-8")
+    assert not best.exists()
 
 
 @pytest.mark.parametrize("options", ["--swing 60 --crank-angle 200", "--stroke 50 --time-ratio 1"])
@@ -134,7 +236,18 @@ def test_dead_centres_in_german(capsys):
     ("words", "sentence"),
     [
         (["dead-centres", "--swing", "60", "--crank-angle", "110"], "more than 120 and less than 300 degrees"),
-        (["dead-centres"], "expected one of swing and stroke"),
+        (["dead-centres"], "expected exactly one of --swing and --stroke, but found none"),
+        (["dead-centres", "--swing", "60", "--crank-angle", "400"], "--crank-angle: expected an angle between 0 and"),
+        (["dead-centres", "--stroke", "5", "--time-ratio", "0.5"], "--time-ratio: expected slow to quick"),
+        (["function", "x", "--interval", "1", "2", "--swings", "0", "60"], "--swings: expected a number that is not 0"),
+        (
+            ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "9"],
+            "--points: expected 2 to 5",
+        ),
+        (
+            ["function", "x", "--interval", "1", "2", "--swings", "5", "6", "--minimax", "--structure", "quad"],
+            "--minimax",
+        ),
         (["function", "log10(x", "--interval", "1", "2", "--swings", "60", "60"], "cannot be read"),
         (["function", "log10(x)"], "needs --interval"),
         (["function", "x", "--interval", "2", "1", "--swings", "60", "60"], "begin before its end"),
@@ -147,6 +260,22 @@ def test_wrong_input_is_one_sentence(words, sentence, capsys):
     error = capsys.readouterr().err
     assert sentence in error
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "content", "options", "sentence"),
+    [
+        ("function", "input,output\n0,0\n20,15\n", "--points 3 --travel", "--points and --travel: the file"),
+        ("dead-centres", "stroke,time_ratio\n50,1.2\n", "--swing 30", "--swing: the file"),
+        ("positions", FIVE, "--link coupler", "--link: only with --structure"),
+        ("positions", FIVE, "--number 0", "--number: expected at least 1"),
+    ],
+)
+def test_options_that_would_do_nothing_are_refused(kind, content, options, sentence, tmp_path, capsys):
+    path = tmp_path / "task.csv"
+    path.write_text(content, encoding="utf-8")
+    assert main(["synthesise", kind, str(path), *options.split()]) == 2
+    assert sentence in capsys.readouterr().err
 
 
 def test_a_task_of_another_kind_names_its_command(five, capsys):

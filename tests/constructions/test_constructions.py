@@ -1,5 +1,6 @@
 """Every construction gives the number of the solver: its last step is compared on 100 random linkages."""
 
+from itertools import pairwise
 from math import degrees, hypot, isclose, radians
 from random import Random
 
@@ -11,7 +12,10 @@ from gruebler.analysis import measures
 from gruebler.assur import DYADS, decompose
 from gruebler.cams import Cam, Roller, read_lift
 from gruebler.constructions import CONSTRUCTIONS, construction, construction_forms
+from gruebler.constructions.dead_centres import transmission_of_crank_rocker
 from gruebler.drawing.canvas.construction_files import construction_bytes
+from gruebler.drawing.canvas.shapes import ArcShape, Polylines, TextShape, text_width
+from gruebler.drawing.canvas.styles import STYLES
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.fourbar import turning_ranges
 from gruebler.geneva import Geneva
@@ -433,3 +437,26 @@ def test_forms():
     with pytest.raises(LinkageError, match="does not turn"):
         construction("dead-centres", "slider-crank", a=50, b=20)
     assert isclose(construction("velocities", "slider-crank", phi=90).values["v_B"], 200)
+
+
+def drawn_points(shape):
+    """Points on the lines and arcs of a shape, half a pixel apart."""
+    if isinstance(shape, ArcShape):
+        return [shape.place(k / 200) for k in range(201)]
+    if not isinstance(shape, Polylines):
+        return []
+    return [p.plus(q.minus(p), k / 400) for part in shape.parts for p, q in pairwise(part) for k in range(401)]
+
+
+@pytest.mark.parametrize("lengths", [(20, 50, 40, 50), (25, 70, 40, 70), (20, 70, 45, 55)])
+def test_the_text_of_a_transmission_angle_crosses_no_line(lengths):
+    """It was written across its own arc, and the name of the pin across the circles that meet in it."""
+    figure = transmission_of_crank_rocker(*lengths).figure(-1)
+    texts = [shape for shape in figure.shapes if isinstance(shape, TextShape) and shape.text[:2] in ("B_", "μ_")]
+    texts = [text for text in texts if "," not in text.text]  # not the caption
+    assert len(texts) == 4
+    for text in texts:
+        half = text_width(text.text, STYLES[text.style].size) / 2 - 1
+        for shape in figure.shapes:
+            for p in drawn_points(shape):
+                assert abs(p.x - text.at.x) > half or abs(p.y - text.at.y) > 5, (text.text, shape.style)

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 from gruebler.analysis import drive_cycle
 from gruebler.catalog import entry
+from gruebler.drawing.canvas.free_space import from_segment
 from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, TextShape
 from gruebler.drawing.linkage.curve_plots import coupler_plot, hodograph
 from gruebler.drawing.linkage.motion_picture import draw_motion
@@ -26,7 +27,7 @@ from gruebler.drawing.linkage.posed_linkage import posed_along_motion, posed_lin
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import centrodes, inflection_circle
-from gruebler.kinematics import from_degrees, move
+from gruebler.kinematics import circuit, from_degrees, move
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -318,3 +319,17 @@ def test_the_inflection_circle_is_whole_with_tangent_and_normal():
     assert abs((way / abs(way) * np.conj(circle.tangent[0])).imag) < 1e-3
     way = complex(normal[-1].x - normal[0].x, normal[0].y - normal[-1].y)
     assert abs((way / abs(way) * np.conj(circle.tangent[0])).real) < 1e-3
+
+
+def test_a_curve_is_smooth_where_the_linkage_snaps_over():
+    """Near a change point a point runs over a third of its curve within half a degree of the crank."""
+    linkage = FourBar(0.999, 3, 3, 1).linkage({"K": (1.5, 2)})
+    (curve,) = (s for s in draw_linkage(linkage, 0.3, curves=["K"]).shapes if getattr(s, "style", "") == "curve")
+    drawn = np.array([complex(*p) for p in curve.parts[0]])
+    course = circuit(linkage, step=1e-3).samples.complex_point("K")
+    scale = np.ptp(drawn.real) / np.ptp(course.real)
+    z = np.conj(course) * scale
+    z += complex(drawn.real.min() - z.real.min(), drawn.imag.min() - z.imag.min())
+    closed = np.append(drawn, drawn[0])
+    gaps = from_segment(z[:, None], closed[None, :-1], closed[None, 1:]).min(axis=1)
+    assert gaps.max() < 0.5  # pixels

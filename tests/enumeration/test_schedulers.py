@@ -2,7 +2,10 @@
 
 import os
 import signal
+import subprocess
+import sys
 import threading
+import time
 
 import pytest
 
@@ -10,9 +13,12 @@ from gruebler.cli import main
 from gruebler.enumeration.request import Request
 from gruebler.enumeration.run_request import run_count
 from gruebler.enumeration.schedulers import DaskScheduler
+from gruebler.enumeration.work_units import work_units
+from gruebler.enumeration.worker_pool import run_work
 from gruebler.errors import RunError
 
 distributed = pytest.importorskip("distributed")
+QUIET = {"dashboard_address": ":0", "silence_logs": 50}
 
 
 def test_no_scheduler_there(monkeypatch, capsys):
@@ -32,7 +38,7 @@ def test_lost_workers_lose_nothing(tmp_path, capsys):
 
     task = AtlasTask("4-12")
     build(task, tmp_path / "here")
-    with distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, **QUIET) as cluster:
         scheduler = DaskScheduler(cluster.scheduler_address)
         expected = run_count(Request(14), orbits=True)
         stop = threading.Event()
@@ -58,3 +64,85 @@ def test_lost_workers_lose_nothing(tmp_path, capsys):
     }
     for name, content in files.items():
         assert (tmp_path / "there" / name).read_bytes() == content
+
+
+@pytest.fixture
+def cluster():
+    with distributed.LocalCluster(n_workers=0, processes=False, protocol="tcp://", **QUIET) as made:
+        yield made
+
+
+def test_a_scheduler_without_workers_is_reported_once(monkeypatch, cluster):
+    monkeypatch.setattr("gruebler.enumeration.schedulers._PATIENCE", 0.2)
+    monkeypatch.setattr("gruebler.enumeration.schedulers._INTERVAL", 0.1)
+    reports = []
+
+    def worker_comes(text):
+        reports.append(str(text))
+        threading.Timer(0.5, cluster.scale, (1,)).start()
+
+    scheduler = DaskScheduler(cluster.scheduler_address, worker_comes)
+    expected = run_count(Request(10))
+    assert run_count(Request(10), executor=scheduler) == expected
+    text = f"the Dask scheduler at {cluster.scheduler_address} has no worker; waiting for one (Ctrl-C ends the run)"
+    assert reports == [text]
+
+
+def test_many_workers_get_many_pieces(cluster):
+    """More pieces than `ahead` are sent where there are more threads."""
+    cluster.scale(1)
+    address = cluster.scheduler_address
+    with distributed.Client(address, set_as_default=False) as client:
+        client.wait_for_workers(1)
+        threads = sum(client.nthreads().values())
+    executor = DaskScheduler(address)()
+    while not executor._max_workers:
+        time.sleep(0.01)
+    taken = []
+
+    def numbers():
+        for number in range(100):
+            taken.append(number)
+            yield number
+
+    results = run_work(abs, numbers(), executor, ahead=1)
+    assert next(results) == 0
+    assert len(taken) >= 4 * threads > 1
+    assert list(results) == list(range(1, 100))
+    executor.shutdown()
+
+
+CLUSTER = """
+import sys, distributed
+cluster = distributed.LocalCluster(n_workers=1, processes=False, protocol="tcp://", dashboard_address=":0")
+print(cluster.scheduler_address, flush=True)
+sys.stdin.read()
+"""
+
+
+def test_a_killed_scheduler_ends_the_run_with_one_error(monkeypatch, tmp_path, capfd):
+    """What is finished is kept: a run without a scheduler does only what is left."""
+    monkeypatch.setattr("gruebler.enumeration.schedulers._PATIENCE", 0.5)
+    monkeypatch.setattr("gruebler.enumeration.run_request._COUNTED", 100_000)
+    command = [sys.executable, "-c", CLUSTER]
+    finished = []
+
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as running:
+
+        def kill(progress):
+            finished.append(progress.pieces)
+            running.kill()
+
+        try:
+            address = running.stdout.readline().strip()
+            with pytest.raises(RunError, match=f"no Dask scheduler answers at {address}"):
+                run_count(Request(13, 2), executor=DaskScheduler(address), checkpoint=tmp_path / "kept", progress=kill)
+        finally:
+            running.kill()
+    assert "Traceback" not in capfd.readouterr().err
+    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "kept").glob("*.piece")}
+    assert len(kept) == len(finished) >= 1
+    assert len(list(work_units(Request(13, 2), size=100_000))) > len(kept)
+    count = run_count(Request(13, 2), checkpoint=tmp_path / "kept")
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
+    assert count == run_count(Request(13, 2))

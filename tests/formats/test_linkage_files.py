@@ -1,7 +1,9 @@
 """Files of linkages: what is written is read back to the last bit, and what does not fit is refused in a sentence."""
 
+import cmath
 import json
 import math
+import re
 import tomllib
 from fractions import Fraction
 
@@ -353,3 +355,27 @@ def test_refusals_can_be_read_in_german(tmp_path, text, english, german):
         read_linkage(path)
     assert english in str(refused.value)
     assert german in error_in_language(refused.value, "de")
+
+
+@given(st.floats(0.1, 6), st.floats(-50, 50), st.floats(0.01, 100))
+def test_a_turned_drawing_is_written_without_rounding(turn, shift, scale):
+    """On its own x axis a link has no y of 4e-16, and no file has -0.0; the drawing comes back all the same."""
+    pins = [complex(*p) * scale * cmath.exp(1j * turn) + shift for p in ((0, 0), (1, 2), (4, 3), (5, 0))]
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)")
+    linkage = Linkage.from_drawing(mechanism, {k: (p.real, p.imag) for k, p in enumerate(pins)})
+    for link in ("1", "2", "3"):
+        rows = sorted(linkage.elements[number, link] for number in range(4) if (number, link) in linkage.elements)
+        assert [y for _, y in rows] == [0.0, 0.0]
+        assert rows[0][0] == 0.0
+        assert rows[1][0] == pytest.approx(abs(pins[int(link)] - pins[int(link) - 1]), rel=1e-12)
+    assert not re.search(r"-0\.0\b", linkage_to_toml(linkage))
+    for (number, link), (x, y) in linkage.elements.items():
+        assert linkage.required_pose[link].put(x, y) == pytest.approx(
+            (pins[number].real, pins[number].imag), abs=1e-13 * (abs(shift) + 10 * scale)
+        )
+
+
+def test_minus_zero_is_written_as_zero():
+    linkage = FourBar(25, 70, 40, 70).linkage({"K": (-0.0, 5)}).with_reference_pose(None)
+    assert not re.search(r"-0\.0\b", linkage_to_toml(linkage))
+    assert not re.search(r"-0\.0\b", json.dumps(linkage_to_json(linkage)))

@@ -86,3 +86,13 @@ def test_what_is_not_possible_says_what_is(angle):
     with pytest.raises(SynthesisError, match="more than 120 and less than 300 degrees"):
         dead_centre_family(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(angle)))
     assert dead_centre_family(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(121 + (angle > 200) * 178)))
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 12])
+def test_so_many_members_stand_for_the_family(number):
+    """The best among them, and none at the limits of the family, where the transmission angle is nearly 0."""
+    found = synthesise_dead_centres(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(200)), number=number)
+    angles = [design.verdict.transmission for design in found.designs]
+    assert len(angles) == number
+    assert np.degrees(angles[0]) == pytest.approx(38.04, abs=0.01)
+    assert min(angles) > np.radians(1)

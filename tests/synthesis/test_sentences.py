@@ -68,11 +68,15 @@ def too_long():
             "as many inputs as outputs",
             "gleich viele Antriebs- und",
         ),
-        (lambda: synthesise(FunctionTask([0, 0.1, 0.2, 0.3], [1, 2, 3, 4])), "free a start", "Anfangswert freigeben"),
+        (
+            lambda: synthesise(FunctionTask([0, 0.1, 0.2, 0.3], [1, 2, 3, 4])),
+            "leave a start free",
+            "Anfangswert frei lassen",
+        ),
         (
             lambda: DeadCentreTask(swing=1, stroke=2, time_ratio=1),
             "one of swing and stroke",
-            "eines von swing und stroke",
+            "genau eine Angabe von swing und stroke",
         ),
         (lambda: DeadCentreTask(swing=1), "crank_angle and time_ratio, but found none", "aber keine gefunden"),
         (lambda: synthesise(DeadCentreTask(swing=1, crank_angle=1)), "no crank-rocker", "keine Kurbelschwinge"),

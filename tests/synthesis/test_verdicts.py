@@ -288,3 +288,11 @@ def test_targets_are_marked_where_links_have_numbers():
     for own, mark in ((four_bar, ">2<"), (numbered, ">P2<")):
         design = Design(own, DesignVerdict(assembles=True), "four-bar")
         assert mark in design_figure(PathTask([(0, 0), (9, 4), (14, 3), (20, 1), (30, 5)]), design).svg()
+
+
+def test_a_task_far_from_the_origin_is_judged_all_the_same():
+    """At 1e7 lengths from the origin rounding ends some circuits: their linkages are rejected, without an error."""
+    rows = [(0, 0, 0), (200, 90, np.radians(20)), (320, 100, np.radians(46))]
+    near, far = (synthesise(PositionTask([(x + off, y + off, a) for x, y, a in rows]), number=9) for off in (0, 1e7))
+    assert len(far.designs) + len(far.rejected) == len(near.designs) + len(near.rejected)
+    assert len(far.designs) > 0.5 * len(near.designs)

@@ -18,8 +18,9 @@ from gruebler.enumeration import count_chains
 from gruebler.errors import GrueblerError
 from gruebler.exercises import KINDS, exercise, grade, solve
 from gruebler.mechanism import Mechanism
+from gruebler.sheets.page import TextLine
 from gruebler.worksheets import catalog_book, document_bytes, machine_document, poster, task_sheet
-from gruebler.worksheets.blocks import AnswerLines, Document, Heading, Paragraph, Pictures, Rows
+from gruebler.worksheets.blocks import AnswerLines, Contents, Document, Heading, Paragraph, Pictures, Rows
 from gruebler.worksheets.joint_pictures import joint_pictures
 from gruebler.worksheets.paged import document_pages
 from gruebler.worksheets.tasks import construction_of, exercise_figure
@@ -69,6 +70,21 @@ def test_the_marking_key_has_every_answer(sheet):
     asked = sum(len(exercise(id).asked) for id in sheet.ids)
     assert len(key.rows) == asked + 6 + 1  # and the way of each, and the sum
     assert key.rows[-1][-1] == str(asked + 6)
+
+
+@pytest.mark.parametrize(("lang", "word", "other"), [("en", "good", "gut"), ("de", "gut", "good")])
+def test_the_marking_key_names_answers_in_the_language(lang, word, other):
+    sheet = task_sheet(["transmission-angle"], 1, level=3, seed=1, lang=lang)
+    names = {row[1] for row in blocks_of(sheet.solutions, Rows)[-1].rows}
+    assert word in names
+    assert other not in names
+
+
+@pytest.mark.parametrize(("name", "answer"), [("good", "yes"), ("gut", "ja")])
+def test_an_answer_is_marked_by_its_name_in_either_language(name, answer):
+    task = exercise("transmission-angle-3-1")
+    (mark,) = grade(task, {name: answer})
+    assert mark.mark.value == ("right" if solve(task).results["good"].value else "wrong")
 
 
 def test_constructions_give_the_results_of_the_solutions():
@@ -181,12 +197,28 @@ def machine_structure(id):
 
 def test_the_book_lists_every_machine_and_feature():
     book = catalog_book(ids=["quad", "crankrocker", "cam"])
-    contents, index = blocks_of(book, Rows)[0], blocks_of(book, Rows)[-1]
+    (contents,), index = blocks_of(book, Contents), blocks_of(book, Rows)[-1]
     assert [row[0] for row in contents.rows] == ["quad", "crankrocker", "cam"]
     found = {(row[0], row[1]): row[2] for row in index.rows}
     assert found["links", "4"] == "quad, crankrocker"
     assert found["joint", "roll slide"] == "cam"
     assert sum(block.level == 1 for block in blocks_of(book, Heading)) == 5
+
+
+def test_the_contents_of_the_book_name_the_pages():
+    """The number beside a machine is that of the page on which its name stands as a heading."""
+    book = catalog_book(ids=["quad", "crankrocker", "cam"])
+    (contents,) = blocks_of(book, Contents)
+    pages = document_pages(book)
+    lines = [[item for item in page.items if isinstance(item, TextLine)] for page in pages]
+    for key, name, _ in contents.rows:
+        (heading,) = (k for k, page in enumerate(lines, 1) if any(line.text == name and line.bold for line in page))
+        (row,) = (line.y for line in lines[0] if line.text == key)
+        assert str(heading) in [line.text for line in lines[0] if line.y == row]
+    assert document_bytes(book, "html").decode("utf-8").count('<a href="#quad">quad</a>') == 1
+    assert '<h2 id="quad">' in document_bytes(book, "html").decode("utf-8")
+    latex = document_bytes(book, "tex").decode("utf-8")
+    assert latex.count(r"\pageref{") == latex.count(r"\label{") == 3
 
 
 def test_posters():

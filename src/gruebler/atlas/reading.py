@@ -198,9 +198,16 @@ class Atlas:
         connection = duckdb.connect(":memory:")
         for table in self.tables:
             files = ", ".join("'" + str(path).replace("'", "''") + "'" for path in self.files(table))
-            connection.execute(
-                f"create view {table} as select * from read_parquet([{files}], hive_partitioning = false)"
-            )
+            try:
+                connection.execute(
+                    f"create view {table} as select * from read_parquet([{files}], hive_partitioning = false)"
+                )
+            except duckdb.Error as error:
+                raise RunError(
+                    "the atlas in {directory} cannot be read: {reason}; build it again to restore it",
+                    directory=self.directory,
+                    reason=_reason(str(error)),
+                ) from None
         return connection
 
 

@@ -140,6 +140,7 @@ def arrow_library() -> Any:
     """The library of Arrow tables; `GrueblerError` if it is not installed."""
     try:
         import pyarrow
+        import pyarrow.compute
         import pyarrow.parquet
     except ImportError:
         raise GrueblerError("the atlas needs pyarrow: pip install 'gruebler[atlas]'") from None

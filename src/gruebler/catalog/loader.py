@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gruebler.catalog.claims import CheckedEntry, check_claims
 from gruebler.chain.pairs import PAIRS, Pair, pair
-from gruebler.errors import CatalogError
+from gruebler.errors import CatalogError, near_words
 from gruebler.formats.catalog_records import Entry, Exercise, Record, read_entry, read_exercise
 from gruebler.mobility import counted
 
@@ -88,9 +88,7 @@ def entry(id: str) -> Entry:
             raise CatalogError(
                 "{id!r} is a folder; expected a file, a chain or the id of a catalog entry", id=id
             ) from None
-        from difflib import get_close_matches
-
-        close = get_close_matches(id, entries(), n=3, cutoff=0.5)
+        close = near_words(id, entries(), 3)
         raise CatalogError(
             "the catalog has no entry {id!r}; did you mean {nearest}?"
             if close

@@ -6,6 +6,7 @@ import argparse
 import csv
 import io
 import sys
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -149,7 +150,6 @@ def _expected(task: Any) -> tuple[int, float]:
 
 def _query(arguments: argparse.Namespace) -> int:
     from gruebler.atlas import open as open_atlas
-    from gruebler.atlas.schema import arrow_library
 
     *folder, sql = arguments.words
     if len(folder) > 1:
@@ -157,6 +157,8 @@ def _query(arguments: argparse.Namespace) -> int:
     atlas = open_atlas(*folder)
     if arguments.structures:
         texts = [str(each) for each in atlas.structures(sql)]
+        from gruebler.atlas.schema import arrow_library
+
         _answer(arrow_library().table({"structure": texts}), arguments)
     else:
         _answer(atlas.query(sql), arguments)
@@ -196,14 +198,11 @@ def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
 
                 file.write((json.dumps(table.to_pylist(), indent=2, default=str) + "\n").encode())
             case ending:
-                text = io.StringIO(newline="")
-                if ending == ".txt" and table.num_columns == 1:
-                    text.writelines(f"{value}\n" for value in _cells(table)[0])
-                else:
-                    lines = csv.writer(text, lineterminator="\n")
-                    lines.writerow(table.column_names)
-                    lines.writerows(zip(*_cells(table), strict=True))
-                file.write(text.getvalue().encode())
+                quoted = ending != ".txt" or table.num_columns > 1
+                if quoted:
+                    file.write(_csv([table.column_names]).encode())
+                for lines in _lines(table, quoted=quoted):
+                    file.write(lines.encode())
     rows = plural("{count} row", "{count} rows", table.num_rows, arguments.lang)
     say_written(arguments.out, arguments.lang, f", {rows}")
 
@@ -211,7 +210,7 @@ def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
 def _print(table: pa.Table) -> None:
     """A table; a single column without its name, so that other commands read it: gruebler gallery -."""
     if table.num_columns == 1:
-        sys.stdout.writelines(f"{value}\n" for value in _cells(table)[0])
+        sys.stdout.writelines(_lines(table, quoted=False))
         return
     from gruebler.atlas.schema import arrow_library
 
@@ -222,9 +221,47 @@ def _print(table: pa.Table) -> None:
     print_table(table.column_names, list(zip(*_cells(table), strict=True)), numbers=numbers)
 
 
+def _lines(table: pa.Table, *, quoted: bool) -> Iterator[str]:
+    """The rows as text, many at a time: cells with commas between them, quoted where CSV demands it."""
+    from gruebler.atlas.schema import arrow_library
+
+    pa = arrow_library()
+    special = '[",\r\n]' if table.num_columns > 1 else '^$|[",\r\n]'
+    for batch in filter(len, table.to_batches(max_chunksize=1 << 18)):
+        texts = [_texts(column) for column in batch.columns]
+        if quoted and any(pa.compute.any(pa.compute.match_substring_regex(each, special)).as_py() for each in texts):
+            yield _csv(zip(*(each.to_pylist() for each in texts), strict=True))
+            continue
+        rows = pa.compute.binary_join_element_wise(*texts, pa.scalar(",", pa.string()))
+        whole = pa.ListArray.from_arrays([0, len(rows)], rows)
+        yield pa.compute.binary_join(whole, "\n")[0].as_py() + "\n"
+
+
+def _csv(rows: Iterable[Sequence[str]]) -> str:
+    text = io.StringIO(newline="")
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
+
+
 def _cells(table: pa.Table) -> list[list[str]]:
     """The values of each column as text."""
-    return [[_cell(value) for value in column.to_pylist()] for column in table.columns]
+    return [[text for chunk in column.chunks for text in _texts(chunk).to_pylist()] for column in table.columns]
+
+
+def _texts(column: pa.Array) -> pa.Array:
+    """The values of a column as text, nothing for null; without Python objects for the types of an atlas."""
+    from gruebler.atlas.schema import arrow_library
+
+    pa = arrow_library()
+    types, kind = pa.types, column.type
+    if types.is_list(kind) and not column.flatten().null_count:
+        items = kind.value_type
+        if types.is_integer(items) or types.is_string(items):
+            column = pa.compute.binary_join(column.cast(pa.list_(pa.string())), " ")
+            kind = column.type
+    if types.is_integer(kind) or types.is_boolean(kind) or types.is_string(kind):
+        return column.cast(pa.string()).fill_null("")
+    return pa.array(map(_cell, column.to_pylist()), pa.string())
 
 
 def _cell(value: Any) -> str:

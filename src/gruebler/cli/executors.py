@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 from collections.abc import Callable
 from concurrent.futures import Executor
 
@@ -28,7 +29,10 @@ def executor_of(arguments: argparse.Namespace) -> Callable[[], Executor] | None:
 
         if arguments.jobs != 1:
             raise GrueblerError("--jobs is for processes of this machine; with --scheduler its workers do the work")
-        return DaskScheduler(arguments.scheduler)
+        return DaskScheduler(
+            arguments.scheduler,
+            lambda text: print(f"gruebler: {text.in_language(arguments.lang)}", file=sys.stderr, flush=True),
+        )
     if arguments.jobs == 1:
         return None
     from gruebler.enumeration.worker_pool import ProcessPools

@@ -178,7 +178,7 @@ def _print_speeds(reading: TrainReading, solution: Speeds, forces: Balance | Non
         cells += ["" if value is None else fraction_text(value, lang) for value in values]
         rows.append(cells)
     headers: list[Cell] = [message("link"), message("speed"), message("per turn of {drive}", drive=driver)]
-    headers += [message("torque or force"), message("power")]
+    headers += [message("torque or force"), message("power: torque or force times speed")]
     shown = [k for k, wanted in enumerate((True, True, driver, forces, forces)) if wanted]
     chosen = [[row[k] for k in shown] for row in (headers, *rows)]
     print_table(chosen[0], chosen[1:], numbers=range(1, len(shown)), lang=lang)

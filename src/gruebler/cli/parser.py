@@ -7,7 +7,7 @@ import gettext
 import os
 import re
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from itertools import pairwise
@@ -78,6 +78,8 @@ class Parser(argparse.ArgumentParser):
         self.names_of_links: list[str] | None = None
         """The arguments that name links, joints or points, once some were read."""
         self._commands: Any = None
+        self._first = self
+        """The parser of the whole command, for one of its actions."""
         self._replaced: dict[str, tuple[str, str]] = {}
         self.add_argument(
             "--lang", choices=LANGUAGES, default=lang, help="language of the output (default: GRUEBLER_LANG, else en)"
@@ -93,6 +95,7 @@ class Parser(argparse.ArgumentParser):
             kind: Any = partial(Parser, lang=self.lang)
             self._commands = self.add_subparsers(dest="action", metavar="ACTION", required=True, parser_class=kind)
         command: Parser = self._commands.add_parser(name, help=help, description=description or help, epilog=epilog)
+        command._first = self
         return command
 
     def add_out(self, *, help: str, required: bool = False, endings: Sequence[str] = ()) -> None:
@@ -166,7 +169,36 @@ class Parser(argparse.ArgumentParser):
                 self.error(
                     translate("{old} is now {new}", self.lang, old=f"{option}{sign}{value}", new=f"{new}{sign}{value}")
                 )
+        if self._commands is None:
+            self._refuse_unknown_options(args or ())
         return super().parse_known_args(args, namespace)
+
+    def _refuse_unknown_options(self, words: Sequence[str]) -> None:
+        """Complain of the first option that there is not, before argparse complains of what is missing without it."""
+        for word in words:
+            if word == "--":
+                return
+            option = word.partition("=")[0]
+            if option.startswith("--") and " " not in word and not any(o.startswith(option) for o in self._known()):
+                self._complain_of_unknown([word])
+
+    def _known(self) -> Iterable[str]:
+        """All options of this parser."""
+        return self._option_string_actions
+
+    def _complain_of_unknown(self, unknown: Sequence[str]) -> NoReturn:
+        option = unknown[0].partition("=")[0]
+        known = [option for parser in self._first._all() for option in parser._known()]
+        guess = option.startswith("-") and option not in known  # one of another action is known
+        suggestion = nearest(option, self._known()) if guess else ""
+        self.error(
+            translate(
+                "unknown arguments: {arguments}{suggestion}",
+                self.lang,
+                arguments=" ".join(unknown),
+                suggestion=suggestion,
+            )
+        )
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
         """As argparse; numbers are called so, not int and float."""
@@ -185,18 +217,7 @@ class Parser(argparse.ArgumentParser):
         """As argparse; an unknown option is answered by the nearest known one."""
         arguments, unknown = self.parse_known_args(args, namespace)
         if unknown:
-            option = unknown[0].partition("=")[0]
-            known = [option for parser in self._all() for option in parser._option_string_actions]
-            guess = option.startswith("-") and option not in known  # one of another action is known
-            suggestion = nearest(option, known) if guess else ""
-            self.error(
-                translate(
-                    "unknown arguments: {arguments}{suggestion}",
-                    self.lang,
-                    arguments=" ".join(unknown),
-                    suggestion=suggestion,
-                )
-            )
+            self._complain_of_unknown(unknown)
         return arguments
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:

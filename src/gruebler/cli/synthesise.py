@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from math import degrees, isnan, radians
 from pathlib import Path
+from typing import Any
 
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
@@ -16,6 +18,8 @@ from gruebler.cli.tables import Cell, print_table
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.errors import SynthesisError
 from gruebler.formats.linkages import write_linkage
+from gruebler.linkages import Linkage, Pin
+from gruebler.linkages.elements import Line
 from gruebler.synthesis import (
     DeadCentreTask,
     Demands,
@@ -34,16 +38,17 @@ from gruebler.synthesis import (
     synthesise_positions,
     synthesise_structures,
 )
-from gruebler.synthesis.results import FITTED, in_order_of
-from gruebler.synthesis.structural_error import Minimax
-from gruebler.text import joined, message, number, plural, translate
+from gruebler.synthesis.coordination import Minimax
+from gruebler.synthesis.results import EXACT, FITTED, in_order_of
+from gruebler.text import Message, joined, joined_by_and, message, number, number_separator, numbers, plural, translate
 
 __all__ = ["add", "run"]
 
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
+_ON_A_PAGE, _IN_A_PICTURE = 24, 6  # designs that are drawn
 _COLUMNS = (
     *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),
-    message("pin distances, link by link"),
+    message("lengths"),
     message("error"),
 )
 _ANGLES = message(
@@ -54,6 +59,32 @@ _PARETO = (
     *(message("design"), message("error"), message("µ at targets"), message("size"), message("links")),
     message("structure"),
 )
+_LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"}
+"""Lengths as the closed forms name them; those of other links have the names of their links."""
+_OPTIONS = {
+    "swing": "--swing",
+    "stroke": "--stroke",
+    "crank_angle": "--crank-angle",
+    "time_ratio": "--time-ratio",
+    "interval": "--interval",
+    "input_swing": "--swings",
+    "output_swing": "--swings",
+    "input_start": "--starts",
+    "output_start": "--starts",
+    "precision_points": "--points",
+    "moving_pivots": "--moving-pivot",
+    "fixed_pivots": "--fixed-pivot",
+    "curve_parameters": "--curve-parameter",
+    "region": "--region",
+}
+"""The options for keys of task files."""
+_TASK_OPTIONS = {
+    "function": ("--interval", "--swings", "--starts", "--points", "--travel"),
+    "dead-centres": ("--swing", "--stroke", "--crank-angle", "--time-ratio"),
+}
+"""The options that are a task by themselves."""
+_LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 1}
+"""How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
 _TASKS: dict[str, type[Task]] = {
     "positions": PositionTask,
     "function": FunctionTask,
@@ -123,9 +154,16 @@ def add(parser: Parser) -> None:
     function.add_argument(
         "--starts", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="fixed start values (default: free)"
     )
-    function.add_argument("--points", type=int, default=5, metavar="N", help="number of precision points (default: 5)")
+    function.add_argument(
+        "--points", type=int, metavar="N", help="number of precision points (default: 5, with fixed starts 3)"
+    )
+    function.add_argument(
+        "--free-starts", action="store_true", help="count the pairs of a file from start values that are free"
+    )
     function.add_argument("--travel", action="store_true", help="the output is a slider")
-    function.add_argument("--minimax", action="store_true", help="minimise the largest error; -o writes that linkage")
+    function.add_argument(
+        "--minimax", action="store_true", help="the linkages nearby with the least largest error over the interval"
+    )
     path = parser.add_command(
         "path",
         help="guide a coupler point through points or along a curve",
@@ -160,6 +198,12 @@ def add(parser: Parser) -> None:
             help="fit this mechanism instead: a text or a catalog entry; several are compared",
         )
         kind.add_argument(
+            "--initial-designs",
+            type=int,
+            metavar="N",
+            help="with --structure: improve N initial designs of each mechanism (default: 24 of an atlas, else 4)",
+        )
+        kind.add_argument(
             "--link", default="", metavar="LINK", help="with --structure: the link that is guided, or the output"
         )
         kind.add_argument("--crank", action="store_true", help="only designs whose drive turns fully")
@@ -180,7 +224,12 @@ def add(parser: Parser) -> None:
             help="sort the designs by error, transmission, range-transmission, size, size-ratio, links, full-turn; of "
             "equal ones the second key decides",
         )
-        kind.add_argument("--number", type=int, metavar="N", help="number of dyads or designs, if infinitely many")
+        kind.add_argument(
+            "--number",
+            type=int,
+            metavar="N",
+            help="give the N best designs only, where there are infinitely many or targets are approached",
+        )
         kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
         kind.add_argument("--json", action="store_true", help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
@@ -188,7 +237,8 @@ def add(parser: Parser) -> None:
             "--draw",
             type=Path,
             metavar="FILE",
-            help="draw the designs: .html all, moving; .svg, .png or .pdf the best six",
+            help="draw the designs, or rejected ones if there are no others: .html all, moving; .svg, .png or .pdf the "
+            "best six",
         )
 
 
@@ -203,26 +253,28 @@ def run(arguments: argparse.Namespace) -> int:
     result = _solved(arguments, task, demands)
     if orders:
         result = result.sorted_by(*orders)
-    best = result.designs[0] if result.designs else None
-    optimum = _minimax(result) if arguments.action == "function" and arguments.minimax else None
-    if best is not None and arguments.out is not None:
-        write_linkage(arguments.out, best.linkage if optimum is None else optimum.linkage(task.unit))
+    shown = _best(result, arguments.number)
+    drawn = arguments.draw is not None and bool(result.designs or result.rejected)
+    if result.designs and arguments.out is not None:
+        write_linkage(arguments.out, result.designs[0].linkage)
         say_written(arguments.out, arguments.lang)
-    if result.designs and arguments.draw is not None:
-        _draw(arguments.draw, result, arguments.lang)
+    if drawn:
+        _draw(arguments.draw, result, len(shown.designs), arguments.lang)
     if arguments.json:
-        document = result.to_json()
-        if optimum is not None:
-            document["minimax"] = _optimum_document(optimum)
-        print_json(document)
+        print_json(shown.to_json())
     else:
-        _print(result, arguments.rejected, arguments.lang)
-        if optimum is not None:
-            _print_optimum(optimum, arguments.lang)
-        for path in (arguments.out, arguments.draw):
-            if path is not None and best is None:
+        _print(result, shown, arguments.rejected, arguments.lang)
+        if result.designs and result.designs[0].optimum is not None:
+            _print_optimum(result.designs[0].optimum, arguments.lang)
+        for path in (arguments.out if not result.designs else None, arguments.draw if not drawn else None):
+            if path is not None:
                 print(translate("{path} is not written: no design was accepted.", arguments.lang, path=path))
     return 0 if result.designs else 1
+
+
+def _best(result: SynthesisResult, number: int | None) -> SynthesisResult:
+    """The result with the first designs only; all where there are finitely many exact ones."""
+    return result if result.count.theorem else replace(result, designs=result.designs[:number])
 
 
 def _demands(arguments: argparse.Namespace) -> Demands:
@@ -238,33 +290,70 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         raise SynthesisError(
             "--size-ratio: expected at least 1, but found {size_ratio:g}", size_ratio=arguments.size_ratio
         )
-    if arguments.number is not None and arguments.number < 1:
-        raise SynthesisError("--number: expected at least 1, but found {number}", number=arguments.number)
-    return Demands(arguments.crank, radians(arguments.transmission), arguments.size_ratio, region)
+    if not arguments.structure and (idle := _given(arguments, ("--link", "--initial-designs"))):
+        raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
+    for option in ("--number", "--initial-designs"):
+        count = getattr(arguments, option.removeprefix("--").replace("-", "_"))
+        if count is not None and count < 1:
+            raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
+    with _keys_as_options():
+        return Demands(arguments.crank, radians(arguments.transmission), arguments.size_ratio, region)
 
 
 def _task(arguments: argparse.Namespace) -> Task:
     """The task of the file or the options; `SynthesisError` for one of another kind."""
     if arguments.action == "dead-centres" and arguments.task is None:
-        return DeadCentreTask(
-            _radians(arguments.swing), arguments.stroke, _radians(arguments.crank_angle), arguments.time_ratio
-        )
+        with _keys_as_options():
+            return DeadCentreTask(
+                _radians(arguments.swing), arguments.stroke, _radians(arguments.crank_angle), arguments.time_ratio
+            )
     if arguments.action == "function" and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
-        return _function_task(arguments)
+        with _keys_as_options():
+            return _function_task(arguments)
     task = read_task(arguments.task)
+    given = _given(arguments, _TASK_OPTIONS.get(arguments.action, ()))
+    if given:
+        raise SynthesisError(
+            "{options}: the file {task} has the whole task", options=joined_by_and(given), task=arguments.task
+        )
     if not isinstance(task, _TASKS[arguments.action]):
         kind = next(name for name, kind_of_task in _TASKS.items() if isinstance(task, kind_of_task))
         raise SynthesisError("{task}: this is a task for 'synthesise {kind}'", task=arguments.task, kind=kind)
     if isinstance(task, PathTask):
         return replace(task, closed=task.closed or arguments.closed)
     if isinstance(task, PositionTask):
-        return replace(
-            task,
-            moving_pivots=(*task.moving_pivots, *arguments.moving_pivot),
-            fixed_pivots=(*task.fixed_pivots, *arguments.fixed_pivot),
-            curve_parameters=(*task.curve_parameters, *arguments.curve_parameter),
-        )
+        with _keys_as_options():
+            return replace(
+                task,
+                moving_pivots=(*task.moving_pivots, *arguments.moving_pivot),
+                fixed_pivots=(*task.fixed_pivots, *arguments.fixed_pivot),
+                curve_parameters=(*task.curve_parameters, *arguments.curve_parameter),
+            )
+    if isinstance(task, FunctionTask) and task.law is None and arguments.free_starts:
+        return replace(task, start_input=False, start_output=False)
     return task
+
+
+@contextmanager
+def _keys_as_options() -> Iterator[None]:
+    """What is wrong with a task made of options names these, not the keys of a task file."""
+    try:
+        yield
+    except SynthesisError as error:
+        values = {name: _with_option_names(value) for name, value in error.values.items()}
+        raise SynthesisError(error.text, **values) from None
+
+
+def _with_option_names(value: Any) -> Any:
+    if isinstance(value, Message):
+        return Message(value.text, {name: _with_option_names(part) for name, part in value.values.items()})
+    return _OPTIONS.get(value, value) if isinstance(value, str) else value
+
+
+def _given(arguments: argparse.Namespace, options: Sequence[str]) -> list[str]:
+    """Which of these options were given."""
+    values = {option: getattr(arguments, option.removeprefix("--").replace("-", "_")) for option in options}
+    return [option for option, value in values.items() if value not in (None, False, "")]
 
 
 def _radians(value: float | None) -> float | None:
@@ -274,15 +363,14 @@ def _radians(value: float | None) -> float | None:
 def _function_task(arguments: argparse.Namespace) -> FunctionTask:
     from gruebler.synthesis import function_task
 
-    return function_task(_law(arguments), arguments.points, output="travel" if arguments.travel else "angle")
+    points = arguments.points if arguments.points is not None else 5 if arguments.starts is None else 3
+    return function_task(_law(arguments), points, output="travel" if arguments.travel else "angle")
 
 
 def _law(arguments: argparse.Namespace) -> FunctionLaw:
-    for option in ("interval", "swings"):
-        if getattr(arguments, option) is None:
-            raise SynthesisError(
-                "an expression needs --{option}: see gruebler synthesise function --help", option=option
-            )
+    for option, value in (("--interval", arguments.interval), ("--swings", arguments.swings)):
+        if value is None:
+            raise SynthesisError("an expression needs {option}: see gruebler synthesise function --help", option=option)
     unit = 1.0 if arguments.travel else math.pi / 180
     starts = arguments.starts or (None, None)
     return FunctionLaw(
@@ -299,12 +387,12 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
     progress = _progress(arguments.lang)
     if arguments.structure:
         return _fitted(arguments, task, demands, progress)
-    more = {} if arguments.number is None else {"number": arguments.number}
+    more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
     match task:
         case PositionTask():
             return synthesise_positions(task, demands, progress=progress, **more)
         case FunctionTask():
-            return synthesise_function(task, demands, **more)
+            return synthesise_function(task, demands, minimax=arguments.minimax, **more)
         case DeadCentreTask():
             return synthesise_dead_centres(task, demands, **more)
         case PathTask():
@@ -319,9 +407,12 @@ def _fitted(
     from gruebler.cli.inputs import mechanism_of
     from gruebler.realisation.realise import with_drives
 
+    if arguments.action == "function" and arguments.minimax:
+        raise SynthesisError("--minimax improves four-bars and slider-cranks; --structure fits other mechanisms")
     mechanisms = [mechanism_of(text, None, []) for text in arguments.structure]
     driven = [mechanism if mechanism.drives else with_drives(mechanism) for mechanism in mechanisms]
-    return synthesise_structures(task, driven, demands, starts=arguments.number, link=arguments.link, progress=progress)
+    starts = arguments.initial_designs
+    return synthesise_structures(task, driven, demands, starts=starts, link=arguments.link, progress=progress)
 
 
 def _progress(lang: str) -> Callable[[int, int], None] | None:
@@ -336,14 +427,16 @@ def _progress(lang: str) -> Callable[[int, int], None] | None:
     return show
 
 
-def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
+def _print(result: SynthesisResult, shown: SynthesisResult, rejected: bool, lang: str) -> None:
     count = result.count
-    if count.theorem != 0:  # 0: nothing exact is to be had, the notes say so
+    if count.theorem is None:
+        print(translate("Solutions: infinitely many ({kind}), {real} taken.", lang, kind=count.what, real=count.real))
+    elif count.theorem:  # 0: nothing exact is to be had, the notes say so
         print(
             translate(
                 "Solutions: {theorem} by theorem ({kind}), {found} found, {real} real.",
                 lang,
-                theorem=message("infinitely many") if count.theorem is None else count.theorem,
+                theorem=count.theorem,
                 kind=count.what,
                 found=count.found,
                 real=count.real,
@@ -351,26 +444,29 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
         )
     for note in result.notes:
         print(note.in_language(lang))
-    accepted = len(result.designs)
-    print(
-        translate(
-            "Designs: {accepted} accepted, {rejected} rejected.", lang, accepted=accepted, rejected=len(result.rejected)
-        )
-    )
+    totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
+    print(translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals))
     if result.designs:
-        print_table(_COLUMNS, [_row(k, design, lang) for k, design in enumerate(result.designs, 1)], lang=lang)
+        headers, rows = [*_COLUMNS], [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)]
+        if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
+            headers.append(message("fixed pivots"))
+            rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
+        print_table(headers, rows, lang=lang)
+        more = len(result.designs) - len(shown.designs)
+        if more:
+            print(plural("and {count} more", "and {count} more", more, lang))
         print(_ANGLES.in_language(lang))
-        if any(design.form == FITTED for design in result.designs):
-            _print_pareto(result, lang)
+        if any(design.form == FITTED for design in shown.designs):
+            _print_pareto(shown, lang)
     else:
         print(translate("None of the designs examined meets the task.", lang))
     if (rejected or not result.designs) and result.rejected:
         print()
         designs = result.rejected if rejected else result.rejected[:_REJECTED]
-        rows: list[list[Cell]] = [
+        reasons: list[list[Cell]] = [
             [design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs
         ]
-        print_table((message("rejected"), message("reason")), rows, lang=lang)
+        print_table((message("rejected"), message("reason")), reasons, lang=lang)
         more = len(result.rejected) - len(designs)
         if more:
             print(
@@ -403,24 +499,73 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
     verdict = design.verdict
     return [
         f"{position} {design.form_in_language(lang)}",
-        ", ".join(design.linkage.mechanism.drive_names("german" if lang == "de" else "international")),
+        ", ".join(_named(design.linkage, lang).mechanism.drive_names("german" if lang == "de" else "international")),
         message("yes") if verdict.turns_fully else message("no"),
         *(
             "" if isnan(mu) else number(degrees(mu), lang, ".1f") + "°"
             for mu in (verdict.transmission, design.transmission_over_range)
         ),
-        _lengths(design, lang),
-        number(verdict.error, lang, ".1e"),
+        _lengths(design.linkage, lang),
+        _error(design, lang),
     ]
 
 
-def _lengths(design: Design, lang: str) -> str:
-    """The distance of the pins of each link, link by link."""
-    linkage, lengths = design.linkage, list[str]()
-    for link in linkage.mechanism.chain.links:
-        pins = [e for (_, owner), e in linkage.elements.items() if owner == link and len(e) == 2]
-        lengths += [number(math.hypot(p.x - q.x, p.y - q.y), lang, ".5g") for k, p in enumerate(pins) for q in pins[:k]]
-    return " ".join(lengths)
+def _named(linkage: Linkage, lang: str) -> Linkage:
+    """The linkage with the names of its links in a language."""
+    names = {link: translate(link, lang) for link in linkage.mechanism.chain.links}
+    return linkage.renamed(names) if len(set(names.values())) == len(names) else linkage
+
+
+def _lengths(linkage: Linkage, lang: str) -> str:
+    """The distances of the pins of each link, and of its pin from its slide, which is its offset e."""
+    lengths = list[str]()
+    named = _named(linkage, lang).mechanism.chain.links
+    for link, name in sorted(zip(linkage.mechanism.chain.links, named, strict=True), key=_by_letter):
+        own = [element for (_, owner), element in linkage.elements.items() if owner == link]
+        pins = [complex(e.x, e.y) for e in own if isinstance(e, Pin)]
+        lines = [e for e in own if isinstance(e, Line)]
+        between = [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
+        if between:
+            values = " ".join(number(length, lang, ".5g") for length in between)
+            lengths.append(f"{_LETTERS.get(link, name)} = {values}")
+        for line in lines if len(pins) == 1 else ():
+            across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.angle), -math.sin(line.angle))
+            offset = _without_rounding(across.imag, linkage)
+            if offset or link == linkage.mechanism.frame:
+                lengths.append(f"e = {number(offset, lang, '.5g')}")
+    return number_separator(lang).join(lengths)
+
+
+def _pivots(design: Design, lang: str) -> str:
+    """Where the turning joints of the frame lie."""
+    linkage = design.linkage
+    own = [element for (_, owner), element in linkage.elements.items() if owner == linkage.mechanism.frame]
+    pins = [[_without_rounding(v, linkage) for v in (e.x, e.y)] for e in own if isinstance(e, Pin)]
+    return " ".join(f"({numbers(pin, lang, '.5g')})" for pin in pins)
+
+
+def _without_rounding(length: float, linkage: Linkage) -> float:
+    """A length, or 0 for what designs are not held to."""
+    return length if abs(length) > EXACT * linkage.size else 0.0
+
+
+def _by_letter(names: tuple[str, str]) -> str:
+    """The letter of a link; those without one stay in their order."""
+    return _LETTERS.get(names[0], "")
+
+
+def _error(design: Design, lang: str) -> str:
+    """The largest structural error of a minimax optimum with its unit, else what is missed relative to the task."""
+    if design.optimum is not None:
+        return _output(design.optimum, design.optimum.error, lang, ".4g")
+    error = design.verdict.error
+    return "< 1e-9" if error < EXACT else number(error, lang, ".1e")
+
+
+def _output(optimum: Minimax, value: float, lang: str, form: str = ".5g") -> str:
+    """An output angle in degrees, or a travel."""
+    turns = optimum.solution.kind == "four-bar"
+    return number(degrees(value), lang, form) + "°" if turns else number(value, lang, form)
 
 
 def _check_picture(path: Path) -> None:
@@ -429,75 +574,33 @@ def _check_picture(path: Path) -> None:
         raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
-def _draw(path: Path, result: SynthesisResult, lang: str) -> None:
-    """The best designs side by side, or all on a page."""
+def _draw(path: Path, result: SynthesisResult, number: int, lang: str) -> None:
+    """The best designs side by side, or all on a page; so many at most, if there are any."""
     from gruebler.synthesis.pictures import designs_figure, designs_page
 
     suffix = suffix_of(path, (*SUFFIXES, "html"))
     if suffix == "html":
-        content = designs_page(result, lang=lang).encode("utf-8")
+        content = designs_page(result, lang=lang, most=min(number or _ON_A_PAGE, _ON_A_PAGE)).encode("utf-8")
     else:
-        content = picture_bytes(designs_figure(result, lang=lang), suffix)
-    write_file(path, content, lang)
-
-
-def _minimax(result: SynthesisResult) -> Minimax:
-    """The best minimax optimum from any four-bar or slider-crank of the list."""
-    from gruebler.synthesis.structural_error import coordination_of, minimax
-
-    task = result.task
-    if not isinstance(task, FunctionTask) or task.law is None:
-        raise SynthesisError("--minimax needs the function as an expression")
-    best: Minimax | None = None
-    for design in result.designs:
-        start = coordination_of(design, task, task.law)
-        if start is None:
-            continue
-        try:
-            optimum = minimax(start, task.law)
-        except SynthesisError:
-            continue
-        if best is None or optimum.error < best.error:
-            best = optimum
-    if best is None:
-        raise SynthesisError(
-            "no accepted design follows the function over the whole interval: there is no optimum nearby"
+        content = picture_bytes(
+            designs_figure(result, lang=lang, most=min(number or _IN_A_PICTURE, _IN_A_PICTURE)), suffix
         )
-    return best
+    write_file(path, content, lang)
 
 
 def _print_optimum(optimum: Minimax, lang: str) -> None:
     solution = optimum.solution
     names = "abcd" if solution.kind == "four-bar" else "abe"
-
-    def output(value: float) -> str:
-        turns = solution.kind == "four-bar"
-        return number(degrees(value), lang, ".5g") + "°" if turns else number(value, lang, ".5g")
-
+    lengths = [f"{name} = {number(length, lang, '.6g')}" for name, length in zip(names, solution.lengths, strict=True)]
     print(
         translate(
-            "Minimax optimum, which -o writes: largest error {error} (before: {start}); {lengths}; input from "
-            "{phi:.6g}°, output from {psi}.",
+            "Minimax optimum 1: largest error {error} (before: {start}); {lengths}; input from {phi:.6g}°, output from "
+            "{psi}.",
             lang,
-            error=output(optimum.error),
-            start=output(optimum.start_error),
-            lengths=", ".join(
-                f"{name} = {number(length, lang, '.6g')}" for name, length in zip(names, solution.lengths, strict=True)
-            ),
+            error=_output(optimum, optimum.error, lang),
+            start=_output(optimum, optimum.start_error, lang),
+            lengths=number_separator(lang).join(lengths),
             phi=degrees(solution.input_start),
-            psi=output(solution.output_start),
+            psi=_output(optimum, solution.output_start, lang),
         )
     )
-
-
-def _optimum_document(optimum: Minimax) -> dict[str, object]:
-    solution = optimum.solution
-    return {
-        "kind": solution.kind,
-        "lengths": list(solution.lengths),
-        "input_start_deg": degrees(solution.input_start),
-        "output_start": degrees(solution.output_start) if solution.kind == "four-bar" else solution.output_start,
-        "branch": solution.branch,
-        "error": optimum.error,
-        "start_error": optimum.start_error,
-    }

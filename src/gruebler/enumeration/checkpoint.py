@@ -15,7 +15,7 @@ from gruebler.text import reason_of
 __all__ = ["Checkpoint", "PieceFiles", "RunError"]
 
 _MANIFEST = "manifest.json"
-_LAYOUT = 4  # of the checkpoint directory
+_LAYOUT = 5  # of the checkpoint directory, and how the work is divided into pieces
 
 
 class PieceFiles:

@@ -21,7 +21,7 @@ from gruebler.enumeration.assortment import Assortment, joint_count, loop_count
 from gruebler.enumeration.contracted import MOST_LOOPS, packed_graphs
 from gruebler.errors import GrueblerError
 
-__all__ = ["PieceCount", "WorkPiece", "count_piece", "list_piece", "pieces", "run_pieces"]
+__all__ = ["PieceCount", "WorkPiece", "count_piece", "list_piece", "pieces", "run_pieces", "work_of_graphs"]
 
 MOST_FREEDOMS = 24  # the kernels' products of binomial coefficients stay within 64 bits
 
@@ -99,7 +99,7 @@ def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) ->
         if assortment is not None:
             rows = rows[_has_degrees(rows, assortment)]
         begin = 0
-        total = load + np.cumsum(_work(rows))
+        total = load + np.cumsum(work_of_graphs(rows))
         while begin < len(rows):
             end = min(int(np.searchsorted(total, size)) + 1, len(rows))
             waiting.append(rows[begin:end])
@@ -119,7 +119,7 @@ def _strings(rows: Packed) -> NDArray[np.int64]:
     return strings
 
 
-def _work(rows: Packed) -> NDArray[np.int64]:
+def work_of_graphs(rows: Packed) -> NDArray[np.int64]:
     """For each graph the number of assignments of c = 0, 1, 2 to its bundles with the sum 3V - 4, and a fixed cost.
 
     That is the number of assignments if no set of nodes could be rigid, one to five times too many. For the

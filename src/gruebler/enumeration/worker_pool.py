@@ -120,7 +120,8 @@ def run_work(
         executor: an executor, a function that creates one (this function then shuts it down), or None for this process.
         known: returns the result of a piece, by its number, if an earlier run has finished it.
         finished: called with number and result as soon as a piece is finished, in any order.
-        ahead: the largest number of pieces that are pending or waiting for an earlier one.
+        ahead: the largest number of pieces that are pending or waiting for an earlier one; more for an executor of many
+            workers, so that none of them waits for work.
         retries: the number of successive losses of workers that is tolerated without a finished piece between them.
 
     Results that are sent between processes should be small (some kilobytes): a worker killed while it sends a large one
@@ -173,7 +174,7 @@ def _done_by(
     exhausted = False
     try:
         while not exhausted or crew or ready:
-            while not exhausted and len(crew) + len(ready) < ahead:
+            while not exhausted and len(crew) + len(ready) < max(ahead, crew.capacity):
                 number, piece = next(source, (-1, None))
                 if piece is None:
                     exhausted = True
@@ -206,6 +207,11 @@ class _Workers(Generic[P, R]):
 
     def __len__(self) -> int:
         return len(self.pending) + len(self.lost)
+
+    @property
+    def capacity(self) -> int:
+        """Pieces that keep all workers busy: one in each and three more, since their lengths differ."""
+        return 4 * (getattr(self.executor, "_max_workers", None) or 0)
 
     def send(self, number: int, piece: P) -> None:
         try:

@@ -161,11 +161,12 @@ def stroke_table(
         title = message("Transfer function s(φ), from the outer dead centre (crank and coupler stretched)")
     else:
         title = message("Transfer function s(φ), from the inner dead centre (crank and coupler overlapping)")
-    headers = ("Δφ [°]", "φ [°]", f"s [{unit}]", f"l_a - s [{unit}]" if from_outer else f"s - l_i [{unit}]")
+    counted = message("from the dead centre [°]")
+    headers = (counted, "φ [°]", f"s [{unit}]", f"l_a - s [{unit}]" if from_outer else f"s - l_i [{unit}]")
     builder.table(title, headers, rows, decimals=3)
     inner = (centres.inner.drive - centres.outer.drive) % (2 * pi)
     name = message("crank angle from the outer to the inner dead centre")
-    builder.keep("inner_at", name, degrees(inner), unit="°", symbol="Δφ(Ti)")
+    builder.keep("inner_at", name, degrees(inner), unit="°", symbol="φ_ai")
     moved = move(size.linkage(), [radians(row[1]) for row in rows])
     builder.check(
         message("Largest difference of s in the table from the general solver's"),

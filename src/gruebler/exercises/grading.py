@@ -13,9 +13,9 @@ from gruebler.exercises.solution import Mistake, Result, Value
 from gruebler.exercises.solving import scale_of, solve
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
-from gruebler.text import LANGUAGES, Readable, message
+from gruebler.text import LANGUAGES, Readable, message, translate_in_context
 
-__all__ = ["Grade", "Mark", "ascii_key", "grade", "plain_name"]
+__all__ = ["Grade", "Mark", "ascii_key", "grade", "key_in_language", "plain_name"]
 
 _FINE = 1e-3  # relative difference of an answer that is right whatever its digits
 _NEAR = 0.02  # of one that is nearly right: intermediate results rounded
@@ -106,7 +106,7 @@ def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
 def _key_of(name: str, exercise: Exercise, results: Mapping[str, Result]) -> str:
     """The key of the result with this name: its key, or the symbol that the solution prints."""
     bare_name = _bare(name)
-    named = [key for key in results if _bare(key) == bare_name] or [
+    named = [key for key in results if bare_name in {_bare(key_in_language(key, lang)) for lang in LANGUAGES}] or [
         key for key, result in results.items() if _bare(result.symbol) == bare_name
     ]
     if len(named) == 1:
@@ -126,6 +126,22 @@ def _key_of(name: str, exercise: Exercise, results: Mapping[str, Result]) -> str
         suggestion=nearest(name, names),
         asked=", ".join(names),
     )
+
+
+def key_in_language(key: str, lang: str) -> str:
+    """The key of a result, which is an English word where there is no symbol, in a language.
+
+    >>> key_in_language("good", "de"), key_in_language("μ_min", "de")
+    ('gut', 'μ_min')
+    """
+    match key:
+        case "good":
+            return translate_in_context("answer", "good", lang)
+        case "turns":
+            return translate_in_context("answer", "turns", lang)
+        case "type":
+            return translate_in_context("answer", "type", lang)
+    return key
 
 
 def _bare(name: str) -> str:

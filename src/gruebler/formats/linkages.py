@@ -123,7 +123,9 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
         "frame": mechanism.frame,
         "drives": list(mechanism.drive_names()),
         "outputs": list(linkage.outputs),
-        "points": {name: {"link": point.link, "at": [point.x, point.y]} for name, point in linkage.points.items()},
+        "points": {
+            name: {"link": point.link, "at": [point.x + 0.0, point.y + 0.0]} for name, point in linkage.points.items()
+        },
         "elements": {
             link: {names[n]: _plain(e) for (n, owner), e in sorted(linkage.elements.items()) if owner == link}
             for link in chain.links
@@ -135,7 +137,7 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
 
 
 def _plain(element: Element | Pose2D) -> Any:
-    at = [element.x, element.y]
+    at = [element.x + 0.0, element.y + 0.0]  # -0.0 + 0.0 is 0.0
     if isinstance(element, Circle):
         return {"at": at, "circle": element.radius}
     if isinstance(element, Wheel):
@@ -145,7 +147,7 @@ def _plain(element: Element | Pose2D) -> Any:
         table = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
         renamed = {{"lift": "cam"}.get(key, key): value for key, value in table.items() if key not in "xy"}
         return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
-    return [*at, *(in_degrees(angle) for angle in element[2:])]
+    return [*at, *(in_degrees(angle + 0.0) for angle in element[2:])]
 
 
 def linkage_to_toml(linkage: Linkage) -> str:

@@ -6,6 +6,7 @@ two links; if a carrier bears its axes, it joins the speeds relative to that car
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -74,22 +75,27 @@ KINDS = MappingProxyType(
 )
 
 
+_EXPONENT = re.compile(r"[^eE]*([eE][-+]?0*\d{1,3})?")
+"""Exponents of three digits: 1e999999999 is no number of teeth, and its digits would fill the memory."""
+
+
 def exact_number(value: object, what: str | Message) -> Fraction:
     """A finite number as a fraction; decimals exactly as written.
 
-    >>> exact_number(0.1, "size"), exact_number("7/2", "size")
-    (Fraction(1, 10), Fraction(7, 2))
+    >>> exact_number(0.1, "size"), exact_number("7/2", "size"), exact_number("2.5e-3", "size")
+    (Fraction(1, 10), Fraction(7, 2), Fraction(1, 400))
     """
     try:
         if isinstance(value, Rational) and not isinstance(value, bool):
             return Fraction(int(value.numerator), int(value.denominator))
-        # A text has no exponent and is short: 1e999999999 is no number of teeth, and would not end.
-        if isinstance(value, float) or (isinstance(value, str) and len(value) <= 40 and "e" not in value.lower()):
+        if isinstance(value, float) or (isinstance(value, str) and len(value) <= 40 and _EXPONENT.fullmatch(value)):
             return Fraction(str(value))
     except (ValueError, ZeroDivisionError):
         pass
     raise GearError(
-        "{what}: expected a number such as 24, 12.5 or 7/2, without exponent, not {value!r}", what=what, value=value
+        "{what}: expected a number such as 24, 12.5, 7/2 or 1e6 (up to 1e999), but found {value!r}",
+        what=what,
+        value=value,
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from math import atan2, cos, hypot, isfinite, pi, sin
+from sys import float_info
 from types import MappingProxyType
 from typing import Any
 
@@ -433,7 +434,7 @@ def _from_drawing(
     reference_pose = {link: _link_coordinates(mechanism, link, drawn) for link in mechanism.chain.links}
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
-        x, y = reference_pose[link].to_local(element.x, element.y)
+        x, y = _seen_from(reference_pose[link], element.x, element.y)
         seen_there = element._replace(x=x, y=y)
         if not isinstance(seen_there, Pin | RoundElement):
             seen_there = seen_there._replace(angle=seen_there.angle - reference_pose[link].angle)
@@ -443,8 +444,20 @@ def _from_drawing(
         if link not in reference_pose:
             raise LinkageError("the point {name!r}: there is no link {link!r}", name=name, link=link)
         pin = read_element([x, y], message("the point {name!r}", name=name))
-        seen[name] = (link, *reference_pose[link].to_local(pin.x, pin.y))
+        seen[name] = (link, *_seen_from(reference_pose[link], pin.x, pin.y))
     return Linkage(mechanism, elements, seen, unit=unit, reference_pose=reference_pose, outputs=outputs)
+
+
+_ROUNDING = 8 * float_info.epsilon
+"""How exactly a turned point is known, relative to its coordinates: those of the origin of the link, differences,
+products, sine and cosine are each rounded once."""
+
+
+def _seen_from(pose: Pose2D, x: float, y: float) -> tuple[float, float]:
+    """A point of the plane in the coordinates of a link; what is nothing but rounding is 0, as on the link's x axis."""
+    limit = _ROUNDING * max(map(abs, (x, y, pose.x, pose.y)))
+    along, across = pose.to_local(x, y)
+    return 0.0 if abs(along) <= limit else along, 0.0 if abs(across) <= limit else across
 
 
 def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:

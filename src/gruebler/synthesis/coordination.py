@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.kinematics import move
+from gruebler.linkages import Linkage
 from gruebler.synthesis.tasks import FunctionTask
 
 __all__ = [
@@ -21,6 +23,7 @@ __all__ = [
     "Coordination",
     "CoordinationKind",
     "Coordinations",
+    "Minimax",
     "coordinations_with_fixed_starts",
     "coordinations_with_one_free_start",
     "pair_arrays",
@@ -47,6 +50,37 @@ class Coordination(NamedTuple):
         """The linkage by its usual lengths."""
         shapes = {"four-bar": FourBar, "slider-crank": SliderCrank, "inverted-slider-crank": InvertedSliderCrank}
         return shapes[self.kind](*self.lengths)  # type: ignore[no-any-return]
+
+
+class Minimax(NamedTuple):
+    """A linkage whose largest structural error is as small as possible nearby."""
+
+    solution: Coordination
+    error: float
+    """The largest structural error, in radians or the unit of the travel."""
+    start_error: float
+    """The same of the linkage from which the search began."""
+
+    def linkage(self, unit: str = "mm") -> Linkage:
+        """The linkage in the position where the interval begins, on its branch."""
+        solution = self.solution
+        own = solution.linkage().linkage(unit=unit)
+        start = move(own, [solution.input_start], branch="+" if solution.branch > 0 else "-")
+        return own.with_reference_pose(start.pose(0))
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data: lengths, starts and errors, angles in degrees."""
+        solution = self.solution
+        unit = 180 / np.pi if solution.kind == "four-bar" else 1.0
+        return {
+            "kind": solution.kind,
+            "lengths": list(solution.lengths),
+            "input_start": float(np.degrees(solution.input_start)),
+            "output_start": solution.output_start * unit,
+            "branch": solution.branch,
+            "error": self.error * unit,
+            "start_error": self.start_error * unit,
+        }
 
 
 @dataclass(frozen=True)

@@ -192,7 +192,7 @@ def _same_sense(centre: complex, outer: complex, inner: complex) -> bool:
 def synthesise_dead_centres(
     task: DeadCentreTask, demands: Demands | None = None, *, number: int = 12
 ) -> SynthesisResult:
-    """The best linkage with given dead centres first, then others spread over the family.
+    """The best linkage with given dead centres and others spread over the family, so many in all.
 
     A rocker has the length 1, a slider the stroke of the task. Raises `SynthesisError` as `dead_centre_family`.
 
@@ -202,8 +202,11 @@ def synthesise_dead_centres(
     """
     wanted = demands or Demands()
     family = dead_centre_family(task)
-    steps = np.unique(np.linspace(0, len(family.members) - 1, number).astype(int))
-    chosen = [family.best, *(family.members[k] for k in steps)]
+    # The best stands for its part of the family, the middle for each other part: at the limits nothing moves well.
+    parts = np.array_split(np.arange(len(family.members)), max(number, 1))
+    nearest = min(range(len(family.members)), key=lambda k: abs(family.members[k].parameter - family.best.parameter))
+    others = [part[len(part) // 2] for part in parts if len(part) and nearest not in part]
+    chosen = [family.best, *(family.members[k] for k in others)]
     designs = [_design(task, member, wanted) for member in chosen]
     accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: -d.verdict.transmission))
     rejected = tuple(d for d in designs if not d.verdict.accepted)

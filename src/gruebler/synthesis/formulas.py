@@ -163,7 +163,10 @@ class FunctionLaw:
         low, high = self.interval
         if not (np.isfinite([low, high]).all() and low < high):
             raise SynthesisError(
-                "interval: expected its begin before its end, but found {low:g} and {high:g}", low=low, high=high
+                "{key}: expected its begin before its end, but found {low:g} and {high:g}",
+                key="interval",
+                low=low,
+                high=high,
             )
         for name in ("input_swing", "output_swing"):
             if not np.isfinite(getattr(self, name)) or getattr(self, name) == 0:

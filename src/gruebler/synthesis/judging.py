@@ -170,20 +170,19 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     try:
         course = circuit(linkage, step=0.05)
         met = _met(course, targets, demands.tolerance)
+        missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
+        if missed:
+            reasons.append(_missed(missed, met.error))
+            verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
+            return Design(linkage, verdict, form)
+        path, full = _path(course, met.arcs), _turns_fully(course)
+        drives: tuple[float, ...] = ()
+        missed_by, transmission = met.error, np.nan
+        if path.one_branch:
+            drives, missed_by, transmission = _carried(linkage, course, path, targets)
     except LinkageError as error:
         reasons.append(message("it cannot be followed from its first position: {error}", error=error))
         return Design(linkage, DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
-    missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
-    if missed:
-        reasons.append(_missed(missed, met.error))
-        verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
-        return Design(linkage, verdict, form)
-    path = _path(course, met.arcs)
-    full = _turns_fully(course)
-    drives: tuple[float, ...] = ()
-    missed_by, transmission = met.error, np.nan
-    if path.one_branch:
-        drives, missed_by, transmission = _carried(linkage, course, path, targets)
     limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
     if not path.in_order and demands.in_order:
         reasons.append(message("the targets are met in another order"))

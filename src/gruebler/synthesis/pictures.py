@@ -161,7 +161,7 @@ def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24) -
     totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
     note = translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals)
     plots = [Section(caption, (Item(figure, caption),), wide=True) for figure, caption in _plots(result, lang)]
-    sections = [*_construction(result.task, lang), *plots, Section(heading.in_language(lang), tuple(items))]
+    sections = [*_construction(result.task, lang), *plots, Section(heading.in_language(lang), tuple(items), wide=True)]
     return gallery_html(translate("Designs", lang), sections, lang=lang, note=note)
 
 

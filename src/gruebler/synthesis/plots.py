@@ -16,8 +16,10 @@ from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import LinkageError
 from gruebler.kinematics import move
 from gruebler.synthesis.burmester import BurmesterCurves, burmester_curves
-from gruebler.synthesis.formulas import chebyshev_spacing
+from gruebler.synthesis.coordination import Coordination
+from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.results import Design
+from gruebler.synthesis.structural_error import error_extremes, structural_error
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.text import translate
 
@@ -177,7 +179,10 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
         room = 0.1 * (high - low)
         inputs = np.linspace(low - room, high + room, _SAMPLES)
         wanted = np.full(_SAMPLES, np.nan)
-    output = output_of(design, inputs) * unit
+    if task.law is not None and design.optimum is not None:
+        output = wanted + structural_error(design.optimum.solution, task.law, x) * unit
+    else:
+        output = output_of(design, inputs) * unit
     across = np.degrees(inputs)
     measure = "°" if turning else task.unit
     scale = angles(float(across.min()), float(across.max()), tight=True)
@@ -200,7 +205,9 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
     ]
     error = output - wanted
     if np.isfinite(error).any():
-        zeros = tuple(PointMarker(degrees(a), 0.0, str(k)) for k, a in enumerate(pairs[0], 1))
+        marked = tuple(PointMarker(degrees(a), 0.0, str(k)) for k, a in enumerate(pairs[0], 1))
+        if task.law is not None and design.optimum is not None:
+            marked = _extremes(task, task.law, design.optimum.solution, unit)
         panels.append(
             Panel(
                 Axis(across_name, scale),
@@ -209,11 +216,26 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
                     decimals(min(0.0, float(np.nanmin(error))), max(0.0, float(np.nanmax(error)))),
                 ),
                 (PlottedCurve(across, error, translate("structural error", lang), "line-3"),),
-                spots=zeros,
+                spots=marked,
             )
         )
-    about = translate("The output over the input; dots are the precision pairs.", lang)
+    if design.optimum is None:
+        about = translate("The output over the input; dots are the precision pairs.", lang)
+    else:
+        about = translate(
+            "The output over the input and the structural error; dots are the precision pairs from which the search "
+            "began, and the extremes of the error.",
+            lang,
+        )
     return draw_panels(panels, translate("Function and structural error", lang), about, lang)
+
+
+def _extremes(task: FunctionTask, law: FunctionLaw, solution: Coordination, unit: float) -> tuple[PointMarker, ...]:
+    """The extremes of the structural error, in the coordinates of its plot."""
+    x = error_extremes(solution, law)
+    inputs = replace(law, input_start=0.0).inputs(x) - _first(task)[0]
+    errors = structural_error(solution, law, x) * unit
+    return tuple(PointMarker(degrees(a), b, "") for a, b in zip(inputs, errors, strict=True))
 
 
 def _first(task: FunctionTask) -> tuple[float, float]:

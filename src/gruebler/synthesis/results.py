@@ -11,9 +11,11 @@ from typing import Any
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.analysis.outputs import find_output
 from gruebler.analysis.transmission import measure_transmission
+from gruebler.chain.pairs import Alphabet, in_alphabets, pair
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.notebook import html_table
+from gruebler.synthesis.coordination import Minimax
 from gruebler.synthesis.tasks import Task
 from gruebler.text import Message, message, plural
 
@@ -75,6 +77,14 @@ _FORMS = {
 }
 
 
+_PAIRS = {"R": pair("revolute"), "P": pair("prismatic")}
+
+
+def _symbol(letter: str, alphabet: Alphabet) -> str:
+    """A letter of a form such as ``RR-PR`` in an alphabet."""
+    return _PAIRS[letter].symbol(alphabet) if letter in _PAIRS else letter
+
+
 @dataclass(frozen=True)
 class Design:
     """A linkage made for a task, with what it really does."""
@@ -87,6 +97,8 @@ class Design:
     """The drive value at each target; empty with several drives."""
     drive_rows: tuple[tuple[float, ...], ...] = ()
     """With several drives their values at each target."""
+    optimum: Minimax | None = None
+    """Of a function that is followed as well as possible: lengths, starts and largest error."""
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
@@ -112,7 +124,10 @@ class Design:
         """The form in words, that of a fitted structure by its number of links."""
         if self.form == FITTED:
             return plural("{count} link", "{count} links", self.links, lang)
-        return _FORMS[self.form].in_language(lang) if self.form in _FORMS else self.form
+        if self.form in _FORMS:
+            return _FORMS[self.form].in_language(lang)
+        symbols = in_alphabets(lambda alphabet: "".join(_symbol(letter, alphabet) for letter in self.form))
+        return symbols.in_language(lang)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage.
@@ -140,6 +155,7 @@ class Design:
             "inside": verdict.inside,
             "error": _or_none(verdict.error),
             "drives": [degrees(value) if turning else value for value in self.drives] or self._drive_rows(),
+            **({} if self.optimum is None else {"minimax": self.optimum.to_json()}),
             "linkage": linkage_to_json(self.linkage),
         }
 
@@ -240,7 +256,7 @@ class SynthesisResult:
         >>> from gruebler.synthesis import DeadCentreTask, synthesise
         >>> found = synthesise(DeadCentreTask(stroke=50, time_ratio=1.2), number=4)
         >>> [round(design.linkage.size, 1) for design in found.sorted_by("size").designs][:3]
-        [25.1, 64.0, 105.4]
+        [64.0, 113.0, 151.1]
         """
         return replace(self, designs=in_order_of(self.designs, orders), rejected=in_order_of(self.rejected, orders))
 

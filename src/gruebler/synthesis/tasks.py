@@ -92,7 +92,9 @@ class PositionTask:
         object.__setattr__(self, "curve_parameters", places)
         if places and len(rows) != 4:
             raise SynthesisError(
-                "curve_parameters: Burmester's curves belong to four positions, not to {count}", count=len(rows)
+                "{key}: Burmester's curves belong to four positions, not to {count}",
+                key="curve_parameters",
+                count=len(rows),
             )
         for k, place in enumerate(places):
             if not 0 <= place <= 1:
@@ -282,7 +284,10 @@ def function_task(law: FunctionLaw, count: int = 5, *, output: str = "angle", un
     """
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_PAIRS:
         raise SynthesisError(
-            "precision_points: expected 2 to {most} precision points, but found {count!r}", most=MOST_PAIRS, count=count
+            "{key}: expected 2 to {most} precision points, but found {count!r}",
+            key="precision_points",
+            most=MOST_PAIRS,
+            count=count,
         )
     inputs, outputs, start_input, start_output = _pairs_of(law, count)
     return FunctionTask(inputs, outputs, output, start_input, start_output, unit, law)
@@ -311,25 +316,35 @@ class DeadCentreTask:
             present = [name for name in names if getattr(self, name) is not None]
             if len(present) != 1:
                 raise SynthesisError(
-                    "expected one of {names}, but found {present}",
+                    "expected exactly one of {names}, but found {present}",
                     names=joined_by_and(names),
                     present=joined_by_and(present) if present else message("none"),
                 )
             object.__setattr__(self, present[0], _number(getattr(self, present[0]), present[0]))
         if self.swing is not None and not 0 < self.swing < pi:
             raise SynthesisError(
-                "swing: expected an angle between 0 and 180 degrees, but found {angle:g} degrees",
+                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
+                key="swing",
+                low=0,
+                high=180,
                 angle=np.degrees(self.swing),
             )
         if self.stroke is not None and not self.stroke > 0:
-            raise SynthesisError("stroke: expected a positive length, but found {stroke:g}", stroke=self.stroke)
+            raise SynthesisError(
+                "{key}: expected a positive length, but found {stroke:g}", key="stroke", stroke=self.stroke
+            )
         if self.time_ratio is not None and not self.time_ratio >= 1:
             raise SynthesisError(
-                "time_ratio: expected slow to quick, at least 1, but found {time_ratio:g}", time_ratio=self.time_ratio
+                "{key}: expected slow to quick, at least 1, but found {time_ratio:g}",
+                key="time_ratio",
+                time_ratio=self.time_ratio,
             )
         if self.crank_angle is not None and not 0 < self.crank_angle < 2 * pi:
             raise SynthesisError(
-                "crank_angle: expected an angle between 0 and 360 degrees, but found {angle:g} degrees",
+                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
+                key="crank_angle",
+                low=0,
+                high=360,
                 angle=np.degrees(self.crank_angle),
             )
 

@@ -26,6 +26,7 @@ from gruebler.exercises import (
     solve,
     value_text,
 )
+from gruebler.exercises.grading import key_in_language
 from gruebler.exercises.messages import asked_text, cells_of_table, step_lines
 from gruebler.formats import Exercise
 from gruebler.fourbar import FourBar, SliderCrank
@@ -87,7 +88,7 @@ def _task_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
     if figure is not None:
         yield Pictures((figure,), height=170.0)
     asked = [solution.results[question.key] for question in exercise.asked]
-    names = tuple(f"{_symbol(solution, result)}: {asked_text(result, lang)}" for result in asked)
+    names = tuple(f"{_symbol(solution, result, lang)}: {asked_text(result, lang)}" for result in asked)
     yield AnswerLines(names, _SPACE.get(_kind(exercise), 110.0))
     yield Paragraph(exercise.id, small=True)
 
@@ -221,7 +222,8 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
     yield Rows(
         headers,
         tuple(
-            (f"{_symbol(solution, r)}: {r.name.in_language(lang)}", value_text(r.value, r.unit, lang)) for r in asked
+            (f"{_symbol(solution, r, lang)}: {r.name.in_language(lang)}", value_text(r.value, r.unit, lang))
+            for r in asked
         ),
     )
     if number and isinstance(exercise.given.get("chain"), str):
@@ -232,10 +234,10 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         yield Pictures((whole.figures(lang, captions=False)[-1],), (steps,), height=340.0)
 
 
-def _symbol(solution: Solution, result: Result) -> str:
+def _symbol(solution: Solution, result: Result, lang: str) -> str:
     """The name under which an answer is marked: its symbol, or its key where other results have the same symbol."""
     alone = sum(other.symbol == result.symbol for other in solution.results.values()) == 1
-    return result.symbol if alone else ascii_key(result.key)
+    return key_in_language(result.symbol if alone else ascii_key(result.key), lang)
 
 
 def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
@@ -245,7 +247,7 @@ def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
         solution = solve(exercise)
         for question in exercise.asked:
             result = solution.results[question.key]
-            rows.append((str(k), _symbol(solution, result), value_text(result.value, result.unit, lang), "1"))
+            rows.append((str(k), _symbol(solution, result, lang), value_text(result.value, result.unit, lang), "1"))
         rows.append((str(k), translate("solution steps", lang), "", "1"))
         total += len(exercise.asked) + 1
     rows.append(("", translate("sum", lang), "", str(total)))

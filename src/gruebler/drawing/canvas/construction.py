@@ -53,6 +53,7 @@ _TEXT = 13.0  # pixels, of the caption
 _LEAD = 18.0
 _FAR = 2.8  # sizes of what is given: the drawing reaches at most so far beyond it
 _NEAR = 22.0  # pixels: a text that would be farther from its place may lie on faint lines
+_NEAR_AN_ANGLE = 44.0  # pixels: its text names it, and would cross its legs
 _FAINT = ("help", "curve-rest", "dead", "measure", "ghost")
 _LARGE = 12.0  # pixels: within larger circles there is space for texts
 _LEAST = 2.0  # pixels: shorter arrows are dots
@@ -343,14 +344,17 @@ def _names(steps: Sequence[ConstructionStep], view: _View, lang: str) -> Iterato
                 continue
             written.add(mark)
             note = note_near(spot, text, style, every)
-            if note.at.minus(spot).length > _NEAR + text_width(text, STYLES[style].size) / 2:
+            near = _NEAR_AN_ANGLE if isinstance(item, Angle) else _NEAR
+            if note.at.minus(spot).length > near + text_width(text, STYLES[style].size) / 2:
                 note = note_near(spot, text, style, [shape for shape in every if shape.style not in _FAINT])
             every.append(note)
             yield k, note
 
 
 def _rim(shape: Shape) -> Shape:
-    """A large circle as a line, whose inside is free for texts."""
+    """A large circle, or an arc, as a line, whose inside is free for texts."""
+    if isinstance(shape, ArcShape):
+        return Polylines((tuple(shape.place(k / 24) for k in range(25)),), shape.style)
     if not isinstance(shape, CircleShape) or shape.radius < _LARGE:
         return shape
     turns = (2 * math.pi * k / 72 for k in range(72))

@@ -11,13 +11,13 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from gruebler.analysis.drive_cycle import PathCycle
+from gruebler.analysis.drive_cycle import DriveCycle, PathCycle
 from gruebler.analysis.events import stops
 from gruebler.analysis.link_planes import link_planes
 from gruebler.analysis.outputs import find_output
 from gruebler.analysis.plates import plates_of
 from gruebler.analysis.transmission import PushingLink, pushing_links
-from gruebler.arrays import Complexes
+from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.labels import note_near
 from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.drawing.canvas.simplification import FINE, simplified
@@ -49,6 +49,7 @@ __all__ = [
 
 
 _SAMPLES = 720  # poses of a curve
+_CHORD, _HALVINGS = 0.01, 12  # of a curve's width and height: farther poses get others between them, so many times
 _STEP = 0.03  # between samples of a circuit, in sizes
 _RAY = 46.0  # pixels of the legs of an angle
 _ARC = 34.0
@@ -67,14 +68,28 @@ def coupler_curve_lines(posed: PosedLinkage, name: str) -> list[Shape]:
     cycle = posed.driven()
     if posed.repeats:
         drives = np.linspace(cycle.span.low, cycle.span.high, _SAMPLES * cycle.span.turns + 1)
-        return [curve_of(posed, cycle.at(drives, 0).complex_point(point), "curve")]
+        return [curve_of(posed, _evenly_dense(cycle, drives, point), "curve")]
     if isinstance(cycle, PathCycle):
-        return [curve_of(posed, cycle.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
+        return [curve_of(posed, _evenly_dense(cycle, np.linspace(0, 1, _SAMPLES + 1), point), "curve")]
     whole_circuit = circuit(posed.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]), step=_STEP)
     return [
         curve_of(posed, whole_circuit.samples.complex_point(point), "curve-rest"),
         curve_of(posed, posed.path.complex_point(point), "curve"),
     ]
+
+
+def _evenly_dense(cycle: DriveCycle | PathCycle, drives: Reals, point: LinkPoint) -> Complexes:
+    """The path of a point at drive values, and between them where it moves far: a linkage may snap over in a degree."""
+    z = cycle.at(drives, 0).complex_point(point)
+    longest = _CHORD * float(np.ptp(z.real) + np.ptp(z.imag))
+    for _ in range(_HALVINGS):
+        far = np.flatnonzero(np.abs(np.diff(z)) > longest)
+        if not len(far):
+            break
+        between = (drives[far] + drives[far + 1]) / 2
+        drives = np.insert(drives, far + 1, between)
+        z = np.insert(z, far + 1, cycle.at(between, 0).complex_point(point))
+    return z
 
 
 def curve_of(posed: PosedLinkage, z: Complexes, style: str) -> Polylines:

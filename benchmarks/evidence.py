@@ -1,0 +1,154 @@
+"""Second methods for what is counted: `python -m benchmarks.evidence [LOOPS]` compares the contracted graphs.
+
+Sums of 1/|Aut| over contracted graphs of the same degrees come from generating functions
+(`tests.enumeration.mass_oracle`), chains of a contracted graph from a pebble game on all distributions of its binary
+links (`tests.enumeration.pebble_oracle`).
+"""
+
+import sys
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from functools import cache
+from math import factorial
+from random import Random
+from time import process_time
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import compiled
+from gruebler._numeric.counting.packed_graph import LabelMemory, label_packed, make_label_memory, order_of, survey_graph
+from gruebler.enumeration.contracted import packed_graphs, unpacked
+from gruebler.enumeration.pieces import WorkPiece, count_piece, work_of_graphs
+
+Int64 = NDArray[np.int64]
+Degrees = tuple[int, ...]
+"""How many nodes of 3, 4, ... strings there are."""
+
+_FACTORIALS = np.array([factorial(k) for k in range(16)], np.int64)
+_SAMPLE = 3  # contracted graphs that are checked of an assortment with too much work for all
+
+
+class Checked(NamedTuple):
+    """What a second method confirmed of the chains of an assortment."""
+
+    assortment: Degrees
+    """Numbers of binary, ternary, ... links."""
+    graphs: int
+    """Contracted graphs of the assortment."""
+    checked: int
+    """Those whose chains were counted twice."""
+    chains: int
+    """Chains of the latter."""
+
+
+def check_chains(links: int, most: int) -> Iterator[Checked]:
+    """Count the chains with F = 1 of contracted graphs once more, by pebbles: all graphs of an assortment, or some.
+
+    Args:
+        links: number of links.
+        most: the work, as of `pieces.WorkPiece`, up to which all graphs of an assortment are checked; else a sample,
+            each graph with the same probability.
+
+    Raises ValueError where the two counts differ. Cost: some 15 us for each chain.
+    """
+    from tests.enumeration.pebble_oracle import count_by_pebbles
+
+    random = Random(links)
+    numbers: defaultdict[Degrees, int] = defaultdict(int)
+    work: defaultdict[Degrees, int] = defaultdict(int)
+    chosen: defaultdict[Degrees, list[Int64]] = defaultdict(list)
+    for block in packed_graphs((links - 2) // 2):
+        for degrees, rows, more in zip(_degree_sequences(block), block, work_of_graphs(block).tolist(), strict=True):
+            numbers[degrees] += 1
+            work[degrees] += more
+            if work[degrees] <= most:
+                chosen[degrees].append(rows)
+            else:
+                if len(chosen[degrees]) > _SAMPLE:
+                    chosen[degrees] = random.sample(chosen[degrees], _SAMPLE)
+                place = random.randrange(numbers[degrees])
+                if len(chosen[degrees]) < _SAMPLE:
+                    chosen[degrees].append(rows)
+                elif place < _SAMPLE:  # reservoir sampling
+                    chosen[degrees][place] = rows
+    for degrees in sorted(numbers):
+        total = 0
+        for rows in chosen[degrees]:
+            graph = unpacked(rows)
+            here = count_by_pebbles(graph.bundles, links)
+            counted = sum(count.chains for count in count_piece(WorkPiece(links, 1, rows[None], 0)))
+            if here != counted:
+                raise ValueError(f"{graph.bundles}: {counted} chains, by pebbles {here}")
+            total += here
+        yield Checked((links - sum(degrees), *degrees), numbers[degrees], len(chosen[degrees]), total)
+
+
+def _degree_sequences(block: Int64) -> list[Degrees]:
+    strings = (block[:, :, None] >> (4 * np.arange(16)) & 15).sum(axis=2)
+    most = int(strings.max())
+    table = np.stack([(strings == k).sum(axis=1) for k in range(3, most + 1)], axis=1)
+    unique, place = np.unique(table, axis=0, return_inverse=True)
+    sequences = [tuple(np.trim_zeros(row, "b").tolist()) for row in unique]
+    return [sequences[k] for k in place.reshape(-1).tolist()]
+
+
+@cache
+def _groups() -> Callable[..., Any]:
+    """The kernel that writes out the sequence of degrees, and the order of the group, of each packed graph."""
+    order, survey, label = compiled(order_of), compiled(survey_graph), compiled(label_packed)
+
+    @numba.njit
+    def groups(graphs: Int64, factorials: Int64, labels: LabelMemory, near: Int64, degree: Int64, out: Int64) -> None:
+        for k in range(graphs.shape[0]):
+            rows = graphs[k]
+            n = order(rows)
+            survey(n, rows, near, degree)
+            size = label(n, near, rows, labels)
+            out[k, 0] = 0
+            for v in range(n):
+                out[k, 0] += 1 << 5 * (degree[v] - 3)
+                for u in range(v):
+                    size *= factorials[rows[v] >> 4 * u & 15]
+            out[k, 1] = size
+
+    return groups
+
+
+def sums_of_graphs(loops: int) -> tuple[int, dict[Degrees, Fraction]]:
+    """The number of contracted graphs, and the sum of 1/|Aut| for each sequence of degrees."""
+    sums: defaultdict[int, Fraction] = defaultdict(Fraction)
+    memory = make_label_memory(), np.zeros(16, np.int64), np.zeros(16, np.int64)
+    number = 0
+    for block in packed_graphs(loops):
+        table = np.zeros((len(block), 2), np.int64)
+        _groups()(block, _FACTORIALS, *memory, table)
+        rows, counts = np.unique(table, axis=0, return_counts=True)
+        for (degrees, order), count in zip(rows.tolist(), counts.tolist(), strict=True):
+            sums[degrees] += Fraction(count, order)
+        number += len(block)
+    return number, {tuple(w >> 5 * k & 31 for k in range((w.bit_length() + 4) // 5)): v for w, v in sums.items()}
+
+
+def main(most: int = 9) -> None:
+    """Print for each number of loops whether all sums agree."""
+    from tests.enumeration.mass_oracle import contracted_masses
+
+    expected = contracted_masses(most)
+    for loops in range(2, most + 1):
+        begun = process_time()
+        number, sums = sums_of_graphs(loops)
+        same = {d: v for d, v in expected.items() if sum(k * m for k, m in enumerate(d, 1)) == 2 * loops - 2}
+        print(
+            f"{loops} loops: {number} graphs, {len(sums)} sequences of degrees, sum of 1/|Aut| {sum(sums.values())},",
+            "as by generating functions" if sums == same else "OTHER THAN by generating functions",
+            f"({process_time() - begun:.0f} s)",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:2]))
