@@ -14,6 +14,7 @@ from gruebler.realisation import realise
 from gruebler.synthesis import Demands, PathTask, PositionTask, synthesise_path, synthesise_structures
 from gruebler.synthesis.alt_burmester import PROBLEMS, load_generic_solutions, parameters, solutions
 from gruebler.synthesis.closure import DesignClosure
+from gruebler.synthesis.curve_matching import PLACES, best_matches, resampled
 from gruebler.synthesis.curves import fit_curve
 from gruebler.synthesis.dyads import Displacements, all_dyads
 from gruebler.synthesis.structure_atlas import dyad_structure, structure_atlas
@@ -196,11 +197,12 @@ def rival(task: PositionTask, points: np.ndarray) -> None:
         print(f"{name:36}{told:>40}{time.perf_counter() - start:>8.2f} s", flush=True)
 
 
-def rival_curves(places: int = 96, generations: int = 1000) -> None:
-    """Closed curves by pylinkage's differential evolution with its default settings: one crank, dyad, coupler point.
+def rival_curves(generations: int = 1000) -> None:
+    """Curves by pylinkage's differential evolution with its default settings: one crank, dyad, coupler point.
 
-    The score is the root mean square distance of places evenly along both curves after the best similarity, start and
-    sense, by the longer side of the target: the measure of `curves`.
+    What it minimises is what the best similarity leaves of places evenly along its curve and the target, over all
+    starts and both senses; for an open target over pieces of an eighth to three quarters of its curve as well. The
+    error is that of `curves`: the root mean square distance of points from the curve, by the longer side of the target.
     """
     try:
         from pylinkage.actuators import Crank
@@ -212,43 +214,36 @@ def rival_curves(places: int = 96, generations: int = 1000) -> None:
         print("pylinkage is not installed")
         return
 
-    def even(z: np.ndarray) -> np.ndarray:
-        way = np.concatenate([[0], np.cumsum(np.abs(np.diff(np.append(z, z[0]))))])
-        at = np.linspace(0, way[-1], places, endpoint=False)
-        closed = np.append(z, z[0])
-        return np.interp(at, way, closed.real) + 1j * np.interp(at, way, closed.imag)
-
     ground, far = Ground(0, 0, name="A"), Ground(1, 0, name="D")
-    crank = Crank(anchor=ground, radius=0.3, angular_velocity=2 * pi / places, initial_angle=0.1, name="B")
+    crank = Crank(anchor=ground, radius=0.3, angular_velocity=2 * pi / 96, initial_angle=0.1, name="B")
     rocker = RRRDyad(anchor1=crank.output, anchor2=far, distance1=0.9, distance2=0.8, name="C")
     point = FixedDyad(anchor1=crank.output, anchor2=rocker, distance=0.5, angle=0.4, name="P")
     linkage = Linkage([ground, far, crank, rocker, point], name="four-bar")
     errors, times = [], []
     print(f"\n{'pylinkage':22}{'error':>10}{'time':>10}")
     for name, (z, closed) in targets().items():
-        if not closed:
-            continue
-        wanted = even(z) - even(z).mean()
-        longer = max(np.ptp(z.real), np.ptp(z.imag))
+        best: list = [float("inf"), z]
 
         @kinematic_minimization
-        def score(loci, wanted=wanted, longer=longer, **_: object) -> float:
-            own = even(np.array([complex(*row[-1]) for row in loci]))
-            own -= own.mean()
-            power = float(np.sum(np.abs(own) ** 2))
-            if not power > 0:
+        def score(loci, z=z, closed=closed, best=best, **_: object) -> float:
+            own = np.array([complex(*row[-1]) for row in loci])
+            if not np.ptp(own.real) + np.ptp(own.imag) > 1e-9:
                 return float("inf")
-            fits = [np.abs(np.fft.ifft(np.fft.fft(wanted) * np.conj(np.fft.fft(w)))).max() for w in (own, own[::-1])]
-            rest = np.sum(np.abs(wanted) ** 2) - max(fits) ** 2 / power
-            return float(np.sqrt(max(rest, 0.0) / places) / longer)
+            match = best_matches(resampled(own, PLACES, closed=True)[0][None], z, 1, closed=closed)[0]
+            if match.gap < best[0]:
+                placed = match.turn * own + match.shift
+                best[:] = match.gap, np.conj(placed) if match.mirrored else placed
+            return match.gap
 
         start = time.perf_counter()
         bounds = ([0.05, 0.1, 0.1, 0.05, -pi], [0.9, 3.0, 3.0, 3.0, pi])
-        found = differential_evolution_optimization(
+        differential_evolution_optimization(
             score, linkage, bounds=bounds, order_relation=min, seed=1, maxiter=generations, verbose=False
         )
         times.append(time.perf_counter() - start)
-        errors.append(found[0].score)
+        dense = resampled(best[1], 4096, closed=True)[0]
+        gaps = np.abs(z[:, None] - dense).min(axis=1)
+        errors.append(float(np.sqrt(np.mean(gaps**2)) / max(np.ptp(z.real), np.ptp(z.imag))))
         print(f"{name:22}{errors[-1]:>10.3%}{times[-1]:>8.2f} s", flush=True)
     print(f"{'median':22}{statistics.median(errors):>10.3%}{statistics.median(times):>8.2f} s")
 

@@ -1,20 +1,27 @@
 """The tables of docs/tables, made anew: `python -m benchmarks.tables [NAME ...]`.
 
-Every table is a CSV file; `records.json` keeps for each the command, version, seconds and checksum.
+Every table is a CSV file; `records.json` keeps for each the command, version, seconds and checksum. The environment
+variable TABLES_CHECKPOINT names a directory for finished pieces of the count of 20 links, which takes 25 minutes.
 """
 
 import csv
 import io
 import json
+import os
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator
 from hashlib import sha256
 from pathlib import Path
 from time import perf_counter
 
 import gruebler as gr
+from benchmarks.evidence import check_chains
 from gruebler.assur import count_assur_groups
-from gruebler.enumeration import Request, count_simple_chains
+from gruebler.enumeration import Request
+from gruebler.enumeration.epicyclic import count_epicyclic_trains
+from gruebler.enumeration.request import RequestCount
+from gruebler.enumeration.run_request import run_count
 from gruebler.enumeration.worker_pool import ProcessPools
 from gruebler.type_synthesis import count_sliding_variants
 
@@ -22,7 +29,12 @@ FOLDER = Path(__file__).parents[1] / "docs" / "tables"
 Rows = Iterator[tuple[object, ...]]
 
 # Most links for each mobility: what a core counts within some minutes.
-_MOST = {0: 17, 1: 18, 2: 17, 3: 16, 4: 17, 5: 18, 6: 19, 7: 20}
+_MOST = {0: 17, 1: 20, 2: 19, 3: 18, 4: 19, 5: 20, 6: 21, 7: 22}
+
+
+def _counted(links: int, mobility: int = 1) -> RequestCount:
+    folder = os.environ.get("TABLES_CHECKPOINT") if (links, mobility) == (20, 1) else None
+    return run_count(Request(links, mobility), orbits=True, checkpoint=Path(folder) if folder else None)
 
 
 def chains(most: int | None = None) -> Rows:
@@ -30,8 +42,52 @@ def chains(most: int | None = None) -> Rows:
     yield "mobility", "links", "chains", "inversions", "drives", "joint_orbits"
     for mobility, largest in _MOST.items():
         for links in range(mobility + 3, min(largest, most or largest) + 1, 2):
-            count = count_simple_chains(links, mobility, orbits=True)
+            count = _counted(links, mobility)
             yield mobility, links, count.chains, count.inversions, count.drives, count.joint_orbits
+
+
+def fractionated(most: int | None = None) -> Rows:
+    """All chains of simple turning joints by where they fall apart: nowhere, at a link, at a joint."""
+    yield "mobility", "links", "not_fractionated", "at_a_link", "at_a_joint"
+    for mobility, largest in ((2, 15), (3, 14), (4, 13), (5, 14), (6, 13), (7, 14)):
+        for links in range(mobility + 3, min(largest, most or largest) + 1, 2):
+            count = gr.count_chains(links, mobility, fractionated="all").by_fractionation
+            yield mobility, links, *(count[kind] for kind in ("none", "link", "joint"))
+
+
+def multiple_joints(most: int | None = None) -> Rows:
+    """Chains of turning joints by the number of multiple joints, fractionated ones included."""
+    yield "mobility", "links", "multiple_joints", "chains"
+    for mobility, largest in ((0, 11), (1, 12), (2, 11), (3, 12)):
+        for links in range(mobility + 3, min(largest, most or largest) + 1, 2):
+            if mobility < 2:  # counted without being built
+                rest, number = gr.count_chains(links, mobility, multiple_joints="any").chains, 0
+                while rest:
+                    count = gr.count_chains(links, mobility, multiple_joints=number).chains
+                    yield mobility, links, number, count
+                    rest, number = rest - count, number + 1
+            else:
+                all_chains = gr.chains(links, mobility, fractionated="all", multiple_joints="any")
+                numbers = Counter(len(chain.multiple_joints) for chain in all_chains)
+                yield from ((mobility, links, number, numbers[number]) for number in range(max(numbers) + 1))
+
+
+def epicyclic_trains(most: int | None = None) -> Rows:
+    """Epicyclic trains by displacement graphs and by rotation graphs."""
+    yield "mobility", "links", "displacement_graphs", "rotation_graphs"
+    for mobility in (1, 2, 3):
+        for links in range(mobility + 2, min(9, most or 9) + 1):
+            yield mobility, links, *count_epicyclic_trains(links, mobility)
+
+
+def second_method(most: int | None = None) -> Rows:
+    """Chains with F = 1 by assortment, and how many of them a second method counted: `evidence.check_chains`."""
+    yield "links", "assortment", "chains", "contracted_graphs", "graphs_counted_twice", "chains_counted_twice"
+    for links in range(6, min(20, most or 20) + 1, 2):
+        count = _counted(links).by_assortment
+        for row in check_chains(links, 10**9 if links <= 14 else 10**5):
+            assortment = ",".join(map(str, row.assortment))
+            yield links, assortment, count.get(row.assortment, 0), row.graphs, row.checked, row.chains
 
 
 def assur_groups(most: int | None = None) -> Rows:
@@ -62,7 +118,17 @@ def driven_by_class(most: int | None = None) -> Rows:
 
 
 TABLES: dict[str, Callable[[int | None], Rows]] = {
-    table.__name__: table for table in (chains, assur_groups, sliding, driven_by_class)
+    table.__name__: table
+    for table in (
+        chains,
+        fractionated,
+        multiple_joints,
+        sliding,
+        assur_groups,
+        driven_by_class,
+        epicyclic_trains,
+        second_method,
+    )
 }
 
 
@@ -76,11 +142,11 @@ def text_of(rows: Rows) -> str:
 def main(names: list[str]) -> None:
     """Make tables; without names all."""
     path = FOLDER / "records.json"
-    records = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
     for name in names or TABLES:
         begun = perf_counter()
         text = text_of(TABLES[name](None))
         (FOLDER / f"{name}.csv").write_text(text, encoding="utf-8")
+        records = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
         records[name] = {
             "command": f"python -m benchmarks.tables {name}",
             "version": gr.__version__,

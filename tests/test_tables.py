@@ -19,7 +19,17 @@ def test_every_table_has_its_record():
 
 
 @pytest.mark.parametrize(
-    ("name", "most"), [("chains", 11), ("assur_groups", 12), ("sliding", 6), ("driven_by_class", 10)]
+    ("name", "most"),
+    [
+        ("chains", 11),
+        ("fractionated", 11),
+        ("multiple_joints", 9),
+        ("sliding", 6),
+        ("assur_groups", 12),
+        ("driven_by_class", 10),
+        ("epicyclic_trains", 6),
+        pytest.param("second_method", 12, marks=pytest.mark.slow),
+    ],
 )
 def test_first_rows(name, most):
     table = list(csv.DictReader((FOLDER / f"{name}.csv").read_text(encoding="utf-8").splitlines()))

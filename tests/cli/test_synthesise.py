@@ -33,6 +33,8 @@ def test_positions_give_a_linkage_that_the_other_commands_take(five, tmp_path, c
     out = capsys.readouterr().out
     assert "Solutions: 4 by theorem (dyads), 4 found, 2 real." in out
     assert "Designs: 1 accepted, 0 rejected." in out
+    assert "fixed pivots" in out
+    assert "  (0, 0) (3.5, 0)\n" in out  # not 1e-11
     assert read_linkage(best).length("coupler", 1, 2) == pytest.approx(3, rel=1e-8)
     assert "<svg" in page.read_text(encoding="utf-8")
     assert main(["analyse", str(best)]) == 0
@@ -258,6 +260,22 @@ def test_wrong_input_is_one_sentence(words, sentence, capsys):
     error = capsys.readouterr().err
     assert sentence in error
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "content", "options", "sentence"),
+    [
+        ("function", "input,output\n0,0\n20,15\n", "--points 3 --travel", "--points and --travel: the file"),
+        ("dead-centres", "stroke,time_ratio\n50,1.2\n", "--swing 30", "--swing: the file"),
+        ("positions", FIVE, "--link coupler", "--link: only with --structure"),
+        ("positions", FIVE, "--number 0", "--number: expected at least 1"),
+    ],
+)
+def test_options_that_would_do_nothing_are_refused(kind, content, options, sentence, tmp_path, capsys):
+    path = tmp_path / "task.csv"
+    path.write_text(content, encoding="utf-8")
+    assert main(["synthesise", kind, str(path), *options.split()]) == 2
+    assert sentence in capsys.readouterr().err
 
 
 def test_a_task_of_another_kind_names_its_command(five, capsys):

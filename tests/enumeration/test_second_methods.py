@@ -41,4 +41,4 @@ def test_all_chains_by_pebbles(links):
 def test_some_chains_of_eighteen_links_by_pebbles():
     checked = list(check_chains(18, most=20_000))
     assert len(checked) > 100
-    assert sum(row.checked for row in checked) > 300
+    assert sum(row.checked for row in checked) > 250

@@ -18,8 +18,9 @@ from gruebler.enumeration import count_chains
 from gruebler.errors import GrueblerError
 from gruebler.exercises import KINDS, exercise, grade, solve
 from gruebler.mechanism import Mechanism
+from gruebler.sheets.page import TextLine
 from gruebler.worksheets import catalog_book, document_bytes, machine_document, poster, task_sheet
-from gruebler.worksheets.blocks import AnswerLines, Document, Heading, Paragraph, Pictures, Rows
+from gruebler.worksheets.blocks import AnswerLines, Contents, Document, Heading, Paragraph, Pictures, Rows
 from gruebler.worksheets.joint_pictures import joint_pictures
 from gruebler.worksheets.paged import document_pages
 from gruebler.worksheets.tasks import construction_of, exercise_figure
@@ -196,12 +197,28 @@ def machine_structure(id):
 
 def test_the_book_lists_every_machine_and_feature():
     book = catalog_book(ids=["quad", "crankrocker", "cam"])
-    contents, index = blocks_of(book, Rows)[0], blocks_of(book, Rows)[-1]
+    (contents,), index = blocks_of(book, Contents), blocks_of(book, Rows)[-1]
     assert [row[0] for row in contents.rows] == ["quad", "crankrocker", "cam"]
     found = {(row[0], row[1]): row[2] for row in index.rows}
     assert found["links", "4"] == "quad, crankrocker"
     assert found["joint", "roll slide"] == "cam"
     assert sum(block.level == 1 for block in blocks_of(book, Heading)) == 5
+
+
+def test_the_contents_of_the_book_name_the_pages():
+    """The number beside a machine is that of the page on which its name stands as a heading."""
+    book = catalog_book(ids=["quad", "crankrocker", "cam"])
+    (contents,) = blocks_of(book, Contents)
+    pages = document_pages(book)
+    lines = [[item for item in page.items if isinstance(item, TextLine)] for page in pages]
+    for key, name, _ in contents.rows:
+        (heading,) = (k for k, page in enumerate(lines, 1) if any(line.text == name and line.bold for line in page))
+        (row,) = (line.y for line in lines[0] if line.text == key)
+        assert str(heading) in [line.text for line in lines[0] if line.y == row]
+    assert document_bytes(book, "html").decode("utf-8").count('<a href="#quad">quad</a>') == 1
+    assert '<h2 id="quad">' in document_bytes(book, "html").decode("utf-8")
+    latex = document_bytes(book, "tex").decode("utf-8")
+    assert latex.count(r"\pageref{") == latex.count(r"\label{") == 3
 
 
 def test_posters():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import degrees, isnan, radians
@@ -40,7 +40,7 @@ from gruebler.synthesis import (
 )
 from gruebler.synthesis.coordination import Minimax
 from gruebler.synthesis.results import EXACT, FITTED, in_order_of
-from gruebler.text import Message, joined, message, number, number_separator, plural, translate
+from gruebler.text import Message, joined, joined_by_and, message, number, number_separator, numbers, plural, translate
 
 __all__ = ["add", "run"]
 
@@ -78,6 +78,11 @@ _OPTIONS = {
     "region": "--region",
 }
 """The options for keys of task files."""
+_TASK_OPTIONS = {
+    "function": ("--interval", "--swings", "--starts", "--points", "--travel"),
+    "dead-centres": ("--swing", "--stroke", "--crank-angle", "--time-ratio"),
+}
+"""The options that are a task by themselves."""
 _LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 1}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
 _TASKS: dict[str, type[Task]] = {
@@ -285,6 +290,8 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         raise SynthesisError(
             "--size-ratio: expected at least 1, but found {size_ratio:g}", size_ratio=arguments.size_ratio
         )
+    if not arguments.structure and (idle := _given(arguments, ("--link", "--initial-designs"))):
+        raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
     for option in ("--number", "--initial-designs"):
         count = getattr(arguments, option.removeprefix("--").replace("-", "_"))
         if count is not None and count < 1:
@@ -304,6 +311,11 @@ def _task(arguments: argparse.Namespace) -> Task:
         with _keys_as_options():
             return _function_task(arguments)
     task = read_task(arguments.task)
+    given = _given(arguments, _TASK_OPTIONS.get(arguments.action, ()))
+    if given:
+        raise SynthesisError(
+            "{options}: the file {task} has the whole task", options=joined_by_and(given), task=arguments.task
+        )
     if not isinstance(task, _TASKS[arguments.action]):
         kind = next(name for name, kind_of_task in _TASKS.items() if isinstance(task, kind_of_task))
         raise SynthesisError("{task}: this is a task for 'synthesise {kind}'", task=arguments.task, kind=kind)
@@ -336,6 +348,12 @@ def _with_option_names(value: Any) -> Any:
     if isinstance(value, Message):
         return Message(value.text, {name: _with_option_names(part) for name, part in value.values.items()})
     return _OPTIONS.get(value, value) if isinstance(value, str) else value
+
+
+def _given(arguments: argparse.Namespace, options: Sequence[str]) -> list[str]:
+    """Which of these options were given."""
+    values = {option: getattr(arguments, option.removeprefix("--").replace("-", "_")) for option in options}
+    return [option for option, value in values.items() if value not in (None, False, "")]
 
 
 def _radians(value: float | None) -> float | None:
@@ -429,7 +447,11 @@ def _print(result: SynthesisResult, shown: SynthesisResult, rejected: bool, lang
     totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
     print(translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals))
     if result.designs:
-        print_table(_COLUMNS, [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)], lang=lang)
+        headers, rows = [*_COLUMNS], [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)]
+        if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
+            headers.append(message("fixed pivots"))
+            rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
+        print_table(headers, rows, lang=lang)
         more = len(result.designs) - len(shown.designs)
         if more:
             print(plural("and {count} more", "and {count} more", more, lang))
@@ -441,10 +463,10 @@ def _print(result: SynthesisResult, shown: SynthesisResult, rejected: bool, lang
     if (rejected or not result.designs) and result.rejected:
         print()
         designs = result.rejected if rejected else result.rejected[:_REJECTED]
-        rows: list[list[Cell]] = [
+        reasons: list[list[Cell]] = [
             [design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs
         ]
-        print_table((message("rejected"), message("reason")), rows, lang=lang)
+        print_table((message("rejected"), message("reason")), reasons, lang=lang)
         more = len(result.rejected) - len(designs)
         if more:
             print(
@@ -508,10 +530,23 @@ def _lengths(linkage: Linkage, lang: str) -> str:
             lengths.append(f"{_LETTERS.get(link, name)} = {values}")
         for line in lines if len(pins) == 1 else ():
             across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.angle), -math.sin(line.angle))
-            offset = across.imag if abs(across.imag) > EXACT * linkage.size else 0.0
+            offset = _without_rounding(across.imag, linkage)
             if offset or link == linkage.mechanism.frame:
                 lengths.append(f"e = {number(offset, lang, '.5g')}")
     return number_separator(lang).join(lengths)
+
+
+def _pivots(design: Design, lang: str) -> str:
+    """Where the turning joints of the frame lie."""
+    linkage = design.linkage
+    own = [element for (_, owner), element in linkage.elements.items() if owner == linkage.mechanism.frame]
+    pins = [[_without_rounding(v, linkage) for v in (e.x, e.y)] for e in own if isinstance(e, Pin)]
+    return " ".join(f"({numbers(pin, lang, '.5g')})" for pin in pins)
+
+
+def _without_rounding(length: float, linkage: Linkage) -> float:
+    """A length, or 0 for what designs are not held to."""
+    return length if abs(length) > EXACT * linkage.size else 0.0
 
 
 def _by_letter(names: tuple[str, str]) -> str:

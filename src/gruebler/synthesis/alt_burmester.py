@@ -132,8 +132,6 @@ class Solutions(NamedTuple):
     """How many paths end at singular solutions: several at one of them, or at one of infinitely many."""
     missing: int
     """How many paths are not resolved: they could not be followed, and where they end is not known."""
-    lost: int = 0
-    """How many paths needed the endgame."""
 
     @property
     def real(self) -> Complexes:
@@ -181,7 +179,6 @@ def solutions(
     problem: Problem,
     p: Complexes,
     *,
-    most_lost: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Solutions:
@@ -189,14 +186,7 @@ def solutions(
 
     Paths that fail, and those whose ends coincide, are followed again with fine steps, then to where an endgame says
     how they end. What is still missing is sought along other ways through the space of tasks. Cost: 1442 paths 1.5 s on
-    one core, and up to 0.5 s for each path that needs the endgame.
-
-    Args:
-        problem: the kind of task.
-        p: the parameters of the task.
-        most_lost: if the endgame has more paths, the task is given up with all solutions missing.
-        threads: how many follow paths; as many as there are processors if None.
-        progress: called with the paths done and their number.
+    one core, and some seconds where the endgame is needed.
     """
     from gruebler._numeric.homotopy import ARRIVED
 
@@ -217,14 +207,10 @@ def solutions(
         same = np.abs(sharp - ends[doubtful]).max(axis=1) < _NEAR
         ends[doubtful] = np.where(same[:, None], sharp, ends[doubtful])
         doubtful[doubtful] = ~certified(problem.poses, problem.points, ends[doubtful], p)
-    if most_lost is not None and np.count_nonzero(lost | doubtful) > most_lost:
-        none = base.z[:0]
-        return Solutions(none, np.zeros(0, bool), none, 0, 0, problem.classes, problem.classes)
     outcome = _outcome(problem, base, p, lost | doubtful, threads)
     # What arrived, though it is not certified, is believed unless the endgame finds others, or branches, at its end.
     near = np.abs(outcome.z - ends[lost | doubtful]).max(axis=1, initial=0.0) < _NEAR
     single = doubtful[lost | doubtful] & ~(outcome.several & near)
-    endgame = int(np.count_nonzero(lost | doubtful))
     lost |= doubtful
     lost[np.flatnonzero(lost)[single]] = False
     outcome = outcome.without(single)
@@ -248,7 +234,7 @@ def solutions(
         missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
     proved = certified(problem.poses, problem.points, regular, p)
     multiple = _distinct(problem, outcome.multiple)
-    return Solutions(regular, proved, multiple, outcome.infinite, outcome.singular, max(missing, 0), endgame)
+    return Solutions(regular, proved, multiple, outcome.infinite, outcome.singular, max(missing, 0))
 
 
 class _Outcome(NamedTuple):
@@ -304,7 +290,8 @@ def _outcome(
     together = np.zeros(len(resolved), bool)
     together[finite[_pairs(problem, ends.z[finite], _TOGETHER).ravel()]] = True
     several = resolved & ~ends.infinite & (together | (ends.winding > 1))
-    return _Outcome(ends.z, resolved, ends.infinite, regular, several)
+    # Newton's method may converge where paths end together; such an end is singular all the same.
+    return _Outcome(ends.z, resolved, ends.infinite, regular & ~several, several)
 
 
 def _regular(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:

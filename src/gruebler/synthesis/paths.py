@@ -207,18 +207,14 @@ def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Messag
 def _best_reference(
     task: PathTask, problem: Problem, oriented: list[int], threads: int | None, progress: Progress | None
 ) -> tuple[_Reduced, Solutions]:
-    """The solutions with the most central point as origin, where the equations cancel least.
-
-    If some are missing, with the next point, if no more paths need the endgame there.
-    """
+    """The solutions with the most central point as origin, where the equations cancel least; else with the next."""
     candidates = list(oriented) or list(range(len(task)))
     z = task.z
     candidates.sort(key=lambda k: float(np.abs(z - z[k]).mean()))
     best: tuple[_Reduced, Solutions] | None = None
     for first in candidates[:2]:
         reduced = _reduced(task, problem, oriented, first)
-        most = None if best is None else best[1].lost
-        complete = solutions(problem, reduced.parameters, most_lost=most, threads=threads, progress=progress)
+        complete = solutions(problem, reduced.parameters, threads=threads, progress=progress)
         if best is None or complete.missing < best[1].missing:
             best = reduced, complete
         if not complete.missing:

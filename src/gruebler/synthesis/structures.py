@@ -81,8 +81,7 @@ def synthesise_structures(
     accepted, rejected = ranked(candidates)
     accepted = in_order_of(accepted, ["error"])
     note = message(
-        "{count} initial designs were improved by least squares; designs that come nearer than {limit:g} of the "
-        "size are accepted.",
+        "Initial designs improved: {count}. Designs that come nearer than {limit:g} of the size are accepted.",
         count=len(jobs),
         limit=_limit(wanted),
     )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from gruebler.drawing.canvas.figure import Figure
 
-__all__ = ["AnswerLines", "Block", "Document", "Heading", "PageBreak", "Paragraph", "Pictures", "Rows"]
+__all__ = ["AnswerLines", "Block", "Contents", "Document", "Heading", "PageBreak", "Paragraph", "Pictures", "Rows"]
 
 
 _LEGIBLE = 0.8  # names of 13 pixels are then printed with 7.8 points, the smallest texts with 6.6
@@ -18,6 +19,8 @@ class Heading(NamedTuple):
 
     text: str
     level: int = 2
+    key: str = ""
+    """What `Contents` names it by."""
 
 
 class Paragraph(NamedTuple):
@@ -58,6 +61,23 @@ class Rows(NamedTuple):
     rows: tuple[tuple[str, ...], ...]
 
 
+class Contents(NamedTuple):
+    """A table of contents: each row begins with the key of a heading, and ends with its page where there are pages."""
+
+    headers: tuple[str, ...]
+    """The last one stands over the pages."""
+    rows: tuple[tuple[str, ...], ...]
+
+    @property
+    def without_pages(self) -> Rows:
+        """The table of a document that is not divided into pages."""
+        return Rows(self.headers[:-1], self.rows)
+
+    def with_pages(self, pages: Mapping[str, int]) -> Rows:
+        """The table with the page of each heading; empty for one that is not there."""
+        return Rows(self.headers, tuple((*row, str(pages.get(row[0], ""))) for row in self.rows))
+
+
 class AnswerLines(NamedTuple):
     """Space for an answer: what is asked, with a line after each, and empty space for the calculation."""
 
@@ -70,7 +90,7 @@ class PageBreak(NamedTuple):
     """What follows begins a page."""
 
 
-Block = Heading | Paragraph | Pictures | Rows | AnswerLines | PageBreak
+Block = Heading | Paragraph | Pictures | Rows | Contents | AnswerLines | PageBreak
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,17 @@ from gruebler.drawing.canvas.styles import COLOURS, STYLES
 from gruebler.drawing.canvas.svg import style_sheet
 from gruebler.errors import GrueblerError
 from gruebler.text import joined_by_or
-from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+from gruebler.worksheets.blocks import (
+    AnswerLines,
+    Block,
+    Contents,
+    Document,
+    Heading,
+    PageBreak,
+    Paragraph,
+    Pictures,
+    Rows,
+)
 from gruebler.worksheets.paged import document_pages, pages_as_pdf
 
 __all__ = ["DOCUMENT_SUFFIXES", "document_bytes"]
@@ -75,8 +85,9 @@ def _markup(text: str) -> str:
 
 def _html_block(block: Block) -> Iterator[str]:
     match block:
-        case Heading(text, level):
-            yield f"<h{level + 1}>{_markup(text)}</h{level + 1}>"
+        case Heading(text, level, key):
+            anchor = f' id="{escape(key)}"' if key else ""
+            yield f"<h{level + 1}{anchor}>{_markup(text)}</h{level + 1}>"
         case Paragraph(text, small):
             yield f"<p{' class=small' if small else ''}>{'<br>'.join(map(_markup, text.split(chr(10))))}</p>"
         case Pictures(figures, captions):
@@ -92,6 +103,10 @@ def _html_block(block: Block) -> Iterator[str]:
             for row in rows:
                 yield f"<tr>{''.join(f'<td>{_markup(cell)}</td>' for cell in row)}</tr>"
             yield "</table>"
+        case Contents():
+            for line, row in zip(_html_block(block.without_pages), (("", ""), *block.rows, ("", "")), strict=True):
+                cell = f"<td>{_markup(row[0])}</td>"
+                yield line.replace(cell, f'<td><a href="#{escape(row[0])}">{_markup(row[0])}</a></td>', 1)
         case AnswerLines(asked, space):
             lines = "".join(f'<p>{_markup(name)}<span class="line"></span></p>' for name in asked)
             yield f'<div class="answer" style="padding-top:{space:.0f}px">{lines}</div>'
@@ -111,7 +126,7 @@ def _markdown(document: Document) -> bytes:
 
 def _markdown_block(block: Block) -> Iterator[str]:
     match block:
-        case Heading(text, level):
+        case Heading(text, level, _):
             yield f"{'#' * (level + 1)} {text}"
         case Paragraph(text):
             yield "  \n".join(text.split("\n"))
@@ -125,6 +140,8 @@ def _markdown_block(block: Block) -> Iterator[str]:
                 yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
                 if number == 0:
                     yield "|" + "---|" * len(headers)
+        case Contents():
+            yield from _markdown_block(block.without_pages)
         case AnswerLines(asked):
             yield from (f"- {name} ________" for name in asked)
         case PageBreak():
@@ -208,10 +225,11 @@ def _latex(document: Document) -> bytes:
 
 def _latex_block(block: Block) -> Iterator[str]:
     match block:
-        case Heading(text, level):
+        case Heading(text, level, key):
             command = {1: "section", 2: "subsection", 3: "subsubsection"}[level]
             # Pages end before headings if they can.
-            yield f"\\filbreak\n\\{command}*{{{_latex_text(text)}}}"
+            label = f"\\label{{{key}}}" if key else ""
+            yield f"\\filbreak\n\\{command}*{{{_latex_text(text)}}}{label}"
         case Paragraph(text, small):
             lines = r"\\ ".join(map(_latex_text, text.split("\n")))
             yield f"{{\\small {lines}\\par}}\n" if small else f"{lines}\\par\n"
@@ -230,6 +248,12 @@ def _latex_block(block: Block) -> Iterator[str]:
             yield f"\\begin{{longtable}}[l]{{@{{}}{columns}@{{}}}}"
             for number, row in enumerate([headers, *rows]):
                 yield " & ".join(map(_latex_text, row)) + r" \\" + (r" \hline" if number == 0 else "")
+            yield "\\end{longtable}\n"
+        case Contents(headers, rows):
+            paragraphs = r"p{0.4\linewidth}" * (len(headers) - 2)
+            yield f"\\begin{{longtable}}[l]{{@{{}}l{paragraphs}r@{{}}}}"
+            yield " & ".join(map(_latex_text, headers)) + r" \\ \hline"
+            yield from (" & ".join(map(_latex_text, row)) + rf" & \pageref{{{row[0]}}} \\" for row in rows)
             yield "\\end{longtable}\n"
         case AnswerLines(asked, space):
             yield f"\\vspace{{{space * 0.75:.0f}pt}}\n"

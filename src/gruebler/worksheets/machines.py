@@ -23,8 +23,8 @@ from gruebler.linkages import Linkage, Pin
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.inversion import family
 from gruebler.mobility import mobility_report
-from gruebler.text import number, translate
-from gruebler.worksheets.blocks import Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+from gruebler.text import message, number, translate
+from gruebler.worksheets.blocks import Block, Contents, Document, Heading, PageBreak, Paragraph, Pictures, Rows
 
 __all__ = ["catalog_book", "machine_document"]
 
@@ -59,7 +59,7 @@ def machine_document(
 
 def _entry_blocks(entry: Entry, lang: str) -> Iterator[Block]:
     shown = entry.in_language(lang)
-    yield Heading(entry.name.in_language(lang), 1)
+    yield Heading(entry.name.in_language(lang), 1, entry.id)
     if entry.remark is not None:
         yield Paragraph(entry.remark.in_language(lang))
     linkage = None if shown.dimensions is None else shown.linkage()
@@ -170,9 +170,10 @@ def catalog_book(*, lang: str = "en", ids: Sequence[str] = ()) -> Document:
     known = entries()
     chosen: Mapping[str, Entry] = {id: known[id] for id in ids} if ids else known
     blocks: list[Block] = [Heading(translate("Contents", lang), 1)]
-    headers = translate("machine", lang), translate("name", lang), translate("source", lang)
+    names = message("machine"), message("name"), message("source"), message("page")
+    headers = tuple(name.in_language(lang) for name in names)
     rows = tuple((id, entry.name.in_language(lang), source_text(entry.source, lang)) for id, entry in chosen.items())
-    blocks.append(Rows(headers, rows))
+    blocks.append(Contents(headers, rows))
     for entry in chosen.values():
         blocks += [PageBreak(), *_entry_blocks(entry, lang)]
     blocks += [PageBreak(), *_index(chosen, lang)]

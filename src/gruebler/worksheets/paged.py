@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import takewhile
 
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.shapes import text_width, wrapped_text
 from gruebler.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
 from gruebler.text import translate
-from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+from gruebler.worksheets.blocks import (
+    AnswerLines,
+    Block,
+    Contents,
+    Document,
+    Heading,
+    PageBreak,
+    Paragraph,
+    Pictures,
+    Rows,
+)
 
 __all__ = ["document_pages", "pages_as_pdf"]
 
@@ -20,6 +30,7 @@ _SIZES = {1: 17.0, 2: 13.5, 3: 12.0}
 _GAP = 12.0
 _HEAD = 10.0
 _KEPT = 0.45 * HEIGHT  # what is higher than that may be divided
+_PASSES = 4
 _FILL = 1.04  # texts are set a little wider than estimated
 
 Item = TextLine | HorizontalRule | PlacedPicture
@@ -27,9 +38,21 @@ Item = TextLine | HorizontalRule | PlacedPicture
 
 def document_pages(document: Document) -> tuple[Page, ...]:
     """The pages, with title and number on each."""
+    numbers: dict[str, int] = {}
+    for _ in range(_PASSES):
+        pages, later = _divided(document, numbers)
+        if later == numbers:
+            break
+        numbers = later  # the contents with these numbers may be a line longer
+    return tuple(_page(document, items, k, len(pages)) for k, items in enumerate(pages, 1))
+
+
+def _divided(document: Document, numbers: Mapping[str, int]) -> tuple[list[list[Item]], dict[str, int]]:
+    """The items of each page, and the pages of the headings that have a key; the contents with such pages."""
     pages: list[list[Item]] = [[]]
     y = _TOP
-    blocks = document.blocks
+    page_of: dict[str, int] = {}
+    blocks = tuple(b.with_pages(numbers) if isinstance(b, Contents) else b for b in document.blocks)
     if _shortened(document) != document.title and not any(
         isinstance(block, Heading) and block.level == 1 for block in blocks[:1]
     ):
@@ -48,8 +71,9 @@ def document_pages(document: Document) -> tuple[Page, ...]:
                 y = _TOP
             pages[-1] += [item.at(y) for item in items]
             y += high
-    count = len(pages)
-    return tuple(_page(document, items, k, count) for k, items in enumerate(pages, 1))
+        if isinstance(block, Heading) and block.key:
+            page_of[block.key] = len(pages)
+    return pages, page_of
 
 
 class _Lowered:
@@ -76,7 +100,7 @@ Part = tuple[list[_Lowered], float]
 def _parts(block: Block) -> Iterator[Part]:
     """The pieces of a block that are not divided, each with its height."""
     match block:
-        case Heading(text, level):
+        case Heading(text, level, _):
             yield _heading(text, _SIZES[level])
         case Paragraph(text, small):
             size, lead = (9.5, 13.0) if small else (_BODY, _LEAD)
