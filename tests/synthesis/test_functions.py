@@ -249,3 +249,20 @@ def test_functions_without_values_and_too_many_pairs():
         FunctionLaw("x^2", (-1, 1), 1, 1)
     with pytest.raises(SynthesisError, match="at most 3"):
         synthesise_function(FunctionTask([0.1, 0.2, 0.3, 0.4], [1, 2, 3, 4]))
+
+
+def test_a_long_table_with_free_starts_is_met_by_least_squares():
+    """Pairs of a four-bar give it back; of log10, which no four-bar follows, the nearest one is accepted as such."""
+    phi = 0.4 + np.linspace(0, 1.2, 12)
+    psi = np.unwrap(np.asarray(FourBar(0.8, 1.5, 1.2, 1.0).motion(phi).output.value))
+    found = synthesise_function(FunctionTask(tuple(phi), tuple(psi), "angle", False, False))
+    assert found.count.theorem == 0  # too many conditions, not too few
+    assert comes_back(found, FourBar(0.8, 1.5, 1.2, 1.0), phi)
+    assert found.designs[0].verdict.error < 1e-9
+    x = np.linspace(1, 2, 12)
+    table = FunctionTask(tuple(x - 1), tuple(np.log10(x) / np.log10(2)), "angle", False, False)
+    found = synthesise_function(table)
+    errors = [design.verdict.error for design in found.designs]
+    assert errors == sorted(errors)
+    assert 1e-6 < errors[0] < 1e-3
+    assert "least squares" in str(found.notes[0])

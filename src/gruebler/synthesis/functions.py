@@ -25,8 +25,8 @@ from gruebler.synthesis.coordination import (
 from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.judging import Demands, Probe, Targets, judge_design
-from gruebler.synthesis.positions import guiding_dyads, ranked
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult, in_order_of
+from gruebler.synthesis.positions import NEAR, guiding_dyads, ranked
+from gruebler.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.structural_error import coordination_of
 from gruebler.synthesis.structural_error import minimax as minimax_near
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
@@ -44,7 +44,7 @@ def synthesise_function(
     """All linkages that coordinate the pairs; the frame of four-bars has the length 1.
 
     Args:
-        task: two to five pairs.
+        task: two to five pairs; with both starts free more of them, by least squares.
         demands: besides one branch and the order.
         number: of dyads taken where there are infinitely many.
         minimax: the linkages near these whose largest structural error is as small as possible, the best first.
@@ -61,6 +61,9 @@ def synthesise_function(
     if minimax and task.law is None:
         raise SynthesisError("the minimax optimum needs the function as an expression, not a table of pairs")
     free = (not task.start_input) + (not task.start_output)
+    fitted = free == 2 and len(task) > 5
+    if fitted and wanted.tolerance <= EXACT:
+        wanted = replace(wanted, tolerance=NEAR)
     candidates, notes = [], []
     theorem: int | None = 0
     complex_count = real = 0
@@ -76,10 +79,18 @@ def synthesise_function(
     if free == 2:
         dyads = _connecting(task, number)
         real = len(dyads)
-        theorem = 3 if len(task) == 5 else None  # four dyads less the frame
+        theorem = 0 if fitted else 3 if len(task) == 5 else None  # four dyads less the frame
         complex_count = 3 if len(task) == 5 else len(dyads)
         candidates += [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
-        if len(task) < 5:
+        if fitted:
+            notes.append(
+                message(
+                    "More than five pairs are met by least squares; designs that come nearer than {tolerance:g} are "
+                    "accepted.",
+                    tolerance=wanted.tolerance,
+                )
+            )
+        elif len(task) < 5:
             notes.append(
                 message(
                     "There are infinitely many solutions, one for each point of a curve; {count} were taken.",
@@ -99,6 +110,8 @@ def synthesise_function(
         notes.append(message("There are infinitely many solutions: give more pairs."))
         theorem = None
     designs, rejected = ranked(candidates)
+    if fitted:
+        designs = in_order_of(designs, ["error"])
     count = SolutionCount(message("linkages"), theorem, complex_count, real)
     result = SynthesisResult(task, designs, rejected, count, tuple(notes))
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result
