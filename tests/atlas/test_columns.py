@@ -14,7 +14,7 @@ from gruebler.assur import decompose
 from gruebler.atlas import columns_of
 from gruebler.atlas.chain_table import arrays_of_chains, chain_table
 from gruebler.atlas.mechanism_tables import bulk_tables, driven_table, mechanism_table
-from gruebler.atlas.parts import AtlasTask, PartWriter, parts
+from gruebler.atlas.parts import AtlasTask, PartWriter, _slices, parts
 from gruebler.chain import Chain
 from gruebler.enumeration import contracted_graphs, fractionation
 from gruebler.isomorphism import decode
@@ -251,6 +251,22 @@ def test_mechanisms_in_bulk_are_those_made_one_by_one(tmp_path, links):
     ):
         chosen = bulk[name].filter(pc.is_in(bulk[name]["chain"], pa.array(codes)))
         assert chosen.equals(one_by_one)
+
+
+def test_mechanisms_in_slices_are_those_made_at_once(tmp_path, monkeypatch):
+    task = AtlasTask("8", inversions=True, drives="frame")
+    writer = PartWriter(tmp_path, task, "test")
+    part = next(iter(parts(task)))
+    table = writer._chains(part)
+    drives = table["drives"].to_pylist()
+    for size in (1, max(drives), 100):
+        monkeypatch.setattr("gruebler.atlas.parts._DRIVES", size)
+        slices = list(_slices(table))
+        assert pa.concat_tables(slices).equals(table)
+        assert all(len(each) == 1 or sum(each["drives"].to_pylist()) <= size for each in slices)
+        assert 1 < len(slices) <= table.num_rows
+        assert writer._mechanisms(part.request, table) == bulk_tables(table, driven=True)
+    assert list(_slices(table.slice(0, 0))) == []
 
 
 def test_every_column_is_defined_and_filled(tmp_path):

@@ -39,14 +39,14 @@ def compared(records: list[dict], tmp_path: Path) -> list[dict]:
     return found
 
 
-def check(name: str, record: dict, found: dict) -> bool:
+def check(name: str, record: dict, found: dict, agreed: float = AGREED) -> bool:
     """Compare one; returns whether the same part is at fault at its end, if it has one."""
     assert found["reached"] == record["reached"], name
     assert found["at"] == pytest.approx(record["at"], abs=1e-6), name
     assert (found["status"] == 0) == (record["status"] == 0), name
     for what in ("turns", "places", "velocities"):
-        assert found[what] <= AGREED, (name, what, found[what])
-    assert found["accelerations"] <= 100 * AGREED, (name, found["accelerations"])
+        assert found[what] <= agreed, (name, what, found[what])
+    assert found["accelerations"] <= 100 * agreed, (name, found["accelerations"])
     return record["status"] == 0 or (found["status"], found["fault"]) == (record["status"], record["fault"])
 
 
@@ -125,7 +125,7 @@ def test_a_thousand_random_linkages(tmp_path):
 def test_trains_of_parallelograms_pass_their_change_points_together(tmp_path):
     """Long rows and short ones, and change points at the same place, near one another or apart."""
     random = np.random.default_rng(20_261_122)
-    records = []
+    records, agreed = [], []
     for bends in [(0, 0, 0), (1e-3, 0, 1e-3), (1e-2, 1.5, 0), (pi / 2, pi, 0.5)] * 10:
         linkage = parallelograms(random.uniform(0.5, 2, 4).tolist(), random.uniform(2.1, 4, 3).tolist(), list(bends))
         before, behind = 10 ** random.uniform(-6, -1, 2)
@@ -133,5 +133,7 @@ def test_trains_of_parallelograms_pass_their_change_points_together(tmp_path):
         begin = pose_at_reference(cached_plan(linkage), np.ones(1))
         records.append(golden_record(linkage, rows[:, None], begin.signs, begin.unknowns))
         assert records[-1]["status"] == 0
-    for number, pair in enumerate(zip(records, compared(records, tmp_path), strict=True)):
-        check(f"train {number}", *pair)
+        # The sine of the angle between two bars is this small: rounding of the coordinates, divided by it, turns a bar.
+        agreed.append(AGREED + 100 * np.finfo(float).eps / min(before, behind))
+    for number, three in enumerate(zip(records, compared(records, tmp_path), agreed, strict=True)):
+        check(f"train {number}", *three)

@@ -113,6 +113,15 @@ def test_finite_tasks_give_a_random_four_bar_back(kind, seed):
     """
     count, oriented = MIXED[kind]
     rng = np.random.default_rng(seed)
+    lengths, known, low, span = random_four_bar(rng)
+    values = low + span * (np.arange(count) + rng.uniform(0, 0.8, count)) / count
+    result = synthesise(path_of(known, values, oriented))
+    assert result.count.found == result.count.theorem
+    assert given_back(result, lengths)
+
+
+def random_four_bar(rng):
+    """Its lengths, itself, where its drive begins and how far it goes without a dead centre."""
     while True:
         lengths = rng.uniform(1, 4, 4)
         if 2 * lengths.max() < 0.95 * lengths.sum() and np.diff(np.sort(lengths)).min() > 0.1:
@@ -120,10 +129,7 @@ def test_finite_tasks_give_a_random_four_bar_back(kind, seed):
     known = FourBar(*lengths).linkage({"P": tuple(rng.uniform(0.4, 2, 2))})
     drive = circuit(known, step=0.05).drive
     span = 0.6 * np.ptp(drive) if np.ptp(drive) < 6 else 4.5
-    values = drive.min() + 0.2 * np.ptp(drive) + span * (np.arange(count) + rng.uniform(0, 0.8, count)) / count
-    result = synthesise(path_of(known, values, oriented))
-    assert result.count.found == result.count.theorem
-    assert given_back(result, lengths)
+    return lengths, known, drive.min() + 0.2 * np.ptp(drive), span
 
 
 def path_of(known, drives, oriented):
@@ -140,11 +146,12 @@ def given_back(result, lengths):
 
 @pytest.mark.slow
 def test_points_near_each_other_give_a_four_bar_back():
-    """Solutions lie up to 3e4 sizes away; what is not resolved is counted, and another origin is no way out."""
-    lengths = [3.44, 3.74, 2.82, 3.19]
-    known = FourBar(*lengths).linkage({"P": (1.6, 0.5)})
-    drives = [0.788, 0.836, 1.056, 1.623, 1.915, 2.048, 2.113, 2.121]
-    result = synthesise(path_of(known, np.array(drives), (0, 5)))
+    """Solutions lie up to 3e4 sizes away; what is not resolved is counted."""
+    rng = np.random.default_rng(0)
+    lengths, known, low, span = random_four_bar(rng)
+    drives = low + span * np.sort(rng.uniform(0, 1, 8))
+    assert np.diff(drives).min() < 0.01
+    result = synthesise(path_of(known, drives, (0, 5)))
     assert given_back(result, lengths)
     assert 1100 <= result.count.found <= result.count.theorem
 

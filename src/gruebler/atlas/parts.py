@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_parquet"]
 
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
+_DRIVES = 500_000  # driven mechanisms made at a time: half a gigabyte
 _AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part
 _CHECKED = ("inversions", "joint_orbits", "drives")  # columns whose sums the enumeration counts as well
 
@@ -229,8 +230,10 @@ class PartWriter:
     def _mechanisms(self, request: Request, chains: pa.Table) -> dict[str, pa.Table]:
         """The tables of mechanisms and driven mechanisms, as far as they are wanted."""
         plain = request.only_simple and request.mobility == 1 and self.task.sliding == range(1)
-        if plain and self.task.drives != "any" and (tables := bulk_tables(chains, driven=self.task.drives == "frame")):
-            return tables
+        if plain and self.task.drives != "any":
+            made = (bulk_tables(some, driven=self.task.drives == "frame") for some in _slices(chains))
+            if tables := [each for each in made if each is not None]:
+                return {name: arrow_library().concat_tables([each[name] for each in tables]) for name in tables[0]}
         codes = chains.column("code").to_pylist()
         chunks = {}
         if self.task.inversions:
@@ -308,6 +311,17 @@ def _simple_chains(piece: WorkPiece, first_graph: int) -> pa.Table:
             links=piece.links,
         )
     return table
+
+
+def _slices(chains: pa.Table) -> Iterator[pa.Table]:
+    """The rows of a table of chains, some at a time, so that their mechanisms fit into memory."""
+    drives = np.cumsum(chains["drives"].to_numpy())
+    begin = 0
+    while begin < len(drives):
+        before = int(drives[begin - 1]) if begin else 0
+        end = max(begin + 1, int(np.searchsorted(drives, before + _DRIVES, "right")))
+        yield chains.slice(begin, end - begin)
+        begin = end
 
 
 def _typed(request: Request, piece: Work, sliding: Sequence[int]) -> tuple[list[Chain], list[str]]:
