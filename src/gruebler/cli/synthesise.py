@@ -246,6 +246,7 @@ def add(parser: Parser) -> None:
         kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
         kind.add_argument("--json", action="store_true", help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
+        kind.add_argument("--design", type=int, metavar="K", help="with -o: write design K of the list (default: 1)")
         kind.add_argument(
             "--draw",
             type=Path,
@@ -267,9 +268,10 @@ def run(arguments: argparse.Namespace) -> int:
     if orders:
         result = result.sorted_by(*orders)
     shown = _best(result, arguments.number)
+    written = _design_to_write(arguments, shown)
     drawn = arguments.draw is not None and bool(result.designs or result.rejected)
-    if result.designs and arguments.out is not None:
-        write_linkage(arguments.out, result.designs[0].linkage)
+    if written is not None:
+        write_linkage(arguments.out, written.linkage)
         say_written(arguments.out, arguments.lang)
     if drawn:
         _draw(arguments.draw, result, len(shown.designs), arguments.lang)
@@ -283,6 +285,16 @@ def run(arguments: argparse.Namespace) -> int:
             if path is not None:
                 print(translate("{path} is not written: no design was accepted.", arguments.lang, path=path))
     return 0 if result.designs else 1
+
+
+def _design_to_write(arguments: argparse.Namespace, shown: SynthesisResult) -> Design | None:
+    """The best design or the one that was asked for; None without a file or a design."""
+    if arguments.out is None or not shown.designs:
+        return None
+    number, count = arguments.design or 1, len(shown.designs)
+    if number > count:
+        raise SynthesisError("--design: expected 1 to {count}, but found {number}", count=count, number=number)
+    return shown.designs[number - 1]
 
 
 def _best(result: SynthesisResult, number: int | None) -> SynthesisResult:
@@ -305,7 +317,9 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         )
     if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
-    for option in ("--number", "--initial-designs"):
+    if arguments.design is not None and arguments.out is None:
+        raise SynthesisError("--design: only with -o")
+    for option in ("--number", "--initial-designs", "--design"):
         count = getattr(arguments, option.removeprefix("--").replace("-", "_"))
         if count is not None and count < 1:
             raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
