@@ -34,6 +34,12 @@ from gruebler.text import message
 
 __all__ = ["synthesise_function"]
 
+_FAMILIES = {
+    2: message("There are infinitely many solutions, a family of dimension 3; {count} were taken."),
+    3: message("There are infinitely many solutions, one for each point of the plane; {count} were taken."),
+    4: message("There are infinitely many solutions, one for each point of a curve; {count} were taken."),
+}
+"""By how many pairs, with both starts free: what a dyad between crank and output can be."""
 _FORMS = {("angle", "RR"): "four-bar", ("travel", "RR"): "slider-crank"}
 """What crank, dyad and output form together; other dyads between crank and output name themselves."""
 
@@ -65,6 +71,7 @@ def synthesise_function(
     if fitted and wanted.tolerance <= EXACT:
         wanted = replace(wanted, tolerance=NEAR)
     candidates, notes = [], []
+    what = message("linkages")
     theorem: int | None = 0
     complex_count = real = 0
     for kind in (kind for kind in KINDS if kind.output == task.output):
@@ -91,12 +98,7 @@ def synthesise_function(
                 )
             )
         elif len(task) < 5:
-            notes.append(
-                message(
-                    "There are infinitely many solutions, one for each point of a curve; {count} were taken.",
-                    count=len(dyads),
-                )
-            )
+            notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
     elif not candidates and not theorem:
         most = 3 + free
         if len(task) > most:
@@ -107,12 +109,25 @@ def synthesise_function(
                 free=free,
                 most=most,
             )
-        notes.append(message("There are infinitely many solutions: give more pairs."))
+        notes.append(
+            message(
+                "There are infinitely many solutions, a family of dimension {dimension}: give more pairs.",
+                dimension=most - len(task),
+            )
+        )
         theorem = None
+    elif task.output == "angle" and len(task) < 3 + free:
+        what = message("inverted slider-cranks")
+        notes.append(
+            message(
+                "There are infinitely many four-bars besides, a family of dimension 1: {count} pairs determine them.",
+                count=3 + free,
+            )
+        )
     designs, rejected = ranked(candidates)
     if fitted:
         designs = in_order_of(designs, ["error"])
-    count = SolutionCount(message("linkages"), theorem, complex_count, real)
+    count = SolutionCount(what, theorem, complex_count, real)
     result = SynthesisResult(task, designs, rejected, count, tuple(notes))
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result
 
