@@ -28,8 +28,9 @@ from gruebler.text import message
 __all__ = ["CurveAtlas", "Fit", "atlas", "fit_curve", "fit_open_points", "fit_path"]
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
-_NEAR = 4e-3  # of the size: if the best of the first come nearer, more are not tried
+_NEAR = 1e-3  # of the size: if the best of the first come nearer, more are not tried
 _STEPS = 300
+_MARGIN = 1e-6  # sizes: so far from the limit of a crank that turns fully
 _MET = 1e-10  # of the size: fits that come so near are equally good, and the most alike at the start comes first
 ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
@@ -275,6 +276,8 @@ def _improved(
         weight = np.einsum("njj->nj", gram) + 1e-9
         gram = gram + damping[:, None, None] * np.einsum("nj,jk->njk", weight, np.eye(weight.shape[1]))
         step = -np.linalg.solve(gram, right[:, :, None])[:, :, 0]
+        if turning:
+            step = _within_limit(kind, rows, gram, step)
         trial_rows = rows + step[:, :unknowns].T
         if timing is None:
             moved = rest + np.einsum("knm,nk->nm", curve.by_sizes, step)
@@ -313,17 +316,57 @@ def _cost(kind: FourBarKind, rows: Reals, phi: Reals, branch: Reals, z: Complexe
     return np.where(bad, np.inf, cost)
 
 
-def _turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:
-    """Whether the crank turns fully (Grashof)."""
+def _within_limit(kind: FourBarKind, rows: Reals, gram: Reals, step: Reals) -> Reals:
+    """(starts, numbers) the steps, those beyond the limit of a crank that turns fully changed to the best along it.
+
+    Curves with corners are drawn by linkages at this limit; a step that is only refused there ends the search.
+    """
+    step = step.copy()
+    unknowns = len(rows)
+    slack, slope = _limit_of_turning(kind, rows)
+    normal = np.zeros_like(step)
+    normal[:, :unknowns] = slope.T
+    beyond = slack + np.einsum("nk,nk->n", normal, step) + _MARGIN
+    at_limit = (beyond > 0) & np.isfinite(beyond)
+    if not at_limit.any():
+        return step
+    along = np.linalg.solve(gram[at_limit], normal[at_limit][:, :, None])[:, :, 0]
+    step[at_limit] -= along * (beyond[at_limit] / np.einsum("nk,nk->n", normal[at_limit], along))[:, None]
+    for _ in range(3):  # the limit is curved: back to it
+        slack, slope = _limit_of_turning(kind, rows + step[:, :unknowns].T)
+        excess = np.where(at_limit, np.maximum(slack + _MARGIN, 0), 0)
+        step[:, :unknowns] -= (slope * (excess / np.sum(slope**2, axis=0))).T
+    return step
+
+
+def _limit_of_turning(kind: FourBarKind, rows: Reals) -> tuple[Reals, Reals]:
+    """(starts,) a length that is negative where the crank turns fully, by Grashof; (unknowns, starts) its slopes."""
     r = dict(zip(kind.unknowns, rows, strict=True))
+    slope = dict.fromkeys(kind.unknowns, np.zeros(rows.shape[1]))
     if kind is SLIDER_CRANK:
-        offset = np.abs(r["h"] - (np.cos(r["angle"]) * r["a0y"] - np.sin(r["angle"]) * r["a0x"]))
-        return np.asarray(r["b"] > r["a"] + offset)
-    frame = np.hypot(r["b0x"] - r["a0x"], r["b0y"] - r["a0y"])
-    lengths = np.stack([r["a"], r["b"], r["c"], frame])
-    shortest = np.minimum(r["a"], frame)
-    longest, least = lengths.max(axis=0), lengths.min(axis=0)
-    return np.asarray((least == shortest) & (2 * (longest + least) < lengths.sum(axis=0)))
+        sine, cosine = np.sin(r["angle"]), np.cos(r["angle"])
+        offset = r["h"] - (cosine * r["a0y"] - sine * r["a0x"])
+        side = np.sign(offset)
+        slope |= {"a": np.ones_like(side), "b": -np.ones_like(side), "h": side, "a0x": side * sine}
+        slope |= {"a0y": -side * cosine, "angle": side * (sine * r["a0y"] + cosine * r["a0x"])}
+        slack = r["a"] + np.abs(offset) - r["b"]
+    else:
+        x, y = r["b0x"] - r["a0x"], r["b0y"] - r["a0y"]
+        frame = np.hypot(x, y)
+        lengths = np.stack([r["a"], r["b"], r["c"], frame])
+        place = np.arange(4)[:, None]
+        shortest = np.where(r["a"] <= frame, 0, 3)  # another one makes the length positive
+        sign = -1.0 + 2 * (place == lengths.argmax(axis=0)) + 2 * (place == shortest)
+        slack = np.sum(sign * lengths, axis=0)
+        slope |= {name: sign[k] for k, name in enumerate("abc")}
+        slope |= {"a0x": -sign[3] * x / frame, "a0y": -sign[3] * y / frame}
+        slope |= {"b0x": sign[3] * x / frame, "b0y": sign[3] * y / frame}
+    return slack, np.array([slope[name] for name in kind.unknowns])
+
+
+def _turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:
+    """Whether the crank turns fully."""
+    return np.asarray(_limit_of_turning(kind, rows)[0] < 0)
 
 
 def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Progress | None = None) -> SynthesisResult:
