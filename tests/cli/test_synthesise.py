@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gruebler.cli import main
-from gruebler.formats import read_linkage
+from gruebler.formats import linkage_from_json, read_linkage
 from gruebler.kinematics import move
 from gruebler.synthesis import task_from_json
 from gruebler.synthesis.positions import guiding_dyads
@@ -278,6 +278,12 @@ def test_wrong_input_is_one_sentence(words, sentence, capsys):
         ("function", "input,output\n0,0\n20,15\n", "--points 3 --travel", "--points and --travel: the file"),
         ("dead-centres", "stroke,time_ratio\n50,1.2\n", "--swing 30", "--swing: the file"),
         ("positions", FIVE, "--link coupler", "--link: only with --structure"),
+        ("positions", FIVE, "--design 2", "--design: only with -o"),
+        ("positions", FIVE, "--design 0 -o x.toml", "--design: expected at least 1"),
+        ("positions", FIVE, "--design 2 -o x.toml", "--design: expected 1 to 1, but found 2"),
+        ("positions", FIVE, "--jobs 2", "--jobs: only with --structure"),
+        ("positions", FIVE, "--scheduler tcp://host:8786", "--scheduler: only with --structure"),
+        ("positions", FIVE, "--structure quad --jobs 0", "at least one process, not 0"),
         ("positions", FIVE, "--number 0", "--number: expected at least 1"),
     ],
 )
@@ -286,6 +292,29 @@ def test_options_that_would_do_nothing_are_refused(kind, content, options, sente
     path.write_text(content, encoding="utf-8")
     assert main(["synthesise", kind, str(path), *options.split()]) == 2
     assert sentence in capsys.readouterr().err
+
+
+def test_any_design_of_the_list_is_written(tmp_path, capsys):
+    task, path = tmp_path / "four.csv", tmp_path / "third.toml"
+    task.write_text(FOUR, encoding="utf-8")
+    words = ["synthesise", "positions", str(task)]
+    assert main([*words, "--json"]) == 0
+    third = json.loads(capsys.readouterr().out)["designs"][2]["linkage"]
+    assert main([*words, "--design", "3", "-o", str(path)]) == 0
+    assert read_linkage(path) == linkage_from_json(third)
+    assert main(["analyse", str(path)]) == 0
+
+
+@pytest.mark.slow
+def test_processes_fit_the_same_designs(five, tmp_path, capsys):
+    words = ["synthesise", "positions", str(five), "--structure", "quad", "--initial-designs", "2"]
+    files = [tmp_path / f"{jobs}.toml" for jobs in (1, 2)]
+    for jobs, path in enumerate(files, 1):
+        assert main([*words, "--jobs", str(jobs), "-o", str(path)]) == 0
+    linkages = [read_linkage(path) for path in files]
+    assert linkages[0].mechanism == linkages[1].mechanism
+    for key, element in linkages[0].elements.items():
+        assert tuple(element) == pytest.approx(tuple(linkages[1].elements[key]), rel=1e-6, abs=1e-9)
 
 
 def test_a_task_of_another_kind_names_its_command(five, capsys):

@@ -260,3 +260,18 @@ def test_a_table_from_zero_names_free_starts():
     free = synthesise_function(FunctionTask(*table, start_input=False, start_output=False))
     assert free.designs
     assert not [note for note in free.notes if "free starts" in str(note)]
+def test_a_long_table_with_free_starts_is_met_by_least_squares():
+    """Pairs of a four-bar give it back; of log10, which no four-bar follows, the nearest one is accepted as such."""
+    phi = 0.4 + np.linspace(0, 1.2, 12)
+    psi = np.unwrap(np.asarray(FourBar(0.8, 1.5, 1.2, 1.0).motion(phi).output.value))
+    found = synthesise_function(FunctionTask(tuple(phi), tuple(psi), "angle", False, False))
+    assert found.count.theorem == 0  # too many conditions, not too few
+    assert comes_back(found, FourBar(0.8, 1.5, 1.2, 1.0), phi)
+    assert found.designs[0].verdict.error < 1e-9
+    x = np.linspace(1, 2, 12)
+    table = FunctionTask(tuple(x - 1), tuple(np.log10(x) / np.log10(2)), "angle", False, False)
+    found = synthesise_function(table)
+    errors = [design.verdict.error for design in found.designs]
+    assert errors == sorted(errors)
+    assert 1e-6 < errors[0] < 1e-3
+    assert "least squares" in str(found.notes[0])

@@ -279,6 +279,15 @@ def test_more_than_five_positions_come_back_too():
     assert "least squares" in str(found.notes[0])
 
 
+def test_far_pivots_do_not_crowd_out_the_other_dyads():
+    """Positions near a line, drawn by hand: a dyad that slides is good, and ever larger circles approach it."""
+    rows = [(0, 0, 0), (1, 0.2, 10), (2, 0.3, 22), (3, 0.3, 31), (4, 0.1, 45), (5, -0.3, 52), (6, -0.8, 60)]
+    task = task_of(rows)
+    assert {dyad.form for dyad in guiding_dyads(task)} == {"RR", "PR", "RP"}
+    found = synthesise_positions(task)
+    assert found.designs[0].verdict.error < 0.03
+
+
 @pytest.mark.parametrize(
     "rows",
     [

@@ -112,6 +112,24 @@ def test_families_of_infinitely_many_solutions_are_named(count, english, german)
     assert german in texts["de"]
 
 
+@pytest.mark.parametrize(
+    ("count", "free", "theorem", "sentence"),
+    [
+        (2, 0, 1, "infinitely many four-bars besides, a family of dimension 1: 3 pairs determine them"),
+        (2, 1, None, "a family of dimension 2: give more pairs"),
+        (2, 2, None, "a family of dimension 3"),
+        (3, 1, 1, "infinitely many four-bars besides, a family of dimension 1: 4 pairs determine them"),
+        (3, 2, None, "one for each point of the plane"),
+        (4, 2, None, "one for each point of a curve"),
+    ],
+)
+def test_families_of_functions_are_named(count, free, theorem, sentence):
+    task = FunctionTask((0.3, 0.7, 1.2, 1.5)[:count], (0.4, 0.9, 1.1, 1.3)[:count], "angle", free < 1, free < 2)
+    result = synthesise(task, number=4)
+    assert result.count.theorem == theorem
+    assert sentence in said(result)["en"]
+
+
 def test_a_region_without_solutions_gives_the_reason_in_each_language():
     motion = move(FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)}), np.radians([10.0, 35, 60, 85, 110]))
     rows = [(*p, a) for p, a in zip(motion.point("P"), motion.angle("coupler"), strict=True)]

@@ -12,6 +12,7 @@ from math import degrees, isnan, radians
 from pathlib import Path
 from typing import Any
 
+from gruebler.cli.executors import executor_of
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
@@ -83,6 +84,10 @@ _TASK_OPTIONS = {
     "dead-centres": ("--swing", "--stroke", "--crank-angle", "--time-ratio"),
 }
 """The options that are a task by themselves."""
+_ALONE = ("--jobs", 1)
+"""The default: this process does the work."""
+_STRUCTURE_OPTIONS = ("--link", "--initial-designs", "--jobs", "--scheduler")
+"""The options that only --structure uses."""
 _LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
 _TASKS: dict[str, type[Task]] = {
@@ -207,6 +212,14 @@ def add(parser: Parser) -> None:
         kind.add_argument(
             "--link", default="", metavar="LINK", help="with --structure: the link that is guided, or the output"
         )
+        kind.add_argument(
+            "--jobs", type=int, default=1, metavar="N", help="with --structure: number of processes (default: 1)"
+        )
+        kind.add_argument(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="with --structure: send the work to a Dask scheduler, such as tcp://host:8786",
+        )
         kind.add_argument("--crank", action="store_true", help="only designs whose drive turns fully")
         kind.add_argument(
             "--transmission",
@@ -234,6 +247,7 @@ def add(parser: Parser) -> None:
         kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
         kind.add_argument("--json", action="store_true", help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
+        kind.add_argument("--design", type=int, metavar="K", help="with -o: write design K of the list (default: 1)")
         kind.add_argument(
             "--draw",
             type=Path,
@@ -255,9 +269,10 @@ def run(arguments: argparse.Namespace) -> int:
     if orders:
         result = result.sorted_by(*orders)
     shown = _best(result, arguments.number)
+    written = _design_to_write(arguments, shown)
     drawn = arguments.draw is not None and bool(result.designs or result.rejected)
-    if result.designs and arguments.out is not None:
-        write_linkage(arguments.out, result.designs[0].linkage)
+    if written is not None:
+        write_linkage(arguments.out, written.linkage)
         say_written(arguments.out, arguments.lang)
     if drawn:
         _draw(arguments.draw, result, len(shown.designs), arguments.lang)
@@ -271,6 +286,16 @@ def run(arguments: argparse.Namespace) -> int:
             if path is not None:
                 print(translate("{path} is not written: no design was accepted.", arguments.lang, path=path))
     return 0 if result.designs else 1
+
+
+def _design_to_write(arguments: argparse.Namespace, shown: SynthesisResult) -> Design | None:
+    """The best design or the one that was asked for; None without a file or a design."""
+    if arguments.out is None or not shown.designs:
+        return None
+    number, count = arguments.design or 1, len(shown.designs)
+    if number > count:
+        raise SynthesisError("--design: expected 1 to {count}, but found {number}", count=count, number=number)
+    return shown.designs[number - 1]
 
 
 def _best(result: SynthesisResult, number: int | None) -> SynthesisResult:
@@ -291,9 +316,11 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         raise SynthesisError(
             "--size-ratio: expected at least 1, but found {size_ratio:g}", size_ratio=arguments.size_ratio
         )
-    if not arguments.structure and (idle := _given(arguments, ("--link", "--initial-designs"))):
+    if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
-    for option in ("--number", "--initial-designs"):
+    if arguments.design is not None and arguments.out is None:
+        raise SynthesisError("--design: only with -o")
+    for option in ("--number", "--initial-designs", "--design"):
         count = getattr(arguments, option.removeprefix("--").replace("-", "_"))
         if count is not None and count < 1:
             raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
@@ -354,7 +381,7 @@ def _with_option_names(value: Any) -> Any:
 def _given(arguments: argparse.Namespace, options: Sequence[str]) -> list[str]:
     """Which of these options were given."""
     values = {option: getattr(arguments, option.removeprefix("--").replace("-", "_")) for option in options}
-    return [option for option, value in values.items() if value not in (None, False, "")]
+    return [option for option, value in values.items() if value not in (None, False, "") and (option, value) != _ALONE]
 
 
 def _radians(value: float | None) -> float | None:
@@ -412,8 +439,15 @@ def _fitted(
         raise SynthesisError("--minimax improves four-bars and slider-cranks; --structure fits other mechanisms")
     mechanisms = [mechanism_of(text, None, []) for text in arguments.structure]
     driven = [mechanism if mechanism.drives else with_drives(mechanism) for mechanism in mechanisms]
-    starts = arguments.initial_designs
-    return synthesise_structures(task, driven, demands, starts=starts, link=arguments.link, progress=progress)
+    return synthesise_structures(
+        task,
+        driven,
+        demands,
+        starts=arguments.initial_designs,
+        link=arguments.link,
+        executor=executor_of(arguments),
+        progress=progress,
+    )
 
 
 def _progress(lang: str) -> Callable[[int, int], None] | None:

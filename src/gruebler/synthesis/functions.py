@@ -25,8 +25,8 @@ from gruebler.synthesis.coordination import (
 from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.judging import Demands, Probe, Targets, judge_design
-from gruebler.synthesis.positions import guiding_dyads, ranked
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult, in_order_of
+from gruebler.synthesis.positions import NEAR, guiding_dyads, ranked
+from gruebler.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.structural_error import coordination_of
 from gruebler.synthesis.structural_error import minimax as minimax_near
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
@@ -34,6 +34,12 @@ from gruebler.text import message
 
 __all__ = ["synthesise_function"]
 
+_FAMILIES = {
+    2: message("There are infinitely many solutions, a family of dimension 3; {count} were taken."),
+    3: message("There are infinitely many solutions, one for each point of the plane; {count} were taken."),
+    4: message("There are infinitely many solutions, one for each point of a curve; {count} were taken."),
+}
+"""By how many pairs, with both starts free: what a dyad between crank and output can be."""
 _FORMS = {("angle", "RR"): "four-bar", ("travel", "RR"): "slider-crank"}
 """What crank, dyad and output form together; other dyads between crank and output name themselves."""
 
@@ -44,7 +50,7 @@ def synthesise_function(
     """All linkages that coordinate the pairs; the frame of four-bars has the length 1.
 
     Args:
-        task: two to five pairs.
+        task: two to five pairs; with both starts free more of them, by least squares.
         demands: besides one branch and the order.
         number: of dyads taken where there are infinitely many.
         minimax: the linkages near these whose largest structural error is as small as possible, the best first.
@@ -61,7 +67,11 @@ def synthesise_function(
     if minimax and task.law is None:
         raise SynthesisError("the minimax optimum needs the function as an expression, not a table of pairs")
     free = (not task.start_input) + (not task.start_output)
+    fitted = free == 2 and len(task) > 5
+    if fitted and wanted.tolerance <= EXACT:
+        wanted = replace(wanted, tolerance=NEAR)
     candidates, notes = [], []
+    what = message("linkages")
     theorem: int | None = 0
     complex_count = real = 0
     for kind in (kind for kind in KINDS if kind.output == task.output):
@@ -76,16 +86,19 @@ def synthesise_function(
     if free == 2:
         dyads = _connecting(task, number)
         real = len(dyads)
-        theorem = 3 if len(task) == 5 else None  # four dyads less the frame
+        theorem = 0 if fitted else 3 if len(task) == 5 else None  # four dyads less the frame
         complex_count = 3 if len(task) == 5 else len(dyads)
         candidates += [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
-        if len(task) < 5:
+        if fitted:
             notes.append(
                 message(
-                    "There are infinitely many solutions, one for each point of a curve; {count} were taken.",
-                    count=len(dyads),
+                    "More than five pairs are met by least squares; designs that come nearer than {tolerance:g} are "
+                    "accepted.",
+                    tolerance=wanted.tolerance,
                 )
             )
+        elif len(task) < 5:
+            notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
     elif not candidates and not theorem:
         most = 3 + free
         if len(task) > most:
@@ -96,8 +109,21 @@ def synthesise_function(
                 free=free,
                 most=most,
             )
-        notes.append(message("There are infinitely many solutions: give more pairs."))
+        notes.append(
+            message(
+                "There are infinitely many solutions, a family of dimension {dimension}: give more pairs.",
+                dimension=most - len(task),
+            )
+        )
         theorem = None
+    elif task.output == "angle" and len(task) < 3 + free:
+        what = message("inverted slider-cranks")
+        notes.append(
+            message(
+                "There are infinitely many four-bars besides, a family of dimension 1: {count} pairs determine them.",
+                count=3 + free,
+            )
+        )
     designs, rejected = ranked(candidates)
     if not designs and task.law is None and free < 2:
         notes.append(
@@ -106,7 +132,9 @@ def synthesise_function(
                 "count."
             )
         )
-    count = SolutionCount(message("linkages"), theorem, complex_count, real)
+    if fitted:
+        designs = in_order_of(designs, ["error"])
+    count = SolutionCount(what, theorem, complex_count, real)
     result = SynthesisResult(task, designs, rejected, count, tuple(notes))
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result
 

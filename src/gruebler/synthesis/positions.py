@@ -41,6 +41,9 @@ _SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("
 """What the link between frame and coupler is called: the first of its kind, the second."""
 NEAR = 0.05
 """More than five positions are met if they are missed by less than this part of the size."""
+_FARTHEST = 1e3
+"""Sizes. A circle about a pivot farther away is a line within some 1e-4 sizes; the search for it creeps to infinity and
+stops anywhere, while the sliding dyad that is meant is fitted as such."""
 
 DYADS = message("dyads")
 _FAMILIES = {
@@ -283,7 +286,7 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
             start = [dyad.moving.real, dyad.moving.imag, dyad.fixed.real, dyad.fixed.imag]
             p = least_squares(gaps, start, method="lm", xtol=1e-15, ftol=1e-15, max_nfev=200).x
             fitted = GuidingDyad("RR", complex(p[0], p[1]), complex(p[2], p[3]))
-            if fitted.length < 1e-6:
+            if fitted.length < 1e-6 or max(abs(fitted.moving), abs(fitted.fixed)) > _FARTHEST:
                 continue
         else:
             seen = given if dyad.form == "PR" else given.inverse

@@ -6,7 +6,7 @@ like the targets are chosen, and all dimensions are improved together.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.arrays import Complexes, Reals
+from gruebler.enumeration.worker_pool import run_work
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism, check_drives
@@ -44,7 +45,7 @@ def synthesise_structures(
     *,
     starts: int | None = None,
     link: str = "",
-    executor: Executor | None = None,
+    executor: Executor | Callable[[], Executor] | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
     """Every mechanism fitted to a task: positions or points of one of its links, a function, dead centres.
@@ -57,7 +58,7 @@ def synthesise_structures(
         starts: how many are improved of each mechanism: by default 24 neighbours from the atlas of its structure (a
             crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
-        executor: shares the work among processes or threads; the answer is the same without.
+        executor: see `enumeration.worker_pool.run_work`; the answer is the same with any.
         progress: called with the starts done and their number.
 
     Cost: a six-bar with an atlas 1 s for the atlas and 0.4 s a start; others 1 to 3 s a start.
@@ -74,7 +75,7 @@ def synthesise_structures(
     jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
     candidates: list[Design] = []
-    for done, designs in enumerate(map(work, jobs) if executor is None else executor.map(work, jobs), 1):
+    for done, designs in enumerate(run_work(work, jobs, executor), 1):
         candidates += designs
         if progress is not None:
             progress(done, len(jobs))
