@@ -163,6 +163,16 @@ def test_long_work_is_cancelled(server):
         assert answers[1]["id"] == 2
 
 
+def test_a_request_that_waits_is_cancelled_before_the_one_it_waits_for(server):
+    with connected(server) as socket:
+        socket.send(json.dumps({"id": 1, "method": "chains", "params": {"links": 12, "start": 6000}}))
+        socket.send(json.dumps({"id": 2, "method": "exercise_kinds"}))
+        socket.send(json.dumps({"id": 2, "cancel": True}))
+        assert json.loads(socket.recv(timeout=60)) == {"id": 2, "cancelled": True}
+        socket.send(json.dumps({"id": 1, "cancel": True}))
+        assert json.loads(socket.recv(timeout=60)) == {"id": 1, "cancelled": True}
+
+
 def test_answers_are_those_of_the_library(server):
     linkage = FourBar(25, 70, 40, 70).linkage()
     with connected(server) as socket:

@@ -260,6 +260,8 @@ def test_a_table_from_zero_names_free_starts():
     free = synthesise_function(FunctionTask(*table, start_input=False, start_output=False))
     assert free.designs
     assert not [note for note in free.notes if "free starts" in str(note)]
+
+
 def test_a_long_table_with_free_starts_is_met_by_least_squares():
     """Pairs of a four-bar give it back; of log10, which no four-bar follows, the nearest one is accepted as such."""
     phi = 0.4 + np.linspace(0, 1.2, 12)

@@ -22,7 +22,7 @@ from gruebler.atlas.mechanism_tables import bulk_tables, driven_table, mechanism
 from gruebler.atlas.schema import SCHEMA, arrow_library, arrow_schema
 from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
-from gruebler.enumeration.assortment import loop_count
+from gruebler.enumeration.assortment import joint_count, loop_count
 from gruebler.enumeration.contracted import unpacked
 from gruebler.enumeration.fractionated import BlockAddition
 from gruebler.enumeration.pieces import WorkPiece, list_piece
@@ -34,7 +34,7 @@ from gruebler.type_synthesis import joint_types
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "joint_count", "parts", "read_part", "write_parquet"]
+__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_parquet"]
 
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
 _DRIVES = 500_000  # driven mechanisms made at a time: half a gigabyte
@@ -84,7 +84,7 @@ class AtlasTask:
                 links=self.links,
                 mobility=self.mobility,
             )
-        if all(self.sliding[0] > joint_count(request) for request in self.requests()):
+        if all(self.sliding[0] > (joint_count(request.links, request.mobility) or 0) for request in self.requests()):
             raise GrueblerError(
                 "no chain of {links} links has {count} sliding joints", links=self.links, count=self.sliding[0]
             )
@@ -155,11 +155,6 @@ class AtlasTask:
         if self.drives != "none":
             words.append(f"--drives {self.drives}")
         return " ".join([*words, "DIR"])
-
-
-def joint_count(request: Request) -> int:
-    """The joints of each of its chains, a multiple joint of k links as k - 1: all have f = 1."""
-    return (3 * (request.links - 1) - request.mobility) // 2
 
 
 def _range(name: str, text: str) -> tuple[int, int]:
@@ -240,8 +235,8 @@ class PartWriter:
         """The tables of mechanisms and driven mechanisms, as far as they are wanted."""
         plain = request.only_simple and request.mobility == 1 and self.task.sliding == range(1)
         if plain and self.task.drives != "any":
-            made = (bulk_tables(some, driven=self.task.drives == "frame") for some in _slices(chains))
-            if tables := [each for each in made if each is not None]:
+            slices = (bulk_tables(some, driven=self.task.drives == "frame") for some in _slices(chains))
+            if tables := [each for each in slices if each is not None]:
                 return {name: arrow_library().concat_tables([each[name] for each in tables]) for name in tables[0]}
         codes = chains.column("code").to_pylist()
         chunks = {}

@@ -129,7 +129,7 @@ def _build(arguments: argparse.Namespace) -> int:
 
 def _expected(task: Any) -> tuple[int, float]:
     """About how many chains a task has, and how many seconds it takes."""
-    from gruebler.atlas.parts import joint_count
+    from gruebler.enumeration.assortment import joint_count
     from gruebler.enumeration.estimates import expected_chains
     from gruebler.enumeration.pieces import refuse_too_large
 
@@ -137,7 +137,8 @@ def _expected(task: Any) -> tuple[int, float]:
     for request in task.requests():
         refuse_too_large(request.links, request.mobility)
         number = expected_chains(request)[0]
-        sliding = sum(request.links**k for k in task.sliding if k <= joint_count(request))
+        joints = joint_count(request.links, request.mobility) or 0
+        sliding = sum(request.links**k for k in task.sliding if k <= joints)
         chains += number * sliding
         plain = request.only_simple and request.fractionated == "none" and sliding == 1
         each = _CHAIN if plain else _COMPOSED

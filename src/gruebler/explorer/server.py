@@ -171,8 +171,7 @@ class _Conversation:
         try:
             message = _read(text)
             if message.cancel:
-                if message.id in self.events:
-                    self.events[message.id].set()
+                await self._cancel(message.id)
                 return
             lane = self.lanes[message.method == "picture"]
             if len(lane.waiting) >= MOST_WAITING:
@@ -183,6 +182,16 @@ class _Conversation:
         event = self.events.setdefault(message.id, asyncio.Event())
         lane.waiting.append((message, event))
         lane.arrived.set()
+
+    async def _cancel(self, id: int) -> None:
+        """End the work of a request; one that has not begun is answered at once, whatever goes before it."""
+        if id in self.events:
+            self.events[id].set()
+        for lane in self.lanes:
+            for request in [each for each in lane.waiting if each[0].id == id]:
+                lane.waiting.remove(request)
+                del self.events[id]
+                await self._send({"id": id, "cancelled": True})
 
     async def _answer_all(self, lane: _Lane) -> None:
         while True:

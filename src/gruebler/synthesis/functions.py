@@ -8,6 +8,7 @@ as seen from the crank.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,7 +31,7 @@ from gruebler.synthesis.results import EXACT, Design, SolutionCount, SynthesisRe
 from gruebler.synthesis.structural_error import coordination_of
 from gruebler.synthesis.structural_error import minimax as minimax_near
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
-from gruebler.text import message
+from gruebler.text import Message, message
 
 __all__ = ["synthesise_function"]
 
@@ -70,73 +71,88 @@ def synthesise_function(
     fitted = free == 2 and len(task) > 5
     if fitted and wanted.tolerance <= EXACT:
         wanted = replace(wanted, tolerance=NEAR)
-    candidates, notes = [], []
-    what = message("linkages")
-    theorem: int | None = 0
-    complex_count = real = 0
-    for kind in (kind for kind in KINDS if kind.output == task.output):
-        if len(task) > kind.unknowns + free:
-            continue
-        if len(task) == kind.unknowns + free and free < 2:
-            solve = coordinations_with_one_free_start if free else coordinations_with_fixed_starts
-            solutions = solve(kind, task)
-            theorem = theorem if theorem is None else theorem + (solutions.complex if free else 1)
-            complex_count, real = complex_count + solutions.complex, real + len(solutions.real)
-            candidates += [_design(task, wanted, solution) for solution in solutions.real]
-    if free == 2:
-        dyads = _connecting(task, number)
-        real = len(dyads)
-        theorem = 0 if fitted else 3 if len(task) == 5 else None  # four dyads less the frame
-        complex_count = 3 if len(task) == 5 else len(dyads)
-        candidates += [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
-        if fitted:
-            notes.append(
-                message(
-                    "More than five pairs are met by least squares; designs that come nearer than {tolerance:g} are "
-                    "accepted.",
-                    tolerance=wanted.tolerance,
-                )
-            )
-        elif len(task) < 5:
-            notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
-    elif not candidates and not theorem:
-        most = 3 + free
-        if len(task) > most:
-            raise SynthesisError(
-                "{count} pairs cannot be met exactly, at most {most} with this many free starts ({free}): give fewer "
-                "pairs, leave a start free, or fit a structure to them",
-                count=len(task),
-                free=free,
-                most=most,
-            )
-        notes.append(
-            message(
-                "There are infinitely many solutions, a family of dimension {dimension}: give more pairs.",
-                dimension=most - len(task),
-            )
-        )
-        theorem = None
-    elif task.output == "angle" and len(task) < 3 + free:
-        what = message("inverted slider-cranks")
-        notes.append(
-            message(
-                "There are infinitely many four-bars besides, a family of dimension 1: {count} pairs determine them.",
-                count=3 + free,
-            )
-        )
-    designs, rejected = ranked(candidates)
+    met = _by_free_starts(task, wanted, number) if free == 2 else _by_given_starts(task, wanted, free)
+    designs, rejected = ranked(met.candidates)
+    notes = met.notes
     if not designs and task.law is None and free < 2:
-        notes.append(
+        notes = (
+            *notes,
             message(
                 "The angles of the table count from the line of the frame; with free starts only their differences "
                 "count."
-            )
+            ),
         )
     if fitted:
         designs = in_order_of(designs, ["error"])
-    count = SolutionCount(what, theorem, complex_count, real)
-    result = SynthesisResult(task, designs, rejected, count, tuple(notes))
+    result = SynthesisResult(task, designs, rejected, met.solutions, notes)
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result
+
+
+class _Candidates(NamedTuple):
+    """Designs that meet the pairs, in any order."""
+
+    candidates: list[Design]
+    solutions: SolutionCount
+    notes: tuple[Message, ...] = ()
+
+
+def _by_given_starts(task: FunctionTask, wanted: Demands, free: int) -> _Candidates:
+    """In closed form, with both starts given or one of them free."""
+    candidates: list[Design] = []
+    theorem = complex_count = real = 0
+    for kind in KINDS:
+        if kind.output == task.output and len(task) == kind.unknowns + free:
+            solve = coordinations_with_one_free_start if free else coordinations_with_fixed_starts
+            solutions = solve(kind, task)
+            theorem += solutions.complex if free else 1
+            complex_count, real = complex_count + solutions.complex, real + len(solutions.real)
+            candidates += [_design(task, wanted, solution) for solution in solutions.real]
+    most = 3 + free
+    if candidates or theorem:
+        count = SolutionCount(message("linkages"), theorem, complex_count, real)
+        if task.output != "angle" or len(task) >= most:
+            return _Candidates(candidates, count)
+        note = message(
+            "There are infinitely many four-bars besides, a family of dimension 1: {count} pairs determine them.",
+            count=most,
+        )
+        return _Candidates(candidates, replace(count, what=message("inverted slider-cranks")), (note,))
+    if len(task) > most:
+        raise SynthesisError(
+            "{count} pairs cannot be met exactly, at most {most} with this many free starts ({free}): give fewer "
+            "pairs, leave a start free, or fit a structure to them",
+            count=len(task),
+            free=free,
+            most=most,
+        )
+    note = message(
+        "There are infinitely many solutions, a family of dimension {dimension}: give more pairs.",
+        dimension=most - len(task),
+    )
+    return _Candidates([], SolutionCount(message("linkages"), None, 0, 0), (note,))
+
+
+def _by_free_starts(task: FunctionTask, wanted: Demands, number: int) -> _Candidates:
+    """By the dyads between crank and output, with both starts free."""
+    dyads = _connecting(task, number)
+    candidates = [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
+    notes: tuple[Message, ...] = ()
+    theorem: int | None = None
+    complex_count = len(dyads)
+    if len(task) > 5:
+        theorem = 0
+        notes = (
+            message(
+                "More than five pairs are met by least squares; designs that come nearer than {tolerance:g} are "
+                "accepted.",
+                tolerance=wanted.tolerance,
+            ),
+        )
+    elif len(task) == 5:
+        theorem = complex_count = 3  # four dyads less the frame
+    else:
+        notes = (_FAMILIES[len(task)].filled(count=len(dyads)),)
+    return _Candidates(candidates, SolutionCount(message("linkages"), theorem, complex_count, len(dyads)), notes)
 
 
 def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:
