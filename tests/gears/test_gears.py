@@ -3,11 +3,13 @@
 import itertools
 import math
 from fractions import Fraction as Q
+from random import Random
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gruebler.enumeration.epicyclic import epicyclic_trains
 from gruebler.gears import (
     GearError,
     Mesh,
@@ -235,6 +237,32 @@ def test_texts_are_taken_back():
     assert read_train("; ".join(map(str, meshes))).train.meshes == meshes
 
 
+@pytest.mark.parametrize("mobility", [1, 2])
+def test_every_enumerated_train_has_speeds(mobility):
+    """Its links turn with one freedom more than relative to one of them; no two of them turn alike for all drives."""
+    random = Random(5)
+    trains = list(epicyclic_trains(5, mobility))
+    for train in trains:
+        text = str(train.chain())
+        for a, b, _ in train.gears:
+            teeth = random.randint(20, 40), random.choice([1, -2]) * random.randint(41, 60)
+            assert f"G({a}-{b})" in text
+            text = text.replace(f"G({a}-{b})", f"G({a}:{teeth[0]}-{b}:{teeth[1]})")
+        reading = read_train(text)
+        assert reading.train.mobility == mobility + 1
+        carriers = {(mesh.a, mesh.b): mesh.carrier for mesh in reading.train.meshes}
+        assert carriers == {(str(a), str(b)): str(carrier) for a, b, carrier in train.gears}
+    assert len(trains) == {1: 13, 2: 7}[mobility]
+
+
+def test_a_chain_with_tooth_numbers_is_the_train_of_its_wheels():
+    text = "R(0-1-2) R(0-3) G(1:24-3:18) G(2:-60-3:18); hold 2; 1=1000"
+    reading = read_train(text)
+    assert reading.train.meshes == read_train("1:24 3:18 on 0; 2:-60 3:18 on 0").train.meshes
+    assert speeds(reading.train, reading.drives).values["0"] == Q(2000, 7)
+    assert "Speeds: 2 w_1 - 7 w_0 + 5 w_2 = 0" in explain_train(reading)
+
+
 def test_toml_says_the_same():
     toml = 'train = """\nsun:24 planet:18 ring:-60 on arm planets=3  # Ravigneaux it is not\n"""\nhold = ["ring"]\n'
     reading = read_toml(toml + "[drive]\nsun = 12.5\n[load]\narm = -50\n")
@@ -290,6 +318,10 @@ def test_the_sizes_and_speeds_of_a_train_may_have_exponents():
         ("rack p:3 s; s:3 b:4", "per radian"),
         ("a:1 b:1 c:1 on h planets=x", "whole number of planets"),
         ("winch a:1 b falls=0", "at least one rope"),
+        ("R(0-1-2) R(0-3) G(1-3) G(2-3)", "no tooth numbers"),
+        ("R(0-1-2) R(0-3) G(1:24-2:18)", "on another axis of 2"),
+        ("R(0-1-2) R(0-3) G(1:24-9:18)", "on another axis of 9"),
+        ("R(0-1-2) R(0-3)", "at least one mesh"),
     ],
 )
 def test_absurd_texts_are_refused_in_one_sentence(text, words):

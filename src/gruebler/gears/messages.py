@@ -167,8 +167,10 @@ def _outer_relations(train: Train, lang: str) -> list[str]:
 
 
 def _sum(form: dict[str, int], lang: str) -> str:
+    """Links stand for their speeds; one whose name is a number as w_1."""
     terms = "".join(
-        f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else fraction_text(Fraction(abs(k)), lang) + ' '}{link}"
+        f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else fraction_text(Fraction(abs(k)), lang) + ' '}"
+        f"{'w_' if link[0].isdigit() else ''}{link}"
         for link, k in form.items()
     )
     return terms.removeprefix(" + ")

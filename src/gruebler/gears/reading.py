@@ -4,6 +4,8 @@ Statements are separated by line ends or semicolons; # begins a comment.
 
     sun:24 planet:18 ring:-60 on arm planets=3    wheels that mesh in a row, LINK:TEETH; minus: internal toothing
     in:20 lay:41; lay:19 out:42                   two wheels on one shaft: the link is named twice
+    R(0-1-2) R(0-3) G(1:24-3:18) G(2:-60-3:18)    a chain with tooth numbers: links of each axis, gear pairs; the
+                                                  carrier of a pair is the link that both axes have in common
     belt motor:100 drum:250                       also chain, crossed, friction, bevel, gear (the usual kind)
     bevel left:16 star:10 right:-16 on case       central, planet, central; minus: the one that faces the other
     rack pinion:18 slide                          radius 18; or with module=2 or pitch=6.28 and a number of teeth
@@ -20,7 +22,7 @@ import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, permutations
 from typing import Any
 
 from gruebler.errors import nearest
@@ -31,6 +33,8 @@ __all__ = ["TrainReading", "read_toml", "read_train"]
 _STATEMENTS = (*(kind for kind in KINDS if " " not in kind), "drive", "hold", "load")
 _OPTIONS = {"rack": {"module", "pitch"}, "screw": {"lead"}, "winch": {"falls", "pitch"}, "gear": {"planets"}}
 _NAME = re.compile(r"[^\s:=;#]+\Z")
+_JOINT = re.compile(r"([RG])\(([^()]*)\)")
+_WHEELS = re.compile(r"([^\s:-]+):(-?[^\s:-]+)-([^\s:-]+):(-?[^\s:-]+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +53,9 @@ def read_train(text: str) -> TrainReading:
     >>> reading = read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000")
     >>> [str(mesh) for mesh in reading.train.meshes]
     ['gear sun:24 planet:18 on arm', 'gear planet:18 ring:-60 on arm']
+    >>> as_chain = read_train("R(arm-sun-ring) R(arm-planet) G(sun:24-planet:18) G(planet:18-ring:-60)")
+    >>> as_chain.train.meshes == reading.train.meshes
+    True
     >>> reading.planets, {link: str(speed) for link, speed in reading.drives.items()}
     ({'planet': 3}, {'ring': '0', 'sun': '1000'})
     """
@@ -65,6 +72,8 @@ def read_train(text: str) -> TrainReading:
                 if link in values[kind]:
                     raise GearError("'{statement}': {link} is given twice", statement=statement, link=link)
                 values[kind][link] = exact_number(value, f"'{statement}': {link}")
+        elif not head and _JOINT.sub("", statement).isspace():
+            meshes += _meshes_of_chain(statement)
         else:
             if not head and ":" not in statement:
                 known = ", ".join(_STATEMENTS)
@@ -159,6 +168,36 @@ def _read_meshes(kind: str, tokens: list[str], statement: str, planets: dict[str
         # Central and planet wheels of a bevel statement alternate; the central wheel is first in its mesh.
         swap = kind == "bevel" and k % 2 == 1
         yield Mesh(b, a, size_b, size_a, carrier, kind) if swap else Mesh(a, b, size_a, size_b, carrier, kind)
+
+
+def _meshes_of_chain(statement: str) -> Iterator[Mesh]:
+    """The gear pairs of an epicyclic train given as a chain, as `enumerate --trains` prints it, with tooth numbers."""
+    joints = [(pair, text.strip()) for pair, text in _JOINT.findall(statement)]
+    axes = [set(text.split("-")) for pair, text in joints if pair == "R"]
+    for pair, text in joints:
+        if pair == "R":
+            continue
+        wheels = _WHEELS.fullmatch(text)
+        if wheels is None:
+            raise GearError(
+                "'{statement}': G({text}) has no tooth numbers; give them as in G(1:24-3:18), negative for internal "
+                "teeth",
+                statement=statement,
+                text=text,
+            )
+        a, teeth_a, b, teeth_b = wheels.groups()
+        pairs_of_axes = [(own, other) for own, other in permutations(axes, 2) if a in own and b in other]
+        carriers = sorted({link for own, other in pairs_of_axes for link in own & other} - {a, b})
+        if len(carriers) != 1:
+            raise GearError(
+                "'{statement}': G({text}) needs one link that lies on an axis of {a} and on another axis of {b}",
+                statement=statement,
+                text=text,
+                a=a,
+                b=b,
+            )
+        size_a, size_b = (exact_number(size, f"G({text})") for size in (teeth_a, teeth_b))
+        yield Mesh(a, b, size_a, size_b, carriers[0])
 
 
 def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str, statement: str) -> Mesh:
