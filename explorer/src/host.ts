@@ -132,5 +132,6 @@ export class SocketModel extends StillModel {
     const { id, cancel } = content as { id: number; cancel?: boolean };
     if (!cancel) this.pending.set(id, content);
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(content));
+    else if (cancel && this.pending.delete(id)) this.emit("msg:custom", { id, cancelled: true }); // it was not sent, or is lost
   }
 }
