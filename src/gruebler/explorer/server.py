@@ -190,7 +190,7 @@ class _Conversation:
         for lane in self.lanes:
             for request in [each for each in lane.waiting if each[0].id == id]:
                 lane.waiting.remove(request)
-                del self.events[id]
+                self.events.pop(id, None)
                 await self._send({"id": id, "cancelled": True})
 
     async def _answer_all(self, lane: _Lane) -> None:
