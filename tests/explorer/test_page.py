@@ -293,9 +293,8 @@ def test_a_four_bar_through_points_that_are_clicked(tab, server):
         const root = document.querySelector(".gruebler-explorer").shadowRoot;
         for (const act of ["synthesise", "cancel"]) root.querySelector(`[data-act="${act}"]`).click();
     }"""
-    for attempt in range(
-        800
-    ):  # on a busy machine the answer may be there before the wish to cancel is read: again then
+    # The answer may be there before the wish to cancel is read: again then.
+    for attempt in range(800):
         text = page.page.locator('[data-page="synthesis"]').text_content()
         if "Cancelled." in text:
             break
