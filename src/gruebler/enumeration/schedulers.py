@@ -83,7 +83,8 @@ class DaskExecutor(Executor):
             try:
                 self._max_workers = sum(self._client.nthreads().values())
             except Exception:
-                # The connection is closed or lost: the calls that wait for a result are answered by that.
+                # The connection is closed or lost, which Dask reports by errors of many kinds: OSError, RuntimeError,
+                # AttributeError of a client without a scheduler. Who waits for a result is answered by the own call.
                 self._max_workers = 0
             else:
                 if self._max_workers:

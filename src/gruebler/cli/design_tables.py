@@ -1,0 +1,197 @@
+"""The tables of `gruebler synthesise`: designs with their lengths and angles, rejected ones, the Pareto table."""
+
+from __future__ import annotations
+
+import math
+from math import degrees, isnan
+
+from gruebler.cli.tables import Cell, print_table
+from gruebler.linkages import Linkage, Pin
+from gruebler.linkages.elements import Line
+from gruebler.synthesis import Design, PathTask, PositionTask, SynthesisResult, pareto
+from gruebler.synthesis.coordination import Minimax
+from gruebler.synthesis.results import EXACT, FITTED
+from gruebler.text import joined, message, number, number_separator, numbers, plural, translate
+
+__all__ = ["print_designs", "print_optimum"]
+
+_REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
+_COLUMNS = (
+    *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),
+    message("lengths"),
+    message("error"),
+)
+_ANGLES = message(
+    "µ: the minimum transmission angle on the way through the targets, and over the whole range of the drive as "
+    "`analyse` gives it."
+)
+_PARETO = (
+    *(message("design"), message("error"), message("µ at targets"), message("size"), message("links")),
+    message("structure"),
+)
+_LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"}
+"""Lengths as the closed forms name them; those of other links have the names of their links."""
+
+
+def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: bool, lang: str) -> None:
+    """Print how many solutions there are, the designs that are shown, and the reasons of rejected ones.
+
+    Rejected designs are all listed if asked for, otherwise only where there are no others, and some of them.
+    """
+    count = result.count
+    if count.theorem is None:
+        print(translate("Solutions: infinitely many ({kind}), {real} taken.", lang, kind=count.what, real=count.real))
+    elif count.theorem:  # 0: nothing exact is to be had, the notes say so
+        print(
+            translate(
+                "Solutions: {theorem} by theorem ({kind}), {found} found, {real} real.",
+                lang,
+                theorem=count.theorem,
+                kind=count.what,
+                found=count.found,
+                real=count.real,
+            )
+        )
+    for note in result.notes:
+        print(note.in_language(lang))
+    totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
+    print(translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals))
+    if result.designs:
+        headers, rows = [*_COLUMNS], [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)]
+        if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
+            headers.append(message("fixed pivots"))
+            rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
+        print_table(headers, rows, lang=lang)
+        more = len(result.designs) - len(shown.designs)
+        if more:
+            print(plural("and {count} more", "and {count} more", more, lang))
+        print(_ANGLES.in_language(lang))
+        if any(design.form == FITTED for design in shown.designs):
+            _print_pareto(shown, lang)
+    else:
+        print(translate("None of the designs examined meets the task.", lang))
+    if (rejected or not result.designs) and result.rejected:
+        print()
+        designs = result.rejected if rejected else result.rejected[:_REJECTED]
+        reasons: list[list[Cell]] = [
+            [design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs
+        ]
+        print_table((message("rejected"), message("reason")), reasons, lang=lang)
+        more = len(result.rejected) - len(designs)
+        if more:
+            print(
+                plural(
+                    "and {count} more, which --rejected lists", "and {count} more, which --rejected lists", more, lang
+                )
+            )
+
+
+def _print_pareto(result: SynthesisResult, lang: str) -> None:
+    """The designs that no other one beats in everything."""
+    numbers_of = {id(design): number for number, design in enumerate(result.designs, 1)}
+    rows: list[list[Cell]] = [
+        [
+            str(numbers_of[id(row.design)]),
+            number(row.error, lang, ".1e"),
+            "" if isnan(row.transmission) else number(degrees(row.transmission), lang, ".1f") + "°",
+            number(row.size, lang, ".5g"),
+            str(row.links),
+            row.structure,
+        ]
+        for row in pareto(result)
+    ]
+    print()
+    print(translate("Not beaten in error, transmission angle, size and number of links at once:", lang))
+    print_table(_PARETO, rows, numbers=[0, 1, 2, 3, 4], lang=lang)
+
+
+def _row(position: int, design: Design, lang: str) -> list[Cell]:
+    verdict = design.verdict
+    return [
+        f"{position} {design.form_in_language(lang)}",
+        ", ".join(_named(design.linkage, lang).mechanism.drive_names("german" if lang == "de" else "international")),
+        message("yes") if verdict.turns_fully else message("no"),
+        *(
+            "" if isnan(mu) else number(degrees(mu), lang, ".1f") + "°"
+            for mu in (verdict.transmission, design.transmission_over_range)
+        ),
+        _lengths(design.linkage, lang),
+        _error(design, lang),
+    ]
+
+
+def _named(linkage: Linkage, lang: str) -> Linkage:
+    """The linkage with the names of its links in a language."""
+    names = {link: translate(link, lang) for link in linkage.mechanism.chain.links}
+    return linkage.renamed(names) if len(set(names.values())) == len(names) else linkage
+
+
+def _lengths(linkage: Linkage, lang: str) -> str:
+    """The distances of the pins of each link, and of its pin from its slide, which is its offset e."""
+    lengths = list[str]()
+    named = _named(linkage, lang).mechanism.chain.links
+    for link, name in sorted(zip(linkage.mechanism.chain.links, named, strict=True), key=_by_letter):
+        own = [element for (_, owner), element in linkage.elements.items() if owner == link]
+        pins = [complex(e.x, e.y) for e in own if isinstance(e, Pin)]
+        lines = [e for e in own if isinstance(e, Line)]
+        between = [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
+        if between:
+            values = " ".join(number(length, lang, ".5g") for length in between)
+            lengths.append(f"{_LETTERS.get(link, name)} = {values}")
+        for line in lines if len(pins) == 1 else ():
+            across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.angle), -math.sin(line.angle))
+            offset = _without_rounding(across.imag, linkage)
+            if offset or link == linkage.mechanism.frame:
+                lengths.append(f"e = {number(offset, lang, '.5g')}")
+    return number_separator(lang).join(lengths)
+
+
+def _pivots(design: Design, lang: str) -> str:
+    """Where the turning joints of the frame lie."""
+    linkage = design.linkage
+    own = [element for (_, owner), element in linkage.elements.items() if owner == linkage.mechanism.frame]
+    pins = [[_without_rounding(v, linkage) for v in (e.x, e.y)] for e in own if isinstance(e, Pin)]
+    return " ".join(f"({numbers(pin, lang, '.5g')})" for pin in pins)
+
+
+def _without_rounding(length: float, linkage: Linkage) -> float:
+    """A length, or 0 for what designs are not held to."""
+    return length if abs(length) > EXACT * linkage.size else 0.0
+
+
+def _by_letter(names: tuple[str, str]) -> str:
+    """The letter of a link; those without one stay in their order."""
+    return _LETTERS.get(names[0], "")
+
+
+def _error(design: Design, lang: str) -> str:
+    """The largest structural error of a minimax optimum with its unit, else what is missed relative to the task."""
+    if design.optimum is not None:
+        return _output(design.optimum, design.optimum.error, lang, ".4g")
+    error = design.verdict.error
+    return "< 1e-9" if error < EXACT else number(error, lang, ".1e")
+
+
+def _output(optimum: Minimax, value: float, lang: str, form: str = ".5g") -> str:
+    """An output angle in degrees, or a travel."""
+    turns = optimum.solution.kind == "four-bar"
+    return number(degrees(value), lang, form) + "°" if turns else number(value, lang, form)
+
+
+def print_optimum(optimum: Minimax, lang: str) -> None:
+    """Print the numbers of the best minimax optimum."""
+    solution = optimum.solution
+    names = "abcd" if solution.kind == "four-bar" else "abe"
+    lengths = [f"{name} = {number(length, lang, '.6g')}" for name, length in zip(names, solution.lengths, strict=True)]
+    print(
+        translate(
+            "Minimax optimum 1: largest error {error} (before: {start}); {lengths}; input from {phi:.6g}°, output from "
+            "{psi}.",
+            lang,
+            error=_output(optimum, optimum.error, lang),
+            start=_output(optimum, optimum.start_error, lang),
+            lengths=number_separator(lang).join(lengths),
+            phi=degrees(solution.input_start),
+            psi=_output(optimum, solution.output_start, lang),
+        )
+    )
