@@ -73,7 +73,7 @@ wheel-test: $(READY)
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise; `make test` has those that
 # this processor chooses.
 NUMERIC := $(addprefix tests/,analysis cams fourbar geometry kinematics linkages realisation screws forces test_geneva.py \
-	synthesis/test_functions.py synthesis/test_dead_centres.py synthesis/test_positions.py)
+	synthesis/test_curves.py synthesis/test_functions.py synthesis/test_dead_centres.py synthesis/test_positions.py)
 test-blas: $(READY)
 	for core in $(filter-out $(shell $(BIN)/python .ci/blas_core.py 2>/dev/null),Haswell SkylakeX); do \
 		echo "OpenBLAS with the kernels for $$core"; \
