@@ -67,7 +67,7 @@ wheel-test: $(READY)
 	build/wheel/venv/bin/python -m pip install --quiet --disable-pip-version-check \
 		"$$(ls build/wheel/*.whl)[test]"
 	cd build/wheel && NUMBA_CACHE_DIR=$(CURDIR)/src/gruebler/_numeric/__pycache__ venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
-		$(addprefix ../../tests/,cli/test_cli.py cli/test_coverage.py cli/test_languages.py cli/test_synthesise.py catalog \
+		$(addprefix ../../tests/,cli/test_cli.py cli/test_languages.py cli/test_synthesise.py catalog documents \
 		exercises/test_tables.py sheets test_chain.py test_front_door.py)
 
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise; `make test` has those that

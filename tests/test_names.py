@@ -27,7 +27,6 @@ ALLOWED = {
     ("synthesis.dyads", "found"),  # fields of results: how many were found
     ("synthesis.results", "found"),
     ("text", "one"),  # the singular of `plural(one, many)`
-    ("cli.coverage", "out"),  # standard output, beside err
 }
 
 

@@ -31,7 +31,6 @@ JSON = {
         ["search", "--links", "4", "--drives", "1"],
     ],
     "check": [["lambda"], [FOUR_BAR, "--at", "30"], [QUAD], ["vcomp"]],
-    "coverage": [["dwell"]],
     "curve": [
         [FOUR_BAR, "coupler:45,40"],
         [FOUR_BAR, "45,40", "--cognates"],

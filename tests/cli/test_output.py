@@ -155,7 +155,6 @@ PRINTING = [
     ["catalog", "show", "vcomp"],
     ["catalog", "search", "--links", "4", "--drives", "1"],
     ["exercise", "show", "15"],
-    ["coverage", "crank"],
     ["analyse", FOUR_BAR, "--at", "30"],
 ]
 

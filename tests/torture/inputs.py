@@ -242,7 +242,6 @@ def _words() -> list[Case]:
             ("sheet", "show", "mzc"),
             ("exercise", "new", "--kind", "mobility", "--level", "1", "--seed", "7"),
             ("table", "grashof"),
-            ("coverage", "crank"),
         )
     ]
 

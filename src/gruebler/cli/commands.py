@@ -90,9 +90,6 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
             Command("exercise", message("exercises and generated tasks: list, solve step by step, mark answers")),
             Command("sheet", message("data sheets of a collection: a mechanism on one page")),
             Command("table", message("teaching tables: joints, links, inversions, Grashof types")),
-            Command(
-                "coverage", message("the command or function for each concept and machine of the teaching documents")
-            ),
         ),
     ),
     (
