@@ -1,10 +1,13 @@
 """Everything that README.md and the pages of docs show runs: commands, files, pictures, Python."""
 
 import doctest
+import json
 import re
+import shlex
 import shutil
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -43,6 +46,59 @@ def run_page(page, folder):
             session.names = test.globs
             assert not report, "".join(report)
     return number
+
+
+def pairs_of(page):
+    """The commands of a page with the examples that are to do the same: before those stands "in Python ...:"."""
+    text = page.read_text(encoding="utf-8")
+    for command, example in pairwise(blocks_of(text)):
+        before = text.partition(f"```pycon\n{example.body}\n```")[0]
+        if before != text and re.search(r"\bin python\b[^\n]*:\s*\Z", before, re.IGNORECASE):
+            yield command, example.body
+
+
+def ran(python):
+    """The names that an example leaves behind."""
+    names = {"gr": gr}
+    for example in doctest.DocTestParser().get_examples(python):
+        exec(compile(example.source, "<example>", "single"), names)
+    return names
+
+
+def same_check(words, said, names):
+    """The chain of the text is the chain of the example, and so are the numbers."""
+    assert gr.Chain.parse(words[0]) == names["chain"]
+    (found,) = json.loads(said)
+    report = names["report"].to_json()
+    assert report == {key: found[key] for key in report}
+
+
+def same_piece(words, said, names):
+    found = json.loads(said)
+    assert found["length"] == pytest.approx(names["piece"].length, rel=1e-9)
+    assert found["band"] == pytest.approx(names["piece"].band, rel=1e-9)
+
+
+def same_variants(words, said, names):
+    texts = [item["text"] for item in json.loads(said)["items"]]
+    assert texts == [mechanism.text() for mechanism in names["found"]]
+
+
+SAME = {"check": same_check, "curve": same_piece, "variants": same_variants}
+
+
+def test_the_same_in_python_is_the_same(tmp_path):
+    number = 0
+    for page in PAGES:
+        for command, python in pairs_of(page):
+            assert command.kind == "command", f"{page}: {python}"
+            words = shlex.split(command.body.replace("\\\n", " "))[1:]
+            verb, rest = words[0], [word for word in words[1:] if word not in ("--explain", "-o", "cylinders.txt")]
+            status, said = Session(tmp_path).command(shlex.join(["gruebler", verb, *rest, "--json"]))
+            assert status == 0, said
+            SAME[verb](rest, said, ran(python))
+            number += 1
+    assert number >= 4
 
 
 def test_there_are_pages():

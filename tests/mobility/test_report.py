@@ -3,13 +3,17 @@
 import json
 
 import pytest
+from hypothesis import given, settings
 
 from gruebler import Chain, GrueblerError
+from gruebler.catalog import check_entry, entry
+from gruebler.cli.check import explanation
 from gruebler.errors import ChainError
 from gruebler.mobility import mobility_report
 from gruebler.mobility.idle import IdleCondition
 from gruebler.mobility.report import _MEANINGS, _VERDICTS, Verdict
 from gruebler.text import error_in_language
+from tests.strategies import SPATIAL, chains
 
 VEE = "R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) P(frame-piston1) P(frame-piston2)"
 
@@ -72,7 +76,61 @@ def test_idle_freedoms():
 
 
 def test_every_verdict_has_its_sentence():
-    assert _MEANINGS.keys() == _VERDICTS.keys() == set(Verdict)
+    assert _MEANINGS.keys() | {Verdict.OVERCONSTRAINED} == _VERDICTS.keys() == set(Verdict)
+
+
+# What a verdict may say, by words of each language; nothing else in it speaks of sizes or drives.
+EXACT = {"en": "fit together only with exact dimensions", "de": "passen nur bei exakten Maßen oder mit Spiel zusammen"}
+SPECIAL = {"en": "special", "de": "Sonder"}
+STILL = {"en": "othing moves", "de": "nichts"}
+ONE_DRIVE = {"en": "One drive", "de": "Ein Antrieb"}
+
+
+def said_in_the_verdict(report, lang):
+    (line,) = (line for line in report.explain(lang).splitlines() if line.startswith(("Verdict:", "Urteil:")))
+    return line
+
+
+def contradictions(report, lang):
+    """Where the sentence of the verdict and the numbers of the report exclude one another.
+
+    The numbers decide: redundant constraints are equations between the sizes, which the assembly must meet; a generic
+    mobility that is positive is a motion for almost all sizes (docs/theory/mobility.md, theorem of assembling).
+    """
+    line, redundant = said_in_the_verdict(report, lang), report.generic - report.counted
+    expected = {
+        EXACT[lang]: redundant > 0,
+        SPECIAL[lang]: report.generic == 0,
+        STILL[lang]: report.generic == 0,
+        ONE_DRIVE[lang]: report.generic == 1 and not redundant and not report.rigid_clusters,
+    }
+    return [words for words, said in expected.items() if (words in line) != said]
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize("text", [row[0] for row in KNOWN])
+def test_the_verdict_says_what_the_numbers_say(text, lang):
+    assert contradictions(mobility_report(Chain.parse(text)), lang) == []
+
+
+@given(chains(most_links=6) | chains(most_links=5, pairs=SPATIAL, space="spatial"))
+@settings(max_examples=60)
+def test_no_verdict_contradicts_its_numbers(chain):
+    assert contradictions(mobility_report(chain), "en") == contradictions(mobility_report(chain), "de") == []
+
+
+# counted, generic and finite by hand; loco4 and winch_screw move by special sizes, the others by none
+@pytest.mark.parametrize(
+    ("name", "counted", "generic", "finite"),
+    [("loco3", 0, 0, 1), ("loco4", -1, 0, 1), ("winch_screw", -3, 0, 1), ("quad", 1, 1, 1), ("diff", 2, 2, 2)],
+)
+def test_what_moves_only_by_special_sizes_is_said_to(name, counted, generic, finite):
+    checked = check_entry(entry(name))
+    assert checked.freedoms is not None
+    assert (checked.report.counted, checked.report.generic, checked.freedoms.mobility) == (counted, generic, finite)
+    line = said_in_the_verdict(checked.report, "en")
+    assert (SPECIAL["en"] in line) == (finite > generic)
+    assert ("Dimensions decide" in explanation(checked, "en")) == (finite > generic)
 
 
 @pytest.mark.parametrize("lang", ["en", "de"])

@@ -93,9 +93,9 @@ def independent_part(linkage: Linkage) -> Independent:
         raise LinkageError("redundant conditions are sought among pins and slides only, not where wheels touch")
     if linkage.reference_pose is None:
         raise LinkageError(
-            "Only with special sizes does it move: with a position in which its joints close ([reference_pose] or "
-            "[places]) it is moved along the conditions that are independent there. `gruebler check --explain` shows "
-            "what its sizes allow."
+            "Conditions of its joints are redundant or block its drives. With a position in which its joints close "
+            "([reference_pose] or [places]) it is moved along the conditions that are independent there. `gruebler "
+            "check --explain` shows what its sizes allow."
         )
     conditions = ReferenceConditions(linkage)
     x = conditions.settled()

@@ -44,13 +44,23 @@ _VERDICTS = {
     Verdict.CONSTRAINED: message("constrained"),
     Verdict.MOVABLE: message("movable"),
 }
-_MEANINGS = {
-    Verdict.OVERCONSTRAINED: message(
-        "Some links have more constraints than they need; such a machine moves only with exact or special dimensions."
+_OVERCONSTRAINED = message(
+    "Some links have more constraints than they need: these links fit together only with exact dimensions, or with "
+    "play."
+)
+"""Redundancy is the number of equations between the dimensions (docs/theory/mobility.md, "Assembling")."""
+_ASSEMBLED = {
+    True: message("Once assembled, the chain moves at almost all sizes."),
+    False: message(
+        "Once assembled, nothing moves at almost all sizes; only special dimensions (equal and parallel cranks, one "
+        "common axis, Bennett's ratio) can set it free."
     ),
+}
+"""What an overconstrained chain does, by whether its generic mobility is positive."""
+_MEANINGS = {
     Verdict.RIGID: message(
         "Nothing moves for almost all dimensions; only special dimensions (equal and parallel cranks, a contact on "
-        "the line of centres) can set it free, and then one constraint is redundant."
+        "the line of centres) can set it free, and then constraints are redundant."
     ),
     Verdict.PARTLY_RIGID: message("It moves, but some of its links stay rigid against each other and act as one link."),
     Verdict.CONSTRAINED: message("One drive moves every link in one definite way."),
@@ -241,8 +251,13 @@ def _numbers(report: MobilityReport) -> Iterator[Message]:
             bound=report.error_bound,
         )
     yield joined([line, _count_and_rank(report)], " ") if report.count.b == space.b else line
-    verdict, meaning = _VERDICTS[report.verdict], _MEANINGS[report.verdict].filled(mobility=report.generic)
-    yield message("Verdict: {verdict}. {meaning}", verdict=verdict, meaning=meaning)
+    yield message("Verdict: {verdict}. {meaning}", verdict=_VERDICTS[report.verdict], meaning=_meaning(report))
+
+
+def _meaning(report: MobilityReport) -> Message:
+    if report.verdict is Verdict.OVERCONSTRAINED:
+        return joined([_OVERCONSTRAINED, _ASSEMBLED[report.generic > 0]], " ")
+    return _MEANINGS[report.verdict].filled(mobility=report.generic)
 
 
 def _count_and_rank(report: MobilityReport) -> Message:
