@@ -14,11 +14,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gruebler import notebook
-from gruebler.chain import notation
+from gruebler.chain import graphs, notation
 from gruebler.chain.documents import read_document, read_graph6
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Alphabet, Pair, Space, SymbolText, in_alphabets
-from gruebler.chain.soundness import check_connected, checked_joint, checked_links
+from gruebler.chain.soundness import check_connected, checked_edges, checked_joints, checked_links
 from gruebler.errors import ChainError, GrueblerError, expect, nearest
 from gruebler.text import message
 
@@ -67,7 +67,7 @@ class Chain:
         space: str | Space = Space.PLANAR,
     ) -> None:
         checked_space = notation.space_of(space)
-        checked = tuple(checked_joint(j, checked_space) for j in joints)
+        checked = checked_joints(joints, checked_space)
         named = tuple(dict.fromkeys(link for j in checked for link in j.links))
         declared = named if links is None else checked_links(links, named, checked)
         check_connected(declared, checked)
@@ -97,17 +97,20 @@ class Chain:
     @classmethod
     def from_edges(
         cls,
-        edges: Iterable[tuple[object, object]],
+        edges: Iterable[tuple[str | int, str | int]],
         pair: str | Pair = "revolute",
         *,
         space: str | Space = "planar",
     ) -> Chain:
         """A chain of simple joints of one kind, one for each edge; links are named as the edges name them.
 
+        Raises `ChainError` for edges that are not two names or whole numbers; `from_networkx` takes graphs with joints
+        of several kinds.
+
         >>> print(Chain.from_edges([(0, 1), (1, 2), (2, 3), (3, 0)]))
         R(0-1) R(1-2) R(2-3) R(3-0)
         """
-        return cls([(pair, (str(a), str(b))) for a, b in edges], space=space)
+        return cls([(pair, links) for links in checked_edges(edges)], space=space)
 
     @classmethod
     def from_graph6(cls, code: str) -> Chain:
@@ -352,30 +355,38 @@ class Chain:
 
     # --- networkx ----------------------------------------------------------------------------------
 
-    def link_graph(self) -> nx.MultiGraph:
-        """Links as nodes; an edge with ``joint`` (number) and ``pair`` for every two links of a joint.
+    @classmethod
+    def from_networkx(cls, graph: nx.Graph) -> Chain:
+        """The chain of a graph that `link_graph` or `incidence_graph` gave, with the order of links and joints.
 
-        A joint of k links gives the k(k-1)/2 edges between them; `incidence_graph` loses nothing.
+        Nodes may have become texts or other numbers on the way through a file, as long as their attributes are there.
+
+        Raises `ChainError` for any other graph; `from_edges` takes edges without attributes.
+
+        >>> chain = Chain.parse("spatial: R(0-1) C(1-2) S(2-3) R(3-0-4)")
+        >>> print(Chain.from_networkx(chain.link_graph()))
+        spatial: R(0-1) C(1-2) S(2-3) R(3-0-4)
         """
-        import networkx as nx
+        joints, links, space = graphs.read_graph(graph)
+        if "frame" in graph.graph:
+            raise ChainError("the graph has a frame: Mechanism.from_networkx(graph) takes it, its chain is .chain")
+        return cls(joints, links=links, space=space)
 
-        graph = nx.MultiGraph(space=str(self.space))
-        graph.add_nodes_from(self.links)
-        for number, j in enumerate(self.joints):
-            for i, a in enumerate(j.links):
-                graph.add_edges_from((a, b, {"joint": number, "pair": j.pair.name}) for b in j.links[i + 1 :])
-        return graph
+    def link_graph(self) -> nx.MultiGraph:
+        """Links as nodes; an edge for every two links of a joint, with its number as ``joint``, ``pair`` and ``first``.
+
+        A joint of k links gives the k(k-1)/2 edges between them; of the two links of an edge ``first`` is the one that
+        the joint names first. `from_networkx` takes the graph back.
+        """
+        return graphs.link_graph(self.links, self.joints, {"space": str(self.space)})
 
     def incidence_graph(self) -> nx.Graph:
-        """Nodes ("link", name) and ("joint", number), an edge wherever a link carries a joint."""
-        import networkx as nx
+        """Nodes ("link", name) and ("joint", number), an edge wherever a link carries a joint.
 
-        graph = nx.Graph(space=str(self.space))
-        graph.add_nodes_from((("link", link) for link in self.links), kind="link")
-        for number, j in enumerate(self.joints):
-            graph.add_node(("joint", number), kind="joint", pair=j.pair.name)
-            graph.add_edges_from((("joint", number), ("link", link)) for link in j.links)
-        return graph
+        Nodes have ``kind``, ``link`` or ``joint`` and ``pair``, edges the ``place`` of the link in the joint.
+        `from_networkx` takes the graph back.
+        """
+        return graphs.incidence_graph(self.links, self.joints, {"space": str(self.space)})
 
 
 def _rebuilt(joints: tuple[Joint, ...], links: tuple[str, ...], space: Space) -> Chain:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from numbers import Integral
 
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Pair, Space, pair
@@ -11,15 +12,58 @@ from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import ChainError, PairError, nearest
 from gruebler.text import Message, joined, message
 
-__all__ = ["check_connected", "checked_joint", "checked_links"]
+__all__ = ["check_connected", "checked_edges", "checked_joints", "checked_links"]
 
 _LONGEST_NAME = 200
 _MOST_NAMES = 5
 
 
-def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
+def checked_joints(raw: Iterable[Joint | tuple[str | Pair, Sequence[str | int]]], space: Space) -> tuple[Joint, ...]:
+    """The joints of raw input, checked."""
+    if isinstance(raw, str | bytes | Mapping) or not isinstance(raw, Iterable):
+        raise _no_joint(raw)
+    return tuple(_checked_joint(joint, space) for joint in raw)
+
+
+def checked_edges(edges: Iterable[tuple[str | int, str | int]]) -> list[tuple[str, str]]:
+    """The two names of each edge."""
+    if isinstance(edges, str | bytes) or not isinstance(edges, Iterable):
+        raise _no_edge(edges)
+    named = []
+    for edge in edges:
+        if isinstance(edge, str | bytes) or not isinstance(edge, Iterable):
+            raise _no_edge(edge)
+        ends = tuple(edge)
+        if len(ends) != 2 or not all(_is_name(end) for end in ends):
+            raise _no_edge(ends)
+        named.append((_name(ends[0]), _name(ends[1])))
+    return named
+
+
+def _no_joint(found: object) -> ChainError:
+    return ChainError(
+        "expected joints, each a pair and the names of its links, not {found}; Chain.parse reads a text, "
+        "Chain.from_edges takes edges, Chain.from_networkx a graph",
+        found=repr(found),
+    )
+
+
+def _no_edge(found: object) -> ChainError:
+    return ChainError(
+        "expected edges, each two names of links, not {found}; Chain.from_networkx takes a graph with its pairs",
+        found=repr(found),
+    )
+
+
+def _checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
     """The joint of raw input, checked."""
-    kind, links = (raw.pair, raw.links) if isinstance(raw, Joint) else raw
+    match raw:
+        case Joint(kind, links):
+            pass
+        case (str() | Pair() as kind, links) if isinstance(links, Iterable):
+            pass
+        case _:
+            raise _no_joint(raw)
     if isinstance(links, str):
         raise ChainError("the links of a joint are a list of names, not the text {links!r}", links=links)
     joint = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
@@ -49,8 +93,13 @@ def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Sp
     return joint
 
 
+def _is_name(raw: object) -> bool:
+    """Whether it is a text or a whole number; those of numpy are."""
+    return isinstance(raw, str | Integral) and not isinstance(raw, bool)
+
+
 def _name(raw: str | int) -> str:
-    if not isinstance(raw, str | int) or isinstance(raw, bool):
+    if not _is_name(raw):
         raise ChainError("a link is named by a text or a whole number, not by {name!r}", name=raw)
     name = str(raw)
     if not name.strip() or name != name.strip() or not name.isprintable():

@@ -11,6 +11,7 @@ import gzip
 import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 from zlib import error as ZlibError
@@ -71,16 +72,19 @@ def graph_text(chain: Chain, form: str, left_out: list[Message]) -> str:
 
 
 def _chain(graph: nx.Graph) -> Chain:
-    joints: dict[object, tuple[str, dict[str, None]]] = {}
-    names = {node: str(node).strip() or "?" for node in graph}
-    for number, (a, b, data) in enumerate(graph.edges(data=True)):
-        key = ("joint", str(data["joint"])) if "joint" in data else ("edge", number)
-        pair, links = joints.setdefault(key, (str(data.get("pair", _REVOLUTE)), {}))
-        if pair != str(data.get("pair", _REVOLUTE)):
-            raise GrueblerError("joint {joint}: its edges have different pairs", joint=key[1])
-        links |= {names[a]: None, names[b]: None}
-    space = str(graph.graph.get("space", "planar"))
-    return Chain([(pair, list(links)) for pair, links in joints.values()], links=names.values(), space=space)
+    """The chain of a graph that may come from elsewhere.
+
+    An edge without ``pair`` is a revolute joint, one without ``joint`` a joint of its own; a frame is passed over.
+    """
+    labels = dict.fromkeys(str(marks["joint"]) for *_, marks in graph.edges(data=True) if "joint" in marks)
+    counted = all(label.isdecimal() and len(label) < 10 for label in labels)
+    numbers = {label: int(label) if counted else k for k, label in enumerate(labels)}
+    following = count(max(numbers.values(), default=-1) + 1)
+    for *_, marks in graph.edges(data=True):
+        marks["joint"] = numbers[str(marks["joint"])] if "joint" in marks else next(following)
+        marks.setdefault("pair", _REVOLUTE)
+    graph.graph.pop("frame", None)
+    return Chain.from_networkx(graph)
 
 
 def _from_graphml(text: str) -> nx.Graph:

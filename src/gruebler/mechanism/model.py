@@ -6,14 +6,17 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gruebler import notebook
-from gruebler.chain import Chain, notation
+from gruebler.chain import Chain, graphs, notation
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism import DriveMark, code, decode
 from gruebler.text import joined_by_and
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 __all__ = ["Drive", "Mechanism"]
 
@@ -127,6 +130,37 @@ class Mechanism:
             "frame": self.frame,
             "drives": list(self.drive_names()),
         }
+
+    @classmethod
+    def from_networkx(cls, graph: nx.Graph) -> Mechanism:
+        """The mechanism of a graph that `link_graph` or `incidence_graph` gave; see `Chain.from_networkx`.
+
+        Raises `ChainError` for any other graph, one without frame too.
+        """
+        joints, links, space = graphs.read_graph(graph)
+        if "frame" not in graph.graph:
+            raise ChainError("the graph has no frame: Chain.from_networkx(graph) takes it")
+        drives = _split_marks(str(graph.graph.get("drives", "")))
+        chain = Chain(joints, links=links, space=space)
+        return cls(chain, str(graph.graph["frame"]), [drive.strip() for drive in drives if drive.strip()])
+
+    def link_graph(self) -> nx.MultiGraph:
+        """The graph of the chain (`Chain.link_graph`) with the attributes ``frame`` and ``drives``, as in the text.
+
+        >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)")
+        >>> quad.link_graph().graph
+        {'space': 'planar', 'frame': '0', 'drives': 'R(0-1)'}
+        >>> Mechanism.from_networkx(quad.link_graph()) == quad
+        True
+        """
+        return graphs.link_graph(self.chain.links, self.chain.joints, self._marks())
+
+    def incidence_graph(self) -> nx.Graph:
+        """The graph of the chain (`Chain.incidence_graph`) with the attributes ``frame`` and ``drives``."""
+        return graphs.incidence_graph(self.chain.links, self.chain.joints, self._marks())
+
+    def _marks(self) -> dict[str, str]:
+        return {"space": str(self.chain.space), "frame": self.frame, "drives": "; ".join(self.drive_names())}
 
     def text(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
         """The text form; `parse` takes it back."""
