@@ -40,18 +40,18 @@ def checked_edges(edges: Iterable[tuple[str | int, str | int]]) -> list[tuple[st
     return named
 
 
-def _no_joint(found: object) -> ChainError:
+def _no_joint(raw: object) -> ChainError:
     return ChainError(
         "expected joints, each a pair and the names of its links, not {found}; Chain.parse reads a text, "
         "Chain.from_edges takes edges, Chain.from_networkx a graph",
-        found=repr(found),
+        found=repr(raw),
     )
 
 
-def _no_edge(found: object) -> ChainError:
+def _no_edge(raw: object) -> ChainError:
     return ChainError(
         "expected edges, each two names of links, not {found}; Chain.from_networkx takes a graph with its pairs",
-        found=repr(found),
+        found=repr(raw),
     )
 
 
