@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Sequence
 
 from gruebler.cli.output import print_json, write_file
@@ -14,6 +15,7 @@ from gruebler.exercises import (
     Mark,
     all_exercises,
     exercise,
+    faults,
     generate,
     grade,
     grades_as_list,
@@ -51,7 +53,7 @@ def add(parser: Parser) -> None:
         "generated tasks with structures of the enumeration and random dimensions.",
         epilog="Examples: gruebler exercise solve 15 --set a=40 --set b=120; gruebler exercise new --kind mobility "
         "--level 2 --seed 7; gruebler exercise check mobility-2-7 n=8 F=1. Exit status: 0 success, 1 an answer is "
-        "wrong, 2 wrong usage.",
+        "wrong, or a solution differs unexplained from the printed answer, 2 wrong usage.",
     )
     listing = parser.add_command("list", help="list all exercises and worked examples")
     show = parser.add_command("show", help="show a task without its solution")
@@ -106,14 +108,14 @@ def add(parser: Parser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """List, show, solve, make or mark; 1 if an answer is wrong."""
+    """List, show, solve, make or mark; 1 if an answer is wrong or a solution does not agree with what is printed."""
     match arguments.action:
         case "list":
             _list(arguments)
         case "show":
             _print([_task(id, arguments) for id in arguments.ids], arguments, solved=False)
         case "solve":
-            _solve([_task(id, arguments) for id in arguments.ids], arguments)
+            return _solve([_task(id, arguments) for id in arguments.ids], arguments)
         case "new":
             if not 1 <= arguments.count <= _MOST:
                 raise GrueblerError(
@@ -148,8 +150,8 @@ def _pairs(words: Sequence[str], problem: Message) -> dict[str, str]:
     return values
 
 
-def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> None:
-    """Print the solutions, or write them with figures and constructions."""
+def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> int:
+    """Print the solutions, or write them with figures; 1 and a sentence for each answer that is not right."""
     suffix = "" if arguments.out is None else arguments.out.suffix.lower()
     if suffix in _DOCUMENTS:
         from gruebler.worksheets import document_bytes, solution_document
@@ -158,6 +160,10 @@ def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> None:
         write_file(arguments.out, content, arguments.lang)
     else:
         _print(tasks, arguments, solved=True)
+    sentences = [fault for task in tasks for fault in faults(task, solve(task))]
+    for sentence in sentences:
+        print(f"gruebler exercise: {sentence.in_language(arguments.lang)}", file=sys.stderr)
+    return int(bool(sentences))
 
 
 def _sheet(arguments: argparse.Namespace) -> None:

@@ -8,7 +8,7 @@ and never stored as results. docs/theory/exercises.md has the conventions and th
 from gruebler.exercises.generation import KINDS, LEVELS, generate
 from gruebler.exercises.grading import Grade, Mark, ascii_key, grade, plain_name
 from gruebler.exercises.loader import all_exercises, exercise
-from gruebler.exercises.messages import lines_of_table, solution_text, task_text, value_text
+from gruebler.exercises.messages import faults, lines_of_table, solution_text, task_text, value_text
 from gruebler.exercises.serialisation import grades_as_list, solution_as_dict, table_as_dict, task_as_dict
 from gruebler.exercises.solution import Check, Mistake, PartHeading, Result, Solution, SolutionStep, TeachingTable
 from gruebler.exercises.solving import Comparison, compare, methods, solve, with_values
@@ -32,6 +32,7 @@ __all__ = [
     "ascii_key",
     "compare",
     "exercise",
+    "faults",
     "generate",
     "grade",
     "grades_as_list",

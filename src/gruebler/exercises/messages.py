@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 from gruebler.exercises.grading import ascii_key
 from gruebler.exercises.solution import Check, PartHeading, Result, Solution, SolutionStep, TeachingTable, Value, figure
 from gruebler.exercises.solving import Comparison, compare
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import source_text
-from gruebler.text import Readable, decimal_sign_in, number, translate
+from gruebler.text import Message, Readable, decimal_sign_in, in_every_language, message, number, translate
 
 __all__ = [
     "asked_text",
     "cells_of_table",
+    "check_text",
+    "faults",
     "lines_of_table",
+    "printed_note",
+    "printed_text",
+    "result_text",
     "solution_text",
     "step_lines",
     "task_text",
@@ -82,7 +88,8 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
     if answers:
         lines += ["", translate("Results:", lang), *answers]
     if solution.checks:
-        lines += ["", translate("Check by a second method:", lang), *(_check(check, lang) for check in solution.checks)]
+        checks = (f"  {check_text(check, lang)}" for check in solution.checks)
+        lines += ["", translate("Check by a second method:", lang), *checks]
     return re.sub(r"\n{3,}", "\n\n", "\n".join(lines))
 
 
@@ -106,36 +113,75 @@ def _capital(text: str) -> str:
 
 def _answers(comparisons: Sequence[Comparison], lang: str) -> Iterator[str]:
     for comparison in comparisons:
-        result, question = comparison.result, comparison.asked
+        result = comparison.result
         symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
-        line = (
-            f"  {_capital(result.name.in_language(lang))}: {symbol}{'± ' * result.either_sign}"
-            f"{value_text(result.value, result.unit, lang)}"
+        line = f"  {_capital(result.name.in_language(lang))}: {symbol}{result_text(result, lang)}"
+        note = printed_note(comparison, lang)
+        yield f"{line}   [{note}]" if note else line
+
+
+def result_text(result: Result, lang: str) -> str:
+    """The value of a result with its unit, and ± before one that is valid with both signs."""
+    return "± " * result.either_sign + value_text(result.value, result.unit, lang)
+
+
+def printed_note(comparison: Comparison, lang: str) -> str:
+    """What the source prints, whether the result agrees with it, and the reason if not; empty if nothing is printed."""
+    result, question = comparison.result, comparison.asked
+    if question.printed is None:
+        return ""
+    printed = printed_text(comparison, lang)
+    if question.reason is not None:
+        return translate(
+            "printed {printed}: agrees. {reason}" if comparison.agrees else "printed {printed}: differs. {reason}",
+            lang,
+            printed=printed,
+            reason=question.reason,
         )
-        if question.printed is not None:
-            printed = _printed(question.printed, question.unit or result.unit, lang)
-            if isinstance(result.value, Readable) and comparison.agrees:
-                printed = result.value.in_language(lang)
-            if comparison.agrees:
-                note = translate("printed {printed}: agrees", lang, printed=printed)
-            elif question.reason is None:
-                note = translate("printed {printed}: differs, unexplained", lang, printed=printed)
-            else:
-                note = translate("printed {printed}: differs. {reason}", lang, printed=printed, reason=question.reason)
-            line += f"   [{note}]"
-        yield line
+    if not comparison.agrees:
+        return translate("printed {printed}: differs, unexplained", lang, printed=printed)
+    if isinstance(result.value, Readable):
+        printed = result.value.in_language(lang)
+    return translate("printed {printed}: agrees", lang, printed=printed)
 
 
-def _printed(text: str, unit: str, lang: str) -> str:
+def faults(exercise: Exercise, solution: Solution) -> list[Message]:
+    """What is not right: printed answers that differ unexplained or agree in spite of a reason, checks that fail."""
+    sentences = [
+        message(
+            "{id}: {key}: the source prints {printed} and the solution gives {value}; they agree, but the exercise "
+            "names a reason for a difference"
+            if each.agrees
+            else "{id}: {key}: the source prints {printed}, the solution gives {value}; the exercise names no reason "
+            "for the difference",
+            id=exercise.id,
+            key=ascii_key(each.asked.key),
+            printed=in_every_language(partial(printed_text, each)),
+            value=in_every_language(partial(result_text, each.result)),
+        )
+        for each in compare(exercise, solution)
+        if not each.explained
+    ]
+    return sentences + [
+        message("{id}: {check}", id=exercise.id, check=in_every_language(partial(check_text, check)))
+        for check in solution.checks
+        if not check.holds
+    ]
+
+
+def printed_text(comparison: Comparison, lang: str) -> str:
+    """The printed answer with its unit."""
+    text, unit = comparison.asked.printed or "", comparison.asked.unit or comparison.result.unit
     if text in ("yes", "no"):
         return translate("yes" if text == "yes" else "no", lang)
     return decimal_sign_in(text, lang) + (unit if unit in ("", "°") else f" {unit}")
 
 
-def _check(check: Check, lang: str) -> str:
+def check_text(check: Check, lang: str) -> str:
+    """The quantity by both methods, and whether they agree."""
     first, second = (value_text(value, check.unit, lang) for value in (check.first, check.second))
     verdict = translate("agrees" if check.holds else "DIFFERS", lang)
-    return f"  {check.text.in_language(lang)}: {first} | {second}: {verdict}"
+    return f"{check.text.in_language(lang)}: {first} | {second}: {verdict}"
 
 
 def cells_of_table(table: TeachingTable, lang: str) -> list[list[str]]:

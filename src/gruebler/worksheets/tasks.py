@@ -22,12 +22,20 @@ from gruebler.exercises import (
     Solution,
     TeachingTable,
     ascii_key,
+    compare,
     generate,
     solve,
     value_text,
 )
 from gruebler.exercises.grading import key_in_language
-from gruebler.exercises.messages import asked_text, cells_of_table, step_lines
+from gruebler.exercises.messages import (
+    asked_text,
+    cells_of_table,
+    check_text,
+    printed_note,
+    result_text,
+    step_lines,
+)
 from gruebler.formats import Exercise
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.text import joined, message, translate
@@ -217,21 +225,35 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         else:
             count += 1
             yield Paragraph("\n".join(line.strip() for line in step_lines(part, count, lang)))
-    asked = [solution.results[question.key] for question in exercise.asked]
-    headers = translate("answer", lang), translate("value", lang)
-    yield Rows(
-        headers,
-        tuple(
-            (f"{_symbol(solution, r, lang)}: {r.name.in_language(lang)}", value_text(r.value, r.unit, lang))
-            for r in asked
-        ),
-    )
+    if exercise.asked:
+        yield _answers(exercise, solution, lang)
+    if exercise.remark is not None:
+        yield Paragraph(translate("Remark: {remark}", lang, remark=exercise.remark))
+    if solution.checks:
+        checks = (check_text(check, lang) for check in solution.checks)
+        yield Paragraph("\n".join([translate("Check by a second method:", lang), *checks]))
     if number and isinstance(exercise.given.get("chain"), str):
         yield Pictures((draw_structure(_chain(exercise), labels=True, lang=lang),), height=170.0)
     whole = construction_of(exercise)
     if whole is not None:
         steps = " ".join(f"{k}. {step.text.in_language(lang)}" for k, step in enumerate(whole.steps, 1))
         yield Pictures((whole.figures(lang, captions=False)[-1],), (steps,), height=340.0)
+
+
+def _answers(exercise: Exercise, solution: Solution, lang: str) -> Rows:
+    """The results, and beside them what the source prints where it prints anything."""
+    comparisons = compare(exercise, solution)
+    rows = tuple(
+        (
+            f"{_symbol(solution, each.result, lang)}: {each.result.name.in_language(lang)}",
+            result_text(each.result, lang),
+            printed_note(each, lang),
+        )
+        for each in comparisons
+    )
+    headers = (translate("answer", lang), translate("value", lang), translate("source", lang))
+    width = 3 if any(note for *_, note in rows) else 2
+    return Rows(headers[:width], tuple(row[:width] for row in rows))
 
 
 def _symbol(solution: Solution, result: Result, lang: str) -> str:
