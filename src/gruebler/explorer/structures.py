@@ -48,13 +48,13 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True, linkage: Li
     chain = mechanism.chain
     contacts = contact_shapes(linkage) if linkage is not None and linkage.mechanism.chain == chain else {}
     placed = place_joints(mechanism, contacts)
-    shapes = paint(placed)
+    shapes = paint(placed, lang)
     corner, _ = bounds(shapes, 10.0)
     report = mobility_report(chain, frame=mechanism.frame)
     few = chain.n <= _MOST_LINKS
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
-        "picture": figure_of(shapes, chain.text(), "").svg(styled=False),
+        "picture": figure_of(shapes, chain.text(Alphabet.of_language(lang)), "").svg(styled=False),
         "joints": list(_joints(mechanism, placed, corner, lang)),
         "links": list(_links(chain, placed, corner, report)),
         "frame": mechanism.frame,
@@ -93,7 +93,7 @@ def _choice(mechanism: Mechanism, lang: str, contacts: Mapping[tuple[int, str], 
 def _joints(mechanism: Mechanism, placed: PlacedChain, corner: Point, lang: str) -> Iterator[dict[str, Any]]:
     """Each joint with its place in the picture and the types that it may have instead."""
     chain = mechanism.chain
-    names = chain.joint_names()
+    names = chain.joint_names(Alphabet.of_language(lang))
     waiting = [(joint.key, at) for joint, at in zip(placed.chain.joints, placed.joints, strict=True)]
     for number, joint in enumerate(chain.joints):
         k = next(k for k, (key, _) in enumerate(waiting) if key == joint.key)
@@ -109,7 +109,7 @@ def _joints(mechanism: Mechanism, placed: PlacedChain, corner: Point, lang: str)
 def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, Any]]:
     chain = mechanism.chain
     joint = chain.joints[number]
-    alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
+    alphabet = Alphabet.of_language(lang)
     for pair in PAIRS:
         if chain.space not in pair.freedoms or (len(joint.links) > 2 and not pair.is_group):
             continue

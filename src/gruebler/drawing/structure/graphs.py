@@ -88,7 +88,7 @@ def draw_graph(structure: Chain | Mechanism, *, lang: str = "en", name: str = ""
         if not joint.pair.is_revolute or chain.space is not Space.PLANAR:
             a, b = path[len(path) // 2 - 1], path[len(path) // 2]
             middle = a.plus(b.minus(a), 0.5).plus(b.minus(a).unit.across, 9.0)
-            shapes.append(TextShape(middle, letters(joint.pair), "note"))
+            shapes.append(TextShape(middle, letters(joint.pair, lang), "note"))
     names = short_names(chain.links)
     for link in chain.links:
         at = drawn.points[rank[link]]
@@ -159,7 +159,7 @@ def draw_loops(structure: Chain | Mechanism, *, lang: str = "en", name: str = ""
     Where links cross or share two joints, faces are no loops; a list below the picture then names a shortest basis.
     """
     placed = place_joints(structure)
-    shapes = paint(placed)
+    shapes = paint(placed, lang)
     if len(placed.faces) != placed.chain.loops or any(len(set(face)) < 3 for face in placed.faces):
         walks = [", ".join(loop) for loop in _shortest_loops(placed.chain)]
         shapes = labels_or_numbers(placed.outlines, {link: d > 2 for link, d in placed.chain.degrees.items()}, shapes)

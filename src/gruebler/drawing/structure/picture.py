@@ -17,7 +17,7 @@ import numpy as np
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet, Pair, Space
 from gruebler.drawing.canvas.figure import Figure, figure_of
-from gruebler.drawing.canvas.shapes import Point, Shape
+from gruebler.drawing.canvas.shapes import Point, Shape, TextShape
 from gruebler.drawing.canvas.symbols import (
     JointMember,
     JointSign,
@@ -77,7 +77,8 @@ def draw_structure(
     Args:
         structure: the chain or mechanism.
         labels: whether to name the links.
-        symbols: whether to write the symbol of its pair beside every joint, in the alphabet of the language.
+        symbols: whether to write the symbol of its pair beside every joint whose sign is none, in the alphabet of the
+            language.
         contacts: what the bodies of higher pairs are, by joint number and link, in the words of
             `gruebler.drawing.canvas.symbols.CONTACTS`: ``gear``, ``cam``, ``roller``, ...
         outputs: links that get a double arrow.
@@ -94,13 +95,15 @@ def draw_structure(
     from gruebler.drawing.canvas.labels import labels_or_numbers, note_near
 
     placed = place_joints(structure, contacts)
-    shapes = paint(placed)
+    shapes = paint(placed, lang)
     for link in outputs:
         shapes += _output(placed, link, shapes)
     if symbols:
-        for number, joint in enumerate(placed.chain.joints):
-            symbol = joint.pair.symbol(Alphabet.of_language(lang))
-            shapes.append(note_near(placed.joints[number], symbol, "letter", shapes))
+        signed = {shape.at for shape in shapes if isinstance(shape, TextShape)}
+        for joint, at in zip(placed.chain.joints, placed.joints, strict=True):
+            if at not in signed:
+                symbol = joint.pair.symbol(Alphabet.of_language(lang))
+                shapes.append(note_near(at, symbol, "letter", shapes))
     if labels:
         degrees = chain_of(structure).degrees
         outlines = {link: placed.outlines[link] for link in degrees}
@@ -173,9 +176,9 @@ def mean_scale(layout: Layout) -> float:
     return min(max(usual, _NARROW / max(layout.clearance, 1e-9)), 1.8 * usual)
 
 
-def paint(placed: PlacedChain) -> list[Shape]:
-    """Links, joints and drives, in the order of painting."""
-    signs = [_sign(placed, number) for number in range(len(placed.chain.joints))]
+def paint(placed: PlacedChain, lang: str = "en") -> list[Shape]:
+    """Links, joints and drives, in the order of painting; letters of joints in the alphabet of the language."""
+    signs = [_sign(placed, number, lang) for number in range(len(placed.chain.joints))]
     shapes = [shape for sign, _ in signs for shape in sign.below]
     holds = {
         (link, number): hold
@@ -209,13 +212,13 @@ def towards(placed: PlacedChain, link: str, number: int) -> Point:
     return middle.minus(at)
 
 
-def _sign(placed: PlacedChain, number: int) -> tuple[JointSign, list[str]]:
+def _sign(placed: PlacedChain, number: int, lang: str) -> tuple[JointSign, list[str]]:
     """The sign of a joint and its links in the order of the sign: the frame first, then the larger ones."""
     joint = placed.chain.joints[number]
     links = sorted(joint.links, key=lambda link: _precedence(placed, link))
     members = [JointMember(towards(placed, link, number), link == placed.frame) for link in links]
     flat = placed.chain.space is Space.PLANAR
-    letter = "" if flat else letters(joint.pair)
+    letter = "" if flat else letters(joint.pair, lang)
     known = [placed.contacts[number, link] for link in links if (number, link) in placed.contacts]
     return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter, shapes=known), links
 
@@ -224,9 +227,9 @@ def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
     return link != placed.frame, -placed.chain.degrees[link], placed.chain.index(link)
 
 
-def letters(pair: Pair) -> str:
-    """The international symbol of a pair, or the German one where there is none."""
-    return pair.symbols.get(Alphabet.INTERNATIONAL) or pair.symbols[Alphabet.GERMAN]
+def letters(pair: Pair, lang: str) -> str:
+    """The symbol of a pair that a reader of the language expects, or the German one where there is no other."""
+    return pair.symbols.get(Alphabet.of_language(lang)) or pair.symbols[Alphabet.GERMAN]
 
 
 def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
