@@ -26,10 +26,12 @@ def test_gears_in_words(capsys):
     assert (status, err) == (0, "")
     assert "Speeds: 2 sun - 7 arm + 5 ring = 0" in out
     rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line}
-    assert rows["arm"] == ["2", "2/7", "(0.285714)", "-70", "-140"]
+    assert rows["arm"] == ["2", "2/7", "(0.285714)", "-70", "-14.6608"]  # -70 N m at 2/min: P = T n / 9.549
+    assert "torque in N m, force in N  power in W" in out
     _, german, _ = run(capsys, "gears", text, "--lang", "de")
     assert "Laufgrad 2" in german
-    assert "Moment oder Kraft" in german
+    assert "Moment in N m, Kraft in N  Leistung in W" in german
+    assert "Drehzahl in 1/min" in german
 
 
 def test_gears_from_files_and_as_json(capsys, tmp_path):
@@ -40,7 +42,10 @@ def test_gears_from_files_and_as_json(capsys, tmp_path):
     one, other = (json.loads(run(capsys, "gears", str(path), "--json")[1]) for path in (lines, table))
     assert one == other
     assert {link["link"]: link["speed"]["exact"] for link in one["links"]}["planet"] == "-14/3"
-    assert sum(power["value"] for power in one["powers"].values()) == 0
+    assert one["powers_w"] == pytest.approx(
+        {"ring": 0, "sun": 20 * 7 * 0.1047198, "arm": -70 * 2 * 0.1047198}, rel=1e-6
+    )
+    assert one["units"] == {"speed": "1/min", "torque": "N m", "force": "N", "length": "m", "power": "W"}
     assert one["mobility"] == 2
 
 

@@ -33,6 +33,9 @@ from gruebler.text import message, reason_of, translate
 __all__ = ["add", "run"]
 
 _DRAWN = "drawn"
+_POWER = message(
+    "Power is torque times speed times 2π/60: in W for torques in N m, forces in N, lengths in m, speeds in 1/min."
+)
 _UNITS = {
     Unit.TURNING: message("{link}"),
     Unit.PER_RADIAN: message("{link} (length, speeds per radian)"),
@@ -168,7 +171,7 @@ def _driver(reading: TrainReading) -> str | None:
 def _print_speeds(reading: TrainReading, solution: Speeds, forces: Balance | None, lang: str) -> None:
     driver = _driver(reading)
     units = reading.train.units()
-    torques, powers = (forces.torques, forces.powers) if forces else ({}, {})
+    torques, powers = (forces.torques, forces.watts) if forces else ({}, {})
     rows = []
     for link, speed in solution.values.items():
         ratio = speed / reading.drives[driver] if driver and speed is not None else None
@@ -177,11 +180,15 @@ def _print_speeds(reading: TrainReading, solution: Speeds, forces: Balance | Non
         values = (ratio, torques.get(link), powers.get(link))
         cells += ["" if value is None else fraction_text(value, lang) for value in values]
         rows.append(cells)
-    headers: list[Cell] = [message("link"), message("speed"), message("per turn of {drive}", drive=driver)]
-    headers += [message("torque or force"), message("power: torque or force times speed")]
+    speed_title = message("speed in 1/min") if forces else message("speed")
+    headers: list[Cell] = [message("link"), speed_title, message("per turn of {drive}", drive=driver)]
+    headers += [message("torque in N m, force in N"), message("power in W")]
     shown = [k for k, wanted in enumerate((True, True, driver, forces, forces)) if wanted]
     chosen = [[row[k] for k in shown] for row in (headers, *rows)]
     print_table(chosen[0], chosen[1:], numbers=range(1, len(shown)), lang=lang)
+    if forces:
+        print()
+        print_text(_POWER.in_language(lang))
 
 
 def _document(reading: TrainReading, solution: Speeds, forces: Balance | None) -> dict[str, Any]:
@@ -206,7 +213,8 @@ def _document(reading: TrainReading, solution: Speeds, forces: Balance | None) -
     }
     if forces:
         document["torques"] = {link: _value(value) for link, value in forces.torques.items()}
-        document["powers"] = {link: _value(value) for link, value in forces.powers.items()}
+        document["powers_w"] = forces.watts
+        document["units"] = {"speed": "1/min", "torque": "N m", "force": "N", "length": "m", "power": "W"}
     document["axes"] = [
         {
             "planet": axis.planet,

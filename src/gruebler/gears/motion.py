@@ -129,7 +129,18 @@ class Balance:
 
     torques: dict[str, Fraction | float]
     powers: dict[str, Fraction | float]
-    """Torque times speed, with speeds per radian; for turns multiply by 2 pi."""
+    """Torque times speed: watts for torques in N m, forces in N, lengths in m and speeds in rad/s."""
+
+    @property
+    def watts(self) -> dict[str, float]:
+        """The powers in W for speeds in 1/min, with torques in N m, forces in N and lengths in m.
+
+        >>> from gruebler.gears import read_train
+        >>> state = balance(read_train("in:20 out:40").train, {"in": 1500}, {"out": 20})
+        >>> {link: round(power, 1) for link, power in state.watts.items()}
+        {'in': 1570.8, 'out': -1570.8}
+        """
+        return {link: float(power) * math.tau / 60 for link, power in self.powers.items()}
 
 
 def balance(train: Train, drives: Mapping[str, object], loads: Mapping[str, object]) -> Balance:
