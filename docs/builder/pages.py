@@ -82,15 +82,35 @@ def _text(text: str) -> str:
 def format_table(lang: str, _: str) -> str:
     """The table of file formats."""
     heads = {
-        "en": ("format", "endings", "what it is", "carries", "read", "written", "yes", "no", "by name"),
-        "de": ("Format", "Endungen", "was es ist", "enthält", "gelesen", "geschrieben", "ja", "nein", "mit Namen"),
+        "en": ("format", "endings", "what it is", "carries", "lengths in", "read", "written", "yes", "no", "by name"),
+        "de": (
+            "Format",
+            "Endungen",
+            "was es ist",
+            "enthält",
+            "Längen in",
+            "gelesen",
+            "geschrieben",
+            "ja",
+            "nein",
+            "mit Namen",
+        ),
     }[lang]
     *columns, yes, no, by_name = heads
     lines = [f"| {' | '.join(columns)} |", "|" + "---|" * len(columns)]
     for each in FORMATS:
         endings = ", ".join(f"`{suffix}`" for suffix in each.suffixes) or by_name
         title, carries = (_text(each.title.in_language(lang)), _text(each.carries.in_language(lang)))
-        cells = (f"`{each.name}`", endings, title, carries, yes if each.read else no, yes if each.write else no)
+        lengths = _text(each.lengths.in_language(lang)) if each.lengths else ""
+        cells = (
+            f"`{each.name}`",
+            endings,
+            title,
+            carries,
+            lengths,
+            yes if each.read else no,
+            yes if each.write else no,
+        )
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 

@@ -53,6 +53,13 @@ class Format(NamedTuple):
     """The value in a file; the list gets a message for each thing that the value does not have."""
     write: Callable[[Any, Path, list[Message]], None] | None
     """Write a value; the list gets a message for each thing that the file does not have."""
+    lengths: Message | None = None
+    """What the numbers of lengths are; None if there are none."""
+
+
+_WITH_UNIT = message("with their unit")
+_AS_MILLIMETRES = message("mm (the format has no unit)")
+_HEADER = message("the unit of the linkage, in the header")
 
 
 # --- readers and writers of the table ----------------------------------------------------------------
@@ -208,7 +215,14 @@ def _as_linkage(value: Any) -> Linkage:
 
 
 def _drawn(
-    name: str, suffixes: tuple[str, ...], title: Message, carries: Message, module: str, reader: str, writer: str
+    name: str,
+    suffixes: tuple[str, ...],
+    title: Message,
+    carries: Message,
+    lengths: Message,
+    module: str,
+    reader: str,
+    writer: str,
 ) -> Format:
     """A row for a text of pins and slots: the functions of a module in `formats` read and write it."""
 
@@ -227,7 +241,7 @@ def _drawn(
 
         _write_text(path, function(writer)(drawing_of(_as_linkage(value), left_out), left_out))
 
-    return Format(name, suffixes, title, carries, read, write)
+    return Format(name, suffixes, title, carries, read, write, lengths)
 
 
 class _JsonForm(NamedTuple):
@@ -282,7 +296,7 @@ def _json_of_others(name: str, title: Message, carries: Message) -> Format:
         document = form.write(drawing_of(_as_linkage(value), left_out), left_out)
         _write_text(path, json.dumps(document, indent=1) + "\n")
 
-    return Format(name, (), title, carries, read, write)
+    return Format(name, (), title, carries, read, write, _AS_MILLIMETRES)
 
 
 def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -383,6 +397,7 @@ FORMATS: tuple[Format, ...] = (
         message("linkages, tasks, joint screws, gear trains (read), completely"),
         _own_document,
         _write_own_document,
+        _WITH_UNIT,
     ),
     Format(
         "json",
@@ -391,6 +406,7 @@ FORMATS: tuple[Format, ...] = (
         message("linkages, tasks, chains, joint screws (read), completely"),
         _own_document,
         _write_own_document,
+        _WITH_UNIT,
     ),
     Format(
         "csv",
@@ -399,6 +415,7 @@ FORMATS: tuple[Format, ...] = (
         message("synthesis tasks, completely; tables of motions with units in their headers (written)"),
         _task,
         _write_csv,
+        message("of tables with their unit, of tasks as they are"),
     ),
     _lines("text", ".txt", message("gruebler, texts of chains"), message("chains, one per line, with any joints")),
     _lines(
@@ -418,6 +435,7 @@ FORMATS: tuple[Format, ...] = (
         (".linkage2",),
         message("Linkage by D. Rector"),
         message("one position of a linkage of pins and slots, points, driven cranks, driven lengths of links"),
+        message("1/96 inch, shown as mm or in"),
         "linkage2",
         "drawing_from_linkage2",
         "linkage2_from_drawing",
@@ -427,16 +445,27 @@ FORMATS: tuple[Format, ...] = (
         (".pyslvs",),
         message("Pyslvs"),
         message("one position of a linkage of pins, slides and slots, points; drives in comments"),
+        _AS_MILLIMETRES,
         "pyslvs",
         "drawing_from_pyslvs",
         "pyslvs_from_drawing",
     ),
-    _drawn("pmks", (".pmks",), message("PMKS+"), _PINS, "pmks", "drawing_from_pmks", "pmks_from_drawing"),
+    _drawn(
+        "pmks",
+        (".pmks",),
+        message("PMKS+"),
+        _PINS,
+        message("cm, in or m, which the address says"),
+        "pmks",
+        "drawing_from_pmks",
+        "pmks_from_drawing",
+    ),
     _drawn(
         "four-bar-rs",
         (".ron",),
         message("four-bar-rs"),
         message("a four-bar with a driven crank and one coupler point"),
+        _AS_MILLIMETRES,
         "four_bar_rs",
         "drawing_from_ron",
         "ron_from_drawing",
@@ -458,6 +487,7 @@ FORMATS: tuple[Format, ...] = (
         message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
         None,
         _write_dxf,
+        _HEADER,
     ),
     Format(
         "dxf-links",
@@ -466,6 +496,7 @@ FORMATS: tuple[Format, ...] = (
         message("a folder of plates with holes and slots, one file per link, with its plane in the name"),
         None,
         _write_dxf_of_links,
+        _HEADER,
     ),
     Format(
         "mjcf",
@@ -474,6 +505,7 @@ FORMATS: tuple[Format, ...] = (
         message("a linkage of pins, slides and slots as a model that runs, points, drives"),
         None,
         _write_mjcf,
+        message("m"),
     ),
     Format(
         "urdf",
@@ -482,6 +514,7 @@ FORMATS: tuple[Format, ...] = (
         message("a linkage of pins, slides and slots as a tree: its loops are cut"),
         None,
         _write_urdf,
+        message("m"),
     ),
     Format(
         "spreadsheet",
@@ -490,6 +523,7 @@ FORMATS: tuple[Format, ...] = (
         message("tables of motions with units in their headers, semicolons between cells"),
         None,
         _write_spreadsheet,
+        _WITH_UNIT,
     ),
     Format(
         "parquet",
@@ -498,6 +532,7 @@ FORMATS: tuple[Format, ...] = (
         message("tables of motions with units in their headers"),
         None,
         _write_parquet,
+        _WITH_UNIT,
     ),
 )
 """Every format, those of this library first."""

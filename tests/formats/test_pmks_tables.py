@@ -111,6 +111,7 @@ def test_whole_numbers_are_hexadecimal_and_angles_degrees():
         "the force F1",
         "positions of a synthesis",
         "masses, colours and speeds",
+        "a unit, which the file does not have: its numbers are taken for cm",
     ]
     linkage = files.read(FOLDER / "refactor-welded.pmks", left_out=[])
     assert linkage.mechanism.chain.n == 4  # the welded bars are one link

@@ -13,7 +13,7 @@ from gruebler.text import message
 
 __all__ = ["add", "run"]
 
-_HEADERS = (message("format"), message("endings"), message("program"), message("what it holds"))
+_HEADERS = (message("format"), message("endings"), message("program"), message("what it holds"), message("lengths in"))
 
 
 def add(parser: Parser) -> None:
@@ -37,7 +37,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     lang = arguments.lang
     if arguments.formats:
-        rows: list[list[Cell]] = [[form.name, " ".join(form.suffixes), form.title, form.carries] for form in FORMATS]
+        rows: list[list[Cell]] = [
+            [form.name, " ".join(form.suffixes), form.title, form.carries, form.lengths or ""] for form in FORMATS
+        ]
         print_table(_HEADERS, rows, lang=lang)
         return 0
     if arguments.source is None or arguments.target is None:

@@ -7,6 +7,7 @@ from math import hypot
 
 from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import GrueblerError
+from gruebler.formats.measured_lengths import MILLIMETRES
 from gruebler.formats.pin_drawings import lower_linkage
 from gruebler.linkages import Linkage
 from gruebler.text import Message, message
@@ -17,7 +18,6 @@ DENSITY = 7850.0
 """kg/m³, of steel."""
 SLENDER = 50
 """The size of a linkage over the radius of its bars."""
-_METRES = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "in": 0.0254}
 
 
 class BodyTree:
@@ -26,12 +26,11 @@ class BodyTree:
     def __init__(self, linkage: Linkage, left_out: list[Message]) -> None:
         """Of a linkage of turning and sliding joints; `GrueblerError` for others, and if slides alone close a loop."""
         self.lower = lower = lower_linkage(linkage)
-        scale = _METRES.get(lower.unit)
-        if scale is None:
+        if lower.unit not in MILLIMETRES:
             left_out.append(message("the unit {unit}", unit=lower.unit))
         if linkage.outputs:
             left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
-        self.scale = 1.0 if scale is None else scale
+        self.scale = MILLIMETRES.get(lower.unit, 1000.0) / 1000  # metres
         mechanism = lower.mechanism
         self.frame, self.names = mechanism.frame, mechanism.chain.joint_names()
         driven = {drive.joint: drive.between for drive in mechanism.drives}

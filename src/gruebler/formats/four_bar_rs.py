@@ -4,7 +4,8 @@
 the crank, ``l3`` the coupler, ``l4`` the rocker, ``l5`` and ``g`` the coupler point: its distance from the crank pin
 and its direction against the coupler. ``stat`` is c1b1, c1b2, c2b1 or c2b2: c1 has the rocker's pin to the left of the
 line from the crank pin to the rocker's pivot, b1 and b2 are the two ranges of a crank that has two. Angles are in
-radians, the crank's are counted from the frame's direction. Source: the program's library (four-bar/src/mech).
+radians, the crank's are counted from the frame's direction; lengths have no unit. Source: the program's library
+(four-bar/src/mech).
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from cmath import phase, rect
 from math import acos, pi, remainder
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
+from gruebler.formats.pin_drawings import NO_UNIT_WRITTEN, DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit
 from gruebler.formats.text_files import read_number
 from gruebler.text import Message, message
 
@@ -62,6 +63,7 @@ def drawing_from_ron(text: str, left_out: list[Message]) -> PinDrawing:
     for key in _LENGTHS:
         if values[key] <= 0:
             raise GrueblerError("{key}: expected a positive length, but found {value:g}", key=key, value=values[key])
+    left_out.append(no_unit())
     return _drawing(values, state)
 
 
@@ -122,10 +124,11 @@ def curve_from_csv(text: str) -> list[tuple[float, ...]] | None:
 
 
 def ron_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
-    """The RON of a four-bar of turning joints whose crank is driven, with one coupler point at most.
+    """The RON of a four-bar of turning joints whose crank is driven, with one coupler point at most, in millimetres.
 
     Raises `GrueblerError` for any other linkage.
     """
+    drawing = drawing_in(drawing, "mm", left_out)
     frame = drawing.frame
     pins = [joint for joint in drawing.joints if len(joint.links) > 1]
     drives = drawing.drives or ()
@@ -143,7 +146,7 @@ def ron_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     dropped = [joint.name for joint in drawing.joints if len(joint.links) == 1 and joint not in points[:1]]
     if dropped:
         left_out.append(message("points other than one of the coupler: {points}", points=", ".join(dropped)))
-    left_out.append(message("names of links and points, and the unit {unit}", unit=drawing.unit))
+    left_out += [message("names of links and points"), NO_UNIT_WRITTEN]
     at = {joint.name: complex(joint.x, joint.y) for joint in drawing.joints}
     base, bar = at[second.name] - at[first.name], at[other.name] - at[pin.name]
     arm = at[points[0].name] - at[pin.name] if points else 0j

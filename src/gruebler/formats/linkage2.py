@@ -1,10 +1,10 @@
 """Files of the program Linkage by D. Rector: XML of connectors and links, ``.linkage2``.
 
-A connector is a pin at x, y (y upwards); on an anchor it is fixed to the frame, as an input it is driven. A connector
-with ``slider`` runs between two others, its limits: it is a pin in the slot of the link that has both. A link is a list
-of connectors; an actuator is a link of two connectors that changes its length. A link with one connector more is a
-point of it. Speeds, colours and the view are not part of a linkage. Source: the program's reader (LinkageDoc.cpp) and
-the examples that come with it.
+A connector is a pin at x, y (y upwards) in 1/96 inch, whatever unit the program shows; on an anchor it is fixed to the
+frame, as an input it is driven. A connector with ``slider`` runs between two others, its limits: it is a pin in the
+slot of the link that has both. A link is a list of connectors; an actuator is a link of two connectors that changes its
+length. A link with one connector more is a point of it. Speeds, colours and the view are not part of a linkage. Source:
+the program's reader (linkageDoc.cpp, linkageDoc.h: ``GetBaseUnitsPerInch``) and the examples that come with it.
 """
 
 from __future__ import annotations
@@ -17,14 +17,23 @@ from xml.etree.ElementTree import Element
 from xml.sax.saxutils import quoteattr
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, one_drive_a_joint, with_slot_ends
+from gruebler.formats.measured_lengths import in_unit
+from gruebler.formats.pin_drawings import (
+    DrawnDrive,
+    DrawnJoint,
+    PinDrawing,
+    drawing_in,
+    one_drive_a_joint,
+    with_slot_ends,
+)
 from gruebler.formats.text_files import parse_xml, read_number
 from gruebler.text import Message, message
 
 __all__ = ["drawing_from_linkage2", "linkage2_from_drawing"]
 
 _FRAME = "frame"
-_UNITS = {"millimeters": "mm", "inches": "in"}
+_UNITS = {"millimeters": "mm", "inches": "in"}  # another name is millimetres to the program
+_PER_INCH = 96.0  # GetBaseUnitsPerInch
 _MECHANISM_LAYER = 16
 _ON_LINE = 1e-9  # of the length
 _LINK_TAGS = ("Link", "element")
@@ -102,7 +111,8 @@ def _drawing(
     places: dict[str, tuple[float, float]] = {}
     for number, connector in connectors.items():
         what = message("connector {id}", id=number)
-        places[number] = (read_number(connector.get("x", "0"), what), read_number(connector.get("y", "0"), what))
+        x, y = (read_number(connector.get(key, "0"), what) for key in ("x", "y"))
+        places[number] = (in_unit(x, "in", unit) / _PER_INCH, in_unit(y, "in", unit) / _PER_INCH)
         if connector.get("anchor") == "true":
             links_of[number].append(_FRAME)
     joints, drives = [], []
@@ -167,7 +177,12 @@ def _slot(
 
 
 def linkage2_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
-    """The text of a ``.linkage2`` file; the limits of slots are further points of the links that have them."""
+    """The text of a ``.linkage2`` file; the limits of slots are further points of the links that have them.
+
+    The program shows millimetres or inches; another metric unit becomes millimetres, feet become inches.
+    """
+    unit = "in" if drawing.unit in ("in", "ft") else "mm"
+    drawing = drawing_in(drawing, unit, left_out)
     driven = one_drive_a_joint(drawing, left_out)
     actuators = {
         joint.links[0]: joint.name for joint in drawing.joints if joint.name in driven and _cylinder(drawing, joint)
@@ -188,7 +203,8 @@ def linkage2_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
         for link in links:
             if link != drawing.frame or len(links) == 1:
                 members.setdefault(link, []).append(joint.name)
-        attributes = [f'id="{numbers[joint.name]}"', f'x="{joint.x!r}"', f'y="{joint.y!r}"']
+        x, y = (in_unit(value * _PER_INCH, unit, "in") for value in (joint.x, joint.y))
+        attributes = [f'id="{numbers[joint.name]}"', f'x="{x!r}"', f'y="{y!r}"']
         attributes += [f"name={quoteattr(joint.name)}"] + ['anchor="true"'] * (drawing.frame in links)
         attributes += ['input="true"'] * turned + ['slider="true"'] * (joint.slot is not None)
         limits = "".join(f'\n\t\t<slidelimit id="{numbers[end]}"/>' for end in slots.get(joint.name, ()))
@@ -203,9 +219,7 @@ def linkage2_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
         lines.append("\t</Link>")
     if driven:
         left_out.append(message("drives of joints {joints}", joints=", ".join(driven)))
-    if drawing.unit not in _UNITS.values():
-        left_out.append(message("the unit {unit}", unit=drawing.unit))
-    units = {name: word.capitalize() for word, name in _UNITS.items()}.get(drawing.unit, "Millimeters")
+    units = {name: word.capitalize() for word, name in _UNITS.items()}[unit]
     program = f'\t<program zoom="1" xoffset="0" yoffset="0" scalefactor="1" units="{units}"/>'
     return "\n".join(["<linkage2>", program, *lines, "</linkage2>"]) + "\n"
 

@@ -1,4 +1,4 @@
-"""Lengths as a user writes them, with or without a unit: 15cm, 0.75 mm, 3."""
+"""Units of length, and lengths as a user writes them, with or without a unit: 15cm, 0.75 mm, 3."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ import re
 
 from gruebler.errors import GrueblerError
 
-__all__ = ["length_of", "same_unit"]
+__all__ = ["MILLIMETRES", "in_unit", "length_of", "same_unit"]
 
-_METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
+MILLIMETRES = {"mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
+"""How long each unit is, in millimetres; the only table of units of length."""
 _FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*")
 
 
@@ -24,11 +25,11 @@ def length_of(name: str, word: str) -> tuple[float, str]:
         value = float(form[1]) if form else math.nan
     except ValueError:
         value = math.nan
-    if form is None or not 0 < value < 1e70 or form[2] not in ("", *_METRES):
+    if form is None or not 0 < value < 1e70 or form[2] not in ("", *MILLIMETRES):
         raise GrueblerError(
             "{name}: expected a positive length such as 15cm (units: {units}), but found {found!r}",
             name=name,
-            units=", ".join(_METRES),
+            units=", ".join(MILLIMETRES),
             found=word,
         )
     return value, form[2]
@@ -44,4 +45,13 @@ def same_unit(value: float, unit: str, wanted: str) -> float:
         return value
     if not wanted:
         raise GrueblerError("one length is in {unit}, the other has no unit: give both, or none", unit=unit)
-    return float(f"{value * _METRES[unit] / _METRES[wanted]:.15g}")
+    return float(f"{in_unit(value, unit, wanted):.15g}")
+
+
+def in_unit(value: float, unit: str, wanted: str) -> float:
+    """A length in another one of the units of `MILLIMETRES`.
+
+    >>> in_unit(3.5, "cm", "mm"), in_unit(2.0, "in", "mm")
+    (35.0, 50.8)
+    """
+    return value if unit == wanted else value * MILLIMETRES[unit] / MILLIMETRES[wanted]

@@ -14,7 +14,15 @@ from typing import Any
 import msgspec
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, with_slot_ends
+from gruebler.formats.pin_drawings import (
+    NO_UNIT_WRITTEN,
+    DrawnDrive,
+    DrawnJoint,
+    PinDrawing,
+    drawing_in,
+    no_unit,
+    with_slot_ends,
+)
 from gruebler.text import Message, message
 
 __all__ = ["drawing_from_motiongen", "is_motiongen", "motiongen_from_drawing"]
@@ -75,6 +83,7 @@ def drawing_from_motiongen(document: Any, left_out: list[Message]) -> PinDrawing
         if links:
             joints.append(DrawnJoint(f"P{number}", x, y, tuple(links), slot))
     drives = [_drive(row, record, bodies, slots) for row in record.I]
+    left_out.append(no_unit())
     return PinDrawing(_FRAME, tuple(joints), tuple(drive for drive in drives if drive is not None))
 
 
@@ -91,7 +100,8 @@ def _drive(
 
 
 def motiongen_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict[str, Any]:
-    """The document of a drawing; slots run between further joints of their links."""
+    """The document of a drawing in millimetres; slots run between further joints of their links."""
+    drawing = drawing_in(drawing, "mm", left_out)
     looked_at = {joint.name for joint in drawing.joints if len(joint.links) == 1}
     drawing, ends = with_slot_ends(drawing)
     numbers = {joint.name: number for number, joint in enumerate(drawing.joints)}
@@ -113,7 +123,7 @@ def motiongen_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict
             inputs.append([numbers[str(arms[0])], numbers[drive.joint], numbers[str(arms[1])], 0])
     if undriven:
         left_out.append(message("drives of joints {joints}", joints=", ".join(undriven)))
-    left_out.append(message("names of links and points, and the unit {unit}", unit=drawing.unit))
+    left_out += [message("names of links and points"), NO_UNIT_WRITTEN]
     return {
         "B": [[int(body in members[joint.name]) for joint in drawing.joints] for body in bodies],
         "S": [

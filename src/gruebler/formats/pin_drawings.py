@@ -19,6 +19,7 @@ from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import pair
 from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import LinkageError
+from gruebler.formats.measured_lengths import MILLIMETRES, in_unit
 from gruebler.kinematics import move
 from gruebler.linkages import Line, Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
@@ -26,16 +27,21 @@ from gruebler.mechanism import Drive, Mechanism
 from gruebler.text import Message, message
 
 __all__ = [
+    "NO_UNIT_WRITTEN",
     "DrawnDrive",
     "DrawnJoint",
     "PinDrawing",
+    "drawing_in",
     "drawing_of",
     "linkage_of_drawing",
     "lower_linkage",
+    "no_unit",
     "one_drive_a_joint",
     "with_slot_ends",
 ]
 
+NO_UNIT_WRITTEN = message("the unit of the numbers, which are mm")
+"""What writers of formats without a unit say; their readers say `no_unit`."""
 _MOST = 600  # joints, and links; real mechanisms have fewer than a hundred
 _MOST_AT_A_PIN = 60
 _SAME = 1e-9  # of the size of the drawing: places that are nearer are one place
@@ -399,6 +405,27 @@ def _pins_in_slots(lower: Linkage, placed: Sequence[DrawnJoint]) -> dict[int, in
         if abs(across) <= _SAME * lower.size and base not in pin.links:
             slots[others[0]] = slide
     return slots
+
+
+def no_unit(taken: str = "mm") -> Message:
+    """What a reader says of a file without a unit: for which its numbers are taken."""
+    return message("a unit, which the file does not have: its numbers are taken for {unit}", unit=taken)
+
+
+def drawing_in(drawing: PinDrawing, unit: str, left_out: list[Message]) -> PinDrawing:
+    """The drawing with its places in another unit; those in a unit that is not known stay as they are, which is said.
+
+    >>> joints = (DrawnJoint("A", 3.5, 0.0, ("frame",)),)
+    >>> drawing_in(PinDrawing("frame", joints, unit="cm"), "mm", []).joints[0].x
+    35.0
+    """
+    known = drawing.unit if drawing.unit in MILLIMETRES else unit
+    if known != drawing.unit:
+        left_out.append(message("the unit {unit}: the numbers are written as {wanted}", unit=drawing.unit, wanted=unit))
+    joints = (
+        replace(joint, x=in_unit(joint.x, known, unit), y=in_unit(joint.y, known, unit)) for joint in drawing.joints
+    )
+    return replace(drawing, joints=tuple(joints), unit=unit)
 
 
 def one_drive_a_joint(drawing: PinDrawing, left_out: list[Message]) -> dict[str, DrawnDrive]:

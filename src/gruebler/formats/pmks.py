@@ -1,13 +1,16 @@
 """Addresses of PMKS+: a mechanism in the part of the address behind the question mark.
 
 Version 2: ``flags.decimals.integers.units.joints..links..forces..selected`` and a checking character; newer addresses
-have a digest of the whole behind an asterisk. Numbers are thousandths in base 64, a leading 0 for the minus. A joint is
+have a digest of the whole behind an asterisk. Numbers are thousandths in base 64, a leading 0 for the minus; those of
+more digits follow behind the selected object, ``PJ`` and id``~0~``x, ``~1~``y, ``~2~``angle (older versions of the
+program refuse such an address). A joint is
 ``flags id,name,x,y,angle[,link,joint,joint]``: bits 1 slider, 2 input, 4 ground, 8 welded, 16 traced; a slider turns
 about its pin unless it is welded, its slot is fixed, or runs through two joints of a link. A link is
 ``flag kind id,name,mass,inertia,x,y,colour,joints,,parts``; parts of a welded link follow it and are not links.
 
 Version 1: ``j=id,x,y,links|,type,ground,angle,friction,input`` in lines, and ``l=id,mass,inertia,x,y,joints|,...``.
-PMKS-Refactor: ``data=`` and compressed tables (`pmks_tables`); a slider is a block on the frame with a pin.
+PMKS-Refactor: ``data=`` and compressed tables (`pmks_tables`) without a unit, cm when the program starts; a slider is
+a block on the frame with a pin.
 
 Masses, forces and colours are not part of a linkage. Sources: the programs' transcoders and published addresses.
 """
@@ -17,12 +20,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import repeat
-from math import atan2, cos, pi, radians, remainder, sin
+from math import atan2, cos, pi, radians, sin, ulp
 from typing import NamedTuple
 from urllib.parse import parse_qs, unquote
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, one_drive_a_joint
+from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit, one_drive_a_joint
 from gruebler.formats.pmks_tables import tables_of_address
 from gruebler.formats.text_files import read_number
 from gruebler.text import Message, message
@@ -34,12 +37,14 @@ _FRAME = "ground"
 _DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 _CHECKS = _DIGITS[:62]
 _UNITS = ("in", "cm", "m")
-_UNITS_OF_VERSION_1 = {"cm": "cm", "in": "in", "m": "m"}
 _SLIDER, _INPUT, _GROUND, _WELDED, _TRACED = 1, 2, 4, 8, 16
 _ROOTS = "YAMG0123"  # flags of links that are not parts of another one
 _LONGEST = 200_000  # characters of an address
 _DIGEST = 6
-_ROUND = 1e-9  # radians
+_EXACT = "P"
+_EXACT_FIELDS = {"0": "x", "1": "y", "2": "angle", "3": "", "4": ""}  # speed and mass are not of a linkage
+_EXACT_OTHERS = ("L", "F", "D", "I")  # links, forces, settings
+_ULPS = 4  # within which thousandths are the number
 
 
 def drawing_from_pmks(text: str, left_out: list[Message]) -> PinDrawing:
@@ -72,13 +77,16 @@ def _version_2(query: str, left_out: list[Message]) -> PinDrawing:
     if len(sections) < 8:
         raise GrueblerError("is not an address of PMKS+: the parts between dots are missing")
     units = sections[3]
-    unit = _UNITS[_integer(units[:1])] if units[:1] in ("0", "1", "2") else "cm"
+    unit = dict(enumerate(_UNITS)).get(_DIGITS.find(units[:1] or "-"), "")
     records, rest = _groups(sections[4:])
     joints = [_joint(record) for record in records[0]]
     links = [_link(record) for record in records[1] if record[:1] in _ROOTS]
     for forces in records[2]:
         left_out.append(message("the force {name}", name=forces.split(",")[0][1:]))
-    if rest:
+    entries = [entry for entry in ".".join(rest).split(",") if entry]
+    exact = [entry for entry in entries if entry[0] == _EXACT]
+    joints = _with_exact_numbers(joints, exact)
+    if len(entries) > len(exact):
         left_out.append(message("locks and notes of the drawing"))
     return _drawing(joints, links, unit, left_out)
 
@@ -172,6 +180,23 @@ def _link(record: str) -> _Link:
     return _Link(fields[0], tuple(joints[:end]), record[1] == "P")
 
 
+def _with_exact_numbers(joints: list[_Joint], entries: list[str]) -> list[_Joint]:
+    """The joints with what thousandths do not hold, such as ``PJB~0~1.2345``; other numbers are not of a linkage."""
+    by_id = {joint.id: joint for joint in joints}
+    for entry in entries:
+        tag, *values = entry.split("~")
+        if tag[1:2] in _EXACT_OTHERS:
+            continue
+        joint = by_id.get(tag[2:])
+        if tag[1:2] != "J" or joint is None or len(values) != 2 or values[0] not in _EXACT_FIELDS:
+            raise GrueblerError("{text!r} is no exact number of a joint of the address", text=entry[:60])
+        numbers = {_EXACT_FIELDS[values[0]]: read_number(values[1], message("joint {joint}", joint=joint.id))}
+        by_id[joint.id] = joint._replace(
+            x=numbers.get("x", joint.x), y=numbers.get("y", joint.y), angle=numbers.get("angle", joint.angle)
+        )
+    return [by_id[joint.id] for joint in joints]
+
+
 def _version_1(query: str, left_out: list[Message]) -> PinDrawing:
     parts = parse_qs(query, keep_blank_values=True, max_num_fields=20)
     joints: list[_Joint] = []
@@ -194,7 +219,7 @@ def _version_1(query: str, left_out: list[Message]) -> PinDrawing:
         if line.strip():
             left_out.append(message("the force {name}", name=line.split(",")[0]))
     settings = parts.get("s", [""])[0].split(",")
-    return _drawing(joints, links, _UNITS_OF_VERSION_1.get(settings[-1], "cm"), left_out)
+    return _drawing(joints, links, settings[-1] if settings[-1] in _UNITS else "", left_out)
 
 
 def _tables(compressed: str, left_out: list[Message]) -> PinDrawing:
@@ -208,7 +233,7 @@ def _tables(compressed: str, left_out: list[Message]) -> PinDrawing:
         left_out.append(message("positions of a synthesis"))
     links = [_Link(name, members) for name, members in tables.links]
     rigid = tuple((first, other) for first, *others in tables.welded for other in others)
-    return replace(_drawing(joints, links, "cm", left_out), rigid=rigid)
+    return replace(_drawing(joints, links, "", left_out), rigid=rigid)
 
 
 def _drawing(joints: list[_Joint], links: list[_Link], unit: str, left_out: list[Message]) -> PinDrawing:
@@ -240,7 +265,9 @@ def _drawing(joints: list[_Joint], links: list[_Link], unit: str, left_out: list
             drives.append(DrawnDrive(joint.id, own_links[0], own_links[1]))
     if any(link.joints for link in links):
         left_out.append(message("masses, colours and speeds"))
-    return PinDrawing(_FRAME, tuple(drawn), tuple(drives), unit)
+    if not unit:
+        left_out.append(no_unit("cm"))
+    return PinDrawing(_FRAME, tuple(drawn), tuple(drives), unit or "cm")
 
 
 def _slot(joint: _Joint, links: list[_Link], by_id: dict[str, _Joint]) -> tuple[str, float]:
@@ -257,17 +284,14 @@ def _slot(joint: _Joint, links: list[_Link], by_id: dict[str, _Joint]) -> tuple[
 
 
 def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
-    """The address that opens a drawing in PMKS+; millimetres become centimetres, places thousandths of the unit.
+    """The address that opens a drawing in PMKS+, with all digits; units that it does not have become cm or in.
 
     The slot of a link that moves runs through two further joints of the link. Raises `GrueblerError` for a pin of the
     frame in the slot of another link.
     """
-    scale, unit = (0.1, "cm") if drawing.unit == "mm" else (1.0, drawing.unit)
-    if unit not in _UNITS:
-        left_out.append(message("the unit {unit}", unit=unit))
-        unit = "cm"
+    unit = drawing.unit if drawing.unit in _UNITS else "in" if drawing.unit == "ft" else "cm"
+    drawing = drawing_in(drawing, unit, left_out)
     driven = one_drive_a_joint(drawing, left_out)
-    _say_rounded(drawing, left_out)
     moved = [drive.moved for drive in driven.values()]
     links = sorted(
         dict.fromkeys(link for joint in drawing.joints for link in joint.links), key=lambda k: k not in moved
@@ -277,16 +301,17 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     xs, ys = [joint.x for joint in drawing.joints], [joint.y for joint in drawing.joints]
     reach = max(max(xs) - min(xs), max(ys) - min(ys)) / 2 or 1.0
     records: list[str] = []
-    off = 0.0
+    exact: list[str] = []
 
     def put(flags: int, name: str, x: float, y: float, angle: float, links: Sequence[str], slot: str = "") -> str:
-        nonlocal off
         number = f"J{len(records)}"
         for link in links:
             if link in members:
                 members[link].append(number)
-        off = max(off, *(abs(round(value * scale, 3) - value * scale) for value in (x, y)))
-        values = ",".join(_base_64(round(value * 1000)) for value in (x * scale, y * scale, angle))
+        for field, value in enumerate((x, y, angle)):
+            if abs(round(value * 1000) / 1000 - value) > _ULPS * ulp(max(abs(value), reach)):
+                exact.append(f"{_EXACT}J{number}~{field}~{value!r}")
+        values = ",".join(_base_64(round(value * 1000)) for value in (x, y, angle))
         records.append(f"{_DIGITS[flags]}{number},{_plain(name) or number},{values}{slot}")
         return number
 
@@ -314,21 +339,17 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
         put(flags, joint.name, joint.x, joint.y, angle, joint.links[joint.slot is not None :], slot)
     if undriven:
         left_out.append(message("drives of joints {joints}", joints=", ".join(sorted(undriven))))
-    if off * 1e9 > reach * scale:
-        left_out.append(message("digits of places beyond 0.001 {unit}", unit=unit))
+    if exact:
+        left_out.append(message("older versions of PMKS+: they refuse an address with more digits than 0.001"))
     bodies = [
         f"YR{number},{_plain(link)},Fe,Fe,0,0,c5cae9,{''.join(f'{member},' for member in members[link])},"
         for link, number in ids.items()
     ]
     head = f"2v.Ay,1E8.A,0.{_UNITS.index(unit)}011."
     body = f"{head}{''.join(f'{record}.' for record in records)}.{''.join(f'{each}.' for each in bodies)}..N_"
+    body += f".{','.join(exact)}" if exact else ""
     checked = body + _CHECKS[len(body) % 62]
     return f"{_ADDRESS}{checked}*{_digest(checked)}\n"
-
-
-def _say_rounded(drawing: PinDrawing, left_out: list[Message]) -> None:
-    if any(abs(remainder(joint.slot, 0.001)) > _ROUND for joint in drawing.joints if joint.slot is not None):
-        left_out.append(message("digits of directions beyond 0.001 radians"))
 
 
 def _slot_on_the_frame(joint: DrawnJoint, frame: str) -> DrawnJoint:

@@ -4,8 +4,8 @@ The mechanism form has joints with an id, a type (ground, revolute, tracker, pri
 and a position, and links with the ids of their joints, of type ground, driver, arc_driver or link. The older form has
 joints that are placed one by one: Static; Crank at a distance from a joint; Revolute (also Pivot) at two distances from
 two joints; Fixed at a distance and an angle against the line of two joints; Prismatic (also Linear) at a distance from
-a joint on the line of two others. Each crank, and each distance of a Revolute or Prismatic, is a link. Source: the
-serialization modules of the library.
+a joint on the line of two others. Each crank, and each distance of a Revolute or Prismatic, is a link. There is no
+unit. Source: the serialization modules of the library.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from math import atan2, cos, hypot, isfinite, sin
 from typing import Any
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
+from gruebler.formats.pin_drawings import NO_UNIT_WRITTEN, DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit
 from gruebler.text import Message, message
 
 __all__ = ["drawing_from_pylinkage", "is_pylinkage", "pylinkage_from_drawing"]
@@ -41,6 +41,7 @@ def drawing_from_pylinkage(document: Any, left_out: list[Message]) -> PinDrawing
     ('ground', 'crank')
     """
     joints = document["joints"]
+    left_out.append(no_unit())
     if "links" in document:
         return _of_mechanism(joints, document, left_out)
     if not all(joint["type"] in _PLACED for joint in joints):
@@ -241,6 +242,7 @@ def pylinkage_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict
 
     Raises `GrueblerError` if something slides other than a pin in a slot of the frame.
     """
+    drawing = drawing_in(drawing, "mm", left_out)
     frame = drawing.frame
     if any(joint.slot is not None and not (joint.turns and joint.links[0] == frame) for joint in drawing.joints):
         raise GrueblerError("the only sliding joints that the format can hold are pins in slots of the frame")
@@ -282,5 +284,5 @@ def pylinkage_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict
     undriven = [drive.joint for drive in drawing.drives or () if drive.fixed != frame]
     if undriven:
         left_out.append(message("drives of joints {joints}", joints=", ".join(undriven)))
-    left_out.append(message("the unit {unit}", unit=drawing.unit))
+    left_out.append(NO_UNIT_WRITTEN)
     return {"name": "mechanism", "joints": joints, "links": links, "ground": frame}

@@ -2,7 +2,7 @@
 
 A joint lists its links, the frame as ``ground``. R turns; P slides, its first link has the slot, A is the direction of
 the slot in degrees; RP is a pin in a slot. A joint of one link is a point of it. The expression says neither unit nor
-drive: a file may have more than it in comments, so the drives are written as ``# drive JOINT`` and read from there;
+drive. A file may have more than it in comments, so the drives are written as ``# drive JOINT`` and read from there;
 without them pins on the frame are driven, as in most examples of the program. Source: the grammar of the program
 (pyslvs/expression_parser.py).
 """
@@ -13,7 +13,7 @@ import re
 from math import degrees, radians
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
+from gruebler.formats.pin_drawings import NO_UNIT_WRITTEN, DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit
 from gruebler.formats.text_files import read_number
 from gruebler.text import Message, message
 
@@ -73,6 +73,7 @@ def drawing_from_pyslvs(text: str, left_out: list[Message]) -> PinDrawing:
             left_out.append(message("joint {number}, which has no link", number=len(joints)))
     reader.take("]")
     reader.finish()
+    left_out.append(no_unit())
     if colours:
         left_out.append(message("colours"))
     drives = [
@@ -143,7 +144,8 @@ class _Reader:
 
 
 def pyslvs_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
-    """The expression of a drawing, one joint a line."""
+    """The expression of a drawing, one joint a line, in millimetres."""
+    drawing = drawing_in(drawing, "mm", left_out)
     names = {drawing.frame: _FRAME}
     for link in dict.fromkeys(link for joint in drawing.joints for link in joint.links):
         plain = re.sub(r"\W", "_", link, flags=re.ASCII)
@@ -157,7 +159,7 @@ def pyslvs_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     points = [joint.name for joint in drawing.joints if len(joint.links) == 1]
     if points:
         left_out.append(message("names of points: {points}", points=", ".join(points)))
-    left_out.append(message("the unit {unit}", unit=drawing.unit))
+    left_out.append(NO_UNIT_WRITTEN)
     lines = ["M["]
     for joint in drawing.joints:
         kind = "R" if joint.slot is None else "RP" if joint.turns else "P"
