@@ -339,7 +339,28 @@ def test_dyads_of_four_positions_are_different(number):
         assert min(gaps) > 1e-6
 
 
-@pytest.mark.parametrize("demands", [{"region": (float("nan"), 0, 1, 1)}, {"transmission": float("nan")}])
-def test_demands_are_numbers(demands):
-    with pytest.raises(SynthesisError, match="expected numbers"):
+@pytest.mark.parametrize(
+    ("demands", "words"),
+    [
+        ({"region": (float("nan"), 0, 1, 1)}, "region: expected least x, least y"),
+        ({"region": (5, 5, -5, -5)}, "region: expected least x, least y"),
+        ({"region": (0, 1, 5)}, "region: expected least x, least y"),
+        ({"transmission": float("nan")}, "transmission: expected a number"),
+        ({"transmission": None}, "transmission: expected a number"),
+        ({"transmission": np.radians(100)}, "transmission: expected an angle between 0 and 90 degrees, but found 100 "),
+        ({"transmission": -0.1}, "transmission: expected an angle"),
+        ({"size_ratio": 0.5}, "size_ratio: expected at least 1, but found 0.5"),
+        ({"tolerance": -1}, "tolerance: expected a part of the size, at least 0, but found -1"),
+        ({"tolerance": float("inf")}, "tolerance: expected a part of the size"),
+        ({"crank": "no"}, "crank: expected True or False, but found 'no'"),
+    ],
+)
+def test_demands_that_nothing_could_be_held_to_are_refused(demands, words):
+    with pytest.raises(SynthesisError, match=words):
         Demands(**demands)
+
+
+def test_demands_at_their_bounds():
+    """A right angle, links of one length, no miss at all, a region that is one point."""
+    made = Demands(transmission=np.pi / 2, size_ratio=1, tolerance=0, region=(2, 3, 2, 3))
+    assert (made.size_ratio, made.region) == (1, (2, 3, 2, 3))

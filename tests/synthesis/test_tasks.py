@@ -89,6 +89,13 @@ def test_a_csv_file_without_a_header_is_points_or_positions(tmp_path):
     assert read_task(bare).angles[1] is None
 
 
+def test_none_stands_for_what_is_not_given():
+    points = [(0, 0), (1, 2), (3, 1)]
+    assert PathTask(points, angles=None, crank_angles=None, fixed_pivots=None) == PathTask(points)
+    plain = PositionTask(FIVE[:4], moving_pivots=None, fixed_pivots=None, curve_parameters=None)
+    assert plain == PositionTask(FIVE[:4])
+
+
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
@@ -107,6 +114,10 @@ def test_a_csv_file_without_a_header_is_points_or_positions(tmp_path):
         (lambda: DeadCentreTask(swing=1, time_ratio=0.9), "at least 1"),
         (lambda: DeadCentreTask(swing=4, time_ratio=1), "between 0 and 180"),
         (lambda: PathTask([(0, 0), (1, float("nan"))]), "point 2"),
+        (lambda: PathTask(5), "points: expected a list, but found '5'"),
+        (lambda: PathTask([(0, 0), (1, 1)], angles="no"), "angles: expected a list"),
+        (lambda: PathTask(None), "points: expected at least two, but found 0"),
+        (lambda: FunctionTask([0, 0.5], 1), "outputs: expected a list"),
         (lambda: function_task(FunctionLaw("x", (0, 1), 1, 1), 9), "precision_points: expected 2 to 5"),
         (lambda: FunctionTask([0, 1], [0, 1], law=FunctionLaw("x", (0, 1), 1, 1)), "not those of the function"),
     ],

@@ -7,7 +7,7 @@ the linkage's reference pose without regard to the drive, the places where it me
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -48,6 +48,9 @@ _ROWS = 16  # poses from one target to the next, with several drives
 class Demands:
     """What an accepted design has to do besides meeting its targets on one branch and in order.
 
+    Raises `SynthesisError` for what no design could be held to: angles beyond a right one, a ratio below 1, a negative
+    tolerance, a rectangle whose corners are exchanged.
+
     >>> Demands(transmission=0.7).crank
     False
     """
@@ -68,11 +71,47 @@ class Demands:
     """The targets are met in the order of the task."""
 
     def __post_init__(self) -> None:
-        """Refuse what is no number: every comparison with it would fail without a word."""
-        for name in ("transmission", "size_ratio", "region", "tolerance"):
-            value = getattr(self, name)
-            if value is not None and np.isnan(value).any():
-                raise SynthesisError("{name}: expected numbers, but found nan", name=name)
+        """Refuse what no design could be held to; comparisons with it would fail, or hold, without a word."""
+        for name in ("crank", "one_branch", "in_order"):
+            if not isinstance(value := getattr(self, name), bool | np.bool_):
+                raise SynthesisError("{name}: expected True or False, but found {value!r}", name=name, value=value)
+        for name in ("transmission", "size_ratio", "tolerance"):
+            if not _is_number(value := getattr(self, name)):
+                raise SynthesisError("{name}: expected a number, but found {value!r}", name=name, value=value)
+        if not 0 <= self.transmission <= np.pi / 2:
+            raise SynthesisError(
+                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
+                key="transmission",
+                low=0,
+                high=90,
+                angle=np.degrees(self.transmission),
+            )
+        if self.size_ratio < 1:
+            raise SynthesisError(
+                "{name}: expected at least 1, but found {value:g}", name="size_ratio", value=self.size_ratio
+            )
+        if not 0 <= self.tolerance < np.inf:
+            raise SynthesisError(
+                "{name}: expected a part of the size, at least 0, but found {value:g}",
+                name="tolerance",
+                value=self.tolerance,
+            )
+        if self.region is not None and not _is_rectangle(self.region):
+            raise SynthesisError(
+                "{name}: expected least x, least y, greatest x, greatest y, but found {value!r}",
+                name="region",
+                value=self.region,
+            )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and not np.isnan(value)
+
+
+def _is_rectangle(value: object) -> bool:
+    if not isinstance(value, Sequence | np.ndarray) or len(value) != 4 or not all(map(_is_number, value)):
+        return False
+    return bool(value[0] <= value[2] and value[1] <= value[3])
 
 
 class Probe(NamedTuple):

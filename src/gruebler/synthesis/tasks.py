@@ -5,9 +5,10 @@ Every task is a value, checked when it is constructed; lengths are in the task's
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import isfinite, pi
+from typing import Any
 
 import numpy as np
 
@@ -47,9 +48,30 @@ def _row(row: object, where: Message, count: int) -> tuple[float, ...]:
     return tuple(_number(value, where) for value in row)
 
 
+_ENTRIES = {"points": message("point {number}"), "positions": message("position {number}")}
+
+
 def _numbered(key: str, k: int) -> Message:
     """An entry of a key of a task file."""
-    return message("{key} {number}", key=key, number=k + 1)
+    return _ENTRIES.get(key, message("{key} {number}", key=key)).filled(number=k + 1)
+
+
+def _entries(task: object, key: str) -> tuple[object, ...]:
+    """The entries of a field that is a list; None stands for an empty one."""
+    values: Any = getattr(task, key)
+    if values is None:
+        return ()
+    if isinstance(values, str) or not isinstance(values, Iterable) or getattr(values, "ndim", 1) == 0:
+        raise SynthesisError("{key}: expected a list, but found {found!r}", key=key, found=str(values)[:40])
+    return tuple(values)
+
+
+def _numbers(task: object, key: str) -> tuple[float, ...]:
+    return tuple(_number(value, _numbered(key, k)) for k, value in enumerate(_entries(task, key)))
+
+
+def _rows(task: object, key: str, count: int) -> tuple[tuple[float, ...], ...]:
+    return tuple(_row(row, _numbered(key, k), count) for k, row in enumerate(_entries(task, key)))
 
 
 def _size(z: Complexes) -> float:
@@ -79,16 +101,15 @@ class PositionTask:
     curve_parameters: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        rows = tuple(_row(row, message("position {number}", number=k + 1), 3) for k, row in enumerate(self.positions))
+        rows = _rows(self, "positions", 3)
         object.__setattr__(self, "positions", rows)
         for name in ("moving_pivots", "fixed_pivots"):
-            pairs = tuple(_row(row, _numbered(name, k), 2) for k, row in enumerate(getattr(self, name)))
-            object.__setattr__(self, name, pairs)
+            object.__setattr__(self, name, _rows(self, name, 2))
         if len(rows) < 2:
             raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
         if (self.moving_pivots or self.fixed_pivots) and len(rows) > 4:
             raise SynthesisError("pivots can be chosen for two to four positions, not for {count}", count=len(rows))
-        places = tuple(_number(v, _numbered("curve_parameters", k)) for k, v in enumerate(self.curve_parameters))
+        places = _numbers(self, "curve_parameters")
         object.__setattr__(self, "curve_parameters", places)
         if places and len(rows) != 4:
             raise SynthesisError(
@@ -155,13 +176,14 @@ class PathTask:
     unit: str = "mm"
 
     def __post_init__(self) -> None:
-        rows = tuple(_row(row, message("point {number}", number=k + 1), 2) for k, row in enumerate(self.points))
+        rows = _rows(self, "points", 2)
         object.__setattr__(self, "points", rows)
-        pivots = tuple(_row(row, _numbered("fixed_pivots", k), 2) for k, row in enumerate(self.fixed_pivots))
+        pivots = _rows(self, "fixed_pivots", 2)
         object.__setattr__(self, "fixed_pivots", pivots)
-        angles = tuple(None if a is None else _number(a, _numbered("angles", k)) for k, a in enumerate(self.angles))
+        free = enumerate(_entries(self, "angles"))
+        angles = tuple(None if a is None else _number(a, _numbered("angles", k)) for k, a in free)
         object.__setattr__(self, "angles", angles)
-        timing = tuple(_number(a, _numbered("crank_angles", k)) for k, a in enumerate(self.crank_angles))
+        timing = _numbers(self, "crank_angles")
         object.__setattr__(self, "crank_angles", timing)
         if len(rows) < 2:
             raise SynthesisError("points: expected at least two, but found {count}", count=len(rows))
@@ -243,8 +265,7 @@ class FunctionTask:
 
     def __post_init__(self) -> None:
         for name in ("inputs", "outputs"):
-            values = tuple(_number(v, _numbered(name, k)) for k, v in enumerate(getattr(self, name)))
-            object.__setattr__(self, name, values)
+            object.__setattr__(self, name, _numbers(self, name))
         if len(self.inputs) != len(self.outputs):
             raise SynthesisError(
                 "a function task needs as many inputs as outputs, but found {inputs} inputs and {outputs} outputs",
