@@ -43,7 +43,7 @@ def test_positions_give_a_linkage_that_the_other_commands_take(five, tmp_path, c
 def test_json_has_counts_verdicts_and_linkages(five, capsys):
     assert main(["synthesise", "positions", str(five), "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
-    assert document["count"] == {"what": "dyads", "theorem": 4, "found": 4, "real": 2}
+    assert document["count"] == {"what": "dyads", "theorem": 4, "found": 4, "infinite": 0, "real": 2}
     design = document["designs"][0]
     assert design["accepted"]
     assert design["turns_fully"]

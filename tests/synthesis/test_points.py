@@ -1,5 +1,6 @@
 """Points and mixed tasks: counts of the theorems, linkages that come back, certified solutions."""
 
+import json
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise
@@ -10,6 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler._numeric.homotopy import evaluate_system, sharp_residuals
+from gruebler.cli import main
 from gruebler.errors import SynthesisError
 from gruebler.fourbar import FourBar
 from gruebler.geometry import cognates
@@ -284,6 +286,22 @@ def test_a_four_bar_with_given_pivots_comes_back():
     assert found.count.found == 36
     lengths = [(d.linkage.length("crank", 0, 1), d.linkage.length("coupler", 1, 2)) for d in found.designs]
     assert min(abs(a - 25) + abs(b - 70) for a, b in lengths) < 1e-8
+
+
+def test_ends_at_infinity_are_no_linkages(tmp_path, capsys):
+    """Five points on a line: of the 36 solutions 4 lie at infinity.
+
+    The numbers are those of Newton's method in other unknowns (both pins, the coupler's rotations eliminated) from
+    80,000 random complex starts: 32 different finite solutions, none beyond 10 lengths, 14 of them real.
+    """
+    points, pivots = [(0, 0), (1, 0), (2, 0), (3, 0), (4.5, 0)], [(1, 2), (3, -2)]
+    count = synthesise_path(PathTask(points, fixed_pivots=pivots)).count
+    assert (count.theorem, count.finite, count.infinite, count.real) == (36, 32, 4, 14)
+    task = tmp_path / "line.json"
+    task.write_text(json.dumps({"points": points, "fixed_pivots": pivots}), encoding="utf-8")
+    main(["synthesise", "path", str(task)])
+    said = "36 found: 32 finite, 14 of them real, and 4 at infinity, which are no linkages."
+    assert said in capsys.readouterr().out
 
 
 @st.composite

@@ -44,11 +44,16 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
     elif count.theorem:  # 0: nothing exact is to be had, the notes say so
         print(
             translate(
-                "Solutions: {theorem} by theorem ({kind}), {found} found, {real} real.",
+                "Solutions: {theorem} by theorem ({kind}), {found} found: {finite} finite, {real} of them real, and "
+                "{infinite} at infinity, which are no linkages."
+                if count.infinite
+                else "Solutions: {theorem} by theorem ({kind}), {found} found, {real} real.",
                 lang,
                 theorem=count.theorem,
                 kind=count.what,
                 found=count.found,
+                finite=count.finite,
+                infinite=count.infinite,
                 real=count.real,
             )
         )

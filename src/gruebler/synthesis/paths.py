@@ -145,9 +145,9 @@ def _exact(
     cognate = problem.poses == 0 and not problem.given_pivots
     what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
-    count = SolutionCount(
-        what, None if reduced.added else problem.classes, problem.classes - complete.missing, len(complete.real)
-    )
+    theorem = None if reduced.added else problem.classes
+    found = problem.classes - complete.missing
+    count = SolutionCount(what, theorem, found, len(complete.real), complete.infinite)
     return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, complete, reduced.added)))
 
 

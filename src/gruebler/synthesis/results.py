@@ -223,9 +223,16 @@ class SolutionCount:
     theorem: int | None
     """How many complex solutions a general task has; None where there are infinitely many, 0 where none is exact."""
     found: int
-    """How many of them were found."""
+    """How many of them were found, those at infinity among them."""
     real: int
     """How many of those are real."""
+    infinite: int = 0
+    """How many of those found lie at infinity: they are no linkages."""
+
+    @property
+    def finite(self) -> int:
+        """How many of those found are linkages, real or complex."""
+        return self.found - self.infinite
 
     @property
     def complete(self) -> bool:
@@ -285,6 +292,7 @@ class SynthesisResult:
                 "what": str(self.count.what),
                 "theorem": self.count.theorem,
                 "found": self.count.found,
+                "infinite": self.count.infinite,
                 "real": self.count.real,
             },
             "notes": [str(note) for note in self.notes],
