@@ -146,8 +146,8 @@ def _exact(
     what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
     theorem = None if reduced.added else problem.classes
-    found = problem.classes - complete.missing
-    count = SolutionCount(what, theorem, found, len(complete.real), complete.infinite)
+    resolved = problem.classes - complete.missing
+    count = SolutionCount(what, theorem, resolved, len(complete.real), complete.infinite)
     return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, complete, reduced.added)))
 
 
