@@ -1,6 +1,9 @@
 """What `import gruebler as gr` gives: every name opens, shorthands are taken everywhere, mistakes are one sentence."""
 
 import ast
+import importlib
+import inspect
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +17,40 @@ from gruebler.text import error_in_language
 
 CRANK_ROCKER = gr.FourBar(25, 70, 40, 70)
 SHORTHANDS = [CRANK_ROCKER, gr.SliderCrank(20, 70, 8), gr.InvertedSliderCrank(30, 50)]
+
+
+def documented_functions():
+    """Every function of the library with a docstring: its file, its node, the docstring."""
+    for path in sorted(Path(gr.__file__).parent.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef) and (text := ast.get_docstring(node)):
+                yield path, node, text
+
+
+def test_arguments_in_docstrings_exist():
+    checked = 0
+    for path, node, text in documented_functions():
+        section = re.search(r"^Args:\n((?: +.*(?:\n|\Z)|\n)*)", text, re.MULTILINE)
+        rows = re.findall(r"^ {4}((?:\*{0,2}\w+(?:, )?)+):", section[1] if section else "", re.MULTILINE)
+        named = {name.lstrip("*") for row in rows for name in row.split(", ")}
+        given = node.args
+        known = {a.arg for a in (*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg) if a}
+        assert named <= known, f"{path.name} {node.name}: {named - known}"
+        checked += len(named)
+    assert checked > 300
+
+
+def test_options_of_other_functions_in_docstrings_exist():
+    """Such as: options of `gruebler.drawing.linkage.picture.draw_linkage` (``drive``, ``curves``, ...)."""
+    checked = 0
+    for path, node, text in documented_functions():
+        for dotted, options in re.findall(r"`(gruebler\.[\w.]+)`\s*\(((?:``\w+``[,.\s]*)+)", text):
+            module, _, name = dotted.rpartition(".")
+            known = inspect.signature(getattr(importlib.import_module(module), name)).parameters
+            named = set(re.findall(r"``(\w+)``", options))
+            assert named <= {*known}, f"{path.name} {node.name}: {dotted} has no {named - {*known}}"
+            checked += len(named)
+    assert checked >= 4
 
 
 def names_by_room():

@@ -116,7 +116,7 @@ def draw(value: Any, **options: Any) -> Picture:
     Args:
         value: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
         options: those of the function that draws such a value: `gruebler.drawing.structure.draw_structure`
-            (``labels``), `gruebler.drawing.linkage.picture.draw_linkage` (``pose``, ``curves``, ``show``, ...),
+            (``labels``), `gruebler.drawing.linkage.picture.draw_linkage` (``drive``, ``curves``, ``show``, ...),
             `draw_cam`, ...
 
     Raises `GrueblerError` for a value without a picture and for unknown options.

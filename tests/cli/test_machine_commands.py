@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 
@@ -32,6 +33,16 @@ def test_gears_in_words(capsys):
     assert "Laufgrad 2" in german
     assert "Moment in N m, Kraft in N  Leistung in W" in german
     assert "Drehzahl in 1/min" in german
+
+
+def test_gears_of_a_machine_of_the_catalog(capsys):
+    """Willis with suns of 30 and -60: sun1 + 2 sun2 = 3 carrier, as the entry's wheels have it."""
+    status, out, _ = run(capsys, "gears", "diff; sun1=90; sun2=30")
+    assert status == 0
+    assert "Speeds: sun1 - 3 carrier + 2 sun2 = 0" in out
+    assert re.search(r"^carrier +50$", out, re.MULTILINE)
+    assert run(capsys, "gears", "cam")[0] == 2
+    assert "has no dimensions" in run(capsys, "gears", "diff_bevel")[2]
 
 
 def test_gears_from_files_and_as_json(capsys, tmp_path):

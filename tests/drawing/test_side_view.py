@@ -4,6 +4,7 @@ from itertools import combinations
 
 import pytest
 
+from gruebler.catalog import entries
 from gruebler.chain import Chain
 from gruebler.cli import main
 from gruebler.drawing.canvas.shapes import CircleShape, Polylines, TextShape
@@ -80,14 +81,31 @@ def test_long_names_have_room_and_the_frame_is_hatched():
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("R(0-1) R(1-2) R(2-3) R(3-0)", "a side view shows gear trains"),
-        ("R(0-1) R(0-2) R(0-3) P(1-2) G(2-3)", "a side view shows gear trains"),
-        ("R(0-1) R(1-2) R(2-3) G(0-3) G(0-2)", "the wheels 0 and 3 of .* have no common carrier"),
+        ("R(0-1) R(1-2) R(2-3) R(3-0)", "a side view shows planar gear trains"),
+        ("R(0-1) R(0-2) R(0-3) P(1-2) G(2-3)", "a side view shows planar gear trains"),
+        ("spherical: R(0-1) R(0-2) G(1-2)", "a side view shows planar gear trains"),
+        ("R(0-1) R(1-2) R(2-3) R(3-4) G(0-4)", "the wheels 0 and 4 of .* have no common carrier"),
     ],
 )
 def test_what_is_no_train_is_refused(text, words):
     with pytest.raises(GrueblerError, match=words):
         draw_side_view(Chain.parse(text))
+
+
+def test_bearings_of_one_axis_are_drawn_as_one():
+    """Central wheels and carrier in bearings of their own: the distances of the wheels make these coaxial."""
+    for id, together in (
+        ("diff", "R(frame-sun1-sun2-carrier) R(carrier-planet) G(sun1-planet) G(sun2-planet)"),
+        ("diff2p", "R(frame-sun1-sun2-carrier) R(carrier-planet1) R(carrier-planet2) G(sun1-planet1) G(sun2-planet1) "
+         "G(sun1-planet2) G(sun2-planet2)"),
+    ):  # fmt: skip
+        apart = draw_side_view(Mechanism(entries()[id].chain(), "frame"))
+        assert len(lines(apart, "pitch")) == 1 + together.count("(carrier-")
+        assert len(lines(apart, "edge")) == 4 * together.count("G(") + 1
+        expected = draw_side_view(Mechanism(Chain.parse(together), "frame"))
+        assert sorted(map(str, lines(apart, "edge"))) == sorted(map(str, lines(expected, "edge")))
+    swapped = draw_side_view(Chain.parse("R(0-1) R(0-2) R(2-3) R(0-4) G(1-3) G(3-4)"))
+    assert len(lines(swapped, "pitch")) == 2
 
 
 def test_commands(tmp_path, capsys):

@@ -59,7 +59,8 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "train",
         metavar="TRAIN|FILE|search",
-        help="a text, a file of statements (.txt) or a table (.toml); search: tooth numbers for --ratio",
+        help="a text, a file of statements (.txt), a table (.toml) or a machine of the catalog, also in place of the "
+        "wheels of a text; search: tooth numbers for --ratio",
     )
     parser.add_argument(
         "--ratio", metavar="I", help="search: speed of the driving shaft divided by that of the driven one"
@@ -153,6 +154,8 @@ def _picture(arguments: argparse.Namespace, reading: TrainReading) -> None:
 
 def _read(word: str) -> TrainReading:
     path = Path(word)
+    if (known := _of_the_catalog(word)) is not None:
+        return known
     if "\n" in word or ";" in word or ":" in word or path.suffix not in (".toml", ".txt"):
         return read_train(word)
     try:
@@ -160,6 +163,19 @@ def _read(word: str) -> TrainReading:
     except (OSError, UnicodeDecodeError) as error:
         raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
+
+
+def _of_the_catalog(word: str) -> TrainReading | None:
+    """The train of a machine of the catalog, named in place of its wheels; None where the word begins otherwise."""
+    from gruebler.catalog import entries, entry
+
+    first, _, others = word.partition(";")
+    if first.strip() not in entries():
+        return None
+    from gruebler.linkages import train_of
+
+    meshes = "; ".join(str(mesh) for mesh in train_of(entry(first.strip()).linkage()).meshes)
+    return read_train(f"{meshes}; {others}" if others.strip() else meshes)
 
 
 def _driver(reading: TrainReading) -> str | None:

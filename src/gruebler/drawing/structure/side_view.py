@@ -7,11 +7,12 @@ from axis to axis. Rules: docs/theory/drawing.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import combinations
+from collections.abc import Callable, Mapping, Sequence
+from itertools import combinations, product
 from typing import NamedTuple
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Space
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.structure.messages import describe, title
@@ -43,8 +44,9 @@ def draw_side_view(structure: Chain | Mechanism, *, lang: str = "en", name: str 
     """A gear train from the side; tooth numbers, external or internal meshing are not part of it.
 
     Args:
-        structure: a chain of turning joints without a loop, the axes, and of gear joints, whose links lie on axes that
-            one further link, the carrier, has in common; of a mechanism the frame is hatched.
+        structure: a planar chain of turning joints without a loop, the axes, and of gear joints, whose links lie on
+            axes that one further link, the carrier, has in common. Where two links hold the axes, the joint between
+            them must be coaxial with one, and is drawn so. Of a mechanism the frame is hatched.
         lang: language of title and description, ``en`` or ``de``.
         name: the title.
 
@@ -54,7 +56,8 @@ def draw_side_view(structure: Chain | Mechanism, *, lang: str = "en", name: str 
     'Kinematic chain'
     """
     chain = chain_of(structure)
-    axes = _axes(chain)
+    frame = structure.frame if isinstance(structure, Mechanism) else None
+    axes = _axes(chain, frame)
     columns = [_wheels(chain, axes, joint.links) for joint in chain.joints if not joint.pair.is_revolute]
     for link in chain.links:
         own = [k for k, axis in enumerate(axes) if link in axis]
@@ -63,18 +66,48 @@ def draw_side_view(structure: Chain | Mechanism, *, lang: str = "en", name: str 
     height = _places(len(axes), lambda places: _spread(columns, places))
     along = _places(len(columns), lambda places: _shaft_length(columns, places))
     columns = [columns[k] for k in sorted(range(len(columns)), key=along.__getitem__)]
-    frame = structure.frame if isinstance(structure, Mechanism) else None
     shapes = _painted(axes, columns, height, frame)
     return figure_of(shapes, title(structure, lang, name), describe(structure, lang), margin=16.0)
 
 
-def _axes(chain: Chain) -> list[tuple[str, ...]]:
+def _axes(chain: Chain, frame: str | None) -> list[tuple[str, ...]]:
     axes = [joint.links for joint in chain.joints if joint.pair.is_revolute]
     gears = [joint for joint in chain.joints if not joint.pair.is_revolute]
     tree = sum(len(axis) - 1 for axis in axes) == chain.n - 1
-    if not tree or not all(joint.pair.name == "roll_slide" and joint.count == 1 for joint in gears):
-        raise GrueblerError("a side view shows gear trains: turning joints without a loop, and gear joints (G)")
+    wheels = all(joint.pair.is_roll_slide and joint.count == 1 for joint in gears)
+    if not tree or not wheels or chain.space is not Space.PLANAR:
+        raise GrueblerError("a side view shows planar gear trains: turning joints without a loop, and gear joints (G)")
+    central = {link: (link == frame, joints) for link, joints in chain.degrees.items()}
+    for joint in gears:
+        axes = _coaxial(axes, joint.links, central)
     return axes
+
+
+def _coaxial(
+    axes: list[tuple[str, ...]], gears: Sequence[str], central: Mapping[str, tuple[bool, int]]
+) -> list[tuple[str, ...]]:
+    """The axes, those of two meshing wheels on different links with the bearing of these links on one of them.
+
+    Both wheels keep their distance while the two links turn against each other only if that bearing is on one of the
+    axes: on that of the wheel which the frame holds, else the link with more joints.
+    """
+    a, b = gears
+    bearings = []
+    for first, second in product(*([axis for axis in axes if wheel in axis] for wheel in (a, b))):
+        holders = [(f, c) for f in first for c in second if {f, c}.isdisjoint(gears)]
+        if any(f == c for f, c in holders):
+            return axes
+        bearings += [
+            (first if central[f] >= central[c] else second, bearing)
+            for f, c in holders
+            for bearing in axes
+            if bearing not in (first, second) and f in bearing and c in bearing
+        ]
+    if not bearings:
+        return axes
+    kept, bearing = bearings[0]
+    merged = tuple(dict.fromkeys(kept + bearing))
+    return [merged if axis == kept else axis for axis in axes if axis != bearing]
 
 
 def _wheels(chain: Chain, axes: Sequence[tuple[str, ...]], links: Sequence[str]) -> _Column:
