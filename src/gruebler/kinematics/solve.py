@@ -250,8 +250,6 @@ def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:
 def _extended(
     plan: Plan, drives: Reals, parts: tuple[Dyad | HigherGroup, ...], labels: tuple[str, ...]
 ) -> Iterator[tuple[str, ...]]:
-    pass
-
     if len(labels) == len(parts):
         if len(move(plan, drives.reshape(1, -1), branch=labels)):
             yield labels

@@ -28,9 +28,9 @@ __all__ = ["PROBLEMS", "Problem", "Solutions", "load_generic_solutions", "parame
 
 
 QUICK, CAREFUL = 1e-3, 1e-6
+"""How far the corrector may change a prediction: at first, and when paths are followed again."""
 _ASIDE = 1e-7  # from where a solution is looked for again; a task has the size 1, dyads may be a millionth apart
 _REGULAR = 1e-8  # the last relative step of Newton's method at a regular solution; far out rounding leaves so much
-"""How far the corrector may change a prediction: at first, and when paths are followed again."""
 _BENDS = (0.02, 0.1, 0.4)
 """How far bent ways lead aside, relative to the task; the last is for all solutions, not only those that were lost."""
 _FEW = 0.05  # where more than this part of the paths is lost, the task itself is special, not the way to it
