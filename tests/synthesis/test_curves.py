@@ -202,6 +202,20 @@ def test_the_atlas_of_a_structure_against_the_solver_of_motion(text):
         )
 
 
+def test_a_structure_has_the_numbers_of_its_own_writing():
+    """The same mechanism with its joints written in another order is asked second."""
+    joints, rest = SIX_BARS[1].split("; ", 1)
+    texts = (SIX_BARS[1], f"{' '.join(reversed(joints.split()))}; {rest}")
+    one, other = (Mechanism.parse(text) for text in texts)
+    assert one == other
+    for mechanism in (one, other):
+        structure = dyad_structure(mechanism)
+        named = mechanism.chain.joint_names()
+        assert named[structure.pivot] == "R(0-1)"
+        assert {named[dyad.inner] for dyad in structure.dyads} == {"R(2-3)", "R(4-5)"}
+        assert structure_atlas(structure).structure.written_form == mechanism.written_form
+
+
 def test_no_atlas_of_structures_with_slides_or_larger_groups():
     slide = Mechanism.parse("R(0-1) R(1-2) R(2-3) P(0-3); frame=0; drive=R(0-1)")
     triad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive=R(5-0)")

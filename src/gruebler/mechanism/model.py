@@ -199,6 +199,19 @@ class Mechanism:
         """
         return code(self.chain, frame=self.frame, drives=[_mark(self.chain, drive) for drive in self.drives])
 
+    @property
+    def written_form(self) -> tuple[object, ...]:
+        """What it is as it was written: space, links, joints, frame, drives, in this order.
+
+        Equality leaves out the order in which links and joints are written; numbers of joints, columns of arrays and
+        the sense of a drive between moving links depend on it. What is kept by them is kept by this.
+
+        >>> one, other = (Mechanism.parse(f"R(0-1) {j} R(2-0); drive={j}") for j in ("R(1-2)", "R(2-1)"))
+        >>> one == other, one.written_form == other.written_form
+        (True, False)
+        """
+        return self.chain.space, self.chain.links, self.chain.joints, self.frame, self.drives
+
     def _repr_svg_(self) -> str | None:
         """The structure picture, for notebooks."""
         return notebook.svg_of(self) if notebook.svg_of else None

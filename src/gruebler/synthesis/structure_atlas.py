@@ -6,6 +6,7 @@ docs/theory/synthesis-any.md.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
 
@@ -35,10 +36,13 @@ class _Dyad(NamedTuple):
     base: tuple[str, str]
 
 
-class DyadStructure(NamedTuple):
+@dataclass(frozen=True, kw_only=True)
+class DyadStructure:
     """The solving order of a mechanism of a crank and RRR dyads."""
 
     mechanism: Mechanism
+    written_form: tuple[object, ...]
+    """Of the mechanism: the numbers of joints hold for it only."""
     pivot: int
     """The driven joint."""
     crank: str
@@ -53,7 +57,6 @@ class DyadStructure(NamedTuple):
         return tuple(link for link in chain.links if link not in held)
 
 
-@cache
 def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
     """The solving order, if the mechanism is a crank at the frame and dyads of simple turning joints; None else."""
     chain, frame = mechanism.chain, mechanism.frame
@@ -78,7 +81,14 @@ def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
             outer.append(joint)
             base.append(next(other for other in chain.joints[joint].links if other != link))
         dyads.append(_Dyad(links, (outer[0], outer[1]), group.inner[0], (base[0], base[1])))
-    return DyadStructure(mechanism, pivot, crank, tuple(dyads), len(chain.joints))
+    return DyadStructure(
+        mechanism=mechanism,
+        written_form=mechanism.written_form,
+        pivot=pivot,
+        crank=crank,
+        dyads=tuple(dyads),
+        joints=len(chain.joints),
+    )
 
 
 def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> dict[str, tuple[Complexes, Complexes]]:
