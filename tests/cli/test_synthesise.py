@@ -1,6 +1,7 @@
 """The command synthesise, as a user calls it."""
 
 import json
+from dataclasses import astuple
 
 import numpy as np
 import pytest
@@ -314,7 +315,7 @@ def test_processes_fit_the_same_designs(five, tmp_path, capsys):
     linkages = [read_linkage(path) for path in files]
     assert linkages[0].mechanism == linkages[1].mechanism
     for key, element in linkages[0].elements.items():
-        assert tuple(element) == pytest.approx(tuple(linkages[1].elements[key]), rel=1e-6, abs=1e-9)
+        assert astuple(element) == pytest.approx(astuple(linkages[1].elements[key]), rel=1e-6, abs=1e-9)
 
 
 def test_a_task_of_another_kind_names_its_command(five, capsys):

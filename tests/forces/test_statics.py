@@ -99,7 +99,8 @@ def test_two_force_members_and_a_joint_of_three_links():
     held = statics(motion, Loads({"R(2-4)": (0, -50), "R(3-5)": (0, -20)}))
     pin = sum(held.force("R(1-2-3)", link) for link in "123")
     assert np.abs(pin).max() < 1e-12
-    rod = motion.point("R(2-4)") - motion.point(LinkPoint("2", *FORKED.element("R(1-2-3)", "2")))
+    foot = FORKED.element("R(1-2-3)", "2")
+    rod = motion.point("R(2-4)") - motion.point(LinkPoint("2", foot.x, foot.y))
     pull = held.force("R(1-2-3)", "2")
     assert np.abs(rod[:, 0] * pull[:, 1] - rod[:, 1] * pull[:, 0]).max() < 1e-10
     assert held.disagreement < 1e-12

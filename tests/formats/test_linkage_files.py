@@ -16,6 +16,7 @@ from gruebler.formats.angles import in_degrees, in_radians
 from gruebler.formats.linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage, write_linkage
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage
+from gruebler.linkages.elements import direction
 from gruebler.mechanism import Mechanism
 from gruebler.text import error_in_language
 
@@ -146,7 +147,7 @@ def test_doors_on_other_names_lie_as_the_closed_form_says(door, lengths, text, b
         for link in linkage.mechanism.chain.joints[linkage.mechanism.chain.find_joint(joint)].links:
             element = linkage.element(joint, link)
             x, y = named[link].put(element.x, element.y)
-            seen.append((x, y, named[link].angle + (element[2] if len(element) > 2 else 0)))
+            seen.append((x, y, named[link].angle + direction(element)))
         (x, y, angle), (u, v, other) = seen
         if joint.startswith("R"):
             assert math.hypot(x - u, y - v) < 1e-12 * 100
@@ -364,13 +365,14 @@ def test_a_turned_drawing_is_written_without_rounding(turn, shift, scale):
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)")
     linkage = Linkage.from_drawing(mechanism, {k: (p.real, p.imag) for k, p in enumerate(pins)})
     for link in ("1", "2", "3"):
-        rows = sorted(linkage.elements[number, link] for number in range(4) if (number, link) in linkage.elements)
+        pins_of_link = [e for (_, owner), e in linkage.elements.items() if owner == link]
+        rows = sorted((e.x, e.y) for e in pins_of_link)
         assert [y for _, y in rows] == [0.0, 0.0]
         assert rows[0][0] == 0.0
         assert rows[1][0] == pytest.approx(abs(pins[int(link)] - pins[int(link) - 1]), rel=1e-12)
     assert not re.search(r"-0\.0\b", linkage_to_toml(linkage))
-    for (number, link), (x, y) in linkage.elements.items():
-        assert linkage.required_pose[link].put(x, y) == pytest.approx(
+    for (number, link), pin in linkage.elements.items():
+        assert linkage.required_pose[link].put(pin.x, pin.y) == pytest.approx(
             (pins[number].real, pins[number].imag), abs=1e-13 * (abs(shift) + 10 * scale)
         )
 

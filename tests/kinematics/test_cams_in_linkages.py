@@ -1,5 +1,6 @@
 """Cams and Geneva drives as joints of linkages, against the lift, against Geneva drives by formula, by the circuit."""
 
+from dataclasses import replace
 from math import degrees as in_degrees
 from math import hypot, pi, sqrt
 
@@ -136,7 +137,7 @@ def test_refusals(make, said):
 def _with_roller(radius):
     elements = roller_follower()._by_link()
     elements["roller"] = {
-        joint: e._replace(radius=radius) if isinstance(e, Circle) else e for joint, e in elements["roller"].items()
+        joint: replace(e, radius=radius) if isinstance(e, Circle) else e for joint, e in elements["roller"].items()
     }
     return elements
 

@@ -1,5 +1,6 @@
 """Non-circular wheels as joints of linkages: against the closed form of ellipses, and against curves that roll."""
 
+from dataclasses import replace
 from math import pi, radians, tan
 
 import numpy as np
@@ -38,8 +39,8 @@ def pair(transfer, teeth=(0, 0), apart=100.0, turned=0.0, joint="G", start=0.0):
     centre = apart * np.exp(1j * turned)
     there = turned + pi - float(transfer_of(first, second).at(start)) if start else turned + pi
     touch = {
-        "a": first._replace(angle=turned + start),
-        "b": second._replace(x=centre.real, y=centre.imag, angle=there),
+        "a": replace(first, angle=turned + start),
+        "b": replace(second, x=centre.real, y=centre.imag, angle=there),
     }
     return Linkage.from_drawing(
         mechanism, {"R(0-a)": (0, 0), "R(0-b)": (centre.real, centre.imag), f"{joint}(a-b)": touch}
@@ -221,7 +222,7 @@ def test_the_catalog_machine_and_its_picture():
 def with_second(element=None, **changed):
     linkage = pair("ellipse 0.5")
     elements = linkage._by_link()
-    elements["b"][2] = element or elements["b"][2]._replace(angle=elements["b"][2].angle + changed["angle"] - pi)
+    elements["b"][2] = element or replace(elements["b"][2], angle=elements["b"][2].angle + changed["angle"] - pi)
     return linkage._changed(elements=elements)
 
 

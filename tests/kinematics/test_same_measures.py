@@ -11,6 +11,7 @@ import os
 import re
 from cmath import phase, rect
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -44,8 +45,8 @@ def in_other_coordinates(linkage: Linkage, angle: float, shift: complex) -> Link
     def element(link: str, e: Element) -> Element:
         z = complex(e.x, e.y) * turn + shift_of(linkage, link, shift)
         if isinstance(e, Pin | Wheel | Circle):
-            return e._replace(x=z.real, y=z.imag)
-        return e._replace(x=z.real, y=z.imag, angle=e.angle + angle)
+            return replace(e, x=z.real, y=z.imag)
+        return replace(e, x=z.real, y=z.imag, angle=e.angle + angle)
 
     def pose(link: str, p: Pose2D) -> tuple[float, float, float]:
         z = complex(p.x, p.y) * turn + shift_of(linkage, linkage.mechanism.frame, shift)
@@ -65,12 +66,12 @@ def mirrored(linkage: Linkage) -> Linkage:
 
     def element(_: str, e: Element) -> Element:
         if isinstance(e, Pin | Wheel | Circle):
-            return e._replace(y=-e.y)
+            return replace(e, y=-e.y)
         if not isinstance(e, CamDisc):
-            return e._replace(y=-e.y, angle=-e.angle)
+            return replace(e, y=-e.y, angle=-e.angle)
         # Offset and pivot change sides by a reflection in the y axis: that in the x axis, turned by 180 degrees.
         lift = reversed_lift(e.lift)
-        return e._replace(y=-e.y, angle=math.pi - e.angle, lift=lift, offset=-e.offset, distance=-e.distance)
+        return replace(e, y=-e.y, angle=math.pi - e.angle, lift=lift, offset=-e.offset, distance=-e.distance)
 
     return rebuilt(linkage, element, lambda _, p: (p.x, -p.y, -p.angle))
 

@@ -1,5 +1,6 @@
 """Swinging followers as joints of linkages: against the lift, and against the contact of the profile as it is cut."""
 
+from dataclasses import asdict
 from math import copysign, pi, radians
 
 import numpy as np
@@ -138,7 +139,7 @@ def test_what_does_not_fit_is_said(disc, words):
     linkage = roller_rocker() if not disc.get("flat") else face_rocker()
     elements = linkage._by_link()
     number = len(linkage.mechanism.chain.joints) - 1
-    fields = elements["cam"][number]._asdict() | {"arm": 0.0, "distance": 0.0, "face": 0.0} | disc
+    fields = asdict(elements["cam"][number]) | {"arm": 0.0, "distance": 0.0, "face": 0.0} | disc
     elements["cam"][number] = CamDisc(**fields)
     with pytest.raises(LinkageError, match=words):
         move(Linkage(linkage.mechanism, elements, reference_pose=linkage.reference_pose), [0.0])

@@ -99,7 +99,7 @@ def test_four_bars_are_crank_rockers_or_double_cranks(seed):
 
 def test_sizes_are_sensible():
     found = realise(Mechanism.parse(TURNING[6]), budget=400)
-    numbers = [v for e in found.linkage.elements.values() for v in e[:2]]
+    numbers = [v for e in found.linkage.elements.values() for v in (e.x, e.y)]
     assert all(abs(v) < 150 and round(v, 3) == v for v in numbers)
     assert found.linkage.size == pytest.approx(100, rel=0.05)
     angles = [np.degrees(e.angle) for e in found.linkage.elements.values() if isinstance(e, Line)]

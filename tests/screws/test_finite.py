@@ -1,5 +1,6 @@
 """What moves only for an instant is told from what moves; ways that meet are counted."""
 
+from dataclasses import astuple
 from math import cos, inf, pi, sin
 from types import SimpleNamespace
 
@@ -142,7 +143,7 @@ def test_a_linkage_with_redundant_cranks_and_sizes_alone():
     for at in (None, 0.2, 2.0, -1.0):
         found = freedoms(drawn, at=at)
         assert (found.instant.mobility, found.mobility, found.instant.rank) == (1, 1, 11)
-    elements = {link: {n: tuple(e) for (n, owner), e in drawn.elements.items() if owner == link} for link in "0123p"}
+    elements = {link: {n: astuple(e) for (n, owner), e in drawn.elements.items() if owner == link} for link in "0123p"}
     homeless = Linkage(drawn.mechanism, elements)
     assert freedoms(homeless).mobility == 1
     elements["3"][5] = (1.01, 0.0)  # the third crank 1 % longer, its pin on the rod spaced like the axles

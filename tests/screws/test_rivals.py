@@ -1,5 +1,6 @@
 """Independent methods: the dimension of the set of positions from samples of it, and circuits along their length."""
 
+from dataclasses import astuple
 from math import cos, sin
 
 import numpy as np
@@ -80,7 +81,7 @@ def test_circuits_of_cranks():
     assert freedoms(moving).mobility == 1
     assert circuit(moving).closed
     home = {name: tuple(place) for name, place in moving.reference_pose.items()}
-    elements = {link: {n: tuple(e) for (n, owner), e in moving.elements.items() if owner == link} for link in "0123p"}
+    elements = {link: {n: astuple(e) for (n, owner), e in moving.elements.items() if owner == link} for link in "0123p"}
     foot, head = elements["0"][2], elements["3"][5]
     stretched = 1.01 * head[0]  # the crank 1 % longer, its axle so far back that it lies parallel to the others
     elements["3"][5] = (stretched, 0.0)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,17 @@ from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.angles import in_degrees
 from gruebler.formats.linkage_records import Dimensions, linkage_from_record
 from gruebler.linkages.conversion import LinkageLike, as_linkage
-from gruebler.linkages.elements import CamDisc, Circle, Element, GenevaDriver, GenevaWheel, NonCircular, Pose2D, Wheel
+from gruebler.linkages.elements import (
+    CamDisc,
+    Circle,
+    Element,
+    GenevaDriver,
+    GenevaWheel,
+    NonCircular,
+    Pin,
+    Pose2D,
+    Wheel,
+)
 from gruebler.linkages.model import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -144,10 +155,10 @@ def _plain(element: Element | Pose2D) -> Any:
         more = {"teeth": element.teeth, "belt": element.belt}
         return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
     if isinstance(element, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
-        table = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
+        table = {"at": at, **asdict(element), "angle": in_degrees(element.angle)}
         renamed = {{"lift": "cam"}.get(key, key): value for key, value in table.items() if key not in "xy"}
         return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
-    return [*at, *(in_degrees(angle + 0.0) for angle in element[2:])]
+    return at if isinstance(element, Pin) else [*at, in_degrees(element.angle + 0.0)]
 
 
 def linkage_to_toml(linkage: Linkage) -> str:

@@ -136,21 +136,27 @@ class Motions(Brief):
 def designs(linkages: Sequence[Linkage]) -> Designs:
     """Linkages of the same mechanism as designs.
 
-    Raises `LinkageError` if there are none, or if one has another mechanism than the first.
+    They share one plan. Raises `LinkageError` if there are none, or if one has another mechanism than the first, joints
+    in another order, or pins and slots exchanged.
     """
     if isinstance(linkages, Linkage):
         raise LinkageError("expected a list of linkages; one alone is moved by `move`")
     if not linkages:
         raise LinkageError("expected at least one design")
-    for number, linkage in enumerate(linkages):
+    lower = [with_lower_pairs(linkage) for linkage in linkages]
+    for number, (linkage, blocks) in enumerate(zip(linkages, lower, strict=True)):
         if linkage.mechanism != linkages[0].mechanism:
             raise LinkageError("design {number} has another mechanism than the first", number=number)
+        if blocks.mechanism.written_form != lower[0].mechanism.written_form:
+            raise LinkageError(
+                "design {number} has its joints in another order, or pins and slots exchanged against the first",
+                number=number,
+            )
     plan = cached_plan(linkages[0])
     if plan.wheels and len(linkages) > 1:
         raise LinkageError("linkages with wheels are moved one by one, by move")
     if plan.released:
         raise LinkageError("overconstrained linkages are moved one by one, by move")
-    lower = [with_lower_pairs(linkage) for linkage in linkages]
     arrays = [plan.element_arrays(linkage) for linkage in lower]
     points, lines = (np.array([pair[k] for pair in arrays]) for k in (0, 1))
     return Designs(plan, points, lines, np.array([linkage.size for linkage in lower]), tuple(linkages).__getitem__)

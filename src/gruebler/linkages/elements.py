@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from math import cos, hypot, isfinite, sin
 from typing import NamedTuple
 
@@ -31,14 +32,16 @@ __all__ = [
 ]
 
 
-class Pin(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Pin:
     """The axis of a turning joint: a point of the link."""
 
     x: float
     y: float
 
 
-class Line(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Line:
     """A slide: a line of the link through a point; ways are counted from the point, in the direction of the angle."""
 
     x: float
@@ -46,7 +49,8 @@ class Line(NamedTuple):
     angle: float
 
 
-class Wheel(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Wheel:
     """A wheel that rolls without slip, on another one or along a line; ``x, y`` is its centre.
 
     A negative radius is internal toothing. Tooth numbers, with the sign of the radius, make the ratio exact; a wheel of
@@ -60,7 +64,8 @@ class Wheel(NamedTuple):
     belt: str = ""
 
 
-class Circle(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Circle:
     """A smooth circle, on which a contact may slide: an eccentric disc, a roller; a negative radius is a hole."""
 
     x: float
@@ -68,7 +73,8 @@ class Circle(NamedTuple):
     radius: float
 
 
-class CamDisc(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class CamDisc:
     """A disc cam, by the lift that it gives a follower (`gruebler.cams`): a roller, or a flat face across its motion.
 
     ``x, y`` is the axis; the cam's own frame is turned by the angle; lengths, those of the lift too, are multiplied by
@@ -91,7 +97,8 @@ class CamDisc(NamedTuple):
     face: float = 0.0
 
 
-class GenevaDriver(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class GenevaDriver:
     """The driver of a Geneva drive: its axis, the direction of a pin, the number of pins."""
 
     x: float
@@ -100,7 +107,8 @@ class GenevaDriver(NamedTuple):
     pins: int = 1
 
 
-class GenevaWheel(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class GenevaWheel:
     """The slotted wheel of a Geneva drive: its axis, the direction of a slot, the number of slots."""
 
     x: float
@@ -110,7 +118,8 @@ class GenevaWheel(NamedTuple):
     internal: bool = False
 
 
-class NonCircular(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class NonCircular:
     """A wheel whose curve rolls without slip on that of another one, about fixed centres, in the opposite sense.
 
     ``x, y`` is the axis; the angle that of a direction of the wheel. The turns of both wheels are counted from the
@@ -237,10 +246,12 @@ def read_element(raw: object, where: str | Message) -> Element:
             raise LinkageError(
                 "{where}: teeth: expected a positive number, but found {teeth}", where=where, teeth=raw.teeth
             )
-        x, y, angle = (_number(value, where) for value in raw[:3])
-        return raw._replace(x=x, y=y, angle=angle)
-    if isinstance(raw, Pin | Line):
-        numbers: tuple[object, ...] = tuple(raw)
+        x, y, angle = (_number(value, where) for value in (raw.x, raw.y, raw.angle))
+        return replace(raw, x=x, y=y, angle=angle)
+    if isinstance(raw, Pin):
+        numbers: tuple[object, ...] = (raw.x, raw.y)
+    elif isinstance(raw, Line):
+        numbers = (raw.x, raw.y, raw.angle)
     elif isinstance(raw, list | tuple):
         numbers = tuple(raw)
     else:
@@ -252,7 +263,7 @@ def read_element(raw: object, where: str | Message) -> Element:
 
 
 def _round(raw: RoundElement, where: str | Message) -> RoundElement:
-    x, y, radius = (_number(value, where) for value in raw[:3])
+    x, y, radius = (_number(value, where) for value in (raw.x, raw.y, raw.radius))
     if not abs(radius) > 1e-100 and not (isinstance(raw, Wheel) and radius == 0 and raw.teeth):
         raise LinkageError(
             "{where}: a radius is positive, or negative for internal toothing, not {radius!r}",

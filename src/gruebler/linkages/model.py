@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from functools import cached_property
 from math import atan2, cos, hypot, isfinite, pi, sin
 from sys import float_info
@@ -42,7 +43,8 @@ class Linkage:
 
     Every link has coordinates of its own; those of the frame are the coordinates of the plane. The drive value of a
     turning joint is the angle of the second link's x axis against the first's, that of a slide the distance from the
-    first line's point to the second's; "first" is the frame, or the link named first in the joint.
+    first line's point to the second's; "first" is the frame, or the link named first in the joint. Two linkages are
+    equal if they are written alike, since the sense of a drive and the columns of a motion depend on the order.
 
     Args:
         mechanism: a planar mechanism.
@@ -136,7 +138,7 @@ class Linkage:
             pins = [(n, e) for (n, owner), e in elements.items() if owner == link and isinstance(e, Pin)]
             for k, (n, pin) in enumerate(pins):
                 for m, other in pins[:k]:
-                    size = max(hypot(*pin), hypot(*other), 1e-300)
+                    size = max(hypot(pin.x, pin.y), hypot(other.x, other.y), 1e-300)
                     if hypot(pin.x - other.x, pin.y - other.y) <= 1e-12 * size or pin == other:
                         raise LinkageError(
                             "on {link!r} the points of {joint} and {other} coincide: a link needs a length "
@@ -217,7 +219,8 @@ class Linkage:
                 known=", ".join(known),
             )
         links = sorted(chain.joints[number].links, key=lambda link: link != self.mechanism.frame)
-        return tuple(LinkPoint(link, *self.elements[number, link][:2]) for link in links)
+        placed = ((link, self.elements[number, link]) for link in links)
+        return tuple(LinkPoint(link, element.x, element.y) for link, element in placed)
 
     @cached_property
     def size(self) -> float:
@@ -245,9 +248,9 @@ class Linkage:
         return self._changed(outputs=outputs)
 
     def with_mechanism(self, mechanism: Mechanism) -> Linkage:
-        """The same sizes with other drives; the mechanism must have the same chain and frame."""
-        if mechanism.chain != self.mechanism.chain or mechanism.frame != self.mechanism.frame:
-            raise LinkageError("the same sizes need the same chain and the same frame")
+        """The same sizes with other drives; the mechanism must have the same chain, written alike, and frame."""
+        if mechanism.written_form[:-1] != self.mechanism.written_form[:-1]:
+            raise LinkageError("the same sizes need the same chain, joints in the same order, and the same frame")
         return self._changed(mechanism=mechanism)
 
     def with_frame(self, frame: str, drive: str) -> Linkage:
@@ -302,10 +305,10 @@ class Linkage:
 
         def element(e: Element) -> Element:
             if isinstance(e, RoundElement):
-                return e._replace(x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
+                return replace(e, x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
             if isinstance(e, CamDisc):
-                return e._replace(x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
-            return e._replace(x=e.x * factor, y=e.y * factor)
+                return replace(e, x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
+            return replace(e, x=e.x * factor, y=e.y * factor)
 
         return self._changed(
             elements=self._by_link(element),
@@ -323,7 +326,7 @@ class Linkage:
                 raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
             if isinstance(e, NonCircular) and e.transfer != INVERSE and not e.transfer.lstrip().startswith("ellipse"):
                 raise LinkageError("the mirror image of a non-circular wheel is another one: reverse its lift")
-            return e._replace(y=-e.y) if isinstance(e, Pin | RoundElement) else e._replace(y=-e.y, angle=-e.angle)
+            return replace(e, y=-e.y) if isinstance(e, Pin | RoundElement) else replace(e, y=-e.y, angle=-e.angle)
 
         return self._changed(
             elements=self._by_link(element),
@@ -355,16 +358,22 @@ class Linkage:
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a linkage does not change; build another one instead of setting {name!r}")
 
+    @cached_property
     def _key(self) -> tuple[object, ...]:
         reference = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
         points = tuple(sorted(self.points.items()))
-        return self.mechanism, tuple(sorted(self.elements.items())), points, self.unit, reference, self.outputs
+        elements = tuple(sorted(self.elements.items()))
+        return self.mechanism.written_form, elements, points, self.unit, reference, self.outputs
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash(self._key)
 
     def __eq__(self, other: object) -> bool:
-        return self._key() == other._key() if isinstance(other, Linkage) else NotImplemented
+        return self._key == other._key if isinstance(other, Linkage) else NotImplemented
 
     def __hash__(self) -> int:
-        return hash(self._key())
+        return self._hash
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
@@ -413,7 +422,7 @@ def _checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, f
         line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), message("reference pose, {link}", link=link))
         if not isinstance(line, Line):
             raise LinkageError("reference pose, {link}: expected x, y and an angle", link=link)
-        poses[link] = Pose2D(*line)
+        poses[link] = Pose2D(line.x, line.y, line.angle)
     for link in poses_given:
         _link(mechanism, link, message("reference pose"))
     if any(abs(v) > 1e-12 for v in (*poses[mechanism.frame][:2], poses[mechanism.frame].angle % (2 * pi))):
@@ -435,9 +444,9 @@ def _from_drawing(
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
         x, y = _seen_from(reference_pose[link], element.x, element.y)
-        seen_there = element._replace(x=x, y=y)
+        seen_there = replace(element, x=x, y=y)
         if not isinstance(seen_there, Pin | RoundElement):
-            seen_there = seen_there._replace(angle=seen_there.angle - reference_pose[link].angle)
+            seen_there = replace(seen_there, angle=seen_there.angle - reference_pose[link].angle)
         elements[link][number] = seen_there
     seen = {}
     for name, (link, x, y) in points.items():

@@ -7,6 +7,7 @@ line)`` stays what it is. docs/theory/wheels.md.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from math import atan2, floor, hypot, log2
 from typing import NamedTuple, Protocol
@@ -153,7 +154,7 @@ def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, 
                 joint=mechanism.chain.joint_title(number),
             )
         for link, wheel in zip(links, wheels, strict=True):
-            resolved[number, link] = wheel._replace(radius=held[number].distance * wheel.teeth / abs(teeth))
+            resolved[number, link] = replace(wheel, radius=held[number].distance * wheel.teeth / abs(teeth))
     return resolved
 
 

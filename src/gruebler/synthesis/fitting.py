@@ -13,6 +13,7 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
+from gruebler.linkages.elements import Line
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.closure import DesignClosure, PoseDerivatives
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
@@ -313,7 +314,8 @@ def _units(closure: DesignClosure, targets: FitTargets, state: FitState, size: f
     """What counts as one of each number that is changed: a length of the order of the task, or a radian."""
     units = np.full(len(state.p) + len(state.free), size)
     for key, at in closure.start.items():
-        units[at + 2 : at + len(closure.linkage.elements[key])] = 1.0
+        if isinstance(closure.linkage.elements[key], Line):
+            units[at + 2] = 1.0
     constants = len(state.p) + (2 if targets.z is not None else 0)
     units[constants:] = 1.0
     if targets.travel:

@@ -69,7 +69,8 @@ def _pins_at_pairs(design: Design) -> dict[str, Complexes]:
         own = (n for n, joint in enumerate(chain.joints) if link in joint.links and frame not in joint.links)
         number = next(own, None)
         if number is not None and link is not None and motion.complete:
-            marks[prime] = motion.complex_point(LinkPoint(link, *linkage.elements[number, link][:2]))
+            pin = linkage.elements[number, link]
+            marks[prime] = motion.complex_point(LinkPoint(link, pin.x, pin.y))
     return marks
 
 

@@ -36,7 +36,7 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
     if reference_pose is None or any(not joint.pair.is_revolute for joint in chain.joints[:3]):
         return None
     places = [
-        complex(*reference_pose[link].put(*linkage.elements[number, link][:2]))
+        complex(*reference_pose[link].put(linkage.elements[number, link].x, linkage.elements[number, link].y))
         for number, link in ((0, "frame"), (0, "crank"), (1, "crank"), (2, "coupler"), (3, "frame"))
     ]
     pivot, pin, far, other = places[0], places[2], places[3], places[4]

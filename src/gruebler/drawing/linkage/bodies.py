@@ -125,7 +125,7 @@ def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
 def pins_of(lower: Linkage, link: str) -> list[complex]:
     """The pins of a link, in its coordinates."""
     elements = [e for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)]
-    return [complex(*e) for e in elements]
+    return [complex(e.x, e.y) for e in elements]
 
 
 def _foot(lower: Linkage, link: str, line: Line) -> complex:
@@ -350,7 +350,8 @@ def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
         if not joint.pair.is_revolute:
             continue
         link = min(joint.links, key=lambda member: member != lower.mechanism.frame)
-        marked |= {(member, *lower.elements[number, member][:2]) for member in joint.links}
+        seen = ((member, lower.elements[number, member]) for member in joint.links)
+        marked |= {(member, e.x, e.y) for member, e in seen}
         e = lower.elements[number, link]
         members = [JointMember(Point(1.0, 0.0))] * len(joint.links)
         parts.append(BodyPart(PINS, link, joint_sign("revolute", posed.local(complex(e.x, e.y)), members).above))

@@ -291,7 +291,8 @@ def _scale(lower: Linkage, path: Motion) -> float:
     extent = max(float(np.ptp(z.real)), float(np.ptp(z.imag)), 1e-9 * lower.size)
     usual = min(_PIXELS / extent, _WITH_WHEELS / max(_round_extent(lower, path), extent))
     pins = {
-        link: {e for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)} for link in links
+        link: {(e.x, e.y) for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)}
+        for link in links
     }
     pins.pop(lower.mechanism.frame)
     sides = [math.dist(a, b) for link_pins in pins.values() for a, b in combinations(sorted(link_pins), 2)]
