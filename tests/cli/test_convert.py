@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 
 from gruebler.cli import main
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.files import FORMATS, read, write
 from gruebler.fourbar import FourBar
+from gruebler.isomorphism import code
 
 FILES = Path(__file__).parents[1] / "formats" / "files"
 
@@ -36,11 +38,40 @@ def test_the_formats_are_listed(capsys):
         (["a.linkage2", "b.toml"], "cannot be read"),
         (["a.bmp", "b.toml"], "expected .toml"),
         (["a.toml", "b.toml", "--from", "pyslv"], "did you mean 'pyslvs'?"),
+        (["wipper", "b.toml"], "did you mean wiper?"),
+        (["four-bars:1,2,3,4", "b.toml"], "did you mean 'four-bar'?"),
+        (["four-bar:1,2,3", "b.toml"], "expected a,b,c,d"),
     ],
 )
 def test_wrong_usage_is_one_sentence(words, said, capsys):
     assert main(["convert", *words]) == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("word", "lengths"),
+    [("four-bar:25,70,40,70.5", [25, 70, 40, 70.5]), ("25,70,40,70.5", [25, 70, 40, 70.5]), ("wiper", None)],
+)
+def test_lengths_and_entries_are_converted_as_files_are(word, lengths, tmp_path, monkeypatch):
+    """Every command that takes the file of a linkage takes these."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["convert", word, "a.toml"]) == 0
+    linkage = read("a.toml")
+    assert linkage.mechanism.code() == linkage_of_word(word)[0].mechanism.code()
+    if lengths is not None:
+        sides = zip(["crank", "coupler", "rocker", "frame"], [(0, 1), (1, 2), (2, 3), (0, 3)], strict=True)
+        assert [linkage.length(link, *pins) for link, pins in sides] == pytest.approx(lengths)
+    assert main(["convert", word, "a.graphml"]) == 0
+    assert code(read("a.graphml")) == code(linkage.mechanism.chain)
+
+
+def test_a_chain_is_converted_into_a_graph(tmp_path, capsys):
+    path = tmp_path / "a.graphml"
+    for word, links in (("R(0-1) R(1-2) R(2-3) R(3-0)", 4), ("winch_screw", 3)):
+        assert main(["convert", word, str(path)]) == 0
+        assert read(path).n == links
+    assert main(["convert", "R(0-1) R(1-2) R(2-3) R(3-0)", str(tmp_path / "a.mjcf")]) == 2
+    assert "has no dimensions" in capsys.readouterr().err
 
 
 def test_a_file_is_not_written_over_itself(tmp_path, capsys):

@@ -1,15 +1,22 @@
-"""`gruebler convert`: a file in the format of another program."""
+"""`gruebler convert`: a file, a catalog entry or lengths in the format of another program."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from gruebler.cli.inputs import chain_from_word
+from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word
 from gruebler.cli.output import say_left_out, say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError
 from gruebler.text import message
+
+if TYPE_CHECKING:
+    from gruebler.chain import Chain
+    from gruebler.linkages import Linkage
 
 __all__ = ["add", "run"]
 
@@ -21,19 +28,44 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="Read a file in one format and write it in another: linkages of other programs, chains as graphs. "
         "What a format cannot hold is listed on standard error.",
-        epilog="Example: gruebler convert leg.linkage2 leg.toml; gruebler convert chains.g6.gz chains.txt; "
-        "gruebler convert --formats. Exit status: 0, 2 wrong usage or a file that cannot be read.",
+        epilog="Example: gruebler convert leg.linkage2 leg.toml; gruebler convert wiper wiper.dxf; gruebler convert "
+        "four-bar:25,70,40,70 four-bar.mjcf; gruebler convert chains.g6.gz chains.txt; gruebler convert --formats. "
+        "Exit status: 0, 2 wrong usage or a file that cannot be read.",
     )
-    parser.add_argument("source", nargs="?", metavar="IN", help="the file to read")
+    parser.add_argument(
+        "source",
+        nargs="?",
+        metavar="IN",
+        help="the file to read, a catalog entry, lengths such as four-bar:25,70,40,70, or the text of a chain",
+    )
     parser.add_argument("target", nargs="?", metavar="OUT", help="the file to write")
     parser.add_argument("--from", dest="source_format", metavar="FORMAT", help="the format of IN (default: its ending)")
     parser.add_argument("--to", dest="target_format", metavar="FORMAT", help="the format of OUT (default: its ending)")
     parser.add_argument("--formats", action="store_true", help="list the formats, their endings and what they hold")
 
 
+def _is_file(word: str) -> bool:
+    """Whether a word is the name of a file: one that is there, or by its ending or folder."""
+    path = Path(word)
+    if path.is_file() or "(" in word or ":" in word:
+        return path.is_file()
+    return not is_lengths(word) and (path.suffix != "" or len(path.parts) > 1)
+
+
+def _value_of(word: str, lang: str) -> Linkage | Chain:
+    """The linkage of lengths or of a catalog entry with dimensions, else the chain of a text or an entry."""
+    from gruebler.catalog import entry
+    from gruebler.formats.structures import is_structure_text
+
+    lengths = is_lengths(word) or (":" in word and "(" not in word)
+    if is_structure_text(word) or not (lengths or entry(word).dimensions is not None):
+        return chain_from_word(word, lang=lang)
+    return linkage_of_word(word, lang)[0]
+
+
 def run(arguments: argparse.Namespace) -> int:
     """The file written, and what was left out; or the table of formats."""
-    from gruebler.files import FORMATS, convert
+    from gruebler.files import FORMATS, convert, write
 
     lang = arguments.lang
     if arguments.formats:
@@ -44,7 +76,12 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     if arguments.source is None or arguments.target is None:
         raise GrueblerError("name the file to read and the file to write, or --formats for the list of formats")
-    notes = convert(arguments.source, arguments.target, arguments.source_format, arguments.target_format)
+    if arguments.source_format is not None or _is_file(arguments.source):
+        notes = convert(arguments.source, arguments.target, arguments.source_format, arguments.target_format)
+    else:
+        notes = []
+        value = _value_of(arguments.source, lang)
+        write(value, arguments.target, arguments.target_format, left_out=notes)
     say_written(Path(arguments.target), lang)
     say_left_out(notes, lang)
     return 0
