@@ -10,6 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler import files
+from gruebler.analysis import measures
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
 from gruebler.formats.four_bar_rs import drawing_from_ron, ron_from_drawing
@@ -223,7 +224,7 @@ def apart(*places):
 @st.composite
 def linkages(draw, *, slides=True, moving_slots=True):
     """A drawn four-bar, a Jansen-like chain with a multiple joint, slider-cranks, inverted ones, a cylinder."""
-    kinds = ["four-bar", "double"] + ["slider", "slide"] * slides + ["inverted", "cylinder"] * moving_slots
+    kinds = ["four-bar", "double"] + ["slider", "slide", "pushed"] * slides + ["inverted", "cylinder"] * moving_slots
     kind = draw(st.sampled_from(kinds))
     a, b, c, d, e, f = (draw(spot) for _ in range(6))
     assume(apart(a, b, c, d, e, f))
@@ -242,6 +243,9 @@ def linkages(draw, *, slides=True, moving_slots=True):
         case "slide":
             pins += [DrawnJoint("c", *c, ("2", "3")), DrawnJoint("d", *d, ("0", "3"), angle, turns=False)]
             pins += [DrawnJoint("pen", *e, ("3",))]
+        case "pushed":
+            pins = [DrawnJoint("a", *a, ("0", "1"), angle, turns=False), DrawnJoint("b", *b, ("1", "2"))]
+            pins += [DrawnJoint("c", *c, ("2", "3")), DrawnJoint("d", *d, ("0", "3"))]
         case "inverted":
             turn = atan2(b[1] - d[1], b[0] - d[0])
             pins[1:] = [DrawnJoint("b", *b, ("3", "1"), turn), DrawnJoint("d", *d, ("0", "3"))]
@@ -333,6 +337,33 @@ def test_wheels_and_cams_are_refused(tmp_path):
     linkage = Linkage.from_drawing(Mechanism(chain, "0", [0]), {0: (0, 0), 1: (3, 0), 2: wheels})
     with pytest.raises(GrueblerError, match="turning and sliding joints only"):
         files.write(linkage, tmp_path / "a.pyslvs")
+
+
+# --- drives ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("driven", ["A", "M"])
+def test_two_blocks_on_one_rail_are_a_driven_slide(driven):
+    """The gripper of PMKS+ without its redundancy (fixture-urls.md): one block more, the other one driven.
+
+    The rod BG is as long as G and B are apart, the jaw turns about F: the carriage goes as far as B is reached, which is
+    twice √((BG + FG)² - h²) where B runs at the height h below F.
+    """
+    flags = {"A": "5", "M": "5"} | {driven: "7"}
+    body = (
+        f"2v.Ay,1E8.5,0.1011.{flags['A']}A,A,0U5,0,0.{flags['M']}M,M,DZ,0,0.0B,B,0Hj,Fj,0.0C,C,0Hj,0FZ,0.4F,F,0V6,X9,0."
+        "0G,G,A,X9,0.0K,K,_o,GS,0.4H,H,0V6,0X0,0.0I,I,A,0X0,0.0J,J,_d,0Bn,0..YRAMBC,AMBC,Fe,Fe,0C-,2,c5cae9,A,M,B,C,,."
+        "YRBG,BG,Fe,Fe,08o,OR,303e9f,B,G,,.YRCI,CI,Fe,Fe,08o,0OH,0d125a,C,I,,.YRFGK,FGK,Fe,Fe,Ae,Rb,B2DFDB,F,G,K,,."
+        "YRHIJ,HIJ,Fe,Fe,Aa,0Px,26A69A,H,I,J,,...N_"
+    )
+    digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+    left_out = []
+    gripper = linkage_of_drawing(drawing_from_pmks(body + digits[len(body) % 62], left_out), left_out)
+    assert not any("drive" in str(note) for note in left_out)
+    assert gripper.mechanism.drive_names() == ("P(ground-AMBC)",)
+    (b, g, f), h = ((-1.133, 1.005), (0.010, 2.121), (-1.990, 2.121)), 1.116
+    way = 2 * np.sqrt((np.hypot(g[0] - b[0], g[1] - b[1]) + np.hypot(g[0] - f[0], g[1] - f[1])) ** 2 - h**2)
+    assert measures(gripper).span.width == pytest.approx(way, rel=1e-6)
 
 
 # --- files that do not fit ---------------------------------------------------------------------------

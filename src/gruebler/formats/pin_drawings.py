@@ -112,7 +112,8 @@ def linkage_of_drawing(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
         replace(drive, fixed=names.find(drive.fixed), moved=names.find(drive.moved)) for drive in drawing.drives or ()
     ]
     joints = _without_loose_links(drawing.frame, joints, drives, left_out)
-    joints = _with_slides(drawing.frame, joints)
+    joints, slide_of = _with_slides(drawing.frame, joints)
+    drives = [replace(drive, joint=slide_of.get(drive.joint, drive.joint)) for drive in drives]
     known = None if drawing.drives is None else tuple(drives)
     return _built(replace(drawing, joints=tuple(joints), drives=known), left_out)
 
@@ -198,11 +199,14 @@ def _without_loose_links(
         joints = [joint for joint in joints if joint.links]
 
 
-def _with_slides(frame: str, joints: list[DrawnJoint]) -> list[DrawnJoint]:
-    """The joints in which two pins of a link in one slot are a slide: the link moves along it without turning."""
+def _with_slides(frame: str, joints: list[DrawnJoint]) -> tuple[list[DrawnJoint], dict[str, str]]:
+    """The joints in which two pins of a link in one slot are a slide: the link moves along it without turning.
+
+    And the slide of each such pin, by names: what drives the pin along the slot drives the slide.
+    """
     near = 1e-7 * _extent(joints)  # places in files have fewer digits than numbers
     taken: set[tuple[str, str]] = set()
-    drawn, slides = list(joints), []
+    drawn, slides, slide_of = list(joints), [], {}
     in_slots = [k for k, joint in enumerate(drawn) if joint.slot is not None and joint.turns]
     for first, second in combinations(in_slots, 2):
         joint_a, joint_b = drawn[first], drawn[second]
@@ -222,7 +226,8 @@ def _with_slides(frame: str, joints: list[DrawnJoint]) -> list[DrawnJoint]:
         for k in (first, second):
             others = [name for name in drawn[k].links[1:] if name != link]
             drawn[k] = replace(drawn[k], links=(link, *others), slot=None)
-    return drawn + slides
+            slide_of[drawn[k].name] = slides[-1].name
+    return drawn + slides, slide_of
 
 
 def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
