@@ -346,8 +346,8 @@ def test_wheels_and_cams_are_refused(tmp_path):
 def test_two_blocks_on_one_rail_are_a_driven_slide(driven):
     """The gripper of PMKS+ without its redundancy (fixture-urls.md): one block more, the other one driven.
 
-    The rod BG is as long as G and B are apart, the jaw turns about F: the carriage goes as far as B is reached, which is
-    twice √((BG + FG)² - h²) where B runs at the height h below F.
+    The rod BG is as long as G and B are apart, the jaw turns about F: the carriage goes as far as B is reached,
+    which is twice √((BG + FG)² - h²) where B runs at the height h below F.
     """
     flags = {"A": "5", "M": "5"} | {driven: "7"}
     body = (
@@ -364,6 +364,20 @@ def test_two_blocks_on_one_rail_are_a_driven_slide(driven):
     (b, g, f), h = ((-1.133, 1.005), (0.010, 2.121), (-1.990, 2.121)), 1.116
     way = 2 * np.sqrt((np.hypot(g[0] - b[0], g[1] - b[1]) + np.hypot(g[0] - f[0], g[1] - f[1])) ** 2 - h**2)
     assert measures(gripper).span.width == pytest.approx(way, rel=1e-6)
+
+
+@pytest.mark.parametrize("program", ["pyslvs", "motiongen", "pmks"])
+def test_a_driven_slide_survives(program):
+    joints = (
+        DrawnJoint("a", 0.0, 0.0, ("0", "1"), 0.25, turns=False),
+        DrawnJoint("b", 1.0, 0.5, ("1", "2")),
+        DrawnJoint("c", 4.0, 3.5, ("2", "3")),
+        DrawnJoint("d", 7.0, 0.0, ("0", "3")),
+    )
+    linkage = linkage_of_drawing(PinDrawing("0", joints, (DrawnDrive("a", "0", "1"),)), [])
+    left_out = []
+    assert_same(linkage, again(linkage, program, left_out), 1e-9)
+    assert not any("drive" in str(note) for note in left_out)
 
 
 # --- files that do not fit ---------------------------------------------------------------------------
