@@ -1,6 +1,7 @@
 """Files of other programs: read, they move at once, and as there; written and read again, they are the same."""
 
 import json
+import re
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
 
@@ -321,6 +322,31 @@ def test_usual_linkages_go_through_files(lengths, suffix, tmp_path):
     read = files.read(path, left_out=[])
     assert read.mechanism.chain.n == lengths.linkage().mechanism.chain.n
     assert len(read.mechanism.drives) == 1
+
+
+def test_blanks_between_attributes_of_linkage2_may_be_missing(tmp_path):
+    """As in two examples of the program itself (examples_xml.h): ``zoom="1"xoffset="3"``, ``layer="16"x="4"``.
+
+    What stands within quotation marks stays as it is.
+    """
+    text = (FOLDER / "four-bar.linkage2").read_text()
+    tight = re.sub(r'" (?=[a-z]+=)', '"', text)
+    assert tight.count('"x="') == 2
+    assert tight.count('"rpm="') == 1
+    for name, content in {
+        "a": tight,
+        "b": tight.replace('"', "'"),
+        "c": text.replace('id="1"', """id="1" name='u="x"y="z"'""", 1),
+    }.items():
+        (tmp_path / f"{name}.linkage2").write_text(content, encoding="utf-8")
+    one, two, three, four = (
+        files.read(path, left_out=[])
+        for path in (FOLDER / "four-bar.linkage2", *(tmp_path / f"{name}.linkage2" for name in "abc"))
+    )
+    assert one == two == three
+    assert four.reference_pose == one.reference_pose
+    drawing = drawing_from_linkage2((tmp_path / "c.linkage2").read_text(), [])
+    assert 'u="x"y="z"' in {joint.name for joint in drawing.joints}
 
 
 def test_what_is_left_out_is_said(tmp_path):

@@ -9,6 +9,7 @@ the program's reader (linkageDoc.cpp, linkageDoc.h: ``GetBaseUnitsPerInch``) and
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
@@ -37,6 +38,8 @@ _PER_INCH = 96.0  # GetBaseUnitsPerInch
 _MECHANISM_LAYER = 16
 _ON_LINE = 1e-9  # of the length
 _LINK_TAGS = ("Link", "element")
+_TAG = re.compile(r"""<[A-Za-z](?:[^<>"']|"[^"<]*"|'[^'<]*')*>""")
+_VALUE = re.compile(r"""("[^"]*"|'[^']*')""")
 
 
 def drawing_from_linkage2(text: str, left_out: list[Message]) -> PinDrawing:
@@ -47,7 +50,7 @@ def drawing_from_linkage2(text: str, left_out: list[Message]) -> PinDrawing:
     >>> [(joint.name, joint.links) for joint in drawing.joints], drawing.drives
     ([('3', ('frame', 'L7')), ('4', ('L7',))], (DrawnDrive(joint='3', fixed='frame', moved='L7'),))
     """
-    root = parse_xml(text)
+    root = parse_xml(_TAG.sub(_with_blanks, text))
     if root.tag != "linkage2":
         raise GrueblerError("expected the element <linkage2>, but found <{tag}>", tag=root.tag)
     program = root.find("program")
@@ -81,6 +84,11 @@ def drawing_from_linkage2(text: str, left_out: list[Message]) -> PinDrawing:
         fastened.append((name, link.get("fastenlink", "")))
     rigid = [(name, by_id[other]) for name, other in fastened if other in by_id]
     return _drawing(connectors, members, actuators, rigid, unit, left_out)
+
+
+def _with_blanks(tag: re.Match[str]) -> str:
+    """A tag with blanks between its attributes: the program's own reader does without, two of its examples too."""
+    return _VALUE.sub(r"\1 ", tag[0])
 
 
 def _drawn_only(element: Element) -> bool:
