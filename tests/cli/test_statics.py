@@ -23,9 +23,74 @@ def test_a_press_over_a_turn(capsys):
     status, out, _ = run(capsys, "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1")
     assert status == 0
     assert "Largest effort, without friction: torque R(frame-crank) = -2148.69 N·mm at 75°." in out
-    rows = [line.split() for line in out.splitlines() if line.strip()[:2] == "90"]
-    # tan(arcsin 0.4) of 100 N, a tenth of it, a torque 20 mm on that
-    assert rows == [["90", "-2000", "109.109", "109.109", "109.109", "43.6436", "4.36436", "-1912.71"]]
+    assert "Largest effort: with friction torque R(frame-crank) = 2242.63 N·mm at 285°." in out
+    # 1/(0.1 tan(alpha)), sin(alpha) = 0.4, as the slider goes forth against its load
+    assert "Least safety against self-locking: 22.9129 at 270°, by P(frame-slider)." in out
+    row = next(line.split() for line in out.splitlines() if line.strip()[:2] == "90")
+    slope = 0.4 / 0.84**0.5
+    rod = 100 / (0.84**0.5 * (1 + 0.1 * slope))  # the slider goes back, with its load
+    numbers = [
+        90,
+        -2000,
+        -20 * rod * 0.84**0.5,
+        1 / (1 + 0.1 * slope),
+        rod,
+        rod,
+        rod,
+        rod * 0.4 * 1.01**0.5,
+        rod * 0.04,
+    ]
+    assert row.pop(4) == "∞"
+    assert [float(cell) for cell in row] == pytest.approx(numbers, rel=1e-5)
+
+
+def test_self_locking(capsys):
+    """As in tests/forces/test_friction.py: with a coefficient of 1 it locks from 238 to 302 degrees."""
+    arguments = (
+        "slider-crank:30,50,10",
+        "--load",
+        "R(coupler-slider)=-100,0",
+        "--friction",
+        "1",
+        "--range",
+        "236:240:1",
+    )
+    status, out, _ = run(capsys, *arguments)
+    assert status == 1
+    assert "At the drive values 238°, 239°, 240° the linkage is self-locking, it jams" in out
+    assert "mainly because of P(frame-slider)" in out
+    rows = [line.split() for line in out.splitlines() if line.strip()[:2] in ("23", "24")]
+    assert [row[2] == "–" for row in rows] == [False, False, True, True, True]
+    status, found, columns = document(capsys, *arguments)
+    assert found["locked"] == [2, 3, 4]
+    torques = columns["with friction torque R(frame-crank)"]
+    assert [torque is None for torque in torques] == [False, False, True, True, True]
+    status, out, _ = run(capsys, *arguments, "--lang", "de")
+    assert "ist das Getriebe selbsthemmend, es klemmt" in out
+    assert "Sicherheit gegen Selbsthemmung" in out
+
+
+def test_pins_and_guides(capsys):
+    """Sizes for all joints and for one; what rubs has a column."""
+    arguments = ("slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1", "--at", "300")
+    _, _, plain = document(capsys, *arguments)
+    pins = ("--pin-radius", "5", "--pin-radius", "R(frame-crank)=8")
+    _, _, columns = document(capsys, *arguments, *pins, "--guide-length", "40", "--guide-height=12")
+    force = columns["force of R(frame-crank) on crank"][0]
+    assert columns["friction moment R(frame-crank)"] == [pytest.approx(0.1 * 8 * force)]
+    assert columns["moment of R(frame-crank) on crank"] == [pytest.approx(-0.1 * 8 * force)]
+    assert columns["friction moment R(crank-coupler)"] == [pytest.approx(0.1 * 5 * force)]
+    assert columns["with friction torque R(frame-crank)"] > plain["with friction torque R(frame-crank)"]
+    assert columns["torque R(frame-crank)"] == plain["torque R(frame-crank)"]
+    only = document(capsys, *arguments[:3], "--friction", "R(frame-crank)=0.1", *pins, *arguments[5:])[2]
+    assert "friction P(frame-slider)" not in only
+    back = document(capsys, *arguments, "--backward")[2]["with friction torque R(frame-crank)"]
+    assert back[0] < plain["torque R(frame-crank)"][0] < plain["with friction torque R(frame-crank)"][0]
+    bush = document(capsys, *arguments, "--guide-length", "40", "--guide-on", "P(frame-slider)=frame")[2]
+    # the pin lies 56.9 mm from the bush's middle, on the crank's axis: both edges bear, 2 * 56.9/40 times the force
+    assert bush["friction P(frame-slider)"][0] > 2 * plain["friction P(frame-slider)"][0]
+    sleeve = document(capsys, *arguments, "--guide-length=40", "--guide-height=12", "--sleeve", "P(frame-slider)")
+    assert sleeve[0] == 0
 
 
 def test_all_forces_of_one_pose(capsys):
@@ -86,7 +151,13 @@ def test_poses_that_are_not_held(capsys):
         (("--mass", "R(crank-coupler)=nan"), "--mass: expected a number"),
         (("--mass", "R(crank-coupler)=1", "--gravity", "1"), "--gravity: expected two numbers"),
         (("--moment", "rocker=1", "--friction", "-1", "--at", "0"), "not negative, but found -1"),
-        (("--moment", "rocker=1", "--friction", "nan"), "finite"),
+        (("--moment", "rocker=1", "--friction", "R(a)=0.1", "--at", "0"), "'R(a)' is not one of the joints"),
+        (("--moment", "rocker=1", "--friction", "much"), "--friction: expected a number, but found 'much'"),
+        (("--moment", "rocker=1", "--pin-radius", "3"), "--pin-radius needs --friction"),
+        (("--moment", "rocker=1", "--backward"), "--backward needs --friction"),
+        (("--moment", "rocker=1", "--friction", "1", "--pin-radius", "-3", "--at", "0"), "pin_radius is not negative"),
+        (("--moment", "rocker=1", "--friction", "1", "--guide-on", "slider"), "--guide-on: expected JOINT=LINK"),
+        (("--moment", "rocker=1", "--friction", "nan"), "--friction: expected a number"),
         (("--moment", "rocker=1", "--at", "nan"), "expected one finite number"),
     ],
 )

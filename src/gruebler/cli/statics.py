@@ -21,10 +21,10 @@ from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table
 from gruebler.columns import Column, shown
 from gruebler.errors import GrueblerError
-from gruebler.forces import Loads, Statics, component_table, statics, statics_table
+from gruebler.forces import Friction, Loads, Statics, component_table, statics, statics_table
 from gruebler.kinematics import Motion, move
 from gruebler.linkages import Linkage
-from gruebler.text import message, translate
+from gruebler.text import message, number, translate
 
 __all__ = ["add", "run"]
 
@@ -36,10 +36,13 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="Drive torques and joint forces under forces at points and moments on links, from the equilibrium "
         "of every link; the drive torque is checked by virtual work. Torques are in N times the unit of length. "
-        "Inertia is neglected; friction of slides is an estimate.",
-        epilog="Example: gruebler statics slider-crank:20,50 --load 'R(coupler-slider)=-100,0' --friction 0.1. "
-        "Exit status: 0 success, 1 the linkage cannot move through all rows, or its forces are undetermined in some, "
-        "2 wrong usage or unreadable input.",
+        "Inertia is neglected. Coulomb friction in slides and pins is solved together with the joint forces; joint "
+        "forces are then those with friction. A row in which the linkage is self-locking has no torque; the message "
+        "names the joint and the factor of safety.",
+        epilog="Example: gruebler statics slider-crank:20,50 --load 'R(coupler-slider)=-100,0' --friction 0.1 "
+        "--pin-radius 5 --guide-length 40. "
+        "Exit status: 0 success, 1 the linkage cannot move through all rows, or in some its forces are undetermined "
+        "or it is self-locking, 2 wrong usage or unreadable input.",
     )
     add_linkage(parser)
     parser.add_argument(
@@ -60,7 +63,51 @@ def add(parser: Parser) -> None:
         "--mass", action="append", default=[], metavar="POINT=M", help="a mass of M kg with its weight; repeatable"
     )
     parser.add_argument("--gravity", metavar="GX,GY", help="acceleration of gravity (default: 0,-9.80665)")
-    parser.add_argument("--friction", type=float, metavar="MU", help="coefficient of friction of the slides")
+    parser.add_argument(
+        "--friction",
+        action="append",
+        default=[],
+        metavar="[JOINT=]MU",
+        help="coefficient of friction of all joints, or of one; repeatable",
+    )
+    parser.add_argument(
+        "--pin-radius",
+        action="append",
+        default=[],
+        metavar="[JOINT=]R",
+        help="radius of the pins, in the linkage's unit; without it pins do not rub; repeatable",
+    )
+    parser.add_argument(
+        "--guide-length",
+        action="append",
+        default=[],
+        metavar="[JOINT=]L",
+        help="length of the guides, between the edges at which a tilted block bears (default: long, blocks do not "
+        "tilt); repeatable",
+    )
+    parser.add_argument(
+        "--guide-height",
+        action="append",
+        default=[],
+        metavar="[JOINT=]H",
+        help="distance of the two faces of the guides (default: 0); repeatable",
+    )
+    parser.add_argument(
+        "--guide-on",
+        action="append",
+        default=[],
+        metavar="JOINT=LINK",
+        help="the link with which the guide of a slide moves: the frame for a short bush through which a rod runs "
+        "(default: the link that moves); repeatable",
+    )
+    parser.add_argument(
+        "--sleeve",
+        action="append",
+        default=[],
+        metavar="JOINT",
+        help="a slide whose moving link surrounds the other one; matters with --guide-height; repeatable",
+    )
+    parser.add_argument("--backward", action="store_true", help="friction while the drive goes backward")
     parser.add_argument(
         "--range",
         action="append",
@@ -87,13 +134,14 @@ def run(arguments: argparse.Namespace) -> int:
     loads = _loads(arguments)
     if not (loads.forces or loads.moments or loads.masses):
         raise GrueblerError("no load is given: use --load, --moment or --mass")
+    friction = _friction(arguments)
     motion = _motion(linkage, shown_range, turning, arguments)
     if not len(motion):
         print(motion.message(lang))
         return 1
-    held = statics(motion, loads)
+    held = statics(motion, loads, friction)
     columns_lang = language_of_names(arguments)
-    table = statics_table(held, arguments.friction, columns_lang)
+    table = statics_table(held, lang=columns_lang)
     if is_table(arguments.out):
         write_table(
             arguments.out, [*table, *component_table(held, columns_lang)], lang, decimal_comma=arguments.decimal_comma
@@ -102,7 +150,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(_document(held, [*table, *component_table(held, columns_lang)], lang))
     elif not is_table(arguments.out):
         _print(held, table.columns, lang)
-    return 0 if motion.complete and not held.singular.any() else 1
+    return 0 if motion.complete and not (held.singular | held.locked).any() else 1
 
 
 # --- what was asked for ----------------------------------------------------------------------------
@@ -161,6 +209,57 @@ def _numbers(option: str, text: str, count: int) -> list[float]:
     return numbers
 
 
+def _friction(arguments: argparse.Namespace) -> Friction | None:
+    """What is said of friction; None if nothing is."""
+    options = {
+        "--pin-radius": arguments.pin_radius,
+        "--guide-length": arguments.guide_length,
+        "--guide-height": arguments.guide_height,
+        "--guide-on": arguments.guide_on,
+        "--sleeve": arguments.sleeve,
+        "--backward": arguments.backward,
+    }
+    if not arguments.friction:
+        for option, given in options.items():
+            if given:
+                raise GrueblerError("{option} needs --friction", option=option)
+        return None
+    sizes = {
+        name: _by_joint(option, options[option])
+        for name, option in (
+            ("pin_radius", "--pin-radius"),
+            ("guide_length", "--guide-length"),
+            ("guide_height", "--guide-height"),
+        )
+        if options[option]
+    }
+    return Friction(
+        _by_joint("--friction", arguments.friction),
+        **sizes,
+        guide_on=dict(_pair("--guide-on", text) for text in arguments.guide_on),
+        sleeves=tuple(arguments.sleeve),
+        backward=arguments.backward,
+    )
+
+
+def _by_joint(option: str, given: Sequence[str]) -> dict[str, float]:
+    """Numbers by joint, that of all others as ``*``; the last one for each joint counts."""
+    numbers = {}
+    for text in given:
+        name, equals, value = text.rpartition("=")
+        numbers[name.strip() if equals else "*"] = _numbers(option, value, 1)[0]
+    return numbers
+
+
+def _pair(option: str, text: str) -> tuple[str, str]:
+    joint, equals, link = text.rpartition("=")
+    if not equals:
+        raise GrueblerError(
+            "{option}: expected {expected}, but found {found!r}", option=option, expected="JOINT=LINK", found=text
+        )
+    return joint.strip(), link.strip()
+
+
 def _motion(
     linkage: Linkage, shown_range: tuple[float, float] | None, turning: Sequence[bool], arguments: argparse.Namespace
 ) -> Motion:
@@ -185,7 +284,12 @@ def _print(held: Statics, table: Sequence[Column], lang: str) -> None:
     if len(motion) > 1:
         for column in table[drives : 2 * drives]:
             if np.isfinite(column.values).any():
-                print(_largest(column, table[0], lang))
+                print(_largest(column, table[0], lang, rubbing=False))
+        for column in table[2 * drives : 3 * drives] if held.friction else ():
+            if np.isfinite(column.values).any():
+                print(_largest(column, table[0], lang, rubbing=True))
+        if held.friction and np.isfinite(held.friction.locking_factor).any():
+            print(_safety(held, table[0], lang))
     if math.isfinite(held.disagreement):
         print(
             translate(
@@ -205,20 +309,39 @@ def _print(held: Statics, table: Sequence[Column], lang: str) -> None:
             print(text)
 
 
-def _largest(effort: Column, drive: Column, lang: str) -> str:
+def _largest(effort: Column, drive: Column, lang: str, *, rubbing: bool) -> str:
     """The largest effort of a drive and where it is."""
     row = int(np.nanargmax(np.abs(effort.values)))
     if not effort.values[row]:
         return translate("The drive carries no load: {name} = 0.", lang, name=effort.name)
-    return translate(
-        "Largest effort, without friction: {name} = {value:.6g} {unit} at {drive:.6g}{drive_unit}.",
-        lang,
-        name=effort.name,
-        value=effort.values[row],
-        unit=effort.unit,
-        drive=drive.values[row],
-        drive_unit=drive.unit if drive.unit == "°" else f" {drive.unit}",
+    text = (
+        message("Largest effort: {name} = {value:.6g} {unit} at {place}.")
+        if rubbing
+        else message("Largest effort, without friction: {name} = {value:.6g} {unit} at {place}.")
     )
+    return text.filled(
+        name=effort.name, value=effort.values[row], unit=effort.unit, place=_place(drive, row, lang)
+    ).in_language(lang)
+
+
+def _safety(held: Statics, drive: Column, lang: str) -> str:
+    """The least factor of safety against self-locking, and where it is."""
+    assert held.friction is not None
+    factors, chain = held.friction.locking_factor, held.motion.linkage.mechanism.chain
+    row = int(np.nanargmin(factors))
+    joint = held.friction.locking_joint(row)
+    assert joint is not None  # its factor is finite
+    return translate(
+        "Least safety against self-locking: {factor:.6g} at {place}, by {joint}.",
+        lang,
+        factor=factors[row],
+        place=_place(drive, row, lang),
+        joint=chain.joint_title(joint),
+    )
+
+
+def _place(drive: Column, row: int, lang: str) -> str:
+    return f"{number(drive.values[row], lang)}{drive.unit if drive.unit == '°' else f' {drive.unit}'}"
 
 
 def _document(held: Statics, columns: Sequence[Column], lang: str) -> dict[str, object]:
@@ -228,6 +351,7 @@ def _document(held: Statics, columns: Sequence[Column], lang: str) -> dict[str, 
         "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
         "disagreement": held.disagreement if math.isfinite(held.disagreement) else None,
         "singular": [int(row) for row in np.flatnonzero(held.singular)],
+        "locked": [int(row) for row in np.flatnonzero(held.locked)],
         "complete": held.motion.complete,
         "message": " ".join(filter(None, (held.motion.message(lang), held.message(lang)))),
     }

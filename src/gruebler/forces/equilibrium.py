@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from gruebler.arrays import Complexes, Flags, Reals
+from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError
 from gruebler.forces.loads import Wrench
 from gruebler.kinematics import Motion
 from gruebler.linkages.elements import direction
 
-__all__ = ["JointConnection", "Reactions", "joint_connections", "reactions"]
+__all__ = ["JointConnection", "Reactions", "joint_connections", "joint_of_connection", "reactions"]
 
 _GROWTH = 1e6  # an answer larger than this by its load (lengths in sizes): the links are not held in this pose
 _BLOCK = 2048  # rows solved at once
@@ -35,7 +36,7 @@ class Reactions(NamedTuple):
     forces: Complexes
     """(rows, contacts): on the other link, at its point of the joint."""
     couples: Reals
-    """(rows, contacts): of slides, on the other link about its point."""
+    """(rows, contacts): on the other link, of slides about its point; of pins by friction."""
     drives: Reals
     """(rows, drives): torques, or forces along slides, on the link that is moved."""
     singular: Flags
@@ -58,17 +59,26 @@ def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     return tuple(connections)
 
 
-def reactions(motion: Motion, wrenches: Iterable[Wrench]) -> Reactions:
-    """The forces of all joints and drives that hold the loads, from three equations for each link.
+def joint_of_connection(motion: Motion) -> tuple[int, ...]:
+    """For each joint as it was solved the joint of the linkage: one of two freedoms stands for two in a row."""
+    joints = motion.linkage.mechanism.chain.joints
+    return tuple(number for number, joint in enumerate(joints) for _ in range(joint.pair.f(Space.PLANAR)))
 
-    Cost: a linear system of three rows for each moving link, at each row.
+
+def reactions(motion: Motion, cases: Sequence[Iterable[Wrench]]) -> tuple[Reactions, ...]:
+    """The forces of all joints and drives that hold each case of loads, from three equations for each link.
+
+    Cost: a linear system of three rows for each moving link, at each row, once for all cases.
     """
-    wrenches = tuple(wrenches)
-    parts = [_block(motion, wrenches, slice(first, first + _BLOCK)) for first in range(0, max(len(motion), 1), _BLOCK)]
-    return Reactions(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    loads = [tuple(wrenches) for wrenches in cases]
+    blocks = [_block(motion, loads, slice(first, first + _BLOCK)) for first in range(0, max(len(motion), 1), _BLOCK)]
+    return tuple(
+        Reactions(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+        for parts in zip(*blocks, strict=True)
+    )
 
 
-def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactions:
+def _block(motion: Motion, cases: Sequence[tuple[Wrench, ...]], rows: slice) -> list[Reactions]:
     lower, held = motion.lower_linkage, joint_connections(motion)
     columns, directions = _columns(motion, held, rows)
     frame = lower.mechanism.chain.links.index(lower.mechanism.frame)
@@ -80,18 +90,21 @@ def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactio
             unknowns=matrix.shape[2],
             equations=matrix.shape[1],
         )
-    load = _loads(motion, wrenches, rows)[:, bodies]
-    probe = np.random.default_rng(0).uniform(0.5, 1.0, load.shape)
-    answer = _solved(matrix, np.stack([-load, probe], axis=2))
+    loads = [_loads(motion, wrenches, rows)[:, bodies] for wrenches in cases]
+    probe = np.random.default_rng(0).uniform(0.5, 1.0, (len(matrix), len(bodies)))
+    answer = _solved(matrix, np.stack([probe, *(-load for load in loads)], axis=2))
     with np.errstate(invalid="ignore"):
-        singular = ~(np.abs(answer[..., 1]).max(axis=1, initial=0.0) < _GROWTH)
-    unknown_forces = np.where(singular[:, None], np.nan, answer[..., 0])
-    first, second = unknown_forces[:, 0 : 2 * len(held) : 2], unknown_forces[:, 1 : 2 * len(held) : 2]
+        singular = ~(np.abs(answer[..., 0]).max(axis=1, initial=0.0) < _GROWTH)
     slides = np.array([contact.slides for contact in held], bool)
-    forces = np.where(slides, directions * first, first + 1j * second)
     turning = np.array([drive.turning for drive in lower.mechanism.drives], bool)
-    drives = unknown_forces[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
-    return Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular)
+    parts = []
+    for case in range(1, answer.shape[2]):
+        unknown_forces = np.where(singular[:, None], np.nan, answer[..., case])
+        first, second = unknown_forces[:, 0 : 2 * len(held) : 2], unknown_forces[:, 1 : 2 * len(held) : 2]
+        forces = np.where(slides, directions * first, first + 1j * second)
+        drives = unknown_forces[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
+        parts.append(Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular))
+    return parts
 
 
 def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> tuple[Reals, Complexes]:

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Alphabet
 from gruebler.columns import Column, Table
-from gruebler.forces.friction import as_friction, slide_friction
+from gruebler.forces.friction import FrictionForces
 from gruebler.forces.solution import Statics
 from gruebler.text import translate
 
@@ -17,12 +18,15 @@ __all__ = ["component_table", "statics_table"]
 _NOISE = 1e-13  # of the loads: a smaller effort is none
 
 
-def statics_table(statics: Statics, friction: float | None = None, lang: str = "en") -> Table:
+def statics_table(statics: Statics, *, lang: str = "en") -> Table:
     """Columns of drive values, drive efforts and the sizes of joint forces, over the rows.
+
+    With friction the efforts follow without and with it, then the efficiency (of one drive) and the factor of safety
+    against self-locking; joint forces are those with friction, and behind them stand the friction forces of slides and
+    friction moments of pins.
 
     Args:
         statics: The forces.
-        friction: A coefficient adds the friction of slides and the efforts with it, as an estimate; for one drive.
         lang: Of the names of the columns.
 
     >>> from gruebler.forces import Loads, statics
@@ -35,38 +39,61 @@ def statics_table(statics: Statics, friction: float | None = None, lang: str = "
     """
     linkage, motion = statics.motion.linkage, statics.motion
     mechanism = linkage.mechanism
-    if friction is not None:
-        friction = as_friction(friction)
-    drives, efforts, forces = list[Column](), list[Column](), list[Column]()
+    drives, efforts, with_friction, forces = list[Column](), list[Column](), list[Column](), list[Column]()
+    rubbing = statics.friction
     for k, (name, drive) in enumerate(
         zip(mechanism.drive_names(Alphabet.of_language(lang)), mechanism.drives, strict=True)
     ):
-        values, work = motion.drives[:, k], statics.work[:, k]
-        work = np.where(np.abs(work) <= _NOISE * statics.load[k], 0.0, work)
+        values = motion.drives[:, k]
         if drive.turning:
             drives.append(Column(name, "°", np.degrees(values)))
-            efforts.append(Column(translate("torque {joint}", lang, joint=name), f"N·{linkage.unit}", work))
+            effort, unit = translate("torque {joint}", lang, joint=name), f"N·{linkage.unit}"
         else:
             drives.append(Column(name, linkage.unit, values))
-            efforts.append(Column(translate("force {joint}", lang, joint=name), "N", work))
+            effort, unit = translate("force {joint}", lang, joint=name), "N"
+        if rubbing is None:
+            efforts.append(Column(effort, unit, _without_noise(statics, statics.work, k)))
+        else:
+            efforts.append(Column(effort, unit, _without_noise(statics, rubbing.frictionless, k)))
+            header = translate("with friction {effort}", lang, effort=effort)
+            with_friction.append(Column(header, unit, _without_noise(statics, statics.work, k)))
+    if rubbing is not None:
+        if len(drives) == 1:
+            with_friction.append(Column(translate("efficiency", lang), "", statics.efficiency))
+        with_friction.append(Column(translate("safety against self-locking", lang), "", rubbing.locking_factor))
     names, largest = mechanism.chain.joint_names(Alphabet.of_language(lang)), _largest_force(statics)
     for number, joint in enumerate(mechanism.chain.joints):
         for link in joint.links[1:] if len(joint.links) > 2 else [_moving(joint.links, mechanism.frame)]:
             size = np.hypot(*statics.force(number, link).T)
             header = translate("force of {joint} on {link}", lang, joint=names[number], link=link)
             forces.append(Column(header, "N", size, largest))
-    for number, joint in enumerate(mechanism.chain.joints if friction is not None else ()):
-        if friction is not None and joint.pair.slides_along_one_line:
-            slide, effort = slide_friction(statics, number, friction), efforts[0]
-            rubbing = translate("friction {joint}", lang, joint=names[number])
-            with_friction = translate("with friction {effort}", lang, effort=effort.name)
-            forces.append(Column(rubbing, "N", slide.friction, largest))
-            forces.append(Column(with_friction, effort.unit, effort.values + slide.effort))
-    return Table((*drives, *efforts, *forces))
+    if rubbing is not None:
+        forces += _friction_columns(statics, rubbing, names, lang)
+    return Table((*drives, *efforts, *with_friction, *forces))
+
+
+def _without_noise(statics: Statics, efforts: Reals, drive: int) -> Reals:
+    column = efforts[:, drive]
+    return np.where(np.abs(column) <= _NOISE * statics.load[drive], 0.0, column)
+
+
+def _friction_columns(statics: Statics, rubbing: FrictionForces, names: Sequence[str], lang: str) -> list[Column]:
+    """The friction of every contact; that of a joint with several is told apart by the link."""
+    columns = []
+    kinds = [(contact.joint, contact.slides) for contact in rubbing.contacts]
+    for k, contact in enumerate(rubbing.contacts):
+        name, several = names[contact.joint], kinds.count(kinds[k]) > 1
+        place = translate("{joint} on {link}", lang, joint=name, link=contact.link) if several else name
+        if contact.slides:
+            header, unit = translate("friction {joint}", lang, joint=place), "N"
+        else:
+            header, unit = translate("friction moment {joint}", lang, joint=place), f"N·{statics.motion.linkage.unit}"
+        columns.append(Column(header, unit, rubbing.friction[:, k]))
+    return columns
 
 
 def component_table(statics: Statics, lang: str = "en", *, reactions: bool = True) -> Table:
-    """Columns of the components of all joint forces and the moments of slides, over the rows.
+    """Columns of the components of all joint forces, and the moments of slides and of pins that rub, over the rows.
 
     Args:
         statics: The forces.
@@ -76,13 +103,15 @@ def component_table(statics: Statics, lang: str = "en", *, reactions: bool = Tru
     linkage = statics.motion.linkage
     mechanism, largest = linkage.mechanism, _largest_force(statics)
     columns, names = [], mechanism.chain.joint_names(Alphabet.of_language(lang))
+    contacts = () if statics.friction is None else statics.friction.contacts
+    rubbing_pins = {contact.joint for contact in contacts if not contact.slides}
     for number, (joint, name) in enumerate(zip(mechanism.chain.joints, names, strict=True)):
         single = not reactions and len(joint.links) == 2
         for link in (_moving(joint.links, mechanism.frame),) if single else joint.links:
             header = translate("force of {joint} on {link}", lang, joint=name, link=link)
             force = statics.force(number, link)
             columns += [Column(f"{header} {axis}", "N", force[:, k], largest) for k, axis in enumerate("xy")]
-            if joint.pair.keeps_directions:
+            if joint.pair.keeps_directions or number in rubbing_pins:
                 header = translate("moment of {joint} on {link}", lang, joint=name, link=link)
                 moment = statics.couple(number, link)
                 columns.append(Column(header, f"N·{linkage.unit}", moment, largest * linkage.size))
