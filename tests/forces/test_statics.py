@@ -10,7 +10,7 @@ from gruebler.errors import LinkageError
 from gruebler.forces import Loads, statics
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import from_degrees, move
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import Circle, Linkage, LinkPoint
 from gruebler.mechanism import Mechanism
 from tests.geometry.linkages import MOVING
 
@@ -229,6 +229,17 @@ def test_the_effort_in_a_change_point_is_that_of_its_branch(branch, ratio):
     assert np.isnan(unknown.work).all()
     assert "depends on the branch" in unknown.message()
     assert "Einbaulage" in unknown.message("de")
+
+
+def test_a_contact_that_was_left_out():
+    """Circles about two pins of a four-bar's coupler touch always: they and the coupler press as they like."""
+    mechanism = Mechanism.parse("R(0-1) R(1-2) G(1-3) R(2-3) R(0-3); frame=0; drive=R(0-1)")
+    places = {0: (0, 0), 1: (10, 20), 3: (40, 60), 4: (60, 0)}
+    touching = {2: {"1": Circle(10, 20, 20.0), "3": Circle(40, 60, 30.0)}}
+    motion = move(Linkage.from_drawing(mechanism, {**places, **touching}), [1.2])
+    assert motion.complete
+    with pytest.raises(LinkageError, match="overconstrained"):
+        statics(motion, Loads(moments={"3": 10.0}))
 
 
 def test_nothing_agrees_with_nothing():

@@ -15,7 +15,7 @@ from gruebler.forces.loads import Wrench
 from gruebler.kinematics import Motion
 from gruebler.linkages.elements import direction
 
-__all__ = ["JointConnection", "Reactions", "joint_connections", "joint_of_connection", "reactions"]
+__all__ = ["JointConnection", "Reactions", "joint_connections", "joint_of_connection", "joints_left_out", "reactions"]
 
 _GROWTH = 1e6  # an answer larger than this by its load (lengths in sizes): the links are not held in this pose
 _BLOCK = 2048  # rows solved at once
@@ -63,6 +63,12 @@ def joint_of_connection(motion: Motion) -> tuple[int, ...]:
     """For each joint as it was solved the joint of the linkage: one of two freedoms stands for two in a row."""
     joints = motion.linkage.mechanism.chain.joints
     return tuple(number for number, joint in enumerate(joints) for _ in range(joint.pair.f(Space.PLANAR)))
+
+
+def joints_left_out(motion: Motion) -> bool:
+    """Whether contacts of wheels were left out that say nothing new: what they carry, and others less, is not known."""
+    connections = {connection.joint for connection in joint_connections(motion)}
+    return len(connections) < len(joint_of_connection(motion))
 
 
 def reactions(motion: Motion, cases: Sequence[Iterable[Wrench]]) -> tuple[Reactions, ...]:

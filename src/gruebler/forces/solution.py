@@ -14,6 +14,7 @@ from gruebler.forces.equilibrium import (
     Reactions,
     joint_connections,
     joint_of_connection,
+    joints_left_out,
     reactions,
 )
 from gruebler.forces.friction import Friction, FrictionForces, PerJoint, as_friction, with_friction
@@ -267,7 +268,7 @@ def statics(motion: Motion, loads: Loads, friction: Friction | PerJoint | None =
     expect(loads, Loads)
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
-    if motion.plan.released:
+    if motion.plan.released or joints_left_out(motion):
         raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on their stiffness")
     wrenches = loads_over_rows(motion, loads)
     if not len(motion):
