@@ -1,7 +1,6 @@
 """Function generation: exact solutions, structural error, minimax."""
 
 from functools import cache
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -13,15 +12,8 @@ from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
 from gruebler.synthesis import Demands, FunctionTask, function_task, synthesise_function
 from gruebler.synthesis.coordination import Coordination
-from gruebler.synthesis.formulas import Formula, FunctionLaw, chebyshev_spacing
-from gruebler.synthesis.structural_error import (
-    _errors,
-    _moved,
-    coordination_of,
-    largest_error,
-    minimax,
-    structural_error,
-)
+from gruebler.synthesis.formulas import Formula, FunctionLaw
+from gruebler.synthesis.structural_error import ErrorFamily, coordination_of, largest_error, structural_error
 
 lengths = st.floats(0.5, 3.0)
 
@@ -119,45 +111,35 @@ _ROWS = (("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3))
 def test_slopes_of_the_structural_error_against_differences(kind):
     lengths = (0.8, 1.1, 0.9, 1.0) if kind == "four-bar" else (0.8, 2.1, 0.2)
     law = FunctionLaw("x**2", (0, 1), 1.2, 0.7)
-    solution = Coordination(kind, lengths, 0.6, 1.0, 1)
+    family = ErrorFamily(kind, 1, law)
+    numbers = family.numbers_of(Coordination(kind, lengths, 0.6, 1.0, 1))
     x = np.linspace(0, 1, 7)
-    _, slopes = _errors(solution, law, x)
-    for k in range(5):
-        step = np.zeros(5)
-        step[k] = 1e-6
-        ends = [structural_error(_moved(solution, sign * step), law, x) for sign in (1, -1)]
+    _, slopes = family.slopes(numbers, x)
+    for k, step in enumerate(1e-6 * np.eye(5)):
+        ends = [family.errors(numbers + sign * step, x) for sign in (1, -1)]
         assert slopes[:, k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-7)
 
 
-def test_the_minimax_optimum_alternates():
-    """Chebyshev: with five parameters the largest error is taken at six places, with alternating signs."""
-    law = FunctionLaw("log10(x)", (1, 2), np.radians(60), np.radians(60))
-    found = synthesise_function(function_task(law, 5))
-    assert found.count.real >= 1
-    best = None
-    for design in (*found.designs, *found.rejected):
-        linkage = design.linkage
-        if design.form != "four-bar" or not design.verdict.one_branch:
-            continue
-        a, b, c, d = (linkage.length(*row) for row in _ROWS)
-        home = linkage.reference_pose
-        start = home["crank"].angle - law.inputs(chebyshev_spacing(1, 2, 5))[0]
-        rocker = home["rocker"].angle + np.pi - law.outputs(chebyshev_spacing(1, 2, 5))[0]
-        for branch in (1, -1):
-            solution = Coordination("four-bar", (a, b, c, d), start, rocker, branch)
-            error = structural_error(solution, law, chebyshev_spacing(1, 2, 5))
-            if np.isfinite(error).all() and np.abs(error).max() < 1e-9:
-                best = solution
-    assert best is not None
-    optimum = minimax(best, law)
-    assert optimum.error < 0.9 * optimum.start_error
-    x = np.linspace(1, 2, 4001)
-    error = structural_error(optimum.solution, law, x)
-    peaks = [error[0], *(e for p, e, n in zip(error, error[1:], error[2:], strict=False) if (e - p) * (n - e) <= 0)]
-    peaks.append(error[-1])
-    tall = [p for p in peaks if abs(p) > 0.98 * np.abs(error).max()]
-    assert len(tall) >= 6
-    assert all(one * two < 0 for one, two in pairwise(tall))
+@given(st.tuples(lengths, lengths, lengths), st.floats(0, 6), st.sampled_from([1, -1]), st.booleans())
+def test_freudensteins_equation_against_the_closed_form(own, start, branch, slides):
+    """Second method: the triangle A, B, B0. Numbers of a linkage give the linkage back."""
+    law = FunctionLaw("x**2", (0, 1), 0.6, 0.7)
+    own = (own[0], own[1] + 3, own[2] - 1.5) if slides else (*own, 1.0)
+    solution = Coordination("slider-crank" if slides else "four-bar", own, start, 1.0, branch)
+    x = np.linspace(0, 1, 9)
+    output = np.asarray(solution.linkage().motion(start + law.inputs(x), branch=branch).output.value)
+    error = output - 1.0 - law.outputs(x)
+    error = error if slides else np.angle(np.exp(1j * error))
+    mu = solution.linkage().motion(start + law.inputs(x), branch=branch).transmission_angle
+    assume((np.isnan(output) | (mu > 1e-4)).all())
+    assert structural_error(solution, law, x) == pytest.approx(error, abs=1e-9, nan_ok=True)
+    family = ErrorFamily(solution.kind, branch, law)
+    if np.isfinite(output[0]):
+        back = family.linkage_of(family.numbers_of(solution))
+        assert back.lengths == pytest.approx(solution.lengths)
+        assert back[2:] == pytest.approx(solution[2:])
+    else:
+        assert family.linkage_of(family.numbers_of(solution)) is None
 
 
 LAWS = [

@@ -71,6 +71,7 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
         if more:
             print(plural("and {count} more", "and {count} more", more, lang))
         print(_ANGLES.in_language(lang))
+        _print_missing_optima(shown, lang)
         if any(design.form == FITTED for design in shown.designs):
             _print_pareto(shown, lang)
     else:
@@ -172,7 +173,8 @@ def _by_letter(names: tuple[str, str]) -> str:
 def _error(design: Design, lang: str) -> str:
     """The largest structural error of a minimax optimum with its unit, else what is missed relative to the task."""
     if design.optimum is not None:
-        return _output(design.optimum, design.optimum.error, lang, ".4g")
+        star = "" if design.optimum.certificate.optimum else " *"
+        return _output(design.optimum, design.optimum.error, lang, ".4g") + star
     error = design.verdict.error
     return "< 1e-9" if error < EXACT else number(error, lang, ".1e")
 
@@ -183,20 +185,64 @@ def _output(optimum: Minimax, value: float, lang: str, form: str = ".5g") -> str
     return number(degrees(value), lang, form) + "°" if turns else number(value, lang, form)
 
 
+def _print_missing_optima(shown: SynthesisResult, lang: str) -> None:
+    """Which designs are not shown to be minimax optima, why, and by how much they may still be bettered."""
+    for k, design in enumerate(shown.designs, 1):
+        optimum = design.optimum
+        if optimum is None or optimum.certificate.reason is None:
+            continue
+        facts = {"number": k, "reason": optimum.certificate.reason.in_language(lang)}
+        if isnan(optimum.certificate.decrease):
+            print(translate("* Design {number} is no minimax optimum: {reason}.", lang, **facts))
+        else:
+            decrease = _output(optimum, optimum.certificate.decrease, lang, ".2g")
+            print(
+                translate(
+                    "* Design {number} is no minimax optimum: {reason}. To first order, dimensions within a tenth of "
+                    "its own lower the largest error by up to {decrease}.",
+                    lang,
+                    decrease=decrease,
+                    **facts,
+                )
+            )
+
+
 def print_optimum(optimum: Minimax, lang: str) -> None:
-    """Print the numbers of the best minimax optimum."""
-    solution = optimum.solution
+    """Print the numbers of the best design of a search for the minimax optimum, and what shows that it is one."""
+    solution, shown = optimum.solution, optimum.certificate
     names = "abcd" if solution.kind == "four-bar" else "abe"
     lengths = [f"{name} = {number(length, lang, '.6g')}" for name, length in zip(names, solution.lengths, strict=True)]
-    print(
-        translate(
+    facts = {
+        "error": _output(optimum, optimum.error, lang),
+        "start": _output(optimum, optimum.start_error, lang),
+        "lengths": number_separator(lang).join(lengths),
+        "phi": degrees(solution.input_start),
+        "psi": _output(optimum, solution.output_start, lang),
+    }
+    if shown.optimum:
+        text = translate(
             "Minimax optimum 1: largest error {error} (before: {start}); {lengths}; input from {phi:.6g}°, output from "
             "{psi}.",
             lang,
-            error=_output(optimum, optimum.error, lang),
-            start=_output(optimum, optimum.start_error, lang),
-            lengths=number_separator(lang).join(lengths),
-            phi=degrees(solution.input_start),
-            psi=_output(optimum, solution.output_start, lang),
+            **facts,
         )
-    )
+        proof = translate(
+            "It is taken at {places} places, {alternations} of them with alternating signs; {free} dimensions are "
+            "free.",
+            lang,
+            places=len(shown.x),
+            alternations=shown.alternations,
+            free=shown.parameters,
+        )
+        if shown.curvature is not None:
+            proof += " " + translate("Along all changes that keep these sizes equal they rise.", lang)
+        print(f"{text} {proof}")
+    else:
+        print(
+            translate(
+                "Design 1: largest error {error} (before: {start}); {lengths}; input from {phi:.6g}°, output from "
+                "{psi}.",
+                lang,
+                **facts,
+            )
+        )

@@ -9,10 +9,11 @@ from gruebler.synthesis.dead_centres import synthesise_dead_centres
 from gruebler.synthesis.formulas import FunctionLaw
 from gruebler.synthesis.functions import synthesise_function
 from gruebler.synthesis.judging import Demands
+from gruebler.synthesis.minimax_search import minimax
 from gruebler.synthesis.paths import synthesise_path
 from gruebler.synthesis.positions import synthesise_positions
 from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
-from gruebler.synthesis.structural_error import minimax, structural_error
+from gruebler.synthesis.structural_error import structural_error
 from gruebler.synthesis.structures import synthesise_structures
 from gruebler.synthesis.synthesise import synthesise
 from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task

@@ -17,6 +17,7 @@ from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage
 from gruebler.synthesis.tasks import FunctionTask
+from gruebler.text import Message
 
 __all__ = [
     "KINDS",
@@ -24,6 +25,8 @@ __all__ = [
     "CoordinationKind",
     "Coordinations",
     "Minimax",
+    "MinimaxCertificate",
+    "as_coordination",
     "coordinations_with_fixed_starts",
     "coordinations_with_one_free_start",
     "pair_arrays",
@@ -52,14 +55,53 @@ class Coordination(NamedTuple):
         return shapes[self.kind](*self.lengths)  # type: ignore[no-any-return]
 
 
-class Minimax(NamedTuple):
-    """A linkage whose largest structural error is as small as possible nearby."""
+@dataclass(frozen=True, kw_only=True)
+class MinimaxCertificate:
+    """Whether the largest structural error of a linkage is a strict local minimum, and by what this is seen.
+
+    docs/theory/synthesis-functions.md has the theorem and the meaning of each number.
+    """
+
+    x: tuple[float, ...]
+    """Where the error has its largest size, to one part in a million."""
+    signs: tuple[int, ...]
+    """The signs of the error there."""
+    multipliers: tuple[float, ...]
+    """Weights of these places, not negative, with the sum 1: with them the gradients of the sizes cancel."""
+    parameters: int
+    """How many numbers of the linkage are free."""
+    residual: float
+    """How far the weighted gradients are from cancelling, as a part of the error for a change of the numbers by 1."""
+    decrease: float
+    """By how much the largest error may still fall, to first order, within a tenth of the numbers, in its unit; NaN
+    in a dead centre, where no linear model holds."""
+    curvature: float | None
+    """The least curvature of the weighted errors along changes that keep the sizes equal, as a part of the error; None
+    where there is no such change."""
+    reason: Message | None = None
+    """Why the linkage is not shown to be an optimum; None if it is one."""
+
+    @property
+    def optimum(self) -> bool:
+        """Whether no linkage nearby has a smaller largest error."""
+        return self.reason is None
+
+    @property
+    def alternations(self) -> int:
+        """How many of the largest errors follow each other with alternating signs."""
+        return sum(1 for k, sign in enumerate(self.signs) if k == 0 or sign != self.signs[k - 1])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Minimax:
+    """What the search for the least largest structural error found near a linkage, with its certificate."""
 
     solution: Coordination
     error: float
     """The largest structural error, in radians or the unit of the travel."""
     start_error: float
     """The same of the linkage from which the search began."""
+    certificate: MinimaxCertificate
 
     def linkage(self, unit: str = "mm") -> Linkage:
         """The linkage in the position where the interval begins, on its branch."""
@@ -69,8 +111,8 @@ class Minimax(NamedTuple):
         return own.with_reference_pose(start.pose(0))
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data: lengths, starts and errors, angles in degrees."""
-        solution = self.solution
+        """Plain data: lengths, starts, errors and the certificate; angles in degrees."""
+        solution, shown = self.solution, self.certificate
         unit = 180 / np.pi if solution.kind == "four-bar" else 1.0
         return {
             "kind": solution.kind,
@@ -80,6 +122,16 @@ class Minimax(NamedTuple):
             "branch": solution.branch,
             "error": self.error * unit,
             "start_error": self.start_error * unit,
+            "optimum": shown.optimum,
+            "reason": None if shown.reason is None else str(shown.reason),
+            "possible_decrease": None if np.isnan(shown.decrease) else shown.decrease * unit,
+            "equal_extremes": list(shown.x),
+            "signs": list(shown.signs),
+            "alternations": shown.alternations,
+            "multipliers": list(shown.multipliers),
+            "parameters": shown.parameters,
+            "residual": None if np.isnan(shown.residual) else shown.residual,
+            "curvature": shown.curvature,
         }
 
 
@@ -205,10 +257,11 @@ def _solved(kind: CoordinationKind, phi: Reals, output: Reals) -> list[Coordinat
     signed = kind.lengths(factors / scale[:-1])
     if signed is None:
         return []
-    return [_coordination(kind.name, signed, float(phi[0]), float(output[0]))]
+    return [as_coordination(kind.name, signed, float(phi[0]), float(output[0]))]
 
 
-def _coordination(kind: str, signed: tuple[float, ...], phi: float, output: float) -> Coordination:
+def as_coordination(kind: str, signed: tuple[float, ...], phi: float, output: float) -> Coordination:
+    """The linkage of signed lengths in a position: a negative length stands for the link turned by 180 degrees."""
     a = signed[0]
     crank = phi + (np.pi if a < 0 else 0.0)
     point = a * np.exp(1j * phi)

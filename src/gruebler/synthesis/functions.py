@@ -26,10 +26,10 @@ from gruebler.synthesis.coordination import (
 from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.judging import Demands, Probe, Targets, judge_design
+from gruebler.synthesis.minimax_search import minimax as minimax_near
 from gruebler.synthesis.positions import NEAR, guiding_dyads, ranked
 from gruebler.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.synthesis.structural_error import coordination_of
-from gruebler.synthesis.structural_error import minimax as minimax_near
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.text import Message, message
 
