@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from math import acos, asin, degrees, radians, sqrt
+from math import acos, asin, degrees, radians, sin, sqrt
 from typing import Any
 
 import numpy as np
 
 from gruebler.exercises import exercise, solve
+from gruebler.forces import Loads, statics, statics_table
+from gruebler.fourbar import SliderCrank
+from gruebler.kinematics import move
 from gruebler.text import Readable
 from tests.documents import independent as own
 from tests.documents.fact import Fact, answer_of, exercise_place, task
@@ -223,7 +226,22 @@ AT_90 = _rates(25, 70, 40, 70, 90, 10)
 AT_60 = _rates(20, 50, 40, 50, 60, 10)
 DIFFERENCES = 1e-7  # relative: what differences of fourth order leave
 
+
+def _side_force() -> list[float]:
+    """Normal force on the guide and force in the rod of 20, 50 at 60°, 100 on the piston."""
+    pose = move(SliderCrank(20, 50).linkage(), np.radians([60.0]))
+    table = statics_table(statics(pose, Loads(forces={"R(coupler-slider)": (-100, 0)})))
+    return [float(table[f"force of {joint} on slider"][0]) for joint in ("P(frame-slider)", "R(coupler-slider)")]
+
+
+SINE = 20 * sin(radians(60)) / 50
 VELOCITIES = [
+    Fact(
+        place="000/003, section 3.4",
+        states="side force of the piston: F_N = sin α F, F that in the rod",
+        derive=_side_force,
+        value=[100 * SINE / sqrt(1 - SINE**2), 100 / sqrt(1 - SINE**2)],
+    ),
     task("example-3.4-ratio", "ω_c", "speed of the rocker of 20, 50, 40, 50 at 60°", value=AT_60["ω_c"], near=1e-8),
     task("example-3.4-ratio", "i", "i = ω/ω_ψ there", value=10 / AT_60["ω_c"], near=1e-8),
     task("example-3.6.1", "P_x", "instant centre of the coupler, crank upright", value=AT_90["P"].real),

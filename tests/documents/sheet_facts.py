@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from math import acos, degrees, sqrt
 
 import numpy as np
 
 from gruebler.catalog import entry
+from gruebler.geometry import cognate_sizes
 from gruebler.geometry.meyer_zur_capellen import lambdas_for, symmetric_rocker
 from gruebler.kinematics import move
 from gruebler.sheets import sheet
@@ -57,6 +59,14 @@ def _similarity() -> list[float]:
     by_id = {row.id: row.derived for row in sheet("mzc").quantities}
     pairs = (("l1_star", "l1_prime"), ("l2_star", "l2_prime"), ("l4_star", "l4_prime"), ("k_star", "k_prime"))
     return [by_id[star] / by_id[prime] for star, prime in pairs]
+
+
+def _second_cognate() -> list[float]:
+    """a, b, c, d of the third four-bar of Roberts, crank where the original has its rocker."""
+    long = 2.5 * sqrt(3)
+    kappa = np.radians(KAPPA)
+    sizes = cognate_sizes(1, long, long, 4, 25 / 3 * np.cos(kappa), 25 / 3 * np.sin(kappa))
+    return [float(letter[2]) for letter in (sizes.a, sizes.b, sizes.c, sizes.d)]
 
 
 def _lever(ratio: float) -> list[float]:
@@ -120,6 +130,19 @@ FACTS = [
         "23.094",
         40 / 9 * sqrt(3),
         misprint="40/3 √3 = 23.094 is longer than the other three links together; 40/9 √3 closes and is similar to l4'",
+    ),
+    Fact(
+        place="001",
+        states="the second cognate is a crank-rocker of the same sizes, driven at the other pivot",
+        derive=_second_cognate,
+        value=[2.5 * sqrt(3), 2.5 * sqrt(3), 1.0, 4.0],
+    ),
+    Fact(
+        place="001",
+        states="literature: two papers with year and issue",
+        derive=lambda: [re.search(r"(\d{4})\) (\d+)", line).groups() for line in sheet("mzc").record.literature],  # type: ignore[union-attr]
+        value=[("1992", "11"), ("1956", "12")],
+        subject="mzc",
     ),
     Fact(
         place="001",

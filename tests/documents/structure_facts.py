@@ -128,6 +128,11 @@ PAIRS_AND_LINKS = [
         )
         for name, symbol, _ in TABLE_2_2
     ),
+    # The table has the symbol DS for the Rollgleitgelenk too; section 2.6 writes G.
+    stated("table 2.2", "f of the Gleitwälzgelenk in the plane", lambda: pair("Gleitwälzgelenk").f(Space.PLANAR), 2),
+    stated(
+        "section 2.6", "symbol of the Gleitwälzgelenk", lambda: pair("Gleitwälzgelenk").symbol(Alphabet.GERMAN), "G"
+    ),
     stated("section 2", "a mechanism has at least three links", lambda: refused("R(0-1)"), value=True),
     stated(
         "section 2.2",
