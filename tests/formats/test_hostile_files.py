@@ -4,9 +4,13 @@ import gzip
 import json
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 
 import pytest
+
+from gruebler import files
+from gruebler.errors import GrueblerError
 
 PROGRAM = """
 import json, re, sys, time
@@ -52,6 +56,10 @@ HOSTILE = {
     "most-edges.edgelist": lambda: _edges(49_000),
     "complete.adj": lambda: "\n".join(" ".join("1" if i != j else "0" for j in range(990)) for i in range(990)),
     "large.g6": lambda: "~?@~" + "~" * 650_000,
+    "complete.g6": lambda: "~?mw" + "~" * 749_750,  # 3,000 links, each joined with each: 4.5 million joints
+    "announced.s6": lambda: ":~~?@????",  # 16 million links in nine letters
+    "announced.g6": lambda: "~~~~~~~~",
+    "edges.s6": lambda: ":~?mw" + "?" * 900_000,
     "long.pmks": lambda: "?2v." + "1.0A," * 390_000,
     "deep.ron": lambda: "(" * 1_990_000,
     "deep.json": lambda: "[" * 990_000,
@@ -74,3 +82,16 @@ def test_hostile_files_take_less_than_500_megabytes(name, tmp_path):
     assert found["memory"] < 500
     assert len(found["said"]) < 700
     assert "\n" not in found["said"]
+
+
+@pytest.mark.parametrize("name", ["complete.g6", "announced.s6", "announced.g6"])
+def test_codes_are_refused_before_they_are_unpacked(name, tmp_path):
+    path = tmp_path / name
+    path.write_text(HOSTILE[name]())
+    tracemalloc.start()
+    with pytest.raises(GrueblerError, match="at most") as refused:
+        files.read(path)
+    largest = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert str(path) in str(refused.value)
+    assert largest < 60_000_000  # bytes; the modules that are loaded for it included

@@ -11,15 +11,43 @@ from gruebler.chain import notation
 from gruebler.chain.pairs import Space
 from gruebler.errors import NotationError
 
-__all__ = ["read_document", "read_graph6"]
+__all__ = ["MOST_JOINTS", "MOST_LINKS", "check_size", "links_of_code", "read_document", "read_graph6"]
+
+MOST_LINKS = 5000
+"""Links of a chain in a code or a graph file: a few letters can announce any number of them."""
+MOST_JOINTS = 50_000
+"""Joints of such a chain."""
 
 Joints = list[tuple[str, Sequence[str]]]
 
 
+def check_size(links: int, joints: int) -> None:
+    """`NotationError` for more links or joints than a code or a graph file may have."""
+    if links > MOST_LINKS:
+        raise NotationError("a chain here has at most {most:,} links, not {count:,}", count=links, most=MOST_LINKS)
+    if joints > MOST_JOINTS:
+        raise NotationError("a chain here has at most {most:,} joints, not {count:,}", count=joints, most=MOST_JOINTS)
+
+
+def links_of_code(code: str) -> int:
+    """The number of nodes that a graph6 or sparse6 code begins with: one letter, or three behind ~, or six behind ~~.
+
+    Format: B. D. McKay, Description of graph6, sparse6 and digraph6 encodings. Six bits a letter; 0 where a code ends
+    too early.
+
+    >>> [links_of_code(code) for code in ("C", "~?@?", "~~?????@")]
+    [4, 64, 1]
+    """
+    tildes = 2 if code.startswith("~~") else int(code.startswith("~"))
+    letters = code[tildes : tildes + (1, 3, 6)[tildes]]
+    return sum((ord(letter) - 63) << 6 * place for place, letter in enumerate(reversed(letters)))
+
+
 def read_graph6(code: str) -> tuple[Joints, list[str]]:
-    """Revolute joints and links of a graph6 code."""
+    """Revolute joints and links of a graph6 code; `NotationError` for one that is none, or too large."""
     import networkx as nx  # imported only here: the import takes longer than most computations
 
+    check_size(links_of_code(code), sum((ord(letter) - 63).bit_count() for letter in code[8:]))
     try:
         graph = nx.from_graph6_bytes(code.encode("ascii"))
     except UnicodeEncodeError:

@@ -18,6 +18,7 @@ from zlib import error as ZlibError
 
 from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
+from gruebler.chain.documents import check_size, links_of_code
 from gruebler.errors import GrueblerError
 from gruebler.formats.dot import dot_from_chain, graph_from_dot
 from gruebler.formats.structures import chain_of_text
@@ -31,8 +32,6 @@ __all__ = ["GRAPHS", "LINES", "chain_from_graph_text", "graph_text", "read_lines
 
 _LONGEST_LINE = 1_000_000
 _REVOLUTE = "revolute"
-_MOST = 5000  # links of a chain in a graph file
-_MOST_JOINTS = 50_000
 _PACKED = 100  # times its size a packed file may be: lists of chains come to 30, bombs to 1000
 
 
@@ -53,9 +52,7 @@ def chain_from_graph_text(text: str, form: str) -> Chain:
         raise GrueblerError("is nested too deeply") from None
     except _unreadable() as error:
         raise GrueblerError("is not a {form} file: {reason}", form=form, reason=error or type(error).__name__) from None
-    if graph.number_of_nodes() > _MOST:
-        raise GrueblerError("a chain here has at most {most:,} links, not {count:,}", count=len(graph), most=_MOST)
-    _check_number(graph.number_of_edges())
+    check_size(graph.number_of_nodes(), graph.number_of_edges())
     return _chain(graph)
 
 
@@ -125,7 +122,7 @@ def _from_edges(text: str) -> nx.Graph:
             continue
         if len(words) not in (2, 3):
             raise GrueblerError("line {number}: expected two links and perhaps a pair", number=number)
-        _check_number(number)
+        check_size(0, number)
         graph.add_edge(words[0], words[1], pair=words[2] if len(words) > 2 else _REVOLUTE)
     return graph
 
@@ -150,9 +147,7 @@ def _from_matrix(text: str) -> nx.Graph:
         cell.isdecimal() and len(cell) < 4 for r in rows for cell in r
     ):
         raise GrueblerError("expected a square matrix of whole numbers")
-    if len(rows) > _MOST:
-        raise GrueblerError("a chain here has at most {most:,} links, not {count:,}", count=len(rows), most=_MOST)
-    _check_number(sum(int(cell) for row in rows for cell in row) // 2)
+    check_size(len(rows), sum(int(cell) for row in rows for cell in row) // 2)
     graph = networkx.MultiGraph()
     graph.add_nodes_from(range(len(rows)))
     for i, row in enumerate(rows):
@@ -163,11 +158,6 @@ def _from_matrix(text: str) -> nx.Graph:
                 raise GrueblerError("row {i}: a link has no joint with itself", i=i + 1)
             graph.add_edges_from([(i, j)] * (int(cell) if i < j else 0))
     return graph
-
-
-def _check_number(joints: int) -> None:
-    if joints > _MOST_JOINTS:
-        raise GrueblerError("a chain here has at most {most:,} joints, not {count:,}", count=joints, most=_MOST_JOINTS)
 
 
 def _to_matrix(chain: Chain, left_out: list[Message]) -> str:
@@ -211,10 +201,13 @@ def _from_graph6(line: str) -> Chain:
 def _from_sparse6(line: str) -> Chain:
     import networkx
 
+    code = line.removeprefix(">>sparse6<<")
+    check_size(links_of_code(code.removeprefix(":")), 0)  # networkx makes the nodes before it has seen an edge
     try:
-        graph = networkx.from_sparse6_bytes(line.removeprefix(">>sparse6<<").encode("ascii"))
+        graph = networkx.from_sparse6_bytes(code.encode("ascii"))
     except _unreadable() as error:
         raise GrueblerError("is not a sparse6 code: {reason}", reason=error or type(error).__name__) from None
+    check_size(0, graph.number_of_edges())
     return _chain(networkx.MultiGraph(graph))
 
 
