@@ -6,14 +6,14 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
-from gruebler.errors import near_words
+from gruebler.errors import near_words, visible
 from gruebler.text import Message, message, reason_of
 
 __all__ = ["Failing", "convert_document", "infinities_as_words", "load_document"]
@@ -48,12 +48,30 @@ def load_document(path: Path, fail: Failing) -> Any:
         raise fail(message("is nested too deeply: a line has more than {limit} dots", limit=_DOTS))
     try:
         if form == "TOML":
-            return tomllib.loads(text.replace("\r\n", "\n"))
-        return json.loads(text, parse_constant=_no_number, object_pairs_hook=_once)
+            document = tomllib.loads(text.replace("\r\n", "\n"))
+        else:
+            document = json.loads(text, parse_constant=_no_number, object_pairs_hook=_once)
     except RecursionError:
         raise fail(message("is nested too deeply")) from None
     except ValueError as error:  # also a number of thousands of digits
         raise fail(message("is not {form}: {reason}", form=form, reason=error)) from None
+    strange = next((each for each in _texts(document) if visible(each, "\n\t") != each), None)
+    if strange is not None:
+        raise fail(message("the text {text!r} has control characters", text=strange))
+    return document
+
+
+def _texts(data: Any) -> Iterator[str]:
+    """All texts of plain data, its keys included."""
+    waiting = [data]
+    while waiting:
+        each = waiting.pop()
+        if isinstance(each, str):
+            yield each
+        elif isinstance(each, dict):
+            waiting += [*each, *each.values()]
+        elif isinstance(each, list):
+            waiting += each
 
 
 def _no_number(word: str) -> NoReturn:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any, Protocol
+from unicodedata import category
 
 LONGEST = 1000
 """Characters of a message; 300 of them at most without a space."""
@@ -90,16 +91,32 @@ class TransformationError(GrueblerError):
 
 
 def shortened(text: str) -> str:
-    r"""One line of at most `LONGEST` characters: what is longer loses its middle, words first.
+    r"""One line of at most `LONGEST` visible characters: what is longer loses its middle, words first.
 
-    >>> len(shortened("a" * 10**6)), shortened("two\n lines")
-    (300, 'two lines')
+    >>> len(shortened("a" * 10**6)), shortened("two\n lines"), shortened("red: \x1b[31m")
+    (300, 'two lines', 'red: \\x1b[31m')
     """
     if "\n" in text:
         text = re.sub(r"\s*\n\s*", " ", text.strip())
+    text = visible(text)
     if len(text) > _WORD:
         text = re.sub(rf"\S{{{_WORD + 1},}}", lambda word: _without_middle(word[0], _WORD), text)
     return _without_middle(text, LONGEST)
+
+
+def visible(text: str, keep: str = "") -> str:
+    r"""The text with control characters as escapes, but those to keep: what a file says cannot steer the terminal.
+
+    Control characters are those of the categories C of Unicode, which also turn the direction of writing.
+
+    >>> visible("\x1b]0;title\x07", "\n"), visible("a\u202eb"), visible("Kürbel\n", "\n")
+    ('\\x1b]0;title\\x07', 'a\\u202eb', 'Kürbel\n')
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        repr(letter)[1:-1] if letter not in keep and category(letter).startswith("C") else letter for letter in text
+    )
 
 
 def _without_middle(text: str, most: int) -> str:

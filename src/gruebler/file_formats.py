@@ -198,11 +198,13 @@ def _write_bytes(path: Path, content: bytes) -> None:
 
 
 def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
-    """The linkage of a drawing; errors name the file."""
+    """The linkage of a drawing; errors name the file, also where numbers near the largest have no square."""
     from gruebler.formats.pin_drawings import linkage_of_drawing
 
     try:
         return linkage_of_drawing(drawing(), left_out)
+    except OverflowError:
+        raise GrueblerError("{path}: it has numbers that are too large to be lengths", path=path) from None
     except GrueblerError as error:
         raise GrueblerError("{path}: {error}", path=path, error=error) from None
 

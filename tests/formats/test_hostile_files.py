@@ -2,9 +2,12 @@
 
 import gzip
 import json
+import random
+import re
 import subprocess
 import sys
 import tracemalloc
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -95,3 +98,42 @@ def test_codes_are_refused_before_they_are_unpacked(name, tmp_path):
     tracemalloc.stop()
     assert str(path) in str(refused.value)
     assert largest < 60_000_000  # bytes; the modules that are loaded for it included
+
+
+NUMBERS = re.compile(r"-?\d+\.\d+|(?<=[ \",\[(])-?\d+(?=[ \",\])])")
+OF_OTHERS = [path for path in sorted(Path(__file__).with_name("files").iterdir()) if NUMBERS.search(path.read_text())]
+
+
+@pytest.mark.parametrize("source", OF_OTHERS, ids=lambda path: path.name)
+def test_numbers_that_have_no_square_are_refused_or_read(source, tmp_path):
+    """One number of a file becomes too large or too small to be squared; anything but `GrueblerError` fails."""
+    text, rng = source.read_text(), random.Random(source.name)
+    spots = [found.span() for found in NUMBERS.finditer(text)]
+    path = tmp_path / source.name
+    for word in ("1e308", "-1e160", "1e-320"):
+        for begin, end in rng.sample(spots, min(len(spots), 4)):
+            path.write_text(text[:begin] + word + text[end:])
+            with suppress(GrueblerError):
+                files.read(path, left_out=[])
+
+
+def test_a_crank_too_long_to_be_squared_is_named(tmp_path):
+    joints = [
+        {"type": "Static", "name": "A", "x": 1, "y": 0},
+        {"type": "Static", "name": "D", "x": 3, "y": 0},
+        {"type": "Crank", "name": "B", "joint0": {"ref": "A"}, "distance": 1e308, "angle": 0.3},
+        {
+            "type": "Revolute",
+            "name": "C",
+            "x": 3,
+            "y": 2,
+            "joint0": {"ref": "B"},
+            "joint1": {"ref": "D"},
+            "distance0": 3,
+            "distance1": 2,
+        },
+    ]
+    path = tmp_path / "long.json"
+    path.write_text(json.dumps({"name": "long", "joints": joints, "solve_order": ["B", "C"]}))
+    with pytest.raises(GrueblerError, match=r"long\.json: it has numbers that are too large to be lengths"):
+        files.read(path)

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gruebler.cli.commands import command, command_names, overview, welcome
+from gruebler.cli.left_out import print_left_out
 from gruebler.cli.parser import argparse_in_language, wanted_language
 from gruebler.errors import GrueblerError, shortened
 from gruebler.text import LANGUAGES, error_in_language, reason_of, translate
@@ -25,10 +26,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     _prepare_streams()
     words = list(sys.argv[1:] if argv is None else argv)
     lang = LANGUAGES[0]
+    done = False
     try:
         lang = wanted_language(words)
         words = _with_command_first(words)
-        return _run(words, lang)
+        status = _run(words, lang)
+        done = True
+        return status
     except GrueblerError as error:
         return _complain(words, error_in_language(error, lang))
     except MemoryError:
@@ -44,6 +48,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             return _complain(words, translate("{file} cannot be opened: {problem}", lang, file=file, problem=problem))
         _forget_output()
         return _complain(words, translate("cannot write the output: {problem}", lang, problem=problem))
+    finally:
+        print_left_out(done=done)
 
 
 def _run(words: list[str], lang: str) -> int:

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gruebler.cli.inputs import chain_from_word
+from gruebler.cli.left_out import say_left_out
 from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word
-from gruebler.cli.output import say_left_out, say_written
+from gruebler.cli.output import say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError

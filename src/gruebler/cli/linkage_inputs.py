@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 
 from gruebler.chain import Chain
-from gruebler.cli.output import say_left_out
+from gruebler.cli.left_out import say_left_out
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError

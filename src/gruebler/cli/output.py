@@ -6,15 +6,16 @@ import codecs
 import json
 import math
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from gruebler.atomic_files import atomic_file
 from gruebler.columns import Column, Table, as_csv
-from gruebler.text import Message, translate
+from gruebler.errors import visible
+from gruebler.text import translate
 
-__all__ = ["print_json", "print_svg", "say_left_out", "say_written", "write_file", "write_table"]
+__all__ = ["print_json", "print_svg", "say_written", "write_file", "write_table"]
 
 
 def print_json(document: Any, indent: int | None = 2) -> None:
@@ -66,10 +67,4 @@ def write_table(path: Path, columns: Sequence[Column], lang: str, *, decimal_com
 
 def say_written(path: Path, lang: str, more: str = "") -> None:
     """Say on standard error that a file was written."""
-    print(translate("Written: {path}{more}", lang, path=path, more=more), file=sys.stderr)
-
-
-def say_left_out(notes: Iterable[Message], lang: str) -> None:
-    """Say on standard error what a file has that the value does not have, or the other way round."""
-    for note in notes:
-        print(translate("Left out: {what}", lang, what=note), file=sys.stderr)
+    print(visible(translate("Written: {path}{more}", lang, path=path, more=more)), file=sys.stderr)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from shutil import get_terminal_size
 from textwrap import fill
 
+from gruebler.errors import visible
 from gruebler.text import LANGUAGES, Message
 
 __all__ = ["Cell", "print_long_table", "print_table", "print_text", "terminal_width"]
@@ -48,7 +49,7 @@ def print_table(
 
 
 def _text(cell: Cell, lang: str) -> str:
-    return cell.in_language(lang) if isinstance(cell, Message) else cell
+    return visible(cell.in_language(lang) if isinstance(cell, Message) else cell, keep="\n")
 
 
 def terminal_width() -> int:
