@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import count
@@ -17,9 +18,10 @@ from gruebler.errors import GrueblerError, nearest
 from gruebler.notebook import ROWS_SHOWN, html_table
 from gruebler.text import number
 
-__all__ = ["Column", "Table", "as_csv", "shown"]
+__all__ = ["FORMULA", "Column", "Table", "as_csv", "harmless_cell", "shown"]
 
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+FORMULA = r"^([=+\-@\t\r\n])"
+"""How a text begins that a spreadsheet takes for a formula."""
 
 
 class Column(NamedTuple):
@@ -171,6 +173,15 @@ def _cell(value: float, lang: str) -> str:
     return "∞" if np.isinf(value) else "–"
 
 
+def harmless_cell(text: str) -> str:
+    """A text with an apostrophe in front if a spreadsheet would take it for a formula.
+
+    >>> harmless_cell("=1+1"), harmless_cell("crank")
+    ("'=1+1", 'crank')
+    """
+    return "'" + text if re.match(FORMULA, text) else text
+
+
 def as_csv(columns: Iterable[Column], *, decimal_comma: bool = False) -> str:
     r"""A table with the units in its header; an empty cell where a quantity is not defined.
 
@@ -189,7 +200,7 @@ def as_csv(columns: Iterable[Column], *, decimal_comma: bool = False) -> str:
     text = io.StringIO()
     writer = csv.writer(text, delimiter=";" if decimal_comma else ",")
     headers = [column.header for column in columns]
-    writer.writerow(["'" + header if header.startswith(_FORMULA) else header for header in headers])
+    writer.writerow([harmless_cell(header) for header in headers])
     for row in zip(*(column.values for column in columns), strict=True):
         cells = [repr(float(value)) if np.isfinite(value) else "" for value in row]
         writer.writerow([cell.replace(".", ",") for cell in cells] if decimal_comma else cells)

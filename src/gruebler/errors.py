@@ -112,7 +112,7 @@ def visible(text: str, keep: str = "") -> str:
     >>> visible("\x1b]0;title\x07", "\n"), visible("a\u202eb"), visible("Kürbel\n", "\n")
     ('\\x1b]0;title\\x07', 'a\\u202eb', 'Kürbel\n')
     """
-    if text.isprintable():
+    if text.translate(dict.fromkeys(map(ord, keep))).isprintable():
         return text
     return "".join(
         repr(letter)[1:-1] if letter not in keep and category(letter).startswith("C") else letter for letter in text

@@ -23,7 +23,21 @@ if TYPE_CHECKING:
     import pyarrow as pa
     import pyarrow.dataset
 
-__all__ = ["SMALL", "Atlas", "open_atlas"]
+__all__ = ["LARGEST_ANSWER", "MEMORY", "SMALL", "Atlas", "open_atlas"]
+
+MEMORY = "800 MB"
+"""What DuckDB may take for a query."""
+LARGEST_ANSWER = 400_000_000
+"""Bytes of an answer."""
+_ROWS = 100_000  # that are fetched at once
+_CLOSED = {
+    "memory_limit": MEMORY,
+    "temp_directory": "",  # nothing is written to the disk
+    "autoload_known_extensions": "false",
+    "autoinstall_known_extensions": "false",
+    "allow_community_extensions": "false",
+    "python_enable_replacements": "false",  # the names of tables are not those of Python's variables
+}
 
 SMALL = Path(__file__).parent / "small"
 """The atlas that comes with the library: chains and mechanisms to 10 links, some driven."""
@@ -100,7 +114,11 @@ class Atlas:
     def query(self, sql: str) -> pa.Table:
         """The answer to a query in SQL, in the dialect of DuckDB; its tables are those of the atlas.
 
-        Raises `GrueblerError` with the reason for a query that cannot be answered, and if DuckDB is not installed.
+        A query reads the files of the atlas and nothing else: no other file, no network, no extension, no variable of
+        the program. DuckDB may take `MEMORY`, the answer `LARGEST_ANSWER`.
+
+        Raises `GrueblerError` with the reason for a query that cannot be answered, whose answer is too large, and if
+        DuckDB is not installed.
 
         >>> open_atlas().query("select code from chains where links = 4 and mobility = 1")["code"].to_pylist()
         ['gr1:R(0-1)R(0-2)R(1-3)R(2-3)']
@@ -112,7 +130,22 @@ class Atlas:
             statements = connection.extract_statements(sql)
             if len(statements) != 1 or statements[0].type != duckdb.StatementType.SELECT:
                 raise GrueblerError("a query is one statement that begins with select, with or from")
-            return connection.sql(statements[0]).to_arrow_table()
+            relation = connection.sql(statements[0])
+            # DuckDB 1 has the second only; a table, or the relation as a stream, would be whole in memory at once.
+            reader = getattr(relation, "to_arrow_reader", None) or relation.fetch_record_batch
+            rows = reader(_ROWS)
+            batches, size = [], 0
+            for batch in rows:
+                size += batch.nbytes
+                if size > LARGEST_ANSWER:
+                    raise GrueblerError(
+                        "the answer is larger than {most} MB; ask for fewer rows or columns",
+                        most=LARGEST_ANSWER // 10**6,
+                    )
+                batches.append(batch)
+            return arrow_library().Table.from_batches(batches, rows.schema)
+        except duckdb.OutOfMemoryException:
+            raise GrueblerError("the query needs more than {memory} of memory", memory=MEMORY) from None
         except duckdb.Error as error:
             raise GrueblerError("the query cannot be answered: {reason}", reason=_reason(str(error))) from None
 
@@ -195,9 +228,9 @@ class Atlas:
         except ImportError:
             raise GrueblerError("queries need duckdb: pip install 'gruebler[atlas]'") from None
         arrow_library()
-        connection = duckdb.connect(":memory:")
+        connection = duckdb.connect(":memory:", config=_CLOSED)
         for table in self.tables:
-            files = ", ".join("'" + str(path).replace("'", "''") + "'" for path in self.files(table))
+            files = ", ".join(_quoted(path.resolve()) for path in self.files(table))
             try:
                 connection.execute(
                     f"create view {table} as select * from read_parquet([{files}], hive_partitioning = false)"
@@ -208,7 +241,16 @@ class Atlas:
                     directory=self.directory,
                     reason=_reason(str(error)),
                 ) from None
+        # Queries may come from elsewhere: from here on no other file is read, and no setting can be changed.
+        connection.execute(f"set allowed_directories = [{_quoted(self.directory.resolve())}]")
+        connection.execute("set enable_external_access = false")
+        connection.execute("set lock_configuration = true")
         return connection
+
+
+def _quoted(path: Path) -> str:
+    """A path as a text in SQL."""
+    return "'" + str(path).replace("'", "''") + "'"
 
 
 def _drives(chain: Chain, text: str) -> Iterator[Drive]:

@@ -15,7 +15,8 @@ from gruebler.cli.long_work import ask_before, run_progress
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
-from gruebler.errors import GrueblerError
+from gruebler.columns import FORMULA, harmless_cell
+from gruebler.errors import GrueblerError, visible
 from gruebler.text import plural
 
 if TYPE_CHECKING:
@@ -202,10 +203,12 @@ def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
 
                 file.write((json.dumps(table.to_pylist(), indent=2, default=str) + "\n").encode())
             case ending:
-                quoted = ending != ".txt" or table.num_columns > 1
+                sheet = ending == ".csv"
+                quoted = sheet or table.num_columns > 1
                 if quoted:
-                    file.write(_csv([table.column_names]).encode())
-                for lines in _lines(table, quoted=quoted):
+                    header = [harmless_cell(name) for name in table.column_names] if sheet else table.column_names
+                    file.write(_csv([header]).encode())
+                for lines in _lines(table, quoted=quoted, sheet=sheet):
                     file.write(lines.encode())
     rows = plural("{count} row", "{count} rows", table.num_rows, arguments.lang)
     say_written(arguments.out, arguments.lang, f", {rows}")
@@ -214,7 +217,7 @@ def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
 def _print(table: pa.Table) -> None:
     """A table; a single column without its name, so that other commands read it: gruebler gallery -."""
     if table.num_columns == 1:
-        sys.stdout.writelines(_lines(table, quoted=False))
+        sys.stdout.writelines(visible(lines, keep="\n") for lines in _lines(table, quoted=False))
         return
     from gruebler.atlas.schema import arrow_library
 
@@ -225,14 +228,23 @@ def _print(table: pa.Table) -> None:
     print_table(table.column_names, list(zip(*_cells(table), strict=True)), numbers=numbers)
 
 
-def _lines(table: pa.Table, *, quoted: bool) -> Iterator[str]:
-    """The rows as text, many at a time: cells with commas between them, quoted where CSV demands it."""
+def _lines(table: pa.Table, *, quoted: bool, sheet: bool = False) -> Iterator[str]:
+    """The rows as text, many at a time: cells with commas between them, quoted where CSV demands it.
+
+    For a sheet, texts that it would take for formulas are made harmless; numbers are not changed.
+    """
     from gruebler.atlas.schema import arrow_library
 
     pa = arrow_library()
     special = '[",\r\n]' if table.num_columns > 1 else '^$|[",\r\n]'
     for batch in filter(len, table.to_batches(max_chunksize=1 << 18)):
         texts = [_texts(column) for column in batch.columns]
+        if sheet:
+            numeric = [pa.types.is_integer(c.type) or pa.types.is_floating(c.type) for c in batch.columns]
+            texts = [
+                each if number else pa.compute.replace_substring_regex(each, FORMULA, r"'\1")
+                for each, number in zip(texts, numeric, strict=True)
+            ]
         if quoted and any(pa.compute.any(pa.compute.match_substring_regex(each, special)).as_py() for each in texts):
             yield _csv(zip(*(each.to_pylist() for each in texts), strict=True))
             continue
