@@ -2,7 +2,7 @@
 
 import sys
 
-from gruebler.cli import main
+from gruebler_command import main
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import io
 import os
+import signal
 import sys
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from gruebler.cli.commands import command, command_names, overview, welcome
@@ -75,15 +78,29 @@ def _run(words: list[str], lang: str) -> int:
     spell_links_alike(parser, arguments)
     show_compiling(lang)
     try:
-        with printed_to_file(arguments):
+        with _interrupts_raised(), printed_to_file(arguments):
             status = int(chosen.module().run(arguments))
-        sys.stdout.flush()
+            sys.stdout.flush()
     except KeyboardInterrupt:
         folder = getattr(arguments, "checkpoint", None)
         stopped = translate("stopped; run the same command again to continue from {folder}", lang, folder=folder)
         print(f"\ngruebler: {stopped if folder else translate('stopped', lang)}", file=sys.stderr)
         return 130
     return status
+
+
+@contextmanager
+def _interrupts_raised() -> Iterator[None]:
+    """Within, an interrupt is raised as Python does it, even if the command ends at once before and behind."""
+    before = signal.getsignal(signal.SIGINT)
+    if not callable(before) or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _with_command_first(words: list[str]) -> list[str]:
