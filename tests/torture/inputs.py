@@ -11,14 +11,15 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
-from itertools import combinations
+from itertools import combinations, cycle
 from pathlib import Path
 
-from gruebler import FourBar
+from gruebler import Chain, FourBar
 from gruebler.catalog import entries
 from gruebler.cli.commands import command as command_named
+from gruebler.formats.chain_files import LINES, graph_text
 from gruebler.formats.linkages import linkage_to_json, linkage_to_toml
 from gruebler.isomorphism import code
 from tests.torture.processes import Outcome, partial_files, run, warm
@@ -246,6 +247,52 @@ def _words() -> list[Case]:
     ]
 
 
+_FILES_OF_OTHERS = Path(__file__).parents[1] / "formats" / "files"
+
+
+def _of_other_programs() -> list[Case]:
+    commands = (
+        ("check", "--explain"),
+        ("analyse", "--json"),
+        ("convert", "out.toml"),
+        ("convert", "out.dxf"),
+        ("convert", "out.mjcf"),
+        ("draw", "-o", "out.svg"),
+    )
+    files = [path for path in sorted(_FILES_OF_OTHERS.iterdir()) if path.suffix != ".md" and path.stem != "arm"]
+    return [
+        Case((command[0], f"{{{path.name}}}", *command[1:]), {path.name: path.read_bytes()})
+        for command, path in zip(cycle(commands), files, strict=False)
+    ]
+
+
+def _graph_files() -> list[Case]:
+    chain = Chain.parse(_SIX)
+    forms = {"graphml": "graphml", "gml": "gml", "dot": "dot", "edgelist": "edge-list", "adj": "matrix"}
+    texts = {f"g.{ending}": graph_text(chain, form, []) for ending, form in forms.items()}
+    texts |= {"g.g6": "EEh_\n", "g.s6": LINES["sparse6"][1](chain) + "\n"}
+    commands = (("check",), ("convert", "out.txt"), ("inversions", "--count"))
+    return [
+        Case((command[0], f"{{{name}}}", *command[1:]), {name: text.encode()})
+        for command in commands
+        for name, text in texts.items()
+        if command[0] != "inversions" or not name.endswith("6")
+    ]
+
+
+def _queries() -> list[Case]:
+    queries = (
+        "select code from chains where links = 6",
+        "select links, count(*) as number from chains group by links order by links",
+        "select chain, frame from mechanisms where links = 4",
+    )
+    return [
+        Case(("atlas", "query", query, *more), only=(2,))
+        for query in queries
+        for more in ((), ("--json",), ("-o", "out.csv"))
+    ]
+
+
 @cache
 def _checkpoint() -> tuple[dict[str, bytes], bytes]:
     """The files of a complete checkpoint and the answer."""
@@ -278,7 +325,15 @@ VALID: dict[str, Callable[[], list[Case]]] = {
     "exercise answers": _answers,
     "checkpoints": _checkpoints,
     "options": _words,
+    "files of other programs": _of_other_programs,
+    "graph files": _graph_files,
+    "queries": _queries,
+    "one token": lambda: [
+        one for make in (_linkages, _screws, _tasks, _of_other_programs, _graph_files) for one in make()
+    ],
 }
+ONE_TOKEN = "one token"
+"""Inputs that stay as good as sound: a single number, word or sign is exchanged, so that most get past the parser."""
 
 
 # --- damage ------------------------------------------------------------------------------------------
@@ -322,6 +377,20 @@ def _damaged(text: str, chance: random.Random) -> str:
         one = chance.choice(words)
         changed += 4 * [text[: one.start()] + chance.choice(words)[0] + text[one.end() :]]
     return chance.choice(changed)
+
+
+_TOKEN = re.compile(r"\d+(?:\.\d+)?|\w+|[^\w\s]")
+
+
+def _one_exchanged(content: bytes, chance: random.Random) -> bytes:
+    """One number, word or sign exchanged for another of its kind."""
+    text = content.decode("utf-8")
+    found = list(_TOKEN.finditer(text))
+    one = chance.choice(found)
+    number = _NUMBER.fullmatch(one[0]) is not None
+    likes = [each[0] for each in found if (_NUMBER.fullmatch(each[0]) is not None) == number]
+    new = chance.choice(likes + (_NUMBERS if number else _TOKENS))
+    return (text[: one.start()] + new + text[one.end() :]).encode("utf-8", errors="surrogatepass")
 
 
 def _damaged_bytes(content: bytes, chance: random.Random) -> bytes:
@@ -397,6 +466,11 @@ def _lines(name: str, text: str) -> Case:
     return Case(("check", f"{{{name}}}"), {name: text.encode()})
 
 
+def _entities(root: str) -> str:
+    inner = "".join(f'<!ENTITY x{k + 1} "{f"&x{k};" * 10}">' for k in range(12))
+    return f'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY x0 "ha">{inner}]><{root}>&x12;</{root}>'
+
+
 def _complete(links: int) -> str:
     return " ".join(f"R({a}-{b})" for a, b in combinations(range(links), 2))
 
@@ -432,6 +506,22 @@ _SLOW: dict[str, Callable[[], Case]] = {
     "a graph6 code of a megabyte": lambda: Case(("check", "{long.g6}"), {"long.g6": b"C" * 10**6}),
     "a key of 10,000 characters": lambda: Case(("analyse", "{key.json}"), {"key.json": b'{"%s": 1}' % (b"k" * 10_000)}),
     "100,000 brackets": lambda: Case(("check", "{deep.json}"), {"deep.json": b"[" * 100_000}),
+    "sparse6 with 16 million links": lambda: _lines("q.s6", ":~~?@????"),
+    "sparse6 with 68 billion links": lambda: _lines("q.s6", ":~~~~~~~~~~"),
+    "graph6 with 4.5 million joints": lambda: _lines("complete.g6", "~?mw" + "~" * 749_750),
+    "entities in GraphML": lambda: _lines("bomb.graphml", _entities("graphml")),
+    "entities in a file of Linkage": lambda: _lines("bomb.linkage2", _entities("linkage2")),
+    "GML nested 100,000 deep": lambda: _lines("deep.gml", "graph [ " + "a [ " * 100_000),
+    "TOML nested 100,000 deep": lambda: _lines("deep.toml", "a = " + "[" * 100_000),
+    "a TOML key of 100,000 parts": lambda: _lines("dots.toml", "a" + ".a" * 100_000 + " = 1"),
+    "RON nested 100,000 deep": lambda: _lines("deep.ron", "(" * 100_000),
+    "DOT nested 100,000 deep": lambda: _lines("deep.dot", "graph {" + "{" * 100_000),
+    "Pyslvs nested 100,000 deep": lambda: _lines("deep.pyslvs", "M[" * 100_000),
+    "an address of 300,000 letters": lambda: _lines("long.pmks", "?2v." + "1.0A," * 60_000),
+    "a matrix of 990 links": lambda: _lines(
+        "complete.adj", "\n".join(" ".join("1" if i != j else "0" for j in range(990)) for i in range(990))
+    ),
+    "a query for any number of rows": lambda: Case(("atlas", "query", "select * from range(100000000000)")),
     "a number of 100,000 digits": lambda: Case(("analyse", "{n.json}"), {"n.json": b'{"unit": %s}' % (b"1" * 100_000)}),
 }
 SLOW = "too slow once"
@@ -447,6 +537,8 @@ def case(group: str, number: int, seed: int) -> Case:
         return list(_SLOW.values())[number % len(_SLOW)]()
     chance = random.Random(f"{seed}/{group}/{number}")
     chosen = chance.choice(_valid(group))
+    if group == ONE_TOKEN:
+        return replace(chosen, files={name: _one_exchanged(each, chance) for name, each in chosen.files.items()})
     return _with_options(chosen, chance) if group == "options" else _with_damage(chosen, chance)
 
 

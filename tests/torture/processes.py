@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import resource
 import signal
 import sys
@@ -20,6 +21,7 @@ SECONDS = 10  # of the processor, for one input
 MEMORY = 10**9  # bytes that one input may take beyond what the loaded program has
 _CRASHED = 70  # exit status of a process that ended with a traceback
 _MESSAGE = LONGEST + 200  # the command's name and a hint stand around the message itself
+_STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")  # not \t and \n
 _TOO_LITTLE = "needs more memory than there is"
 
 
@@ -47,6 +49,7 @@ class Outcome:
             f"{len(lines)} lines of message: {self.err[:200]!r}": refused and len(lines) != 1,
             f"a message of {len(self.err):,} characters": refused and not 0 < len(self.err) <= _MESSAGE,
             f"a warning: {self.err[:200]!r}": "Warning" in self.err,
+            f"control characters: {self.err[-200:]!r}": _STEERING.search(self.err) is not None,
             f"not JSON: {self.out[:200]!r}": not refused and "--json" in arguments and not _is_json(self.out),
         }
         return next((what for what, wrong in faults.items() if wrong), None)

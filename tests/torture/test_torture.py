@@ -48,6 +48,7 @@ def ended(status=0, err="", seconds=0.0, memory=0, out=b""):
         (ended(2, "a\nb\n"), "2 lines of message: 'a\\nb\\n'"),
         (ended(2, "a" * 1300), "a message of 1,300 characters"),
         (ended(0, "x.py:3: RuntimeWarning: overflow"), "a warning: 'x.py:3: RuntimeWarning: overflow'"),
+        (ended(1, "\x1b[31m"), "control characters: '\\x1b[31m'"),
         (ended(out=b'{"a": NaN}'), "not JSON: b'{\"a\": NaN}'"),
     ],
 )
