@@ -12,7 +12,7 @@ help:
 	@echo "make docs        the site in English and German in build/docs/html; about two minutes"
 	@echo "make messages    brings the German catalog up to date with the code and lists what is untranslated"
 	@echo "make slow        the long tests, and the fast ones with new random examples"
-	@echo "make torture     5,000 damaged inputs and 300 kills, see docs/reliability.md; about an hour"
+	@echo "make torture     5,000 damaged inputs, 200 interrupts, 300 kills, see docs/reliability.md; about an hour"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with kernels of OpenBLAS that this processor does not choose"
 	@echo "make test-kernels all tests with compiled kernels only, then with interpreted ones; hours, not part of CI"
@@ -57,7 +57,7 @@ slow: $(READY)
 	GRUEBLER_NEW_EXAMPLES=1 $(BIN)/python -m pytest -q -n 2
 
 torture: $(READY)
-	$(BIN)/python -m tests.torture --inputs 5000 --kills 300
+	$(BIN)/python -m tests.torture --inputs 5000 --interrupts 200 --kills 300
 
 # Kernels are the same wherever the sources lie: those of `make test` are loaded.
 wheel-test: $(READY)

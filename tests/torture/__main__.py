@@ -1,4 +1,4 @@
-"""`python -m tests.torture`: kills and damaged inputs, with a table at the end."""
+"""`python -m tests.torture`: damaged inputs, interrupts and kills, with a table."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from collections import defaultdict
 from pathlib import Path
 
 from tests.torture.inputs import GROUPS, case, prepare, try_all, try_one
+from tests.torture.interrupts import interrupt_all
 from tests.torture.kills import kill_all
 
 
@@ -16,6 +17,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.torture", description=__doc__)
     parser.add_argument("--kills", type=int, default=30, metavar="N", help="kills of enumerations (default: 30)")
     parser.add_argument("--inputs", type=int, default=500, metavar="N", help="damaged inputs (default: 500)")
+    parser.add_argument("--interrupts", type=int, default=20, metavar="N", help="interrupts at the start (default: 20)")
     parser.add_argument("--seed", type=int, default=13, metavar="S", help="another seed gives others (default: 13)")
     parser.add_argument("--group", action="append", choices=GROUPS, help="only these groups of inputs; repeatable")
     parser.add_argument("--only", metavar="GROUP/NUMBER", help="one input again, shown")
@@ -26,6 +28,12 @@ def main() -> int:
         if arguments.only:
             return _one(arguments.only, arguments.seed, folder / "inputs")
         faults = _inputs(arguments, folder / "inputs") if arguments.inputs or arguments.group else 0
+        if arguments.interrupts:
+            (folder / "interrupts").mkdir()
+            for what, number in sorted(
+                interrupt_all(arguments.interrupts, arguments.seed, folder / "interrupts").items()
+            ):
+                print(f"interrupts, {what}: {number}")
         if arguments.kills:
             (folder / "kills").mkdir()
             for what, number in sorted(kill_all(arguments.kills, arguments.seed, folder / "kills").items()):

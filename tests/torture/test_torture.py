@@ -9,6 +9,7 @@ pytest.importorskip("resource", reason="limits of time and memory are those of P
 
 from tests.torture import processes
 from tests.torture.inputs import GROUPS, SLOW, VALID, Case, case, size, try_all, try_one
+from tests.torture.interrupts import interrupt_all
 from tests.torture.kills import kill_all
 from tests.torture.processes import Outcome
 
@@ -85,6 +86,11 @@ def test_a_few_inputs_of_every_kind(folder):
         assert fault is None, f"{group}/{number}: {one.arguments}"
         seen[group] += 1
     assert seen == {group: size(group, 220) for group in groups}
+
+
+def test_a_few_interrupts(tmp_path):
+    told = interrupt_all(6, 7, tmp_path)
+    assert sum(told.values()) == 6
 
 
 @pytest.mark.slow

@@ -30,7 +30,7 @@ MEMORY = "800 MB"
 LARGEST_ANSWER = 400_000_000
 """Bytes of an answer."""
 _ROWS = 100_000  # that are fetched at once
-_CLOSED = {
+_CLOSED: dict[str, str | bool | int | float | list[str]] = {
     "memory_limit": MEMORY,
     "temp_directory": "",  # nothing is written to the disk
     "autoload_known_extensions": "false",
