@@ -1,8 +1,13 @@
 """The server of the page: who may talk to it, what it refuses, in which order it answers."""
 
 import json
+import os
 import re
+import signal
+import socket
 import threading
+import time
+from contextlib import suppress
 from pathlib import Path
 from urllib.error import HTTPError
 from urllib.request import Request, urlopen
@@ -46,6 +51,82 @@ def test_who_does_not_know_the_token_or_the_name_gets_nothing(server):
     assert status(server.address, Host="evil.example") == 404
     assert status(server.address, Host=f"evil.example:{server.port}") == 404
     assert status(server.address + "..%2fserver.py") == 404
+    for host in ("localhost:evil.com", "127.0.0.1:80:80", "[::1]evil.com", "localhost:", "127.0.0.1.evil.com", ""):
+        assert status(server.address, Host=host) in (400, 404), host
+    for host in ("localhost", f"localhost:{server.port}", "127.0.0.1", "[::1]:80"):
+        assert status(server.address, Host=host) == 200, host
+
+
+@pytest.mark.parametrize("method", ["POST", "OPTIONS", "PUT", "DELETE"])
+def test_other_methods_get_what_a_wrong_token_gets(server, method):
+    base = f"http://127.0.0.1:{server.port}"
+    for address in (server.address, base + "/wrong/", server.address + "explorer.js", base + "/wrong/explorer.js"):
+        with pytest.raises(HTTPError) as refused:
+            urlopen(Request(address, method=method), timeout=10)
+        refused.value.close()
+        assert refused.value.code == 404
+
+
+@pytest.fixture
+def impatient_server(monkeypatch):
+    """A server in this process that waits a fifth of a second for a whole request; its port."""
+    import uvicorn
+
+    from gruebler.explorer import timed_protocol
+
+    async def hello(scope, receive, send):
+        await send({"type": "http.response.start", "status": 200, "headers": [(b"content-length", b"2")]})
+        await send({"type": "http.response.body", "body": b"hi"})
+
+    monkeypatch.setattr(timed_protocol, "SECONDS", 0.2)
+    config = uvicorn.Config(hello, http=timed_protocol.TimedProtocol, lifespan="off", log_level="critical")
+    server = uvicorn.Server(config)
+    listening = socket.create_server(("127.0.0.1", 0))
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})
+    thread.start()
+    yield listening.getsockname()[1]
+    server.should_exit = True
+    thread.join()
+
+
+HALVES = {
+    "nothing": b"",
+    "half a header": b"GET / HTTP/1.1\r\nHost: x\r\nX-Slow: ",
+    "half a body": b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\n1",
+    "a request and a half": b"GET / HTTP/1.1\r\nHost: x\r\n\r\nGET / HT",
+}
+
+
+@pytest.mark.parametrize("half", HALVES)
+def test_half_requests_are_ended(impatient_server, half):
+    with socket.create_connection(("127.0.0.1", impatient_server), timeout=60) as client:
+        client.sendall(HALVES[half])
+        received = b""
+        with suppress(ConnectionResetError):
+            while piece := client.recv(4096):  # until the server closes
+                received += piece
+    assert received.count(b"hi") == half.count("body") + half.count("and")
+
+
+def test_whole_requests_have_all_their_time(impatient_server):
+    with socket.create_connection(("127.0.0.1", impatient_server), timeout=60) as client:
+        for _ in range(2):
+            client.sendall(b"GET / HTTP/1.1\r\nHost: x\r\n\r\n")
+            received = b""
+            while not received.endswith(b"hi"):
+                received += client.recv(4096)
+            time.sleep(0.5)  # longer than a request may take to arrive
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not list processes")
+def test_a_worker_killed_while_idle_is_replaced_before_the_next_request(server):
+    with connected(server) as client:
+        for _ in range(2):
+            assert asked(client, '{"id": 7, "method": "exercise_kinds"}')["id"] == 7
+            for pid in workers(server):
+                os.kill(pid, signal.SIGKILL)
+            answer = asked(client, '{"id": 8, "method": "exercise_kinds"}')
+            assert "result" in answer, answer
     with urlopen(server.address, timeout=10) as answer:
         policy = answer.headers["Content-Security-Policy"]
         text = answer.read().decode()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import html
 import json
 from collections.abc import Mapping
@@ -11,6 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from gruebler.drawing.canvas.page_policy import policy_element, script_element
 from gruebler.drawing.canvas.styles import STYLES
 
 __all__ = ["module_text", "picture_styles", "served_page", "single_file"]
@@ -54,19 +53,15 @@ def single_file(model: Mapping[str, Any], lang: str = "") -> str:
     >>> page.count("<script"), "fetch(" in page, " src=" in page
     (2, False, False)
     """
-    script = module_text().replace("</script", r"<\/script")
-    digest = base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
-    policy = (
-        f"default-src 'none'; script-src 'sha256-{digest}'; img-src data: blob:; base-uri 'none'; form-action 'none'"
-    )
+    script = module_text()
     values = {"lang": lang, "machine": model}
     return _page(
         str(model["name"]) or "gruebler",
         lang,
         "file",
         values,
-        f'<script type="module">{script}</script>',
-        f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        script_element(script, "module"),
+        policy_element(script, styles=False),
     )
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import hmac
+import re
 import secrets
 import socket
 from collections import deque
@@ -37,6 +38,7 @@ LARGEST = 400_000
 MOST_WAITING = 200
 """Requests of one page that may wait; more are refused."""
 _FRAME = 4_000_000  # bytes of a frame: beyond it the connection is closed by the protocol itself
+_HOST = re.compile(r"(\[[0-9a-fA-F:.]+\]|[^:]+)(?::\d{1,5})?")
 _POLICY = (
     "default-src 'none'; script-src 'self'; connect-src 'self'; img-src data: blob:; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'none'"
@@ -85,6 +87,7 @@ class ExplorerServer:
                 Route("/{path:path}", self._nothing),
             ],
             lifespan=self._lifespan,
+            exception_handlers={405: self._wrong_method},
         )
 
     @asynccontextmanager
@@ -98,10 +101,9 @@ class ExplorerServer:
 
     def _known(self, request: Request | WebSocket) -> bool:
         """Whether a request names this server and knows the token."""
-        host = request.headers.get("host", "")
-        name = host.rsplit(":", 1)[0] if not host.endswith("]") else host
+        named = _HOST.fullmatch(request.headers.get("host", ""))
         token = str(request.path_params.get("token", ""))
-        return name in self.names and hmac.compare_digest(token.encode(), self.token.encode())
+        return named is not None and named[1] in self.names and hmac.compare_digest(token.encode(), self.token.encode())
 
     async def _page(self, request: Request) -> Response:
         if not self._known(request):
@@ -114,6 +116,9 @@ class ExplorerServer:
         return Response(module_text(), media_type="text/javascript", headers=_HEADERS)
 
     async def _nothing(self, _: Request) -> Response:
+        return self._refusal()
+
+    async def _wrong_method(self, _: Request, __: Exception) -> Response:
         return self._refusal()
 
     def _refusal(self) -> Response:
@@ -304,8 +309,11 @@ def run_server(server: ExplorerServer, listening: socket.socket) -> None:
     """Serve until interrupted."""
     import uvicorn
 
+    from gruebler.explorer.timed_protocol import TimedProtocol
+
     config = uvicorn.Config(
         server.application,
+        http=TimedProtocol,
         log_level="warning",
         access_log=False,
         ws_max_size=_FRAME,

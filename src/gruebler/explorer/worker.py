@@ -26,6 +26,7 @@ def main() -> None:
 
     for line in sys.stdin.buffer:
         method, params, lang = msgspec.json.decode(line)
+        say("begun", None)
         try:
             result = answer(method, params, lang, lambda text: say("progress", text))
         except GrueblerError as error:

@@ -6,6 +6,7 @@ import asyncio
 import sys
 from asyncio.subprocess import PIPE, Process
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import msgspec
@@ -55,8 +56,8 @@ class Workers:
         async with self._slots:
             if cancelled.is_set():
                 raise CancelledError
-            process = self._free.pop() if self._free else await self._started()
-            answer = asyncio.ensure_future(_exchange(process, [method, params, lang], progress))
+            used: list[Process] = []
+            answer = asyncio.ensure_future(self._answer([method, params, lang], progress, used))
             stop = asyncio.ensure_future(cancelled.wait())
             reply = None
             try:
@@ -66,10 +67,11 @@ class Workers:
             finally:  # whoever went away leaves no process with half an answer
                 stop.cancel()
                 answer.cancel()
-                if reply is None:
-                    await self._end(process)
+                if reply is not None:
+                    self._free += used
                 else:
-                    self._free.append(process)
+                    for process in used:
+                        await self._end(process)
             if reply is None:
                 if cancelled.is_set():
                     raise CancelledError
@@ -81,6 +83,21 @@ class Workers:
                 raise GrueblerError("{text}", text=content)
             return content
 
+    async def _answer(
+        self, request: list[Any], progress: Callable[[str], None], used: list[Process]
+    ) -> tuple[str, Any] | None:
+        """The answer of a process, which is in ``used`` from then on; None if it ends before it has answered.
+
+        A process that was ended while it waited, and so has not begun, is replaced.
+        """
+        while True:
+            waited = bool(self._free)
+            used[:] = [self._free.pop() if waited else await self._started()]
+            begun, reply = await _exchange(used[0], request, progress)
+            if begun or not waited:
+                return reply
+            await self._end(used[0])
+
     async def _started(self) -> Process:
         command = (sys.executable, "-m", "gruebler.explorer.worker")
         process = await asyncio.create_subprocess_exec(*command, stdin=PIPE, stdout=PIPE, limit=_WIDEST)
@@ -90,7 +107,8 @@ class Workers:
     async def _end(self, process: Process) -> None:
         self._all.discard(process)
         if process.returncode is None:
-            process.kill()
+            with suppress(ProcessLookupError):
+                process.kill()
         await process.wait()
 
     async def close(self) -> None:
@@ -100,8 +118,11 @@ class Workers:
             await self._end(process)
 
 
-async def _exchange(process: Process, request: list[Any], progress: Callable[[str], None]) -> tuple[str, Any] | None:
-    """Send a request and wait for its answer; None if the process ends before."""
+async def _exchange(
+    process: Process, request: list[Any], progress: Callable[[str], None]
+) -> tuple[bool, tuple[str, Any] | None]:
+    """Send a request: whether the process has begun with it, and its answer, None if it ends before."""
+    begun = False
     assert process.stdin is not None
     assert process.stdout is not None
     try:
@@ -109,9 +130,11 @@ async def _exchange(process: Process, request: list[Any], progress: Callable[[st
         await process.stdin.drain()
         while line := await process.stdout.readline():
             kind, content = msgspec.json.decode(line)
-            if kind != "progress":
-                return kind, content
-            progress(content)
+            if kind not in ("begun", "progress"):
+                return True, (kind, content)
+            begun = True
+            if kind == "progress":
+                progress(content)
     except (BrokenPipeError, ConnectionResetError):
         pass
-    return None
+    return begun, None

@@ -10,6 +10,7 @@ from xml.sax.saxutils import escape
 
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import suffix_of
+from gruebler.drawing.canvas.page_policy import policy_element
 from gruebler.drawing.canvas.styles import COLOURS
 from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, svg_text
 
@@ -82,7 +83,8 @@ class Page:
     def html(self) -> str:
         """A document with the page alone, printed on A4 without margins."""
         return (
-            f'<!DOCTYPE html>\n<html lang="{self.lang}"><head><meta charset="utf-8"><title>{escape(self.title)}</title>'
+            f'<!DOCTYPE html>\n<html lang="{self.lang}"><head><meta charset="utf-8">{policy_element()}'
+            f"<title>{escape(self.title)}</title>"
             "<style>@page{size:A4;margin:0}body{margin:0;background:#fff}"
             "svg{display:block;margin:0 auto;max-width:100%;height:auto}"
             "@media print{svg{width:210mm;height:297mm}}</style></head><body>\n"

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from html import escape
 
 from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.page_policy import policy_element
 from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
 from gruebler.drawing.canvas.styles import COLOURS, STYLES
 from gruebler.drawing.canvas.svg import style_sheet
@@ -72,7 +73,8 @@ def _html(document: Document) -> bytes:
     body = "\n".join(part for block in document.blocks for part in _html_block(block))
     title = escape(document.title)
     return (
-        f'<!doctype html>\n<html lang="{document.lang}"><head><meta charset="utf-8"><title>{title}</title>'
+        f'<!doctype html>\n<html lang="{document.lang}"><head><meta charset="utf-8">{policy_element()}'
+        f"<title>{title}</title>"
         f"<style>{rules}{_HTML_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
         f'<p class="small">{escape(document.subtitle)}</p>\n{body}\n</body></html>\n'
     ).encode()

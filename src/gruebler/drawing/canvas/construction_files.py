@@ -9,6 +9,7 @@ from html import escape
 from gruebler.drawing.canvas.construction import Construction
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import picture_bytes
+from gruebler.drawing.canvas.page_policy import policy_element, script_element
 from gruebler.drawing.canvas.shapes import Point, Shape, moved_shape
 from gruebler.drawing.canvas.styles import COLOURS
 from gruebler.drawing.canvas.svg import style_sheet
@@ -91,12 +92,13 @@ def steps_html(whole: Construction, lang: str = "en") -> str:
     )
     used = sorted({"ground", *(shape.style for figure in figures for shape in figure.shapes)})
     back, following, slider = translate("Back", lang), translate("Next", lang), translate("Step", lang)
+    script = f"\n{_SCRIPT % shown.replace('<', chr(92) + 'u003c')}\n"
     return (
-        f'<!doctype html>\n<html lang="{lang}">\n<meta charset="utf-8">\n'
+        f'<!doctype html>\n<html lang="{lang}">\n<meta charset="utf-8">\n{policy_element(script)}\n'
         f'<meta name="viewport" content="width=device-width,initial-scale=1">\n<title>{title}</title>\n'
         f"<style>{style_sheet(used)}{_STYLE.format(**colours)}</style>\n<main>\n<h1>{title}</h1>\n"
         f'<nav><button type="button" id="back">{back}</button>'
         f'<input type="range" id="step" min="1" max="{count}" value="1" aria-label="{slider}">'
         f'<button type="button" id="next">{following}</button><output id="value" for="step"></output></nav>\n'
-        f"{pictures}\n</main>\n<script>\n{_SCRIPT % shown.replace('<', chr(92) + 'u003c')}\n</script>\n</html>\n"
+        f"{pictures}\n</main>\n{script_element(script)}\n</html>\n"
     )

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from html import escape
 
 from gruebler.drawing.canvas.figure import Figure, svg
+from gruebler.drawing.canvas.page_policy import policy_element
 from gruebler.drawing.canvas.styles import COLOURS
 from gruebler.drawing.canvas.svg import style_sheet
 from gruebler.notebook import Brief
@@ -44,6 +45,7 @@ def gallery_html(title: str, sections: Iterable[Section], *, lang: str = "en", n
     parts = [_section(section) for section in sections]
     return _PAGE.format(
         lang=lang,
+        policy=policy_element(),
         title=escape(title),
         note=escape(note),
         pictures=style_sheet(),
@@ -70,6 +72,7 @@ _PAGE = """<!DOCTYPE html>
 <html lang="{lang}">
 <head>
 <meta charset="utf-8">
+{policy}
 <meta name="viewport" content="width=device-width">
 <meta name="color-scheme" content="light dark">
 <title>{title}</title>

@@ -7,6 +7,7 @@ from html import escape
 from typing import TypedDict
 
 from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.page_policy import policy_element, script_element
 from gruebler.drawing.canvas.styles import COLOURS
 from gruebler.text import translate
 
@@ -59,18 +60,19 @@ def moving_page_html(picture: str, about: Figure, settings: PageSettings, lang: 
     play, drive = translate("Play", lang), translate("Drive", lang)
     keys = translate("Space: play or pause. Arrow keys: the drive.", lang)
     known = json.dumps({**settings, "play": play, "pause": translate("Pause", lang)}, ensure_ascii=False)
-    script = _SCRIPT % known.replace("<", "\\u003c")
+    script = f"\n{_SCRIPT % known.replace('<', chr(92) + 'u003c')}\n"
     title, description = escape(about.title), escape(about.description)
     slider = f'type="range" id="drive" min="{low:.6g}" max="{high:.6g}" step="{(high - low) / 720:.4g}"'
     return "\n".join(
         [
             f'<!doctype html>\n<html lang="{lang}">\n<meta charset="utf-8">',
+            policy_element(script),
             f'<meta name="viewport" content="width=device-width,initial-scale=1">\n<title>{title}</title>',
             f"<style>{_STYLE.format(width=max(480, round(about.width)), **colours)}</style>",
             f"<main>\n<h1>{title}</h1>\n{picture}",
             f'<div><button type="button" id="play">{play}</button>',
             f'<input {slider} aria-label="{drive}"><output id="value" for="drive"></output></div>',
             f"<p><small>{keys}</small></p>\n<p><small>{description}</small></p>\n</main>",
-            f"<script>\n{script}\n</script>\n</html>\n",
+            f"{script_element(script)}\n</html>\n",
         ]
     )
