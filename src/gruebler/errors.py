@@ -107,7 +107,7 @@ def shortened(text: str) -> str:
 def visible(text: str, keep: str = "") -> str:
     r"""The text with control characters as escapes, but those to keep: what a file says cannot steer the terminal.
 
-    Control characters are those of the categories C of Unicode, which also turn the direction of writing.
+    Control characters are those of the categories Cc, Cf and Cs of Unicode, which also turn the direction of writing.
 
     >>> visible("\x1b]0;title\x07", "\n"), visible("a\u202eb"), visible("Kürbel\n", "\n")
     ('\\x1b]0;title\\x07', 'a\\u202eb', 'Kürbel\n')
@@ -115,7 +115,8 @@ def visible(text: str, keep: str = "") -> str:
     if text.translate(dict.fromkeys(map(ord, keep))).isprintable():
         return text
     return "".join(
-        repr(letter)[1:-1] if letter not in keep and category(letter).startswith("C") else letter for letter in text
+        repr(letter)[1:-1] if letter not in keep and category(letter) in ("Cc", "Cf", "Cs") else letter
+        for letter in text
     )
 
 

@@ -50,7 +50,8 @@ def test_a_browser_runs_its_scripts_and_refuses_others(page, browser):
     assert complaints == []
     tab.evaluate(
         "() => { const s = document.createElement('script'); s.textContent = 'window.foreign = 1';"
-        " document.head.append(s); const i = new Image(); i.src = 'https://localhost:9/x.png'; document.body.append(i) }"
+        " document.head.append(s); const i = new Image(); i.src = 'https://x.invalid/x.png';"
+        " document.body.append(i) }"
     )
     assert tab.evaluate("() => window.foreign === undefined")
     tab.wait_for_timeout(50)
