@@ -123,7 +123,7 @@ GERMAN = {
     "extend": ["extend", "lambda", "--coupler"],
     "realise": ["realise", "lambda", "--drive", "R(frame-rocker)"],
     "curve": ["curve", "lambda", "R(crank-coupler)"],
-    "poles": ["analyse", "crane", "--poles", "--at", "25"],
+    "poles": ["analyse", "crane", "--poles", "--at", "65"],
     "draw": ["draw", "lambda", "--show", "centrodes", "--output", "coupler", "--curve", "coupler:20,10", "--labels"],
     "structure": ["draw", "lambda", "--drive", "R(frame-rocker)", "--labels"],
     "plot": ["plot", "lambda", "--output", "rocker"],

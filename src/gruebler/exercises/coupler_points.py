@@ -18,7 +18,7 @@ from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage
 from gruebler.text import Message, in_every_language, message
 
-__all__ = ["conchoid", "four_bar"]
+__all__ = ["conchoid", "four_bar", "read_points"]
 
 
 STRIP = 1e-6
@@ -36,7 +36,8 @@ def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points
     builder.check(BY_SOLVER, 0.0, apart)
 
 
-def _read_points(points: str) -> list[tuple[float, float]]:
+def read_points(points: str) -> list[tuple[float, float]]:
+    """Coupler points as an exercise writes them, ``u,v; u,v``; `LinkageError` for any other text."""
     try:
         pairs = [tuple(float(x) for x in text.split(",")) for text in points.split(";")]
     except ValueError:
@@ -63,7 +64,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
             d=d,
             type=in_every_language(size.type.name),
         )
-    chosen = _read_points(points)
+    chosen = read_points(points)
     as_step(step)
     builder = SolutionBuilder(unit)
     builder.say(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import cycle, islice
-from math import radians
 from typing import NamedTuple
 
 from gruebler.chain import Chain
@@ -12,7 +11,6 @@ from gruebler.chain.pairs import Alphabet
 from gruebler.constructions import construction
 from gruebler.drawing.canvas.construction import Construction
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.drawing.structure import draw_structure
 from gruebler.errors import GrueblerError
 from gruebler.exercises import (
@@ -37,9 +35,9 @@ from gruebler.exercises.messages import (
     step_lines,
 )
 from gruebler.formats import Exercise
-from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.text import joined, message, translate
 from gruebler.worksheets.blocks import AnswerLines, Block, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+from gruebler.worksheets.exercise_figures import linkage_figure
 
 __all__ = ["TaskSheet", "construction_of", "exercise_figure", "solution_document", "task_sheet"]
 
@@ -133,27 +131,7 @@ def exercise_figure(exercise: Exercise, lang: str = "en") -> Figure | None:
     if isinstance(given.get("chain"), str):
         # Names of the links would give away how many there are; a dyad is put between named links.
         return draw_structure(_chain(exercise), labels=exercise.method != "mobility.chain", lang=lang)
-    size = _size(exercise)
-    if size is None:
-        return None
-    phi = radians(float(given["phi"])) if "phi" in given else None
-    letters = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d" if isinstance(size, FourBar) else " "}
-    return draw_linkage(size.linkage(), phi, labels=True, lang=lang, names=letters | {"slider": " "})
-
-
-def _size(exercise: Exercise) -> FourBar | SliderCrank | None:
-    """The linkage of the given lengths, if they are all given and it can be assembled."""
-    given = exercise.given
-    lengths = {key: float(given[key]) for key in ("a", "b", "c", "d", "e") if isinstance(given.get(key), int | float)}
-    if "b" not in lengths and {"a", "ratio"} <= {*given}:
-        lengths["b"] = float(given["a"]) / float(given["ratio"])
-    if {*"abcd"} <= {*lengths}:
-        size: FourBar | SliderCrank = FourBar(*(lengths[key] for key in "abcd"))
-    elif {*"ab"} <= {*lengths} and not {*"cd"} & {*lengths} and "free" not in given:
-        size = SliderCrank(lengths["a"], lengths["b"], lengths.get("e", 0.0))
-    else:
-        return None
-    return size if size.limits else None
+    return linkage_figure(exercise, lang)
 
 
 # --- solutions ---------------------------------------------------------------------------------------
