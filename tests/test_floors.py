@@ -17,6 +17,7 @@ ROOT = Path(__file__).parents[1]
 BENEATH = ["errors", "text"]
 FLOORS = [
     {
+        "angles",
         "arrays",
         "convex_hull",
         "disjoint_sets",

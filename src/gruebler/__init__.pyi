@@ -38,7 +38,7 @@ from .assur import assur_groups, decompose
 from .cams import Cam
 from .chain import Chain, Joint
 from .enumeration import chains, count_chains
-from .errors import GrueblerError
+from .errors import GrueblerError, UnitWarning
 from .explorer.notebook import explore
 from .files import read, write
 from .forces import Loads, Statics, statics
@@ -81,6 +81,7 @@ __all__ = [
     "SpatialLinkage",
     "Statics",
     "Train",
+    "UnitWarning",
     "animate",
     "assembly_modes",
     "assur",

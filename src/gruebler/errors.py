@@ -90,6 +90,10 @@ class TransformationError(GrueblerError):
     """A transformation that cannot be done there: what was to be removed is not such, or the places do not fit."""
 
 
+class UnitWarning(UserWarning):
+    """Angles, which are in radians everywhere, look as if they were degrees; `gruebler.angles` says when."""
+
+
 def shortened(text: str) -> str:
     r"""One line of at most `LONGEST` visible characters: what is longer loses its middle, words first.
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler import notebook
+from gruebler.angles import warn_of_degrees
 from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError
 
@@ -194,6 +195,7 @@ class Geneva:
             phi = np.array(np.nan)
         if not np.isfinite(phi).all():
             raise GenevaError("the driver's angles are finite numbers")
+        warn_of_degrees("driver", phi)
         lam, side, pitch = self.crank_ratio, self._side, 2 * math.pi / self.pins
         index = np.floor(phi / pitch + 0.5)
         local = phi - index * pitch

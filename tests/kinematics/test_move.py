@@ -415,6 +415,7 @@ def test_rows_of_very_different_lengths_do_not_jump_at_a_change_point():
 
 
 @pytest.mark.parametrize("bends", [(0, 0, 0), (1e-3, 0, 1e-3), (1e-2, 1.5, 0), (pi / 2, pi, 0.5)], ids=str)
+@pytest.mark.filterwarnings("ignore::gruebler.errors.UnitWarning")  # rows many turns apart
 def test_parallelograms_in_a_row_pass_their_change_points_together(bends: tuple[float, ...]) -> None:
     """Whether the change points are at the same drive value, near one another or apart, and the rows long or short."""
     random = np.random.default_rng(20_261_123)

@@ -166,6 +166,7 @@ def test_the_circuit_finds_the_same_and_files_keep_it(text, teeth, tmp_path):
         assert read_linkage(tmp_path / name) == linkage
 
 
+@pytest.mark.filterwarnings("ignore::gruebler.errors.UnitWarning")  # rows many turns apart
 def test_phases_stay_exact_over_many_turns():
     linkage = pair("ellipse 0.5", (1, 3))
     motion = move(linkage, [0.5, 0.5 + 600 * pi])

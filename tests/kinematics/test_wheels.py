@@ -237,6 +237,7 @@ def test_no_slip_at_the_contact():
 
 @settings(max_examples=8, deadline=None)
 @given(st.integers(10, 40), st.integers(10, 40))
+@pytest.mark.filterwarnings("ignore::gruebler.errors.UnitWarning")  # rows many turns apart
 def test_a_geared_five_bar_closes_after_its_cycle(first, second):
     """The path of a point closes after second / gcd turns of the drive, and not before."""
     linkage = geared_five_bar(float(first), float(second))
@@ -273,6 +274,7 @@ def test_measures_of_wheels():
     assert measures(pair).transfer.uniform
 
 
+@pytest.mark.filterwarnings("ignore::gruebler.errors.UnitWarning")  # rows many turns apart
 def test_many_turns_do_not_add_up_to_an_error():
     linkage = geared_five_bar(20.0, 30.0)
     motion = move(linkage, 2 * pi * np.array([0, 3, 30, 300, 3000]))

@@ -25,7 +25,7 @@ from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.reference_pose import ReferencePose, pose_at_reference
 from gruebler.kinematics.root_finding import FunctionSamples, bracketed_root
-from gruebler.kinematics.solve import cached_plan, motion_from_rows, move
+from gruebler.kinematics.solve import cached_plan, motion_from_rows, move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
 
@@ -304,7 +304,7 @@ class PathCycle(DriveCycle):
         """The poses at parts of the path, in any order; rates by the part."""
         order_of = np.argsort(drives, kind="stable")
         parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
-        motion = move(
+        motion = move_in_radians(
             self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
         )
         if not motion.complete:
@@ -322,7 +322,7 @@ def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | 
     ends = np.array([rows[0], rows[-1]])
     if (ends[0] == ends[1]).all():
         raise LinkageError("the path of the drives has no length: its first row is its last")
-    start = move(plan, ends[:1], branch=branch)
+    start = move_in_radians(plan, ends[:1], branch=branch)
     if not start.complete:
         raise LinkageError("{reason}", reason=start.reason)
     cycle = PathCycle(plan, start, CycleSpan(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
@@ -365,7 +365,7 @@ def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
     branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     best, margin = None, 0.0
     for value in _candidates(plan):
-        motion = move(plan, [value], branch=labels)
+        motion = move_in_radians(plan, [value], branch=labels)
         root = float(np.abs(motion.roots[:, branching]).min(initial=1.0)) if len(motion) else -1.0
         if best is None or root > margin:
             best, margin = motion, root

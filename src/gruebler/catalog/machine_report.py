@@ -199,10 +199,10 @@ def _shown_transmission(entry: Entry, measured: Measures | None) -> tuple[float,
     if measured is None or measured.transmission is None or entry.dimensions is None or entry.dimensions.range is None:
         return None
     from gruebler.analysis.transmission import transmission_angle
-    from gruebler.kinematics import move
+    from gruebler.kinematics.solve import move_in_radians
 
     rows = np.linspace(*entry.dimensions.range, _ROWS)
-    motion = move(measured.linkage, np.radians(rows) if measured.turning_drive else rows, speed=1.0)
+    motion = move_in_radians(measured.linkage, np.radians(rows) if measured.turning_drive else rows, speed=1.0)
     angles = transmission_angle(motion, measured.output.name)
     return float(angles.min()), float(angles.max())
 

@@ -26,9 +26,9 @@ from gruebler.cli.tables import print_table, print_text
 from gruebler.columns import Column, shown
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.linkages import linkage_to_json
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
 from gruebler.kinematics.branches import read_branch
-from gruebler.kinematics.solve import all_branches, cached_plan
+from gruebler.kinematics.solve import all_branches, cached_plan, move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.text import Message, error_in_language, joined, message, translate
 
@@ -139,7 +139,7 @@ def run(arguments: argparse.Namespace) -> int:
                 count=len(turning),
             )
         if speeds:
-            motion = move(
+            motion = move_in_radians(
                 linkage,
                 given,
                 branch=arguments.branch,
@@ -149,7 +149,7 @@ def run(arguments: argparse.Namespace) -> int:
                 order=order,
             )
         else:
-            motion = move(linkage, given, branch=arguments.branch)
+            motion = move_in_radians(linkage, given, branch=arguments.branch)
         table = (
             motion_table(motion, outputs, arguments.point, lang=language_of_names(arguments)) if len(motion) else None
         )
@@ -235,8 +235,12 @@ def _moved(linkage: Linkage, measures: Measures, rows: Reals, branch: str | None
 
     Returns the motion and how many rows at its beginning were not asked for.
     """
-    motion = move(linkage, np.concatenate([[[measures.start]], rows]), branch=measures.branch, speed=1.0, order=order)
-    return (motion, 1) if len(motion) > 1 else (move(linkage, rows, branch=branch, speed=1.0, order=order), 0)
+    motion = move_in_radians(
+        linkage, np.concatenate([[[measures.start]], rows]), branch=measures.branch, speed=1.0, order=order
+    )
+    return (
+        (motion, 1) if len(motion) > 1 else (move_in_radians(linkage, rows, branch=branch, speed=1.0, order=order), 0)
+    )
 
 
 def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Namespace) -> list[Column]:

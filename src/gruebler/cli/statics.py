@@ -22,7 +22,8 @@ from gruebler.cli.tables import print_table
 from gruebler.columns import Column, shown
 from gruebler.errors import GrueblerError
 from gruebler.forces import Friction, Loads, Statics, component_table, statics, statics_table
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.text import message, number, translate
 
@@ -267,7 +268,7 @@ def _motion(
     if rows is None and len(turning) > 1:
         raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
     if rows is not None:
-        return move(linkage, rows, branch=arguments.branch, order=1)
+        return move_in_radians(linkage, rows, branch=arguments.branch, order=1)
     cycle = drive_cycle(linkage, arguments.branch)
     values = default_rows(cycle.span, shown_range, turning[0])[:, 0]
     if not cycle.span.full:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.angles import warn_of_degrees
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.jets import turn_derivative
@@ -127,6 +128,7 @@ def crank_rates(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, 
     for name, values in given.items():
         if values.size and np.abs(values).max() > 1e50:
             raise LinkageError("{name} must be below 1e50: choose another unit of time", name=name)
+    warn_of_degrees("phi", given["phi"])
     try:
         return CrankRates(*(np.array(part) for part in np.broadcast_arrays(*given.values())))
     except ValueError:

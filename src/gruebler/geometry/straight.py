@@ -11,7 +11,7 @@ import numpy as np
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics import move
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.linkages.quantities import as_finite, as_positive
 
@@ -60,7 +60,7 @@ def linkage_path(linkage: Linkage, point: str | LinkPoint, branch: str | None = 
     """
 
     def at(values: Reals) -> Complexes:
-        motion = move(linkage, np.ravel(values), branch=branch)
+        motion = move_in_radians(linkage, np.ravel(values), branch=branch)
         if not motion.complete:
             raise LinkageError("{reason}", reason=motion.reason)
         return motion.complex_point(point).reshape(np.shape(values))

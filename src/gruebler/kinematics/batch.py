@@ -18,7 +18,7 @@ from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.jets import turn_derivative
 from gruebler.kinematics.branches import Unassembled, read_branch, starting_state
-from gruebler.kinematics.drive_rows import drive_path, drive_speeds
+from gruebler.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.solve import cached_plan, move, starting_configuration
@@ -270,6 +270,7 @@ def move_many(
     batch = many if isinstance(many, Designs) else designs(many)
     plan, count = batch.plan, len(batch)
     path = drive_path(plan, drives)
+    warn_of_path(plan, path)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
         raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler.angles import warn_of_degrees
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.events import ChangePoint, Extremum
@@ -310,6 +311,8 @@ def circuit(
     for name, value in {"drive": 0.0 if drive is None else drive, "step": step, "most": most}.items():
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
             raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)
+    if drive is not None and [each.turning for each in linkage.mechanism.drives] == [True]:
+        warn_of_degrees("drive", drive)
     if not 1e-4 <= step <= 0.2 or not most > 0:
         raise LinkageError(
             "the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}",

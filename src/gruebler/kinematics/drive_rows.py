@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler.angles import doubt_of_angles, warn_of_degrees
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan
 
-__all__ = ["drive_path", "drive_speeds", "from_degrees"]
+__all__ = ["drive_path", "drive_speeds", "from_degrees", "warn_of_path"]
 
 _ROUNDING = 1e-12  # of a number of steps: its error by two roundings, with room
 _LAST = 1e-9  # of a step: an end that is missed by less is reached
@@ -59,6 +60,14 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
             "drive values are finite numbers, but row {row} has {numbers}", row=row, numbers=path[row].tolist()
         )
     return np.ascontiguousarray(path)
+
+
+def warn_of_path(plan: Plan, path: Reals) -> None:
+    """`UnitWarning` if the values of a turning drive, (rows, drives), look like degrees."""
+    mechanism = plan.linkage.mechanism
+    for k, drive in enumerate(mechanism.drives):
+        if drive.turning and doubt_of_angles(path[:, k], path=True) is not None:
+            warn_of_degrees(mechanism.drive_names()[k], path[:, k], path=True)
 
 
 def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals:

@@ -20,7 +20,7 @@ from gruebler.kinematics.branches import (
     starting_state,
 )
 from gruebler.kinematics.change_point_rows import set_change_point_rows
-from gruebler.kinematics.drive_rows import drive_path, drive_speeds
+from gruebler.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
 from gruebler.kinematics.kernel_calls import SolvedRows, follow_path, run_rows, without_first
 from gruebler.kinematics.motion import Motion, Stop, joint_openings
 from gruebler.kinematics.plan import Dyad, HigherGroup, Plan, plan
@@ -68,7 +68,8 @@ def move(
     pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked to, 1 to 3 us of a group of four
     links.
 
-    Raises `LinkageError` if the drives do not fix the motion or the numbers are not usable.
+    Raises `LinkageError` if the drives do not fix the motion or the numbers are not usable. Gives a `UnitWarning` if
+    angles look like degrees (`gruebler.angles`).
 
     >>> from gruebler.kinematics import from_degrees
     >>> from gruebler.fourbar import FourBar
@@ -76,6 +77,23 @@ def move(
     >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
     (361, True, True)
     """
+    plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
+    path = drive_path(plan, drives)
+    warn_of_path(plan, path)
+    return move_in_radians(plan, path, speed=speed, acceleration=acceleration, jerk=jerk, branch=branch, order=order)
+
+
+def move_in_radians(
+    linkage: LinkageLike | Plan,
+    drives: ArrayLike,
+    *,
+    speed: ArrayLike | None = None,
+    acceleration: ArrayLike = 0.0,
+    jerk: ArrayLike = 0.0,
+    branch: str | Iterable[str] | None = None,
+    order: int | None = None,
+) -> Motion:
+    """`move` where the drive values cannot be degrees, however far apart they are."""
     plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
     path = drive_path(plan, drives)
     upto = (0 if speed is None else 2) if order is None else order
@@ -237,8 +255,9 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
     ['+', '-']
     """
     plan = cached_plan(as_linkage(linkage))
-    row = drive_path(plan, np.atleast_2d(np.asarray(drives, np.float64)))[0]
-    modes = all_branches(plan, row)
+    row = drive_path(plan, drives)[:1]
+    warn_of_path(plan, row)
+    modes = all_branches(plan, row[0])
     return ["".join(labels) if set(labels) <= {"+", "-"} else ",".join(labels) for labels in modes]
 
 

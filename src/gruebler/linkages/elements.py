@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from math import cos, hypot, isfinite, sin
 from typing import NamedTuple
 
+from gruebler.angles import warn_of_degrees
 from gruebler.chain.pairs import Pair
 from gruebler.errors import LinkageError
 from gruebler.text import Message, joined_by_or, message
@@ -259,7 +260,10 @@ def read_element(raw: object, where: str | Message) -> Element:
     if len(numbers) not in (2, 3):
         raise LinkageError("{where}: expected two or three numbers, but found {count}", where=where, count=len(numbers))
     values = [_number(value, where) for value in numbers]
-    return Pin(*values) if len(values) == 2 else Line(*values)
+    if len(values) == 2:
+        return Pin(*values)
+    warn_of_degrees(str(where), values[2])
+    return Line(*values)
 
 
 def _round(raw: RoundElement, where: str | Message) -> RoundElement:

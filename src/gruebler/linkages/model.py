@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 from gruebler import notebook
+from gruebler.angles import warn_of_degrees
 from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import (
@@ -422,6 +423,7 @@ def _checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, f
         line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), message("reference pose, {link}", link=link))
         if not isinstance(line, Line):
             raise LinkageError("reference pose, {link}: expected x, y and an angle", link=link)
+        warn_of_degrees(f"reference pose, {link}", line.angle)
         poses[link] = Pose2D(line.x, line.y, line.angle)
     for link in poses_given:
         _link(mechanism, link, message("reference pose"))

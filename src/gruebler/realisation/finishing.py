@@ -11,7 +11,7 @@ from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.reference_pose import pose_at_reference
-from gruebler.kinematics.solve import cached_plan, move
+from gruebler.kinematics.solve import cached_plan, move_in_radians
 from gruebler.linkages import Line, Linkage
 from gruebler.realisation.layout_program import LayoutProgram, joint_places
 from gruebler.realisation.layout_trial import FLOOR, LayoutTrial, range_path, returns_to_start
@@ -54,7 +54,7 @@ def finish_linkage(program: LayoutProgram, drawing: Reals, trial: LayoutTrial, u
 def _moved(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) -> tuple[Ranges, float]:
     """The ranges of a linkage and the smallest measure in them; 0 if it does not move through them."""
     ranges = _ranges(linkage, trial, scale, length)
-    motion = move(linkage, range_path(ranges, full=trial.full, rows=361))
+    motion = move_in_radians(linkage, range_path(ranges, full=trial.full, rows=361))
     quality = motion_quality(motion, full=trial.full)
     return ranges, quality if quality and motion.closure_error < _OPEN else 0.0
 
@@ -105,7 +105,7 @@ def _with_rounded_reference(linkage: Linkage, length: float) -> Linkage | None:
         for value, turns in zip(reference.drives, turning, strict=True)
     ]
     try:
-        motion = move(linkage, np.array([reference.drives, values]))
+        motion = move_in_radians(linkage, np.array([reference.drives, values]))
     except LinkageError:  # rounding has moved the joints too far apart
         return None
     if not motion.complete:

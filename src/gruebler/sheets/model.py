@@ -21,7 +21,8 @@ from gruebler.geometry.meyer_zur_capellen import symmetric_rocker
 from gruebler.geometry.roberts import cognates
 from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, scale_for
 from gruebler.geometry.straight import Path, linkage_path
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
 from gruebler.sheets.expressions import Expression
@@ -142,7 +143,7 @@ class Sheet(Brief):
 
     def motion(self, *degrees: float) -> Motion:
         """The linkage at drive values in degrees, with velocities."""
-        return move(self.linkage, np.radians(degrees), speed=1.0)
+        return move_in_radians(self.linkage, np.radians(degrees), speed=1.0)
 
     def place(self, motion: Motion, name: str, row: int = 0) -> complex:
         """The position of one of the sheet's points."""

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from gruebler.analysis import transmission_angle
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
-from gruebler.kinematics import Circuit, Poses, circuit, move
+from gruebler.kinematics import Circuit, Poses, circuit
 from gruebler.kinematics.motion import Motion
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import Line
 from gruebler.synthesis.results import EXACT, Design, DesignVerdict
@@ -266,7 +267,7 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
     rows = np.stack([np.interp(between, np.arange(len(drives)), column) for column in drives.T], axis=1)
     error = np.inf
     try:
-        motion = move(linkage, rows)
+        motion = move_in_radians(linkage, rows)
         if motion.complete:
             values = np.stack([probe.of_motion(motion)[::_ROWS] for probe in targets.probes], axis=1)
             error = float(np.sqrt(np.nansum(np.abs(values - targets.values) ** 2, axis=1)).max() / targets.size)
@@ -499,7 +500,7 @@ def _carried(
     values = tuple(float(drive[rows[k]]) for k in range(len(path.arcs)))
     # From target 1, where the reference pose is, to both ends.
     for part, forward in ((drive[begin:], True), (drive[: begin + 1][::-1], False)):
-        motion = move(linkage, part, order=2)
+        motion = move_in_radians(linkage, part, order=2)
         if not motion.complete:
             return values, float("inf"), float("nan")
         least = min(least, _least_transmission(motion))

@@ -16,7 +16,7 @@ from gruebler.drawing.canvas.shapes import Point, Shape, TextShape, moved_shape
 from gruebler.drawing.linkage.animation import animated_svg
 from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.errors import LinkageError, SynthesisError
-from gruebler.kinematics import move
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.synthesis.alt_construction import STRAIGHT, alt_steps
 from gruebler.synthesis.dead_centres import DeadCentreFamily, FamilyMember, dead_centre_family
@@ -62,7 +62,7 @@ def _pins_at_pairs(design: Design) -> dict[str, Complexes]:
     crank = next((link for link in linkage.mechanism.drives[0].between if link != frame), None)
     marks: dict[str, Complexes] = {}
     try:
-        motion = move(linkage, design.drives)
+        motion = move_in_radians(linkage, design.drives)
     except LinkageError:
         return marks
     for prime, link in (("", crank), ("′", linkage.outputs[0] if linkage.outputs else None)):

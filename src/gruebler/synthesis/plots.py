@@ -14,7 +14,7 @@ from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import LinkageError
-from gruebler.kinematics import move
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.synthesis.burmester import BurmesterCurves, burmester_curves
 from gruebler.synthesis.coordination import Coordination
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
@@ -148,7 +148,7 @@ def output_of(design: Design, inputs: Reals) -> Reals:
         rows = rows[sign * inputs[rows] >= 0]
         drives = design.drives[0] + np.concatenate([[0.0], inputs[rows]])
         try:
-            motion = move(linkage, drives)
+            motion = move_in_radians(linkage, drives)
         except LinkageError:
             continue
         value = motion.displacement(slides[0]) if slides else np.unwrap(motion.angle(link))

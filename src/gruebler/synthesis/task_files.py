@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ import msgspec
 
 from gruebler.atomic_files import atomic_file
 from gruebler.documents import convert_document, load_document
-from gruebler.errors import SynthesisError
+from gruebler.errors import SynthesisError, UnitWarning
 from gruebler.formats.angles import in_degrees, in_radians
 from gruebler.synthesis.formulas import FunctionLaw
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
@@ -109,6 +110,12 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
         if isinstance(given.get(key), list):
             given[key] = [short if value == "" else value for value in given[key]]
     record = convert_document(given, kind, SynthesisError)
+    with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these are degrees
+        return _task(record)
+
+
+def _task(record: Any) -> Task:
+    """The task of a record."""
     data: dict[str, Any] = msgspec.structs.asdict(record)
     match record:
         case _Positions():

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from gruebler.angles import warn_of_degrees
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
@@ -124,6 +125,7 @@ class PositionTask:
                     where=_numbered("curve_parameters", k),
                     value=place,
                 )
+        warn_of_degrees("positions", self.angles, once=True)
         size = self.size
         for k, (z, turn) in enumerate(zip(self.origins, self.turns, strict=True)):
             for m in range(k):
@@ -201,6 +203,7 @@ class PathTask:
             raise SynthesisError("fixed_pivots: the two pivots coincide")
         self._check_distinct()
         self._check_timing()
+        warn_of_degrees("angles", [angle for angle in angles if angle is not None], once=True)
 
     def _check_distinct(self) -> None:
         z = self.z
@@ -225,7 +228,7 @@ class PathTask:
         if len(steps) and not ((steps > 0).all() or (steps < 0).all()):
             raise SynthesisError("crank_angles: the timing is contradictory, the crank has to turn one way throughout")
         if len(steps) and abs(self.crank_angles[-1] - self.crank_angles[0]) >= 2 * pi:
-            raise SynthesisError("crank_angles: the timing is contradictory, all points lie within one turn")
+            raise SynthesisError("crank_angles: the timing is contradictory, all points lie within one turn of 2 pi")
 
     def __len__(self) -> int:
         return len(self.points)
@@ -280,6 +283,9 @@ class FunctionTask:
             for m in range(k):
                 if abs(value - self.inputs[m]) <= SAME:
                     raise SynthesisError("inputs {m} and {k} are equal", m=m + 1, k=k + 1)
+        warn_of_degrees("inputs", self.inputs, once=True)
+        if self.output == "angle":
+            warn_of_degrees("outputs", self.outputs, once=True)
         if self.law is not None and _pairs_of(self.law, len(self)) != self._pairs:
             raise SynthesisError("the pairs are not those of the function at Chebyshev's spacing")
 

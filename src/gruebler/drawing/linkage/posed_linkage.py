@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
+from gruebler.angles import warn_of_degrees
 from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import GrueblerError, LinkageError
@@ -134,6 +135,9 @@ def posed_linkage(
         raise LinkageError("drive values are numbers, but found {drive!r}", drive=drive) from None
     if not linkage.mechanism.drives:
         return _at_rest(linkage)
+    if linkage.mechanism.drives[0].turning:
+        for name, angles in (("drive", values), ("between", between), ("drives", drives)):
+            warn_of_degrees(name, () if angles is None else angles)
     plan = cached_plan(linkage)
     if drives is not None:
         along = path_cycle(linkage, drives, branch)
