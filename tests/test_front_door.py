@@ -84,7 +84,7 @@ def test_lengths_are_taken_wherever_a_linkage_is(lengths, tmp_path):
 def test_a_point_is_named_as_on_the_command_line():
     motion = gr.move(CRANK_ROCKER.linkage({"K": (45, 40)}), gr.from_degrees(0, 360, 30))
     np.testing.assert_allclose(motion.point("coupler:45,40"), motion.point("K"), atol=1e-12)
-    with pytest.raises(gr.GrueblerError, match="there is no point 'couple:45,40'"):
+    with pytest.raises(gr.GrueblerError, match=r"there is no link 'couple' .did you mean 'coupler'"):
         motion.point("couple:45,40")
 
 

@@ -19,6 +19,7 @@ from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage
 from gruebler.linkages.elements import LeadingElement
+from gruebler.linkages.points import PointLike, each_point
 from gruebler.text import translate
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ _ROW_STEP = 15.0  # degrees between the rows of a full turn
 def motion_table(
     motion: Motion,
     outputs: Sequence[str | Output] | None = None,
-    points: Sequence[str] = (),
+    points: Sequence[PointLike] = (),
     *,
     rates: Sequence[float] | None = None,
     transmission: str | None = None,
@@ -124,11 +125,11 @@ def motion_table(
     if transmission is not None:
         angle = transmission_angle(motion, transmission)
         columns.append(Column(translate("transmission angle", lang), "°", angle * _DEGREES, _DEGREES))
-    for name in points:
-        at = motion.point(name)
+    for name, point in each_point(points).items():
+        at = motion.point(point)
         columns += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
         for order in orders:
-            values = in_time(order, partial(motion.point, name))
+            values = in_time(order, partial(motion.point, point))
             written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
             natural = linkage.size * usual[order - 1] / unit**order
             columns += [

@@ -12,6 +12,7 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
+from gruebler.linkages.points import PointLike, place_of, point_name
 from gruebler.text import Message, message
 
 __all__ = ["Loads", "Wrench", "loads_over_rows"]
@@ -32,12 +33,12 @@ class Loads:
     {'rocker': 5}
     """
 
-    forces: Mapping[str | LinkPoint, ArrayLike] = field(default_factory=dict)
+    forces: Mapping[PointLike, ArrayLike] = field(default_factory=dict)
     """By point or joint: (x, y), or one for each row, (rows, 2)."""
     moments: Mapping[str, ArrayLike] = field(default_factory=dict)
     """By link, counter-clockwise, in force times the linkage's unit: a number, or (rows,)."""
     _: KW_ONLY
-    masses: Mapping[str | LinkPoint, ArrayLike] = field(default_factory=dict)
+    masses: Mapping[PointLike, ArrayLike] = field(default_factory=dict)
     """By point or joint: each weighs its mass times ``gravity``."""
     gravity: tuple[float, float] = (0.0, -_STANDARD)
     """Force for each unit of mass: metres a second squared for kilograms and newtons."""
@@ -84,8 +85,8 @@ def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
     return tuple(wrenches)
 
 
-def _place(motion: Motion, name: str | LinkPoint) -> LinkPoint:
-    place = name if isinstance(name, LinkPoint) else motion.linkage.points_named(name)[-1]
+def _place(motion: Motion, name: PointLike) -> LinkPoint:
+    place = place_of(motion.linkage, name)
     links = motion.linkage.mechanism.chain.links
     if place.link not in links:
         raise LinkageError(
@@ -96,10 +97,8 @@ def _place(motion: Motion, name: str | LinkPoint) -> LinkPoint:
     return place
 
 
-def _point_text(name: str | LinkPoint) -> Message:
-    if isinstance(name, str):
-        return message("{name!r}", name=name)
-    return message("({x:g}, {y:g}) of {link!r}", x=name.x, y=name.y, link=name.link)
+def _point_text(name: PointLike) -> Message:
+    return message("{name!r}", name=point_name(name))
 
 
 def _over_rows(what: Message, given: ArrayLike, shape: tuple[int, ...]) -> Reals:

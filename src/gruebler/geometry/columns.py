@@ -13,7 +13,8 @@ from gruebler.columns import Column
 from gruebler.geometry.curvature import inflection_circle, path_curvature
 from gruebler.geometry.instant_centres import poles
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import Linkage
+from gruebler.linkages.points import PointLike, point_name
 from gruebler.text import numbers, translate
 
 __all__ = ["curvature_columns", "pole_columns", "pole_list"]
@@ -51,7 +52,7 @@ def pole_list(motion: Motion, row: int, lang: str = "en") -> tuple[list[str], li
 
 
 def curvature_columns(
-    motion: Motion, points: Sequence[str | LinkPoint], links: Iterable[str] = (), lang: str = "en"
+    motion: Motion, points: Sequence[PointLike], links: Iterable[str] = (), lang: str = "en"
 ) -> list[Column]:
     """Signed radius and centre of curvature of the points' paths; diameters of inflection circles.
 
@@ -67,11 +68,11 @@ def curvature_columns(
     linkage, columns = motion.linkage, list[Column]()
     frame, moving = linkage.mechanism.frame, list[str]()
     for point in points:
-        path, name = path_curvature(motion, point), _point_name(point)
+        path, name = path_curvature(motion, point), point_name(point)
         columns.append(Column(translate("{point} radius of curvature", lang, point=name), linkage.unit, path.radius))
         centre = np.where(np.isfinite(path.radius), path.centre, np.nan)
         columns += _place_columns(translate("{point} centre of curvature", lang, point=name), linkage.unit, centre)
-        places = [point] if isinstance(point, LinkPoint) else reversed(linkage.points_named(point))
+        places = reversed(linkage.points_named(point))
         moving.append(next(place.link for place in places if place.link != frame))
     moving += [link for link in links if not _pivoted(linkage, link)]
     for link in dict.fromkeys([*moving, *_floating(linkage)]):
@@ -85,10 +86,6 @@ def _place_columns(name: str, unit: str, places: Complexes) -> list[Column]:
     known = np.isfinite(places)
     parts = (("x", places.real), ("y", places.imag))
     return [Column(f"{name} {axis}", unit, np.where(known, values, np.nan)) for axis, values in parts]
-
-
-def _point_name(point: str | LinkPoint) -> str:
-    return point if isinstance(point, str) else f"{point.link}:{point.x:g},{point.y:g}"
 
 
 def _floating(linkage: Linkage) -> list[str]:

@@ -9,7 +9,7 @@ import numpy as np
 from gruebler.errors import LinkageError
 from gruebler.geometry.series import taylor_series
 from gruebler.kinematics import Motion
-from gruebler.linkages import LinkPoint
+from gruebler.linkages.points import PointLike
 from gruebler.linkages.quantities import as_positive
 
 __all__ = ["TangentContact", "tangent_contact"]
@@ -37,7 +37,7 @@ class TangentContact:
 
 
 def tangent_contact(
-    motion: Motion, point: str | LinkPoint, row: int = 0, highest: int = 10, tolerance: float = 1e-8
+    motion: Motion, point: PointLike, row: int = 0, highest: int = 10, tolerance: float = 1e-8
 ) -> TangentContact:
     """The order of contact of a point's path with its tangent at one row of a motion.
 

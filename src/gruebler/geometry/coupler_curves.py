@@ -26,8 +26,8 @@ from gruebler.geometry.path_events import (
 )
 from gruebler.geometry.point_path import PointPath, point_path
 from gruebler.geometry.sampling import PathPolygon, path_area, path_length, path_polygon
-from gruebler.linkages import LinkPoint
 from gruebler.linkages.conversion import LinkageLike, as_linkage
+from gruebler.linkages.points import PointLike
 from gruebler.linkages.quantities import as_finite
 from gruebler.notebook import Brief
 
@@ -153,17 +153,18 @@ class CouplerCurve(Brief):
 
 def coupler_curve(
     linkage: LinkageLike,
-    point: str | LinkPoint,
+    point: PointLike,
     *,
     branch: str | None = None,
     tolerance: float | None = None,
     drives: ArrayLike | None = None,
 ) -> CouplerCurve:
-    """The path of a named point, joint or `LinkPoint` of any linkage with one drive, over a full turn or range.
+    """The path of a point of any linkage with one drive, over a full turn or range.
 
     Args:
         linkage: a linkage with one drive, or with several and a path of them.
-        point: a point that moves.
+        point: a point that moves: its name, ``(link, x, y)``, or ``(x, y)`` on the coupler of a four-bar
+            (`Linkage.points_named`).
         branch: the assembly mode, as for `move`.
         tolerance: how far the polygon may be off; 1/10,000 of the linkage's size, or of the path's extent
             if that is larger, if it is left out.

@@ -11,6 +11,7 @@ from gruebler.errors import LinkageError
 from gruebler.geometry.relative import RelativeMotion, relative_motion
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
+from gruebler.linkages.points import PointLike, point_name
 
 __all__ = ["InflectionCircle", "PathCurvature", "inflection_circle", "path_curvature"]
 
@@ -112,7 +113,7 @@ def inflection_circle(motion: Motion, link: str, reference: str | None = None) -
     return InflectionCircle(pole, np.where(np.isfinite(pole), shift, np.nan))
 
 
-def path_curvature(motion: Motion, point: str | LinkPoint, reference: str | None = None) -> PathCurvature:
+def path_curvature(motion: Motion, point: PointLike, reference: str | None = None) -> PathCurvature:
     """Tangent, curvature and its change of the path of a named point, joint or `LinkPoint`, against a link.
 
     Needs a motion with accelerations.
@@ -123,7 +124,7 @@ def path_curvature(motion: Motion, point: str | LinkPoint, reference: str | None
     >>> path_curvature(motion, "R(coupler-rocker)").centre.round(9).tolist()  # a circle about B0
     [(70+0j), (70+0j)]
     """
-    place = point if isinstance(point, LinkPoint) else _moving(motion, point, reference)
+    place = _moving(motion, point, reference)
     seen = relative_motion(motion, place.link, reference, order=2 if motion.order < 3 else 3)
     arm = complex(place.x, place.y)
     at, velocity, acceleration = (seen.complex_point(arm, k) for k in range(3))
@@ -144,10 +145,12 @@ def _change(seen: RelativeMotion, arm: complex, speed: Reals, bend: Reals) -> Re
     return change
 
 
-def _moving(motion: Motion, name: str, reference: str | None) -> LinkPoint:
+def _moving(motion: Motion, name: PointLike, reference: str | None) -> LinkPoint:
     """The point as one of a link that is not the reference."""
     fixed = motion.linkage.mechanism.frame if reference is None else reference
     for place in reversed(motion.linkage.points_named(name)):
-        if place.link != fixed:
+        if place.link != fixed or isinstance(name, LinkPoint):
             return place
-    raise LinkageError("the point {name!r} lies on {fixed!r}: it does not move against it", name=name, fixed=fixed)
+    raise LinkageError(
+        "the point {name!r} lies on {fixed!r}: it does not move against it", name=point_name(name), fixed=fixed
+    )

@@ -13,6 +13,7 @@ from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages.points import PointLike, point_name
 from gruebler.notebook import Brief
 
 __all__ = ["PointPath", "point_path"]
@@ -110,16 +111,16 @@ def _by_parameter(z: list[Complexes], first: Reals, second: Reals) -> Complexes:
 
 
 def point_path(
-    linkage: Linkage, point: str | LinkPoint, branch: str | None = None, drives: ArrayLike | None = None
+    linkage: Linkage, point: PointLike, branch: str | None = None, drives: ArrayLike | None = None
 ) -> PointPath:
-    """The path of a named point, joint or `LinkPoint` of a linkage with one drive, or along a path of its drives.
+    """The path of a point (`Linkage.points_named`) of a linkage with one drive, or along a path of its drives.
 
     Raises `LinkageError` for a point of the frame or one that does not move, and as `gruebler.analysis.drive_cycle`.
     """
-    shown = repr(point) if isinstance(point, str) else f"({point.x:g}, {point.y:g})"
     frame = linkage.mechanism.frame
-    places = [point] if isinstance(point, LinkPoint) else [p for p in linkage.points_named(point) if p.link != frame]
-    if not places or places[-1].link == frame:
+    places = [place for place in linkage.points_named(point) if place.link != frame]
+    shown = repr(point_name(point))
+    if not places:
         raise LinkageError("the point {point} lies on the frame {frame!r}: it has no path", point=shown, frame=frame)
     cycle = drive_cycle(linkage, branch) if drives is None else path_cycle(linkage, drives, branch)
     trail = PointPath(cycle, places[-1])

@@ -11,8 +11,9 @@ import numpy as np
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import Linkage
 from gruebler.linkages.elements import direction
+from gruebler.linkages.points import PointLike, place_of
 
 __all__ = ["TaylorSeries", "taylor_series"]
 
@@ -35,9 +36,9 @@ class TaylorSeries:
         """The highest power."""
         return len(self.places) - 1
 
-    def complex_point(self, name: str | LinkPoint) -> Complexes:
+    def complex_point(self, name: PointLike) -> Complexes:
         """The coefficients of a named point or joint, as x + iy; (order + 1, rows)."""
-        place = name if isinstance(name, LinkPoint) else self.motion.linkage.points_named(name)[-1]
+        place = place_of(self.motion.linkage, name)
         k = self.motion.link_index(place.link)
         coefficients: Complexes = self.places[..., k] + self.turns[..., k] * complex(place.x, place.y)
         return coefficients

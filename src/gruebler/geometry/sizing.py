@@ -10,7 +10,8 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.straight import Path, PathPiece, linkage_path, longest_piece, path_piece
 from gruebler.kinematics import move
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import Linkage
+from gruebler.linkages.points import PointLike, point_name
 from gruebler.linkages.quantities import as_finite, as_positive
 
 __all__ = [
@@ -89,7 +90,7 @@ def ratio_curve(path: Path, window: Window, samples: int = 721) -> RatioCurve:
 
 def tangent_windows(
     linkage: Linkage,
-    point: str | LinkPoint,
+    point: PointLike,
     centre: float,
     *,
     branch: str | None = None,
@@ -124,7 +125,7 @@ def tangent_windows(
         if np.count_nonzero(shown) < 2:
             raise LinkageError(
                 "the path of {point} about {centre:g}° has no windows with Q_G from {least:g} to {most:g}",
-                point=point if isinstance(point, str) else f"{point.link}:{point.x:g},{point.y:g}",
+                point=point_name(point),
                 centre=np.degrees(centre),
                 least=least,
                 most=most,

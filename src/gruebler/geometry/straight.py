@@ -12,7 +12,8 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics.solve import move_in_radians
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import Linkage
+from gruebler.linkages.points import PointLike
 from gruebler.linkages.quantities import as_finite, as_positive
 
 __all__ = ["Path", "PathPiece", "coupler_path", "linkage_path", "longest_piece", "path_piece", "piece_of_ratio"]
@@ -53,7 +54,7 @@ def coupler_path(size: FourBar | SliderCrank | InvertedSliderCrank, u: float, v:
     return at
 
 
-def linkage_path(linkage: Linkage, point: str | LinkPoint, branch: str | None = None) -> Path:
+def linkage_path(linkage: Linkage, point: PointLike, branch: str | None = None) -> Path:
     """The path of a named point of any linkage with one drive, over the drive's values.
 
     The path raises `LinkageError` where the linkage cannot be moved all the way.

@@ -30,8 +30,9 @@ from gruebler.kinematics.configuration_curve import (
 from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.kinematics.solve import move
-from gruebler.linkages import Linkage, LinkPoint, with_lower_pairs
+from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.conversion import LinkageLike, as_linkage
+from gruebler.linkages.points import PointLike
 from gruebler.notebook import Brief
 from gruebler.text import message
 
@@ -159,7 +160,7 @@ class Circuit(Brief):
         """The angle of a link at the samples, continuous; (samples,)."""
         return self.samples.angle(link)
 
-    def point(self, name: str | LinkPoint) -> Reals:
+    def point(self, name: PointLike) -> Reals:
         """A named point or a joint at the samples; (samples, 2)."""
         return self.samples.point(name)
 

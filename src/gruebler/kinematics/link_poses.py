@@ -16,6 +16,7 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.jets import turn_derivative, turned_derivative
 from gruebler.linkages import Line, Linkage, LinkPoint, Pose2D
+from gruebler.linkages.points import PointLike, place_of
 from gruebler.linkages.wheels import sliding_joint
 from gruebler.text import message
 
@@ -68,7 +69,7 @@ class LinkPoses(ABC):
             )
         return self.links.index(link)
 
-    def point(self, name: str | LinkPoint, order: int = 0) -> Reals:
+    def point(self, name: PointLike, order: int = 0) -> Reals:
         """A named point or a joint, or a derivative of its position; (rows, 2).
 
         A joint is seen as a point of its link at the frame, else of the link named first.
@@ -76,10 +77,10 @@ class LinkPoses(ABC):
         z = self.complex_point(name, order)
         return np.stack([z.real, z.imag], axis=1)
 
-    def complex_point(self, name: str | LinkPoint, order: int = 0) -> Complexes:
+    def complex_point(self, name: PointLike, order: int = 0) -> Complexes:
         """`point` as x + iy; (rows,)."""
         self.check_order(order)
-        place = name if isinstance(name, LinkPoint) else self.linkage.points_named(name)[-1]
+        place = place_of(self.linkage, name)
         k = self.link_index(place.link)
         arm = self.turns[:, k] * complex(place.x, place.y)
         return np.asarray(self.places[order, :, k] + turn_derivative(self.rates[:, :, k], order) * arm)

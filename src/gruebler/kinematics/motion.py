@@ -21,6 +21,7 @@ from gruebler.kinematics.messages import stop_message, unbounded_message
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, NonCircular, Wheel
 from gruebler.linkages.elements import INVERSE, LeadingElement, RoundElement
+from gruebler.linkages.points import PointLike
 from gruebler.linkages.wheels import carriers, rolling_factors, round_joints
 from gruebler.notebook import Brief
 from gruebler.text import Message, joined
@@ -136,7 +137,7 @@ class Motion(LinkPoses, Brief):
     def table(
         self,
         outputs: Sequence[str] | None = None,
-        points: Sequence[str] = (),
+        points: Sequence[PointLike] = (),
         *,
         transmission: str | None = None,
         lang: str = "en",

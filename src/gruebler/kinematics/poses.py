@@ -10,7 +10,8 @@ import numpy as np
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.link_poses import LinkPoses
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import Linkage
+from gruebler.linkages.points import PointLike
 from gruebler.notebook import Brief
 
 __all__ = ["Poses"]
@@ -55,7 +56,7 @@ class Poses(LinkPoses, Brief):
                 "along a circuit there are values (0) and first derivatives (1), not {order!r}", order=order
             )
 
-    def distance(self, first: str | LinkPoint, second: str | LinkPoint, order: int = 0) -> Reals:
+    def distance(self, first: PointLike, second: PointLike, order: int = 0) -> Reals:
         """The distance of two points, or its derivative (not where they coincide); (rows,)."""
         gap = self.complex_point(second) - self.complex_point(first)
         self.check_order(order)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
-from math import atan2, cos, hypot, isfinite, pi, sin
+from math import atan2, cos, hypot, pi, sin
 from sys import float_info
 from types import MappingProxyType
 from typing import Any
@@ -28,6 +28,7 @@ from gruebler.linkages.elements import (
     check_elements_fit,
     read_element,
 )
+from gruebler.linkages.points import PointLike, points_of
 from gruebler.linkages.wheels import check_wheels, resolve_wheels
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, message
@@ -199,29 +200,19 @@ class Linkage:
             raise LinkageError("the linkage has no reference pose: give the place of every link in one position")
         return self.reference_pose
 
-    def points_named(self, name: str) -> tuple[LinkPoint, ...]:
-        """The point of that name, of the joint of that name (on each of its links, the frame's first), or of LINK:X,Y.
+    def points_named(self, point: PointLike) -> tuple[LinkPoint, ...]:
+        """The point of that name, of the joint of that name (on each of its links, the frame's first), or a place.
 
-        Raises `LinkageError` for a name that is neither, with the nearest one that is.
+        A place is ``(link, x, y)`` or ``"LINK:X,Y"``, on the coupler of a four-bar also ``(x, y)`` or ``"X,Y"``. Every
+        function that takes a point takes all these forms.
+
+        Raises `LinkageError` for what is none of them, with the nearest name that is.
+
+        >>> from gruebler.fourbar import FourBar
+        >>> FourBar(25, 70, 40, 70).linkage().points_named((45, 40))
+        (LinkPoint(link='coupler', x=45.0, y=40.0),)
         """
-        if name in self.points:
-            return (self.points[name],)
-        chain = self.mechanism.chain
-        number = chain.find_joint(name)
-        if number is None:
-            place = _read_point(name)
-            if place is not None and place.link in chain.links:
-                return (place,)
-            known = [*self.points, *chain.joint_names()]
-            raise LinkageError(
-                "there is no point {name!r}{suggestion}; known are {known}",
-                name=name,
-                suggestion=nearest(name, known),
-                known=", ".join(known),
-            )
-        links = sorted(chain.joints[number].links, key=lambda link: link != self.mechanism.frame)
-        placed = ((link, self.elements[number, link]) for link in links)
-        return tuple(LinkPoint(link, element.x, element.y) for link, element in placed)
+        return points_of(self, point)
 
     @cached_property
     def size(self) -> float:
@@ -536,13 +527,3 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
         return Pose2D(first.x, first.y, lines[0].angle)
     far = next((p for p in pins[1:] if hypot(p.x - first.x, p.y - first.y) > 0), None)
     return Pose2D(first.x, first.y, atan2(far.y - first.y, far.x - first.x) if far else 0.0)
-
-
-def _read_point(text: str) -> LinkPoint | None:
-    """The point of a link in its coordinates, as in ``coupler:45,40``; None for another text."""
-    link, _, place = text.rpartition(":")
-    try:
-        x, y = (float(part) for part in place.split(","))
-    except ValueError:
-        return None
-    return LinkPoint(link, x, y) if isfinite(x) and isfinite(y) else None

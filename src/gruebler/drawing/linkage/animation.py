@@ -22,6 +22,7 @@ from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
+from gruebler.linkages.points import PointLike, each_point
 from gruebler.text import plural, translate
 
 __all__ = ["AnimationOptions", "Scene", "animated_svg", "scene", "svg_of"]
@@ -35,7 +36,7 @@ class AnimationOptions(TypedDict, total=False):
     branch: str | Iterable[str] | None
     between: tuple[float, float] | None
     drives: ArrayLike | None
-    curves: Sequence[str]
+    curves: Sequence[PointLike]
     seconds: float
     lang: str
     name: str
@@ -68,7 +69,7 @@ def scene(
     branch: str | Iterable[str] | None = None,
     between: tuple[float, float] | None = None,
     drives: ArrayLike | None = None,
-    curves: Sequence[str] = (),
+    curves: Sequence[PointLike] = (),
     seconds: float = 4.0,
     lang: str = "en",
     name: str = "",
@@ -96,7 +97,7 @@ def scene(
     pieces = (*body_parts(posed), *drive_parts(posed))
     rows = range(0, len(posed.path), 2)
     poses = [shape for row in rows for part in pieces for shape in shapes_at_pose(posed, part, posed.path, row)]
-    curve = [shape for point in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, point)]
+    curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
     still = tuple(curve)
     corner, size = bounds([*poses, *still], MARGIN)
     moves = (

@@ -19,6 +19,7 @@ from gruebler.drawing.linkage.posed_linkage import floating_link, link_nodes
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages.points import PointLike, each_point, place_of
 from gruebler.text import decimal_sign_in, message, translate
 
 __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
@@ -32,7 +33,7 @@ _MOST = len(LINES)
 
 def hodograph(
     linkage: Linkage,
-    points: Sequence[str],
+    points: Sequence[PointLike],
     *,
     speed: float | None = None,
     branch: Branch = None,
@@ -63,26 +64,25 @@ def hodograph(
             "a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}", speed=speed
         )
     run = plot_run(linkage, 1, branch, between, lang, name)
-    places = [linkage.points_named(point)[-1] for point in chosen]
+    places = [place_of(linkage, point) for point in chosen.values()]
     factor = 1.0 if speed is None else speed
     paths = [factor * run.motion.complex_point(place, 1) for place in places]
     per = run.drive_unit if speed is None else "s"
     rate = message("1") if speed is None else message("{speed:.6g} {unit}/s", speed=speed, unit=run.drive_unit)
-    names = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
-    axes = [f"{symbol} in {run.unit}/{per}" for symbol in names]
+    symbols = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
+    axes = [f"{symbol} in {run.unit}/{per}" for symbol in symbols]
+    names = list(chosen)
     ranges = [
         _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
     ]
     tips = factor * run.cycle.at(run.round_drives, 1).complex_point(places[0], 1)
     spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
-    panel = _square(
-        paths, chosen if len(chosen) > 1 else [""], axes, [*spots, PointMarker(0.0, 0.0, "")], ranges=ranges
-    )
-    title = translate("{name}: hodograph of {points}", lang, name=run.name, points=", ".join(chosen))
+    panel = _square(paths, names if len(names) > 1 else [""], axes, [*spots, PointMarker(0.0, 0.0, "")], ranges=ranges)
+    title = translate("{name}: hodograph of {points}", lang, name=run.name, points=", ".join(names))
     about = translate(
         "Tips of the velocity vectors of {points} put at one origin, {range}, with a speed of {speed}.",
         lang,
-        points=", ".join(chosen),
+        points=", ".join(names),
         range=run.range,
         speed=rate,
     )
@@ -107,7 +107,7 @@ def _joined(ranges: Sequence[tuple[float, float]]) -> tuple[float, float]:
 
 def coupler_plot(
     linkage: Linkage,
-    points: Sequence[str],
+    points: Sequence[PointLike],
     *,
     branch: Branch = None,
     between: Between = None,
@@ -118,7 +118,7 @@ def coupler_plot(
 
     Arguments and errors as for `hodograph`.
     """
-    places = {point: linkage.points_named(point)[-1] for point in _few(points)}
+    places = {name: place_of(linkage, point) for name, point in _few(points).items()}
     return _paths(linkage, places, branch, between, lang, name)
 
 
@@ -253,8 +253,8 @@ def _even(low: float, high: float, longest: float) -> Scale:
     return scale if len(scale.ticks) > 1 else decimals(low, high, few=2, tight=True)
 
 
-def _few(points: Sequence[str]) -> list[str]:
-    chosen = list(dict.fromkeys(points))
+def _few(points: Sequence[PointLike]) -> dict[str, PointLike]:
+    chosen = each_point(points)
     if not 1 <= len(chosen) <= _MOST:
         raise LinkageError("expected 1 to {most} points or joints, but found {count}", most=_MOST, count=len(chosen))
     return chosen

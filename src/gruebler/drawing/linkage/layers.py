@@ -32,6 +32,7 @@ from gruebler.drawing.linkage.posed_linkage import PosedLinkage
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion, circuit
 from gruebler.linkages import Line, LinkPoint
+from gruebler.linkages.points import PointLike, place_of
 from gruebler.text import translate
 
 __all__ = [
@@ -59,12 +60,12 @@ _AT_REST = 1e-7  # sizes for a drive of speed 1: below, a point leaves in the di
 # --- curves --------------------------------------------------------------------------------------
 
 
-def coupler_curve_lines(posed: PosedLinkage, name: str) -> list[Shape]:
+def coupler_curve_lines(posed: PosedLinkage, name: PointLike) -> list[Shape]:
     """The path of a point through the range of the drive; where that is limited, with its full circuit as a thin line.
 
     Raises `LinkageError` for a name that is no point or joint, and with several drives.
     """
-    point = posed.linkage.points_named(name)[-1]
+    point = place_of(posed.linkage, name)
     cycle = posed.driven()
     if posed.repeats:
         drives = np.linspace(cycle.span.low, cycle.span.high, _SAMPLES * cycle.span.turns + 1)

@@ -35,6 +35,7 @@ from gruebler.drawing.structure.messages import describe, title
 from gruebler.drawing.structure.picture import draw_structure
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import Linkage
+from gruebler.linkages.points import PointLike, each_point
 from gruebler.text import message, number, number_separator, plural, translate
 
 __all__ = ["draw_linkage", "shown_linkage"]
@@ -66,7 +67,7 @@ def draw_linkage(
     *,
     branch: str | Iterable[str] | None = None,
     between: tuple[float, float] | None = None,
-    curves: Sequence[str] = (),
+    curves: Sequence[PointLike] = (),
     show: Sequence[str] = (),
     output: str | None = None,
     ghost: int | None = None,
@@ -102,7 +103,7 @@ def draw_linkage(
     """
     posed = posed_linkage(linkage, drive, branch=branch, between=between)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
-    curve = [shape for point in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, point)]
+    curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
     pieces = body_parts(posed)
     frame = layered(posed, pieces, FRAME, FRAME)
     pins = layered(posed, pieces, PINS, PINS)
@@ -218,7 +219,11 @@ def _count(number: int) -> int:
 
 
 def picture_notes(
-    posed: PosedLinkage, curves: Sequence[str], layer_shapes: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
+    posed: PosedLinkage,
+    curves: Sequence[PointLike],
+    layer_shapes: Mapping[str, Sequence[Shape]],
+    lang: str,
+    count: int = 0,
 ) -> tuple[list[str], list[str]]:
     """The pose and the content of the picture, in sentences; and the requested layers that are missing."""
     drives = posed.linkage.mechanism.drives
@@ -236,7 +241,7 @@ def picture_notes(
         )
     ]
     if curves:
-        sentences.append(translate("Curve of {points}.", lang, points=", ".join(dict.fromkeys(curves))))
+        sentences.append(translate("Curve of {points}.", lang, points=", ".join(each_point(curves))))
     if count:
         sentences.append(plural("{count} position thinly.", "{count} positions thinly.", count, lang))
     shown = [_layer_name(key, shapes, lang) for key, shapes in layer_shapes.items() if shapes or key == "scale"]
