@@ -7,6 +7,8 @@ import { unwoundAngle } from "./closure";
 import { currentLanguage } from "./language";
 
 const TURN = 2 * Math.PI;
+/** The same angle between -180° and 180°. */
+const principal = (angle: number): number => angle - TURN * Math.round(angle / TURN);
 const MOST_TURNS = 8;
 const MOST_WITH_WHEELS = 40;
 const BACK = 1e-7; // how near a linkage is to where it was, after whole turns
@@ -34,6 +36,8 @@ export interface Cycle {
   low: number;
   high: number;
   stops: [Stop | null, Stop | null];
+  /** The row of the pose from which it was found. */
+  home: number;
 }
 
 export interface Snapshot {
@@ -377,10 +381,12 @@ export class Machine {
   /** The motion of the active drive over its whole range, from the pose that is shown. */
   findCycle(order = 2): Cycle {
     const drive = this.active;
+    // as `pose_at_reference`, so that what the library says of this pose has the same lap; wheels count their turns
+    if (this.drive?.turning && !this.wheels) this.drives[drive] = principal(this.drives[drive]!);
     const start = this.drives[drive] ?? 0;
     const only = (): Cycle => ({
       drive, values: Float64Array.of(start), rows: this.pose, full: false, turns: 0, low: start, high: start,
-      stops: [null, null],
+      stops: [null, null], home: 0,
     });
     if (!this.drive) return only();
     let beyond: [number, Stop | null] | null = null; // the upper end, if the first turn came to it
@@ -406,7 +412,7 @@ export class Machine {
           break;
         }
         if (this.same(rows, turns * steps)) {
-          return { drive, values, rows, full: true, turns, low: start, high: start + turns * TURN, stops: [null, null] };
+          return { drive, values, rows, full: true, turns, low: start, high: start + turns * TURN, stops: [null, null], home: 0 };
         }
         if (turns === most) break;
       }
@@ -441,8 +447,9 @@ export class Machine {
     const up = all.filter((value) => value > start), down = all.filter((value) => value <= start).reverse();
     const one = this.runAlong(Float64Array.of(start, ...up), this.state, order);
     const two = this.runAlong(Float64Array.of(start, ...down), this.state, order);
-    const values = Float64Array.from([...down.slice(0, Math.max(0, two.reached - 1)).reverse(), start, ...up.slice(0, Math.max(0, one.reached - 1))]);
-    return { drive, values, rows: joined(two, one), full: false, turns: 0, low, high, stops: [below, above] };
+    const home = Math.max(0, two.reached - 1);
+    const values = Float64Array.from([...down.slice(0, home).reverse(), start, ...up.slice(0, Math.max(0, one.reached - 1))]);
+    return { drive, values, rows: joined(two, one), full: false, turns: 0, low, high, stops: [below, above], home };
   }
 
   private same(rows: Rows, row: number): boolean {
@@ -865,8 +872,8 @@ export class Machine {
     this.points.push({ name, link, at: this.toLocal(link, x, y) });
   }
 
-  /** The linkage as `gruebler.formats` reads it, with the pose that is shown as its reference pose. */
-  document(): LinkageDocument {
+  /** The linkage as `gruebler.formats` reads it, with the pose that is shown (or a row of others) as its reference pose. */
+  document(rows = this.pose, row = 0): LinkageDocument {
     const { model } = this;
     const out = structuredClone(model.document);
     const degrees = (angle: number) => (angle * 180) / Math.PI;
@@ -882,8 +889,8 @@ export class Machine {
     out.points = Object.fromEntries(this.points.map((p) => [p.name, { link: model.links[p.link]!, at: [...p.at] }]));
     delete out.home;
     out.reference_pose = Object.fromEntries(model.links.slice(0, model.own).map((name, link) => {
-      const [c, s] = this.turn(this.pose, 0, link);
-      return [name, [this.pose.places[2 * link]!, this.pose.places[2 * link + 1]!, degrees(Math.atan2(s, c))]];
+      const [c, s] = this.turn(rows, row, link);
+      return [name, [...this.place(rows, row, link, 0, 0), degrees(Math.atan2(s, c))]];
     }));
     return out;
   }
@@ -984,6 +991,17 @@ export class Machine {
     const across = (k: 0 | 1 | 2) => lx * gap[k][1] - ly * gap[k][0];
     const w = this.rate(rows, row, link, 1), al = this.rate(rows, row, link, 2);
     return [dot(0), dot(1) + w * across(0), dot(2) + 2 * w * across(1) + al * across(0) - w * w * dot(0)];
+  }
+
+  /** The output at rows of the cycle that follow one another. An angle has no jumps, and lies between -180° and 180° where
+   * the cycle was found, as the library measures it from a reference pose. */
+  outputAlong(rows: number[]): Float64Array {
+    const values = Float64Array.from(rows, (row) => this.output(this.cycle.rows, row)[0]);
+    if (this.model.outputs[0]?.joint !== null) return values;
+    let turns = 0;
+    const laps = values.map((value, k) => (turns -= k ? Math.round((value - values[k - 1]!) / TURN) : 0));
+    const home = laps[rows.indexOf(this.cycle.home)] ?? 0;
+    return values.map((value, k) => value + (laps[k]! - home) * TURN);
   }
 
   /** The transmission angle, at most pi/2; with several legs the smallest; NaN where there is none. */

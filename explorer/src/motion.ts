@@ -3,7 +3,7 @@
 import type { App } from "./app";
 import { h, svg } from "./dom";
 import { angle, currentLanguage, number, parsed, t } from "./language";
-import { Machine, Refused, type Snapshot, type Stop } from "./machine";
+import { Machine, Refused, type Cycle, type Snapshot, type Stop } from "./machine";
 import type { LinkageDocument, Model } from "./model";
 import { Status } from "./kernel";
 import { Plot, type Series } from "./plots";
@@ -441,7 +441,8 @@ export class MotionView {
     clearTimeout(this.measuring);
     const { machine } = this;
     this.measuring = window.setTimeout(() => {
-      this.app.ask<{ lines: string[] }>("measures", { document: machine.document(), source: machine.model.source }).then(
+      const document = machine.document(machine.cycle.rows, machine.cycle.home);
+      this.app.ask<{ lines: string[] }>("measures", { document, source: machine.model.source }).then(
         ({ lines }) => machine === this.machine && (this.checked.textContent = lines.join(" ")),
         (error: Error) => machine === this.machine && (this.checked.textContent = error.message),
       );
@@ -485,7 +486,7 @@ export class MotionView {
     if (output) {
       const [value, rate] = machine.output(machine.pose, 0);
       const turning = output.joint === null;
-      facts.push([t("Output {name}", { name: machine.linkName(output.link) }), turning ? angle(value, 5) : `${number(value, 5)} ${machine.model.unit}`]);
+      facts.push([t("Output {name}", { name: machine.linkName(output.link) }), turning ? angle(this.onPlot(value), 5) : `${number(value, 5)} ${machine.model.unit}`]);
       facts.push([t("Velocity by the drive"), number(rate, 4)]);
     }
     if (Number.isFinite(mu)) {
@@ -524,6 +525,8 @@ export class MotionView {
 
   // --- plots ---------------------------------------------------------------------------------------------------------
 
+  private lap: { cycle: Cycle; drives: Float64Array; values: Float64Array } | null = null;
+
   /** The rows of the cycle in the order in which they are plotted: of full turns from 0 on. */
   private plottedRows(): { drives: Float64Array; rows: number[] } {
     const { cycle } = this.machine;
@@ -538,6 +541,24 @@ export class MotionView {
     return this.track.wrapped(drive);
   }
 
+  /** The angle of the output in the pose that is shown, in the lap in which it is plotted. */
+  private onPlot(value: number): number {
+    const { machine } = this;
+    if (this.lap?.cycle !== machine.cycle) {
+      const { drives, rows } = this.plottedRows();
+      this.lap = { cycle: machine.cycle, drives, values: machine.outputAlong(rows) };
+    }
+    const { drives, values } = this.lap;
+    const drive = this.plotted(machine.drives[machine.active] ?? 0);
+    let low = 0, high = drives.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (drives[middle]! <= drive) low = middle;
+      else high = middle;
+    }
+    return value + TURN * Math.round((values[low]! - value) / TURN);
+  }
+
   private makePlots(): void {
     const { machine } = this;
     const output = machine.model.outputs[0];
@@ -547,7 +568,7 @@ export class MotionView {
     if (output) {
       const turning = output.joint === null;
       const name = machine.linkName(output.link);
-      add((rows) => ({ title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${machine.model.unit}]`), colour: "--motion", values: unwound(along(rows, (row) => machine.output(machine.cycle.rows, row)[0]), turning) }));
+      add((rows) => ({ title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${machine.model.unit}]`), colour: "--motion", values: machine.outputAlong(rows).map((value) => (turning ? (value * 360) / TURN : value)) }));
       add((rows) => ({ title: t("Its velocity by the drive"), colour: "--green", values: along(rows, (row) => machine.output(machine.cycle.rows, row)[1]) }));
       add((rows) => ({ title: t("Its acceleration by the drive"), colour: "--purple", values: along(rows, (row) => machine.output(machine.cycle.rows, row)[2]) }));
       if (output.legs.length) add((rows) => ({ title: t("Transmission angle") + " [°]", colour: "--accent", floor: 40, values: along(rows, (row) => (machine.transmission(machine.cycle.rows, row) * 360) / TURN) }));
@@ -580,10 +601,11 @@ export class MotionView {
     const output = model.outputs[0];
     if (output) head.push("output", "output_velocity", "output_acceleration", "transmission_angle_deg");
     for (const point of machine.points) head.push(`${point.name}_x`, `${point.name}_y`, `${point.name}_vx`, `${point.name}_vy`);
+    const outputs = machine.outputAlong(Array.from(cycle.values.keys()));
     const rows = Array.from(cycle.values, (value, row) => {
       const line = [turning ? (value * 360) / TURN : value];
       if (output) {
-        const [psi, first, second] = machine.output(cycle.rows, row);
+        const [, first, second] = machine.output(cycle.rows, row), psi = outputs[row]!;
         line.push(output.joint === null ? (psi * 360) / TURN : psi, first, second, (machine.transmission(cycle.rows, row) * 360) / TURN);
       }
       for (const point of machine.points) line.push(...machine.place(cycle.rows, row, point.link, ...point.at), ...machine.place(cycle.rows, row, point.link, ...point.at, 1));
@@ -591,18 +613,4 @@ export class MotionView {
     });
     return [head.map((name) => (/[",]/.test(name) ? `"${name.replace(/"/g, '""')}"` : name)).join(","), ...rows].join("\n") + "\n";
   }
-}
-
-/** Angles without jumps, in degrees; other values as they are. */
-function unwound(values: Float64Array, turning: boolean): Float64Array {
-  if (!turning) return values;
-  let turns = 0;
-  return values.map((value, k) => {
-    if (k) {
-      const gap = value - values[k - 1]!;
-      if (gap > Math.PI) turns -= 1;
-      if (gap < -Math.PI) turns += 1;
-    }
-    return ((value + turns * TURN) * 360) / TURN;
-  });
 }

@@ -44,7 +44,8 @@ export class Track {
     const room = cycle.full ? 0 : 1e-7 * (cycle.high - cycle.low);
     let [low, high] = [cycle.low + room, cycle.high - room];
     if (between && !cycle.full) {
-      const wanted: [number, number] = [Math.max(low, between[0]), Math.min(high, between[1])];
+      const shift = turning ? TURN * Math.round((low + high - between[0] - between[1]) / 2 / TURN) : 0;
+      const wanted: [number, number] = [Math.max(low, between[0] + shift), Math.min(high, between[1] + shift)];
       if (wanted[1] > wanted[0]) [low, high] = wanted;
     }
     if (cycle.full) {

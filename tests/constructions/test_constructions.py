@@ -194,6 +194,7 @@ def test_polygons_of_levers_with_coriolis():
         assert made["alpha_lever"] == pytest.approx(omega**2 * abs(rates[1]), rel=1e-6)
 
 
+@pytest.mark.filterwarnings("ignore::gruebler.errors.UnitWarning")  # rows far apart
 def test_polygons_of_scotch_yokes():
     random = Random(19)
     for _ in range(MANY):

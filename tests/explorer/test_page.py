@@ -96,6 +96,43 @@ def test_where_the_range_ends_the_page_says_it_as_the_library_does(tab, tmp_path
     assert page.page.locator(".message").inner_text() == end.message()
 
 
+PLOTTED = """(() => {
+    const { drives, series } = gruebler.motion.plotParts[0].plot;
+    return { drives: [...drives], values: [...series.values] };
+})()"""
+OUTPUT = "gruebler.motion.facts.querySelector('dd').textContent"
+
+
+@pytest.mark.parametrize(("lengths", "start"), [("25,70,40,70", 45), ("25,70,40,70", 200), ("70,70,60,70", 30)])
+def test_output_angles_are_told_in_the_lap_in_which_they_are_plotted(tab, tmp_path, lengths, start):
+    """After every change the value beside the plot is on it, and dead centres and range are those of the library."""
+    path = tmp_path / "quad.html"
+    assert main(["explore", f"four-bar:{lengths}", "-o", str(path)]) == 0
+    page = tab().open(path.as_uri())
+    for way in ((-120, -160), (-60, 260), (250, 120)):
+        page.page.evaluate(f"gruebler.motion.pick({np.radians(start)})")
+        page.drag(page.middle('[data-joint="R(frame-rocker)"] .joint'), way)
+        plotted = page.page.evaluate(PLOTTED)
+        drives, values = np.array(plotted["drives"]), np.array(plotted["values"])
+        machine = "gruebler.motion.machine"
+        document = json.loads(
+            page.page.evaluate(f"JSON.stringify({machine}.document({machine}.cycle.rows, {machine}.cycle.home))")
+        )
+        found = measures(linkage_from_json(document))
+        cycle = page.page.evaluate(f"[{machine}.cycle.full, {machine}.cycle.low, {machine}.cycle.high]")
+        assert cycle[0] == found.span.full
+        if not found.span.full:
+            assert cycle[1:] == pytest.approx([found.span.low, found.span.high], abs=1e-5)
+        for centre in found.dead_centres:
+            assert np.interp(centre.drive, drives, values) == pytest.approx(np.degrees(centre.output), abs=0.5)
+        low, high = drives[0], drives[-1]
+        for part in (0.1, 0.35, 0.6, 0.85):
+            drive = low + part * (high - low)
+            page.page.evaluate(f"gruebler.motion.pick({drive})")
+            told = float(page.page.evaluate(OUTPUT).strip("°").replace("−", "-"))
+            assert told == pytest.approx(np.interp(drive, drives, values), abs=1), (way, part)
+
+
 def test_a_link_is_the_same_linkage_elsewhere(tab, single_file):
     page = tab().open(single_file.as_uri())
     page.drag(page.middle('[data-joint="R(crank-coupler)"] .joint'), (30, -25))

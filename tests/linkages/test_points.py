@@ -93,4 +93,4 @@ def test_two_numbers_are_no_point_of_a_linkage_of_six_links():
     six = gr.Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)")
     places = [(0, 0), (0, 2), (5, 4), (6, 0), (4, 6), (9, 5), (9, 0)]
     with pytest.raises(gr.GrueblerError, match=r"here a point is \(link, x, y\)"):
-        points_of(gr.Linkage.from_drawing(six, {k: place for k, place in enumerate(places)}), (1, 2))
+        points_of(gr.Linkage.from_drawing(six, dict(enumerate(places))), (1, 2))
