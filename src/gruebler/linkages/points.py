@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from math import isfinite
 from numbers import Real
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from gruebler.errors import LinkageError, nearest
-from gruebler.linkages.elements import LinkPoint
-
-if TYPE_CHECKING:
-    from gruebler.linkages.model import Linkage
+from gruebler.linkages.elements import Element, LinkPoint
+from gruebler.mechanism import Mechanism
 
 __all__ = ["PointLike", "each_point", "place_of", "point_name", "points_of", "text_as_point"]
 
@@ -20,7 +18,23 @@ PointLike = str | LinkPoint | tuple[str, float, float] | tuple[float, float]
 _COUPLER = "coupler"
 
 
-def points_of(linkage: Linkage, point: PointLike) -> tuple[LinkPoint, ...]:
+class Dimensioned(Protocol):
+    """What has points: a `Linkage`."""
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+
+    @property
+    def elements(self) -> Mapping[tuple[int, str], Element]:
+        """What each joint is on each of its links."""
+
+    @property
+    def points(self) -> Mapping[str, LinkPoint]:
+        """The named points."""
+
+
+def points_of(linkage: Dimensioned, point: PointLike) -> tuple[LinkPoint, ...]:
     """The point of a linkage: of a named point or a place one, of a joint one on each of its links, the frame's first.
 
     Raises `LinkageError` for what names no point, with the nearest name that does.
@@ -64,7 +78,7 @@ def points_of(linkage: Linkage, point: PointLike) -> tuple[LinkPoint, ...]:
     return (LinkPoint(link, float(x), float(y)),)
 
 
-def place_of(linkage: Linkage, point: PointLike) -> LinkPoint:
+def place_of(linkage: Dimensioned, point: PointLike) -> LinkPoint:
     """The point of a linkage, that of a joint on a link that is not the frame."""
     return point if isinstance(point, LinkPoint) else points_of(linkage, point)[-1]
 
@@ -107,7 +121,7 @@ def text_as_point(text: str) -> str | LinkPoint | tuple[float, float]:
     return LinkPoint(link, x, y) if colon else (x, y)
 
 
-def _coupler(linkage: Linkage) -> str:
+def _coupler(linkage: Dimensioned) -> str:
     """The link on which two numbers alone lie: ``coupler``, else the only link of four that is not at the frame."""
     mechanism = linkage.mechanism
     links = mechanism.chain.links
