@@ -22,6 +22,7 @@ from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import Line
+from gruebler.synthesis.ordered_matching import OrderedMatch, Places, SmoothCurve, TargetDistances, preferred
 from gruebler.synthesis.results import EXACT, Design, DesignVerdict
 from gruebler.text import Message, joined, message
 
@@ -42,7 +43,15 @@ __all__ = [
 
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
 _REFINEMENTS = 8
+_SHARPENINGS = 3
+_INSIDE = 1e-6  # of the length: `move` cannot be led to a limit of the drive itself
 _ROWS = 16  # poses from one target to the next, with several drives
+
+
+EXACT_AT_MOST = 1e-6
+"""With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
+Piece = tuple[float, float] | None
+"""From which arc of a circuit to which; None for a whole closed circuit, from any start."""
 
 
 @dataclass(frozen=True)
@@ -209,23 +218,23 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     reasons = faults_of_size(ratio, inside, demands)
     try:
         course = circuit(linkage, step=0.05)
-        met = _met(course, targets, demands.tolerance)
-        missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
-        if missed:
-            reasons.append(_missed(missed, met.error))
+        limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
+        met = (_met if demands.tolerance <= EXACT_AT_MOST else _approached)(course, targets, limit)
+        if met.places.empty:
+            reasons.append(_missed([k + 1 for k in met.places.empty], met.error))
             verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
             return Design(linkage, verdict, form)
-        path, full = _path(course, met.arcs), _turns_fully(course)
+        path, full = _path(course, met, limit), _turns_fully(course)
         drives: tuple[float, ...] = ()
-        missed_by, transmission = met.error, np.nan
+        missed_by, transmission = met.error if path.in_order else path.error, np.nan
         if path.one_branch:
             drives, missed_by, transmission = _carried(linkage, course, path, targets)
     except LinkageError as error:
         reasons.append(message("it cannot be followed from its first position: {error}", error=error))
         return Design(linkage, DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
-    limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
     if not path.in_order and demands.in_order:
-        reasons.append(message("the targets are met in another order"))
+        reasons.append(_in_another_order(path.error))
+        missed_by = max(missed_by, path.error)
     if not path.one_branch and demands.one_branch:
         reasons.append(message("the drive has to turn back between the targets (two branches)"))
     if path.one_branch and not np.isfinite(missed_by):
@@ -320,6 +329,15 @@ def _missed(targets: list[int], error: float) -> Message:
     )
 
 
+def _in_another_order(error: float) -> Message:
+    """That the circuit passes the targets in another order; in theirs, by how much one is missed if that is known."""
+    if np.isnan(error):
+        return message("the targets are met in another order")
+    return message(
+        "the targets are met in another order; in theirs one is missed by {error:.3g} of the size", error=error
+    )
+
+
 def size_ratio(linkage: Linkage) -> float:
     """The longest distance of two pins of a link by the shortest; points on slides do not count."""
     lengths = []
@@ -339,14 +357,17 @@ def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | 
 
 
 class _Met(NamedTuple):
-    arcs: list[Reals]
-    """For each target the arcs where the circuit meets it."""
+    """Where a circuit meets the targets."""
+
+    places: Places
     error: float
     """The largest over the targets of the smallest deviation, relative to the size."""
+    in_order: Callable[[Piece], OrderedMatch | None]
+    """The best match in order on a piece of the circuit, its error relative to the size."""
 
 
-def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
-    """Where the circuit meets each target: zeros of the derivative of the squared distance, refined."""
+def _met(course: Circuit, targets: Targets, limit: float) -> _Met:
+    """Where the circuit meets each target exactly: zeros of the derivative of the squared distance, refined."""
     samples, count = course.samples, len(targets.values)
     gaps, rates = _against_all(samples, targets)
     square = np.sum(np.abs(gaps) ** 2, axis=2)
@@ -360,7 +381,7 @@ def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
     nearest = np.full(count, np.inf)
     np.minimum.at(nearest, target, near)
     # Of a target that is missed the nearest place is refined all the same: the verdict says how near it is.
-    keep = near <= np.maximum(2 * (high - low) * speed + (1e-3 + 2 * tolerance) * targets.size, nearest[target])
+    keep = near <= np.maximum(2 * (high - low) * speed + 2e-3 * targets.size, nearest[target])
     target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
     with np.errstate(invalid="ignore", divide="ignore"):
         at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)
@@ -371,12 +392,11 @@ def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
         with np.errstate(invalid="ignore", divide="ignore"):
             step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
         at = np.clip(at - np.nan_to_num(step), low, high)
-    limit = tolerance + _ROUNDING * course.linkage.size / targets.size
     ends = np.full(len(at), np.inf)
     if len(at):
         gap, _ = targets.gaps(course.at(at), target)
         ends = np.sqrt(np.sum(np.abs(gap) ** 2, axis=1)) / targets.size
-    places, error = [], 0.0
+    found_at, error = [], 0.0
     for k in range(count):
         of_target = target == k
         # Where an open or closed circuit begins exactly at a target, both ends of it are looked at too.
@@ -384,8 +404,55 @@ def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
         all_arcs = np.concatenate([at[of_target], arcs[[0, -1]]])
         misses = np.concatenate([ends[of_target], border])
         error = max(error, min(float(misses.min()), float(np.sqrt(square[k].min())) / targets.size))
-        places.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
-    return _Met(places, error)
+        found_at.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
+    places = Places.of_points(found_at, course.length, closed=course.closed)
+
+    def in_order(piece: Piece) -> OrderedMatch | None:
+        matches = [OrderedMatch(0.0, 0.0, arcs) for arcs in places.matches(piece)]
+        return preferred(matches, 1.0) if matches else None
+
+    return _Met(places, error, in_order)
+
+
+def _approached(course: Circuit, targets: Targets, limit: float) -> _Met:
+    """Where the circuit comes near the targets; in order, so that the farthest of them is as near as possible."""
+    size = targets.size
+    arcs = np.insert(course.arcs, slice(1, None), (course.arcs[:-1] + course.arcs[1:]) / 2)
+    poses = course.at(arcs)
+    values, rates = (np.stack([probe.value(poses, n) for probe in targets.probes], axis=1) for n in (0, 1))
+    distances = TargetDistances(SmoothCurve(arcs, values, rates, course.closed), targets.values, size)
+
+    def in_order(piece: Piece) -> OrderedMatch:
+        match = distances.best_in_order(piece)
+        arcs = _sharpened(course, targets, distances, match.arcs, piece)
+        return OrderedMatch(match.error / size, match.mean / size, arcs)
+
+    return _Met(distances.places(limit * size), float(distances.nearest.max()) / size, in_order)
+
+
+def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, arcs: Reals, piece: Piece) -> Reals:
+    """Places put right by the circuit itself, between their neighbours: a target that is met is met exactly."""
+    sense = 1.0 if arcs[-1] >= arcs[0] else -1.0
+    low, high = (-np.inf, np.inf) if piece is None else piece
+    if piece is not None and not course.closed:
+        low, high = max(low, 0.0), min(high, course.length)
+    inside = _INSIDE * course.length if course.drive_limits else 0.0
+    arcs = np.clip(arcs, low + inside, high - inside)
+    which = np.arange(len(arcs))
+    for _ in range(_SHARPENINGS):
+        gap, rate = targets.gaps(course.at(arcs), which)
+        slope = np.sum(np.real(np.conj(gap) * rate), axis=1)
+        bend = distances.bend(arcs)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = np.where(bend > 0, -slope / bend, 0.0)
+        moved = sense * (arcs + np.nan_to_num(step))
+        before = np.concatenate([[-np.inf], sense * arcs[:-1]])
+        after = np.concatenate([sense * arcs[1:], [np.inf]])
+        rising = np.maximum.accumulate(np.clip(moved, before, after))
+        if piece is None:
+            rising = np.minimum(rising, rising[0] + course.length)
+        arcs = np.clip(sense * rising, low + inside, high - inside)
+    return arcs
 
 
 def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes]:
@@ -416,44 +483,42 @@ class _TargetPath(NamedTuple):
     """The arc of each target, monotonic if ``in_order``."""
     in_order: bool
     one_branch: bool
+    error: float = np.nan
+    """How far the farthest target is missed in order, relative to the size; NaN if no way in order is known."""
 
 
-def _path(course: Circuit, met: list[Reals]) -> _TargetPath:
-    """The shortest way through the targets, in order and without a limit of the drive if there is one."""
+def _path(course: Circuit, met: _Met, limit: float) -> _TargetPath:
+    """The best way through the targets: in order and without a limit of the drive if there is one within a limit."""
+    branches, whole = _branches(course), None if course.closed else (0.0, course.length)
+    ways = [match for branch in branches if (match := met.in_order(branch)) is not None]
+    if ways and (best := preferred(ways, 1.0)).error <= limit:
+        return _TargetPath(best.arcs, True, True, best.error)
+    match = met.in_order(whole) if branches != [whole] else ways[0] if ways else None
+    if match is not None and match.error <= limit:
+        return _TargetPath(match.arcs, True, False, match.error)
+    return _unordered(course, met.places, np.nan if match is None else match.error)
+
+
+def _branches(course: Circuit) -> list[Piece]:
+    """The pieces of the circuit between limits of the drive; None for all of a closed one."""
+    if course.closed and not course.drive_limits:
+        return [None]
+    return [(piece.start, piece.end) for piece in course.monotone_pieces]
+
+
+def _unordered(course: Circuit, places: Places, error: float) -> _TargetPath:
+    """The shortest way through the targets in any order, without a limit of the drive if there is one."""
     limits = np.array([extreme.at for extreme in course.drive_limits])
-    best: tuple[tuple[bool, bool, float], _TargetPath] | None = None
+    laps = (-1, 0, 1) if course.closed else (0,)
+    met = places.best_of_each
+    ways = []
     for start in met[0]:
-        for sense in (1.0, -1.0):
-            arcs = _forward(course, met, float(start), sense)
-            ordered = arcs is not None
-            if arcs is None:
-                arcs = _nearest(course, met, float(start), limits)
-            low, high = arcs.min(), arcs.max()
-            laps = (-1, 0, 1) if course.closed else (0,)
-            free = all(
-                not ((limits + k * course.length > low) & (limits + k * course.length < high)).any() for k in laps
-            )
-            key = (not ordered, not free, float(high - low))
-            if best is None or key < best[0]:
-                best = key, _TargetPath(arcs, ordered, free)
-    assert best is not None
-    return best[1]
-
-
-def _forward(course: Circuit, met: list[Reals], start: float, sense: float) -> Reals | None:
-    """The next arc of each target in turn, within one lap; None if there is none."""
-    passed = [start]
-    for arcs in met[1:]:
-        ahead = sense * (arcs - passed[-1])
-        if course.closed:
-            ahead = ahead % course.length
-        ahead = ahead[ahead > 0]
-        if not len(ahead):
-            return None
-        passed.append(passed[-1] + sense * float(ahead.min()))
-    if course.closed and abs(passed[-1] - start) >= course.length * (1 - 1e-9):
-        return None
-    return np.array(passed)
+        arcs = _nearest(course, met, float(start), limits)
+        low, high = arcs.min(), arcs.max()
+        free = all(not ((limits + k * course.length > low) & (limits + k * course.length < high)).any() for k in laps)
+        ways.append((not free, float(high - low), arcs))
+    crosses, _, arcs = min(ways, key=lambda each: each[:2])
+    return _TargetPath(arcs, False, not crosses, error)
 
 
 def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> Reals:
