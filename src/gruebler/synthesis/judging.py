@@ -330,11 +330,12 @@ def _missed(targets: list[int], error: float) -> Message:
 
 
 def _in_another_order(error: float) -> Message:
-    """That the circuit passes the targets in another order; in theirs, by how much one is missed if that is known."""
+    """That the circuit passes the targets in another order; by how much one is missed in theirs, if that is known."""
     if np.isnan(error):
         return message("the targets are met in another order")
     return message(
-        "the targets are met in another order; in theirs one is missed by {error:.3g} of the size", error=error
+        "the targets are met in another order; in that of the task one is missed by {error:.3g} of the size",
+        error=error,
     )
 
 
