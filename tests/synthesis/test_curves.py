@@ -130,6 +130,22 @@ def test_a_closed_curve_gives_judged_designs():
         assert design.verdict.in_order
 
 
+def test_nine_points_of_a_closed_curve_are_passed_exactly():
+    """Those of the README, taken from the crank-rocker 25, 70, 40, 70 and rounded to 0.01: it comes back.
+
+    Curves that are like the polygon through nine points do not lead least squares to it.
+    """
+    points = [(46.45, 60.45), (49.80, 68.60), (39.52, 73.48), (22.37, 70.73), (8.92, 61.83), (-1.66, 49.38)]
+    points += [(-6.22, 38.23), (-1.28, 35.32), (21.48, 47.71)]
+    designs = synthesise_path(PathTask(points, closed=True)).designs
+    exact = [design for design in designs if design.verdict.error < 1e-9]
+    assert list(designs[: len(exact)]) == exact
+    assert all(design.verdict.turns_fully for design in exact)
+    sides = (("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3))
+    gaps = [np.abs([d.linkage.length(*side) for side in sides] - np.array([25, 70, 40, 70])).max() for d in exact]
+    assert min(gaps) < 0.2
+
+
 MECHANISMS = (
     "R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)",
     "R(0-1) R(1-2) R(2-3) P(0-3); drive=R(0-1)",

@@ -6,6 +6,7 @@ docs/theory/synthesis-points.md has the equations and the counts.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
 from typing import NamedTuple
@@ -28,7 +29,7 @@ from gruebler.synthesis.judging import (
     position_targets,
 )
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
-from gruebler.synthesis.results import Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import EXACT, Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import MOST_POINTS, SAME, PathTask, PositionTask
 from gruebler.text import Message, message
 
@@ -57,7 +58,8 @@ def synthesise_path(
     finitely many solutions, all of which are found. Fewer points have infinitely many: up to five are met with several
     choices of the crank angles, six to eight by linkages whose curves are similar; where pivots or coupler angles are
     given, points on a smooth curve through them are added until the number is finite. For more points, and for a closed
-    curve, the four-bars that come nearest are sought.
+    curve, the four-bars that come nearest are sought; of a closed curve with nine points those that pass through all of
+    them come first.
 
     Args:
         task: points, perhaps with coupler angles, crank angles or fixed pivots.
@@ -102,9 +104,29 @@ def synthesise_path(
             raise SynthesisError(
                 "this number of points is met by least squares, without coupler angles and fixed pivots"
             )
-        return fit_path(task, wanted, number=number, progress=progress)
+        if len(task) == MOST_POINTS and not _crowded(task):
+            through = _exact(replace(task, closed=False), wanted, PROBLEMS[0], [], threads, progress).designs
+        else:
+            through = ()
+        return _with_exact(fit_path(task, wanted, number=number, progress=progress), through, number)
     problem = next(p for p in PROBLEMS if p.poses == poses and p.given_pivots == bool(task.fixed_pivots))
     return _exact(task, wanted, problem, oriented, threads, progress)
+
+
+def _with_exact(fitted: SynthesisResult, through: Sequence[Design], number: int) -> SynthesisResult:
+    """Designs for nine points of a closed curve: first four-bars through all of them, whose cranks turn fully.
+
+    Least squares from similar curves find only some of these: nine points do not tell the curve between them.
+    """
+    exact = [replace(design, form="four-bar") for design in through if design.verdict.turns_fully]
+    if not exact:
+        return fitted
+    near = [design for design in fitted.designs if design.form != "four-bar" or design.verdict.error >= EXACT]
+    note = message(
+        "Four-bars through all points whose cranks turn fully: {count}, the first of the list.", count=len(exact)
+    )
+    designs = (*exact, *near)[: max(number, len(exact))]
+    return replace(fitted, designs=designs, notes=(*fitted.notes, note))
 
 
 def _as_positions(task: PathTask, demands: Demands, progress: Progress | None) -> SynthesisResult:
@@ -151,8 +173,13 @@ def _exact(
     return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, complete, reduced.added)))
 
 
-def _check_general(task: PathTask) -> None:
-    """Raise `SynthesisError` for more points on a line or circle than a coupler curve has there.
+class _Crowd(NamedTuple):
+    points: int
+    on_line: bool
+
+
+def _crowded(task: PathTask) -> _Crowd | None:
+    """More points on a line or circle than a coupler curve has there, if there are so many.
 
     A coupler curve is of degree six and passes three times through each circular point: it meets a line in six points,
     a circle in 12 - 2 * 3 = 6.
@@ -165,19 +192,28 @@ def _check_general(task: PathTask) -> None:
         slope = np.abs(2 * circle[0] * z + circle[1] + 1j * circle[2])
         count = int(np.count_nonzero(np.abs(rows @ circle) <= SAME * np.maximum(slope, 1e-3)))
         if count > MOST_ON_CIRCLE:
-            if abs(circle[0]) < SAME:
-                raise SynthesisError(
-                    "{count} of the points lie on one line, which a coupler curve meets in at most {most} points "
-                    "unless it contains it: give closed = true for the curves that come nearest",
-                    count=count,
-                    most=MOST_ON_CIRCLE,
-                )
-            raise SynthesisError(
-                "{count} of the points lie on one circle, which a coupler curve meets in at most {most} points unless "
-                "it contains it: give closed = true for the curves that come nearest",
-                count=count,
-                most=MOST_ON_CIRCLE,
-            )
+            return _Crowd(count, bool(abs(circle[0]) < SAME))
+    return None
+
+
+def _check_general(task: PathTask) -> None:
+    """Raise `SynthesisError` for more points on a line or circle than a coupler curve has there."""
+    crowd = _crowded(task)
+    if crowd is None:
+        return
+    if crowd.on_line:
+        raise SynthesisError(
+            "{count} of the points lie on one line, which a coupler curve meets in at most {most} points "
+            "unless it contains it: give closed = true for the curves that come nearest",
+            count=crowd.points,
+            most=MOST_ON_CIRCLE,
+        )
+    raise SynthesisError(
+        "{count} of the points lie on one circle, which a coupler curve meets in at most {most} points unless "
+        "it contains it: give closed = true for the curves that come nearest",
+        count=crowd.points,
+        most=MOST_ON_CIRCLE,
+    )
 
 
 def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Message]:
