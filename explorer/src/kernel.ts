@@ -297,7 +297,7 @@ export class Kernel {
 
   private reversed(): number {
     for (const operation of this.p.operations) {
-      if (operation[0] !== Code.RPR) continue;
+      if (operation[0] !== Code.RPR && !this.drivenArm(operation)) continue;
       const number = operation[9]!, body = operation[7]!;
       if (this.change[number]! < Infinity && this.after[number] === this.signs[number]) continue;
       const dot = this.turns[2 * body]! * this.before[2 * body]! + this.turns[2 * body + 1]! * this.before[2 * body + 1]!;
@@ -394,14 +394,15 @@ export class Kernel {
         for (let slot = 0; slot < 6; slot++)
           this.setElement(order, operation[1 + slot]!, slot, this.points, this.lines, this.spins);
         const number = operation[9]!;
-        const square = this.dyadSquare(kind);
+        const driven = this.drivenArm(operation);
+        const square = this.dyadSquare(kind, driven);
         const verdict = kind === Code.PRP || kind === Code.RPP ? this.sine(square, number) : this.root(square, number, at);
         if (verdict !== Verdict.GOOD) {
           this.which = number;
           return verdict;
         }
         const one = operation[7]!, two = operation[8]!;
-        if ((kind === Code.RRR || kind === Code.RPR) && this.meeting(kind)) {
+        if ((kind === Code.RRR || kind === Code.RPR || driven) && this.meeting(kind)) {
           if (this.met[number] !== at) {
             this.which = number;
             return Verdict.MEET;
@@ -409,7 +410,7 @@ export class Kernel {
           this.turns[2 * one] = this.direction[2 * number]!;
           this.turns[2 * one + 1] = this.direction[2 * number + 1]!;
         }
-        this.placeDyad(kind, this.roots[3]![number]!, one, two);
+        this.placeDyad(kind, this.roots[3]![number]!, one, two, driven);
         if (order > 0) this.rateDyad(kind, order, one, two);
       } else if (kind === Code.GROUP) {
         if (!this.group(operation[1]!, order, at)) {
@@ -507,7 +508,7 @@ export class Kernel {
   // --- dyads ---------------------------------------------------------------------------------------------------------
 
   /** The square of the number whose sign is the assembly mode; of PRP and RPP the sine between the lines. */
-  private dyadSquare(kind: Code): number {
+  private dyadSquare(kind: Code, driven: boolean): number {
     const P = this.points, L = this.lines, size = this.p.size;
     if (kind === Code.RRR) {
       const wx = P[30]! - P[0]!, wy = P[31]! - P[1]!;
@@ -523,6 +524,7 @@ export class Kernel {
       this.turned(10, 8, P[18]! - P[24]!, P[19]! - P[25]!);
       const rx = P[30]! + jet.x - P[0]!, ry = P[31]! + jet.y - P[1]!;
       const across = L[10]! * ry - L[11]! * rx;
+      if (driven) return (fx * fx + fy * fy - across * across) / (size * size);
       return 1 - (across * across) / (fx * fx + fy * fy);
     }
     if (kind === Code.RPR) {
@@ -537,6 +539,12 @@ export class Kernel {
       y = jet.y;
     }
     return x * L[11]! - y * L[10]!;
+  }
+
+  /** Whether a drive holds the two ends of the arm of an RRP, and changes its length. */
+  private drivenArm(operation: readonly number[]): boolean {
+    const p = this.p;
+    return operation[0] === Code.RRP && p.links[operation[2]!] !== p.links[operation[3]!];
   }
 
   /** A vector times line `by` over line `from` (places in the array of lines). */
@@ -557,10 +565,17 @@ export class Kernel {
 
   private meeting(kind: Code): boolean {
     const P = this.points, size = this.p.size;
-    const wx = P[30]! - P[0]!, wy = P[31]! - P[1]!;
+    let wx = P[30]! - P[0]!, wy = P[31]! - P[1]!;
     let near = 1e-13;
-    if (kind === Code.RPR) {
-      const off = this.offset();
+    if (kind !== Code.RRR) {
+      let off: number;
+      if (kind === Code.RRP) {
+        const L = this.lines;
+        this.turned(10, 8, P[18]! - P[24]!, P[19]! - P[25]!);
+        off = L[10]! * (wy + jet.y) - L[11]! * (wx + jet.x);
+        wx = P[12]! - P[6]!;
+        wy = P[13]! - P[7]!;
+      } else off = this.offset();
       if (off * off > 1e-26 * size * size) return false;
       near = 1e-7;
     }
@@ -610,7 +625,7 @@ export class Kernel {
     this.places[6 * link + 1] = y - (tx * py + ty * px);
   }
 
-  private placeDyad(kind: Code, root: number, one: number, two: number): void {
+  private placeDyad(kind: Code, root: number, one: number, two: number, driven: boolean): void {
     const P = this.points, L = this.lines, size = this.p.size;
     const ax = P[0]!, ay = P[1]!, bx = P[30]!, by = P[31]!;
     if (kind === Code.RRR) {
@@ -638,9 +653,9 @@ export class Kernel {
       this.setTurn(two, jet.x, jet.y);
       this.turned(10, 8, P[18]! - P[24]!, P[19]! - P[25]!);
       const rx = bx + jet.x - ax, ry = by + jet.y - ay;
-      const way = root * Math.sqrt(l1) - (L[10]! * rx + L[11]! * ry);
+      const way = root * (driven ? size : Math.sqrt(l1)) - (L[10]! * rx + L[11]! * ry);
       const vx = rx + way * L[10]!, vy = ry + way * L[11]!;
-      this.setTurn(one, (vx * fx + vy * fy) / l1, (vy * fx - vx * fy) / l1);
+      if (!(driven && this.meeting(kind))) this.setTurn(one, (vx * fx + vy * fy) / l1, (vy * fx - vx * fy) / l1);
       this.hang(two, 4, bx + way * L[10]!, by + way * L[11]!);
     } else if (kind === Code.RPR) {
       let lx: number, ly: number;
@@ -956,7 +971,7 @@ export class Kernel {
     const verdict = this.tryPose(0, at);
     if ((verdict === Verdict.APPROACH || verdict === Verdict.APART) && this.which === wanted) {
       for (const operation of this.p.operations)
-        if (operation[0]! >= 2 && operation[0]! < Code.GROUP && operation[9] === wanted) return this.dyadSquare(operation[0]!);
+        if (operation[0]! >= 2 && operation[0]! < Code.GROUP && operation[9] === wanted) return this.dyadSquare(operation[0]!, this.drivenArm(operation));
     }
     return this.roots[3]![wanted]! ** 2; // it is known if only something behind it cannot be placed
   }

@@ -29,6 +29,7 @@ __all__ = [
     "unknown_change_points_message",
 ]
 
+_NOTHING = 1e-12  # of the size: lengths below it are roundings
 _CONSTANT = 1e-9  # radians: transmission angles that vary by less are one
 
 _DEAD_CENTRES = {
@@ -51,7 +52,7 @@ class MeasureUnits(NamedTuple):
     turning_output: bool
     unit: str
     size: float
-    """Of the linkage: an output that is nothing against it is 0."""
+    """Of the linkage: a length that is nothing against it is 0."""
 
     def drive(self, value: float) -> Message:
         """A drive value."""
@@ -61,10 +62,11 @@ class MeasureUnits(NamedTuple):
         """A value of the output."""
         if self.turning_output:
             return _angle(value)
-        return self._length(0.0 if abs(value) < 1e-12 * self.size else value)
+        return self._length(value)
 
     def _length(self, value: float) -> Message:
-        return message("{length:.7g} {unit}", length=value, unit=self.unit)
+        rounded = 0.0 if abs(value) < _NOTHING * self.size else value
+        return message("{length:.7g} {unit}", length=rounded, unit=self.unit)
 
 
 def range_lines(units: MeasureUnits, span: CycleSpan) -> Iterator[Message]:

@@ -57,7 +57,7 @@ def _set_pose(motion: Motion, row: int, around: SolvedRows) -> None:
     poses = np.array([around.places[0, 1:] / size, around.turns[1:]])
     limit, other = np.tensordot(poses, _WEIGHTS, (1, 0)), np.tensordot(poses, _FEWER_WEIGHTS, (1, 0))
     now = np.array([motion.places[0, row] / size, motion.turns[row]])
-    if np.abs(now - limit).max() <= _LEAST + _SURE * np.abs(other - limit).max():
+    if not np.abs(now - limit).max() > _LEAST + _SURE * np.abs(other - limit).max():  # or there is no limit
         return
     places, turns = limit
     angles = np.angle(motion.turns[row]) + 2 * np.pi * motion.whole[row]

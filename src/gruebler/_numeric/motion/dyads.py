@@ -40,11 +40,13 @@ def _dot(a: complex, b: complex) -> float:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def dyad_square(kind: int, elements: ElementJets, size: float) -> float:
+def dyad_square(kind: int, elements: ElementJets, size: float, driven: bool) -> float:
     """The square of the number whose sign is the assembly mode, without unit: negative if nothing can be assembled.
 
     For RRR and RRP it is sin^2 of the transmission angle, for RPR the way along the slide in units of `size`. PRP and
     RPP have one mode only: for them it is the sine of the angle between the lines, 0 where they are parallel.
+    `driven` says that a drive changes the length of the arm of an RRP: then it is the way along the slide in units of
+    `size`, which is zero, and changes its sign, where an arm on the slide's line comes through the length 0.
     """
     points, lines = elements.points, elements.lines
     if kind == RRR:
@@ -58,6 +60,8 @@ def dyad_square(kind: int, elements: ElementJets, size: float) -> float:
         first = points[2, 0] - points[1, 0]
         reach = points[5, 0] + lines[5] * lines[4].conjugate() * (points[3, 0] - points[4, 0]) - points[0, 0]
         across = _cross(lines[5], reach)
+        if driven:
+            return (_dot(first, first) - across * across) / (size * size)
         return 1 - across * across / _dot(first, first)
     if kind == RPR:
         gap = points[5, 0] - points[0, 0]
@@ -79,15 +83,20 @@ def _offset(elements: ElementJets) -> float:
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def meeting(kind: int, elements: ElementJets, size: float) -> bool:
-    """Whether the outer joints of RRR or RPR meet, so that their line has no direction.
+    """Whether the outer joints of RRR or RPR meet, or both of the arm of an RRP, so that their line has no direction.
 
     RPR has its slide in that line; with the slide through both joints any direction closes, so their line is not asked
-    even where they are only nearly one.
+    even where they are only nearly one. The same holds of an arm without length whose outer joint is on the slide.
     """
-    gap = elements.points[5, 0] - elements.points[0, 0]
+    points, lines = elements.points, elements.lines
+    gap = points[5, 0] - points[0, 0]
     near = _SAME_POINT
-    if kind == RPR:
-        off = _offset(elements)
+    if kind != RRR:
+        if kind == RRP:
+            off = _cross(lines[5], gap + lines[5] * lines[4].conjugate() * (points[3, 0] - points[4, 0]))
+            gap = points[2, 0] - points[1, 0]
+        else:
+            off = _offset(elements)
         if off * off > _SAME_POINT * _SAME_POINT * size * size:
             return False
         near = _SAME_POINT_NEAR_CHANGE
@@ -97,7 +106,7 @@ def meeting(kind: int, elements: ElementJets, size: float) -> bool:
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def dyad_place(
-    kind: int, root: float, elements: ElementJets, body_a: int, body_b: int, links: BodyJets, size: float
+    kind: int, root: float, elements: ElementJets, body_a: int, body_b: int, links: BodyJets, size: float, driven: bool
 ) -> None:
     """Place both bodies; `root` is the signed root of `dyad_square`."""
     points, lines, places, turns = elements.points, elements.lines, links.places, links.turns
@@ -116,8 +125,9 @@ def dyad_place(
         l1 = _dot(first, first)
         turns[body_b] = lines[5] * lines[4].conjugate()
         reach = points[5, 0] + turns[body_b] * (points[3, 0] - points[4, 0]) - points[0, 0]
-        travel = root * sqrt(l1) - _dot(lines[5], reach)
-        turns[body_a] = (reach + travel * lines[5]) * complex(first.real / l1, -first.imag / l1)
+        travel = root * (size if driven else sqrt(l1)) - _dot(lines[5], reach)
+        if not (driven and meeting(kind, elements, size)):  # else any direction closes: the one that the body has
+            turns[body_a] = (reach + travel * lines[5]) * complex(first.real / l1, -first.imag / l1)
         places[body_b, 0] = points[5, 0] + travel * lines[5] - turns[body_b] * points[4, 0]
     elif kind == RPR:
         if meeting(kind, elements, size):  # any direction closes: the one that the body has already

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.motion.dyads import dyad_square
-from gruebler._numeric.motion.placing import accept_pose, forget_poses, set_drives, try_pose, zero_ahead
+from gruebler._numeric.motion.placing import accept_pose, driven_arm, forget_poses, set_drives, try_pose, zero_ahead
 from gruebler._numeric.motion.planar_jets import ElementJets
 from gruebler._numeric.motion.program import (
     APART,
@@ -93,7 +93,8 @@ def _square_at(
     if verdict in (APPROACH, APART) and memory.which[0] == number:
         for operation in program.operations:
             if 2 <= operation[0] < GROUP and operation[9] == number:
-                return dyad_square(operation[0], ElementJets(s.points, s.lines, s.spins), program.size)
+                elements = ElementJets(s.points, s.lines, s.spins)
+                return dyad_square(operation[0], elements, program.size, driven_arm(operation, program))
     return float(memory.roots[3, number] ** 2)  # it is known if only something behind it cannot be placed
 
 
@@ -369,10 +370,11 @@ def _reversed(program: Program, memory: PoseMemory, s: MotionScratch) -> int:
     """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
 
     Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
-    changes. Steps are too short for any other turn like that.
+    changes. Steps are too short for any other turn like that. A driven arm of an RRP that comes through the length 0
+    reverses in the same way.
     """
     for operation in program.operations:
-        if operation[0] == RPR:
+        if operation[0] == RPR or driven_arm(operation, program):
             number, body = operation[9], operation[7]
             if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
                 continue  # it has only passed near a change point, and may turn fast

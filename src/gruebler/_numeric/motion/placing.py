@@ -27,6 +27,7 @@ from gruebler._numeric.motion.program import (
     PRP,
     RPP,
     RPR,
+    RRP,
     RRR,
     TURN,
     MotionScratch,
@@ -34,7 +35,7 @@ from gruebler._numeric.motion.program import (
     Program,
 )
 
-__all__ = ["accept_pose", "forget_poses", "set_drives", "try_pose", "zero_ahead"]
+__all__ = ["accept_pose", "driven_arm", "forget_poses", "set_drives", "try_pose", "zero_ahead"]
 
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -282,6 +283,13 @@ def _group(number: int, program: Program, order: int, at: float, memory: PoseMem
     return True
 
 
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def driven_arm(operation: Ints, program: Program) -> bool:
+    """Whether a drive holds the two ends of the arm of an RRP, which are on two links then, and changes its length."""
+    driven: bool = operation[0] == RRP and program.links[operation[2]] != program.links[operation[3]]
+    return driven
+
+
 @njit(cache=True, error_model="numpy", _nrt=False)
 def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: MotionScratch) -> int:
     """Place everything at a place on the path; the drives stand in the scratch. Returns whether to trust it."""
@@ -303,7 +311,8 @@ def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: Mot
                 link = program.links[e]
                 set_element_jet(order, link, program.points[e], program.lines[e], links, slot, elements)
             number = operation[9]
-            square = dyad_square(kind, elements, program.size)
+            driven = driven_arm(operation, program)
+            square = dyad_square(kind, elements, program.size, driven)
             if kind in (PRP, RPP):
                 verdict, root = _sine(square, number, memory)
             else:
@@ -313,12 +322,12 @@ def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: Mot
                 memory.which[0] = number
                 return verdict
             first, second = operation[7], operation[8]
-            if kind in (RRR, RPR) and meeting(kind, elements, program.size):
+            if (kind in (RRR, RPR) or driven) and meeting(kind, elements, program.size):
                 if memory.met[number] != at:
                     memory.which[0] = number
                     return MEET
                 links.turns[first] = memory.direction[number]
-            dyad_place(kind, root, elements, first, second, links, program.size)
+            dyad_place(kind, root, elements, first, second, links, program.size, driven)
             if order > 0:
                 dyad_rates(kind, order, elements, first, second, links)
         elif kind == GROUP:
