@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import degrees, radians, sqrt
+from math import acos, asin, degrees, radians, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -546,8 +546,61 @@ def _platform_path() -> float:
     return float(np.ptp(places[:, 0]))
 
 
+_CLAIMED = {
+    "turns": "turns",
+    "swings": "swings",
+    "slides": "slides",
+    "translates": "slides",
+    "keeps its direction": "parallel",
+}
+
+
+def _claimed(place: str, id: str, words: str) -> Fact:
+    """The entry claims of its links what the document says, no less and no more."""
+    statements = (statement.split(" ", 1) for statement in words.split(", "))
+    said = {link: _CLAIMED[verb] for link, verb in statements if verb in _CLAIMED}
+    return Fact(
+        place=place,
+        states=f"{id}: claims on its motion",
+        derive=lambda: dict(entry(id).claims.motion),
+        value=said,
+        subject=id,
+    )
+
+
+def _stated_travels() -> list[list[float]]:
+    """Travel and dead centres that entries claim, in the order of the own computations."""
+    rows = (("vcomp", "piston1"), ("vcomp", "piston2"), ("compressor", "piston"), ("slidercrank", "slider"))
+    rows += (("kurbelschleife", "slotted_lever"), ("conchoid", "block"))
+    claims = ((entry(id).claims, link) for id, link in rows)
+    return [[each.travel[link], *each.dead_centres[link]] for each, link in claims]
+
+
+BLOCK = degrees(acos(0.6))
 KINDS = [
     *(_said(*row) for row in WORDS),
+    *(_claimed(*row) for row in WORDS if any(f" {verb}" in row[2] for verb in _CLAIMED)),
+    Fact(
+        place="000/003, section 3.2",
+        states="claims: a slider moves 2a between rod and crank in line; a block swings 2 arcsin(a/d) between tangents",
+        derive=_stated_travels,
+        value=[
+            [60, 45, 225],
+            [60, 135, 315],
+            [60, 0, 180],
+            [50, 0, 180],
+            *([[2 * degrees(asin(0.6)), BLOCK, 360 - BLOCK]] * 2),
+        ],
+        near=1e-9,
+    ),
+    Fact(
+        place="000/003, section 3.6.2.1",
+        states="crankrocker: claimed swing",
+        derive=lambda: entry("crankrocker").claims.travel["rocker"],
+        value=own.swing(25, 70, 40, 70),
+        near=1e-9,
+        subject="crankrocker",
+    ),
     Fact(
         place="000, figure 6.12",
         states="drafting: the head keeps its direction in both motions",

@@ -54,7 +54,7 @@ def test_every_number_of_the_sheet_has_a_fact():
 
 def test_every_machine_has_facts():
     assert [row.id for row in machine_facts.STRUCTURES] == sorted(entries())
-    assert {fact.subject for fact in machine_facts.FACTS} == {*entries()}
+    assert {*entries()} <= {fact.subject for fact in machine_facts.FACTS} <= {*entries(), ""}
 
 
 MISPRINTS = {
@@ -122,6 +122,8 @@ BREAKS = [
         '"R(conrod1-piston1)" = [111, 0]',
         "first cylinder at 45°",
     ),
+    ("machines/vcomp.toml", "[135, 315]", "[120, 300]", "every claim holds"),
+    ("machines/wiper.toml", 'blade = "parallel"', 'blade = "swings"', "wiper: claims on its motion"),
     ("machines/crankrocker.toml", "c = 40", "c = 41", "crankrocker: c"),
     ("machines/lambda.toml", "b = 50", "b = 51", "lambda: b"),
     ("machines/conchoid.toml", "at = [90, 0]", "at = [91, 0]", "conchoid: b = AC"),

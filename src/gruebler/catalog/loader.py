@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from gruebler.catalog.claims import CheckedEntry, check_claims
+from gruebler.catalog.claims import CheckedEntry, WrongClaim, check_claims
 from gruebler.chain.pairs import PAIRS, Pair, pair
 from gruebler.errors import CatalogError, near_words
 from gruebler.formats.catalog_records import Entry, Exercise, Record, read_entry, read_exercise
@@ -107,9 +107,14 @@ def check_all() -> list[CheckedEntry]:
 def check_entry(record: Entry, origin: str | None = None) -> CheckedEntry:
     """Check every claim of a machine; ``origin`` is its file, by default that of the catalog."""
     where = str(catalog_folder() / "machines" / f"{record.id}.toml") if origin is None else origin
-    return check_claims(
+    checked = check_claims(
         record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed()
     )
+    if not record.claims.says_motion:
+        return checked
+    from gruebler.catalog.motion_claims import wrong_motions  # moves linkages: loaded where it is needed
+
+    return replace(checked, wrong=checked.wrong + tuple(WrongClaim(*each) for each in wrong_motions(record)))
 
 
 def check_exercise(record: Exercise, origin: str | None = None) -> list[CheckedEntry]:

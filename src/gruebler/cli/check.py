@@ -180,6 +180,10 @@ def explanation(checked: CheckedEntry, lang: str) -> str:
                 reason=claims.group.reason.in_language(lang),
             )
         )
+    if claims.says_motion:
+        from gruebler.catalog.motion_claims import motion_lines  # moves linkages: loaded where it is needed
+
+        lines += motion_lines(claims, lang)
     if checked.freedoms is not None:
         counted = checked.report.count.formula()  # has its line above
         lines += [line for line in checked.freedoms.explain(lang).splitlines() if not line.endswith(counted)]

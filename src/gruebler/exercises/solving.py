@@ -51,18 +51,19 @@ def solve(exercise: Exercise) -> Solution:
     >>> solve(exercises()["exercise-6"])["F"]
     1
     """
-    return _solve(exercise.id, exercise.method or "", tuple(exercise.given.items()), exercise.cases)
+    machines = tuple(case.machine for case in exercise.cases)
+    return _solve(exercise.id, exercise.method or "", tuple(exercise.given.items()), machines)
 
 
 @lru_cache(maxsize=256)
-def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], cases: tuple[object, ...]) -> Solution:
+def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], machines: tuple[str, ...]) -> Solution:
     if name not in methods():
         raise CatalogError(
             "{id}: unknown method {method!r}{suggestion}", id=id, method=name, suggestion=nearest(name, methods())
         )
     method, arguments = methods()[name], dict(quantities)
     if name == "mobility.machines" and not arguments:
-        arguments = {"machines": " ".join(case.machine for case in cases)}  # type: ignore[attr-defined]
+        arguments = {"machines": " ".join(machines)}
     try:
         inspect.signature(method).bind(**arguments)
     except TypeError as error:

@@ -31,6 +31,7 @@ __all__ = [
     "Claims",
     "Entry",
     "Exercise",
+    "MotionKind",
     "Question",
     "Sizes",
     "entry_of_data",
@@ -78,6 +79,10 @@ class ClaimedGroup(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     reason: Text
 
 
+MotionKind = Literal["turns", "swings", "slides", "parallel"]
+"""It turns fully, swings, slides on the frame, or moves without turning."""
+
+
 class Claims(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """What the entry says of itself; everything but the reasons is derived again by `gruebler check`."""
 
@@ -93,6 +98,17 @@ class Claims(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     reason: Text | None = None
     group: ClaimedGroup | None = None
     idle: tuple[str, ...] = ()
+    motion: dict[str, MotionKind] = {}
+    """How links move against the frame, in a machine with dimensions and one drive."""
+    travel: dict[str, float] = {}
+    """How far links swing, in degrees, or slide, in the unit."""
+    dead_centres: dict[str, tuple[float, ...]] = {}
+    """The drive values at which links turn back, in degrees or the unit."""
+
+    @property
+    def says_motion(self) -> bool:
+        """Whether it says anything of how the machine moves."""
+        return bool(self.motion or self.travel or self.dead_centres)
 
 
 class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -182,7 +198,7 @@ def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
     "dimensions": ("elements", "reference_pose", "home", "places", "points", "drive"),
     "screws": ("joints",),
-    "claims": ("idle",),
+    "claims": ("idle", "motion", "travel", "dead_centres"),
 }
 
 
@@ -289,6 +305,9 @@ def _check(entry: Entry, path: Path | str) -> None:
         ("frame", (entry.frame,) if entry.frame is not None else (), chain.index),
         ("outputs", entry.outputs, chain.index),
         ("claims.idle", entry.claims.idle, chain.index),
+        ("claims.motion", entry.claims.motion, chain.index),
+        ("claims.travel", entry.claims.travel, chain.index),
+        ("claims.dead_centres", entry.claims.dead_centres, chain.index),
         ("drives", entry.drives, chain.joint_number),
     ):
         for name in names:
@@ -305,6 +324,9 @@ def _check(entry: Entry, path: Path | str) -> None:
             raise CatalogError("{path}: {error}", path=path, error=error) from None
     if entry.dimensions is not None:
         _check_dimensions(entry, entry.dimensions, chain, path)
+    sizes = entry.dimensions
+    if entry.claims.says_motion and (sizes is None or len(sizes.shown_drives or entry.drives) != 1):
+        raise CatalogError("{path}: claims.motion: needs dimensions and one drive", path=path)
 
 
 def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path | str) -> None:
