@@ -110,11 +110,13 @@ def check_entry(record: Entry, origin: str | None = None) -> CheckedEntry:
     checked = check_claims(
         record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed()
     )
-    if not record.claims.says_motion:
+    if not record.claims.says_motion and not record.quantities:
         return checked
-    from gruebler.catalog.motion_claims import wrong_motions  # moves linkages: loaded where it is needed
+    from gruebler.catalog.motion_claims import wrong_motions  # they move linkages: loaded where they are needed
+    from gruebler.catalog.motion_quantities import wrong_quantities
 
-    return replace(checked, wrong=checked.wrong + tuple(WrongClaim(*each) for each in wrong_motions(record)))
+    wrong = (*(WrongClaim(*each) for each in wrong_motions(record)), *wrong_quantities(record))
+    return replace(checked, wrong=checked.wrong + wrong)
 
 
 def check_exercise(record: Exercise, origin: str | None = None) -> list[CheckedEntry]:

@@ -26,12 +26,14 @@ from gruebler.screws import SpatialLinkage, has_only_lower_pairs
 from gruebler.text import LANGUAGES, Message, Text, message, translate
 
 __all__ = [
+    "MOTION_NUMBERS",
     "Case",
     "ClaimedGroup",
     "Claims",
     "Entry",
     "Exercise",
     "MotionKind",
+    "MotionQuantity",
     "Question",
     "Sizes",
     "entry_of_data",
@@ -111,6 +113,47 @@ class Claims(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return bool(self.motion or self.travel or self.dead_centres)
 
 
+MOTION_NUMBERS: Mapping[str, tuple[str, ...]] = {
+    "straight": ("length", "band"),
+    "swing": ("degrees",),
+    "stroke": ("length",),
+    "dwell": ("degrees",),
+    "ratio": ("least", "greatest"),
+    "turns": ("turns",),
+}
+"""The numbers that a claim of each kind states (`gruebler.catalog.motion_quantities` derives them)."""
+
+
+class MotionQuantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """What the entry says of its motion, with the numbers that `gruebler check` derives again from its dimensions."""
+
+    kind: Literal["straight", "swing", "stroke", "dwell", "ratio", "turns"]
+    of: str
+    """A point or joint that runs straight; a link, or the joint of a slide, otherwise."""
+    range: tuple[float, float] | None = None
+    """Drive values in degrees or the unit; without them those of the dimensions, else a full turn."""
+    drive: str | None = None
+    """The drive that moves, where there are several; the others stand still in the reference pose."""
+    direction: float | None = None
+    """``straight``: of the line, ``stroke`` of a point: of the way, in degrees; 0 is level."""
+    length: float | None = None
+    """The way along the line, or along the slide."""
+    band: float | None = None
+    """How far the path leaves the line, from side to side: across ``direction``, else the narrowest."""
+    degrees: float | None = None
+    """``swing``: from one extreme of the link's angle to the other; ``dwell``: of the drive."""
+    least: float | None = None
+    greatest: float | None = None
+    """Of the speed of a link in that of the drive (angles in radians)."""
+    turns: float | None = None
+    """How often the link turns, with its sign, while the drive runs through the range."""
+
+    @property
+    def numbers(self) -> dict[str, float | None]:
+        """The numbers that it states."""
+        return {key: getattr(self, key) for key in MOTION_NUMBERS[self.kind]}
+
+
 class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Dimensions of an entry, as in the file of a linkage (`gruebler.formats.linkages`), and where they come from."""
 
@@ -153,6 +196,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     outputs: tuple[str, ...] = ()
     remark: Text | None = None
     claims: Claims = Claims()
+    quantities: tuple[MotionQuantity, ...] = ()
+    """What name and remark say of the motion, in numbers."""
     dimensions: Sizes | None = None
     screws: ReferenceScrews | None = None
     """Where the joints lie in one position, for machines in space and for contacts: enough for their mobility."""
@@ -195,6 +240,7 @@ def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
     return short if len(set(short.values())) == len(short) else dict(full)
 
 
+_NO_NUMBER = message("none")
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
     "dimensions": ("elements", "reference_pose", "home", "places", "points", "drive"),
     "screws": ("joints",),
@@ -220,6 +266,8 @@ def _with_link_names(entry: Entry, names: Mapping[str, str]) -> Entry:
     for part, keys in _NAME_LINKS.items():
         if plain[part] is not None:
             plain[part] |= {key: renamed(plain[part][key]) for key in keys if key in plain[part]}
+    for claim in plain["quantities"]:
+        claim |= {key: renamed(claim[key]) for key in ("of", "drive")}
     plain["links"] = {names[link]: name for link, name in entry.links.items()}
     return msgspec.convert(plain, Entry)
 
@@ -327,6 +375,27 @@ def _check(entry: Entry, path: Path | str) -> None:
     sizes = entry.dimensions
     if entry.claims.says_motion and (sizes is None or len(sizes.shown_drives or entry.drives) != 1):
         raise CatalogError("{path}: claims.motion: needs dimensions and one drive", path=path)
+    for number, claim in enumerate(entry.quantities, 1):
+        _check_quantity(entry, claim, f"{path}: quantities {number}")
+
+
+_ALL_NUMBERS = tuple(dict.fromkeys(key for keys in MOTION_NUMBERS.values() for key in keys))
+
+
+def _check_quantity(entry: Entry, claim: MotionQuantity, where: str) -> None:
+    if entry.dimensions is None:
+        raise CatalogError("{where}: an entry without dimensions has no motion to state", where=where)
+    given = tuple(key for key in _ALL_NUMBERS if getattr(claim, key) is not None)
+    if given != tuple(claim.numbers):
+        raise CatalogError(
+            "{where}: {kind} states {numbers}, but found {given}",
+            where=where,
+            kind=claim.kind,
+            numbers=", ".join(claim.numbers),
+            given=", ".join(given) or _NO_NUMBER,
+        )
+    if claim.range is not None and not -1e9 < claim.range[0] < claim.range[1] < 1e9:
+        raise CatalogError("{where}: range: expected two numbers, the smaller first", where=where)
 
 
 def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path | str) -> None:
