@@ -33,14 +33,18 @@ class BodyTree:
         self.scale = MILLIMETRES.get(lower.unit, 1000.0) / 1000  # metres
         mechanism = lower.mechanism
         self.frame, self.names = mechanism.frame, mechanism.chain.joint_names()
-        driven = {drive.joint: drive.between for drive in mechanism.drives}
         edges = []  # importance, joint, two links
         for number, joint in enumerate(mechanism.chain.joints):
-            centre = driven[number][0] if number in driven else joint.links[0]
+            driven = [drive.between for drive in mechanism.drives if drive.joint == number]
+            held = DisjointSets(joint.links)
+            for near, far in driven:
+                held.unite(near, far)
+                edges.append((0, number, near, far))
+            centre = driven[0][0] if driven else joint.links[0]
             for far in joint.links:
-                if far != centre:
-                    first = number in driven and far == driven[number][1]
-                    edges.append((0 if first else 1 if joint.pair.is_prismatic else 2, number, centre, far))
+                if held.find(far) != held.find(centre):
+                    held.unite(centre, far)
+                    edges.append((1 if joint.pair.is_prismatic else 2, number, centre, far))
         sets = DisjointSets(mechanism.chain.links)
         self.tree: dict[str, list[tuple[int, str]]] = {link: [] for link in mechanism.chain.links}
         self.closing: list[tuple[int, str, str]] = []

@@ -2,7 +2,8 @@
 
 Links lie in the plane z = 0, in metres where the unit is known; driven joints and slides are in the tree, so that a
 position actuator moves each drive; the other pins are ``connect`` constraints, stiff ones. Gravity is off. In the
-reference position every joint is at 0, so a control is the change of the drive since. Links are thin capsules of steel.
+reference position every joint is at 0, so a control is the change of the drive since. Links are thin capsules of
+steel; those of a linkage of less than 13 mm are heavier, since MuJoCo takes no inertia below 1e-15 kg m².
 """
 
 from __future__ import annotations
@@ -11,22 +12,26 @@ from collections.abc import Iterator
 from math import cos, sin
 from xml.sax.saxutils import quoteattr
 
+from gruebler.errors import GrueblerError
 from gruebler.formats.body_tree import DENSITY, SLENDER, BodyTree
 from gruebler.linkages import Linkage
 from gruebler.linkages.elements import direction
 from gruebler.mechanism import Drive
-from gruebler.text import Message
+from gruebler.text import Message, message
 
 __all__ = ["mjcf_from_linkage"]
 
 _STIFF = 100.0  # 1/s: the drive follows its control at this rate
 _STEP = 5e-4  # s
+_LEAST_INERTIA = 1e-9  # kg m², of a bar as long as the linkage: the smallest ball has 1e-5 of it, mjMINVAL is 1e-15
+_SMALLEST = 1e-6  # m
+_WORLD = "world"  # the body that MuJoCo makes of the frame
 
 
 def mjcf_from_linkage(linkage: Linkage, left_out: list[Message]) -> str:
     """The model of a linkage of turning and sliding joints.
 
-    Raises `GrueblerError` for wheels and cams, and if slides alone close a loop.
+    Raises `GrueblerError` for wheels and cams, below a thousandth of a millimetre, and if slides alone close a loop.
 
     >>> from gruebler.fourbar import FourBar
     >>> model = mjcf_from_linkage(FourBar(25, 70, 40, 70).linkage(), [])
@@ -41,7 +46,20 @@ class _Model(BodyTree):
 
     def __init__(self, linkage: Linkage, left_out: list[Message]) -> None:
         super().__init__(linkage, left_out)
-        self.signs: dict[int, int] = {}
+        self.used: set[int] = set()
+        self.driven: dict[int, tuple[str, int]] = {}
+        size = self.lower.size * self.scale
+        if size < _SMALLEST:
+            raise GrueblerError("a linkage of {size:.2g} m is too small for a model of MuJoCo", size=size)
+        lightest = _LEAST_INERTIA * SLENDER**2 / size**5
+        self.density = max(DENSITY, lightest)
+        if lightest > DENSITY:
+            left_out.append(
+                message(
+                    "the density of steel: the links are {factor:.3g} times as heavy, as MuJoCo takes no small masses",
+                    factor=lightest / DENSITY,
+                )
+            )
 
     def text(self) -> str:
         """The whole model."""
@@ -51,7 +69,8 @@ class _Model(BodyTree):
             '  <compiler angle="radian"/>',
             f'  <option timestep="{_STEP!r}" gravity="0 0 0" integrator="implicitfast" tolerance="1e-14"/>',
             "  <default>",
-            f'    <geom type="capsule" size="{size / SLENDER!r}" density="{DENSITY!r}" contype="0" conaffinity="0"/>',
+            f'    <geom type="capsule" size="{size / SLENDER!r}" density="{self.density!r}" contype="0" '
+            'conaffinity="0"/>',
             f'    <equality solref="{2 * _STEP!r} 1" solimp="0.9999 0.9999 0.001"/>',
             f'    <site size="{size / SLENDER!r}"/>',
             "  </default>",
@@ -62,15 +81,15 @@ class _Model(BodyTree):
         for number, base, follower in self.closing:
             body, partner = (follower, base) if base == self.frame else (base, follower)
             pin = self.lower.elements[number, body]
-            second = "" if partner == self.frame else f" body2={quoteattr(partner)}"
-            closing.append(f'    <connect body1={quoteattr(body)}{second} anchor="{self.position(pin.x, pin.y)}"/>')
+            second = "" if partner == self.frame else f" body2={_body(partner)}"
+            closing.append(f'    <connect body1={_body(body)}{second} anchor="{self.position(pin.x, pin.y)}"/>')
         actuators = []
-        for drive in self.lower.mechanism.drives:
+        for number, drive in enumerate(self.lower.mechanism.drives):
             gain = self._inertia(drive) * _STIFF**2
-            sign = self.signs[drive.joint] * (1 if drive.between[1] != self.frame else -1)
+            joint, sign = self.driven[number]
             actuators.append(
-                f'    <position name={quoteattr(f"drive {self.names[drive.joint]}")} gear="{sign}" '
-                f'joint={quoteattr(self.names[drive.joint])} kp="{gain!r}" kv="{2 * gain / _STIFF!r}"/>'
+                f'    <position name={quoteattr(f"drive {joint}")} gear="{sign}" '
+                f'joint={quoteattr(joint)} kp="{gain!r}" kv="{2 * gain / _STIFF!r}"/>'
             )
         loops = ["  </worldbody>", "  <equality>", *closing, "  </equality>"]
         drives = ["  <actuator>", *actuators, "  </actuator>", "</mujoco>"]
@@ -79,7 +98,7 @@ class _Model(BodyTree):
     def _inertia(self, drive: Drive) -> float:
         """Inertia of the motor of a drive: that of all links together, so that they hardly act back on it."""
         size = self.lower.size * self.scale
-        mass = DENSITY * 3 * (size / SLENDER) ** 2 * size * len(self.tree)
+        mass = self.density * 3 * (size / SLENDER) ** 2 * size * len(self.tree)
         return float(mass * size**2 if drive.turning else mass)
 
     def _bodies(self) -> Iterator[str]:
@@ -95,20 +114,22 @@ class _Model(BodyTree):
             here, there = poses[child], poses[above]
             place = there.to_local(here.x, here.y)
             turn = here.angle - there.angle
-            yield f'{pad}<body name={quoteattr(child)} pos="{self.position(*place)}" euler="0 0 {turn!r}">'
-            yield f"{pad}  {self._joint(number, child)}"
+            yield f'{pad}<body name={_body(child)} pos="{self.position(*place)}" euler="0 0 {turn!r}">'
+            yield f"{pad}  {self._joint(number, child, above)}"
             yield from self._shape(child, indent + 1)
             yield from self._sites(child, indent + 1)
             indent += 1
 
-    def _joint(self, number: int, child: str) -> str:
-        """The joint of a body on the one above it; its sign against the drive is noted."""
+    def _joint(self, number: int, child: str, above: str) -> str:
+        """The joint of a body on the one above it; the sign of a driven one against its drive is noted."""
         joint, element = self.lower.mechanism.chain.joints[number], self.lower.elements[number, child]
-        name = quoteattr(self.names[number] if number not in self.signs else f"{self.names[number]} {child}")
-        drive = next((each for each in self.lower.mechanism.drives if each.joint == number), None)
-        if number not in self.signs:
-            self.signs[number] = -1 if drive is not None and drive.between[0] == child else 1
-        motor = "" if drive is None else f' armature="{self._inertia(drive)!r}"'
+        plain = self.names[number] if number not in self.used else f"{self.names[number]} {child}"
+        self.used.add(number)
+        name, motor = quoteattr(plain), ""
+        for k, drive in enumerate(self.lower.mechanism.drives):
+            if drive.joint == number and {child, above} == set(drive.between):
+                self.driven[k] = (plain, 1 if child == self.lower.reference(k)[1] else -1)
+                motor = f' armature="{self._inertia(drive)!r}"'
         if joint.pair.is_revolute:
             return f'<joint name={name} type="hinge" axis="0 0 1" pos="{self.position(element.x, element.y)}"{motor}/>'
         angle = direction(element)
@@ -128,3 +149,8 @@ class _Model(BodyTree):
         for name, point in self.lower.points.items():
             if point.link == link:
                 yield f'{"  " * depth}<site name={quoteattr(name)} pos="{self.position(point.x, point.y)}"/>'
+
+
+def _body(link: str) -> str:
+    """The name of a body; that of the frame is taken."""
+    return quoteattr(link if link != _WORLD else f"{link} (link)")
