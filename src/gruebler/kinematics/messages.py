@@ -10,9 +10,13 @@ from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, joined, message
 
-__all__ = ["stop_message", "unbounded_message"]
+__all__ = ["stop_message", "taken_for_exact_message", "unbounded_message"]
 
 _UNBOUNDED = message("At {drives} the drive stands at its limit: there are no finite rates.")
+_EXACT = message(
+    "From {first} to {last} the sizes miss a change point by so little that they were taken for exact: poses and rates "
+    "there are those of a linkage that meets it."
+)
 _STOPS = {
     "limit": message("The motion ends at {drives}: there {form} {{{links}}} can no longer be assembled."),
     "singular": message("The motion ends at {drives}: there two assembly modes of {form} {{{links}}} meet."),
@@ -27,6 +31,11 @@ _STOPS = {
 def unbounded_message(linkage: Linkage, drives: tuple[float, ...]) -> Message:
     """That there are no finite rates at these drive values."""
     return _UNBOUNDED.filled(drives=_drive_values(linkage, drives))
+
+
+def taken_for_exact_message(linkage: Linkage, first: tuple[float, ...], last: tuple[float, ...]) -> Message:
+    """That a linkage was taken to meet a change point which it misses, in the rows between these drive values."""
+    return _EXACT.filled(first=_drive_values(linkage, first), last=_drive_values(linkage, last))
 
 
 def stop_message(

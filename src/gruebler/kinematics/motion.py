@@ -17,7 +17,7 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
 from gruebler.kinematics.link_poses import LinkPoses
-from gruebler.kinematics.messages import stop_message, unbounded_message
+from gruebler.kinematics.messages import stop_message, taken_for_exact_message, unbounded_message
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, NonCircular, Wheel
 from gruebler.linkages.elements import INVERSE, LeadingElement, RoundElement
@@ -73,6 +73,9 @@ class Motion(LinkPoses, Brief):
     stop: Stop | None
     unbounded: tuple[int, ...] = ()
     """Rows at a limit of the drive, where links would have to move infinitely fast: their rates are NaN."""
+    taken_for_exact: tuple[int, ...] = ()
+    """Rows so near to a change point that the linkage was taken to meet it, though its sizes miss it by a little: their
+    poses and rates are those of a linkage with exact sizes."""
     speeds: Reals | None = None
     """(order, rows, drives): the rates of the drives that it was solved for; None if it could not begin."""
 
@@ -95,7 +98,7 @@ class Motion(LinkPoses, Brief):
         return len(self.rates)
 
     def message(self, lang: str = "en") -> str:
-        """Where and why it stopped, and in which rows rates are not finite; else empty."""
+        """Where and why it stopped, where rates are not finite, where sizes were taken for exact; else empty."""
         return self.reason.in_language(lang)
 
     @property
@@ -105,6 +108,9 @@ class Motion(LinkPoses, Brief):
         if self.unbounded:
             first = tuple(float(value) for value in self.drives[self.unbounded[0]])
             parts.append(unbounded_message(self.linkage, first))
+        if self.taken_for_exact:
+            ends = [self.drives[row] for row in (self.taken_for_exact[0], self.taken_for_exact[-1])]
+            parts.append(taken_for_exact_message(self.linkage, *(tuple(map(float, end)) for end in ends)))
         if self.stop is not None:
             stop = self.stop
             parts.append(stop_message(self.linkage, stop.reason, stop.drives, stop.links, stop.form))

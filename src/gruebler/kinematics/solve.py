@@ -113,8 +113,8 @@ def move_in_radians(
         # the start may be a change point of the independent part: the way from the reference pose tells the way on
         motion = motion_from_rows(plan, path, _from_reference(plan, path, speeds, upto))
     start = pose_at_reference(plan, path[0]) if from_reference else ReferencePose(path[0], signs, unknowns)
-    unbounded = set_change_point_rows(plan, motion, path, speeds, start)
-    return replace(motion, unbounded=unbounded, speeds=speeds[:, : len(motion)])
+    at_change = set_change_point_rows(plan, motion, path, speeds, start)
+    return replace(motion, **at_change._asdict(), speeds=speeds[:, : len(motion)])
 
 
 def starting_configuration(plan: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:

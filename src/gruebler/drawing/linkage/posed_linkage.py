@@ -103,6 +103,7 @@ def posed_along_motion(motion: Motion) -> PosedLinkage:
         roots=motion.roots[:1],
         unknowns=motion.unknowns[:1],
         unbounded=(),
+        taken_for_exact=(),
     )
     return PosedLinkage(motion.lower_linkage, None, first, motion, _scale(motion.lower_linkage, motion))
 
