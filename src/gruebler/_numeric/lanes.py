@@ -25,7 +25,6 @@ __all__ = [
     "dot",
     "give_back",
     "lanes",
-    "logarithm",
     "square_root",
     "subtract",
     "taken",
@@ -50,12 +49,6 @@ def lanes(n: int) -> Iterable[int]:
 def square_root(x: float) -> float:
     """The square root of a number or, interpreted, of an array; NaN of what is negative."""
     return np.sqrt(x)  # type: ignore[no-any-return]
-
-
-@instead(lambda: math.log)
-def logarithm(x: float) -> float:
-    """The natural logarithm of a number or, interpreted, of an array; minus infinity of 0."""
-    return np.log(x)  # type: ignore[no-any-return]
 
 
 @instead(lambda: complex)

@@ -27,14 +27,13 @@ Lengths of the equations are in the unit of the points, angles of a SLIDE are mu
 
 from __future__ import annotations
 
-from math import atan2, cos, floor, pi, sin
+from math import atan2, cos, floor, inf, log, pi, sin
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.lanes import logarithm
 
 __all__ = [
     "EQUATIONS",
@@ -88,6 +87,12 @@ def unwound_angle(direction: complex, near: float) -> float:
     """The angle of a direction, with as many whole turns as bring it next to one near by."""
     angle = atan2(direction.imag, direction.real)
     return float(angle + 2 * pi * floor((near - angle) / (2 * pi) + 0.5))
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _divided(z: complex, by: float) -> complex:
+    """NumPy multiplies by 1 / by where Python and the compiler divide: so the parts are divided here."""
+    return complex(z.real / by, z.imag / by)
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -170,7 +175,7 @@ def closing(conditions: Conditions, unknowns: Reals, residual: Reals, jacobian: 
             residual[row] = (measure.conjugate() * gap).real - value
             turn_a = (measure.conjugate() * gap).imag
         elif kind == REACH:
-            measure = gap / value
+            measure = _divided(gap, value)
             residual[row] = ((gap * gap.conjugate()).real / value - value) / 2
         elif kind == MESH:
             first, second = (
@@ -180,12 +185,13 @@ def closing(conditions: Conditions, unknowns: Reals, residual: Reals, jacobian: 
             first, slope, _, _ = evaluate_law(pieces, values[c], first)
             residual[row] = factor_a * first + factor_b * second - value
             turn_a, turn_b = factor_a * slope, factor_b
-            measure = -(turn_a + factor_b) * 1j * gap / (gap * gap.conjugate()).real
+            measure = _divided(-(turn_a + factor_b) * 1j * gap, (gap * gap.conjugate()).real)
         elif kind == POLAR:
             seen = line_a.conjugate() * gap
             radius, slope, _, _ = evaluate_law(pieces, values[c], unwound_angle(seen, 0.0))
-            residual[row] = factor_a * (logarithm(abs(seen)) - radius)
-            measure = factor_a * (1 - 1j * slope) * gap / (gap * gap.conjugate()).real
+            square = (seen * seen.conjugate()).real
+            residual[row] = factor_a * ((log(square) / 2 if square > 0 else -inf) - radius)
+            measure = _divided(factor_a * (1 - 1j * slope) * gap, (gap * gap.conjugate()).real)
             turn_a = factor_a * slope
         elif kind == FACE:
             measure = factor_b * 1j * line_a

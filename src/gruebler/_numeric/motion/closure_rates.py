@@ -138,13 +138,20 @@ def closing_rates(order: int, conditions: Conditions, bodies: BodyJets, scratch:
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _log_rate(order: int, gap: Complexes) -> complex:
     """The derivative of that order of the logarithm of a vector: of its length, and i times its direction."""
-    first = gap[1] / gap[0]
+    first = _quotient(gap[1], gap[0])
     if order == 1:
-        return complex(first)
-    second = gap[2] / gap[0]
+        return first
+    second = _quotient(gap[2], gap[0])
     if order == 2:
         return complex(second - first * first)
-    return complex(gap[3] / gap[0] - 3 * first * second + 2 * first * first * first)
+    return complex(_quotient(gap[3], gap[0]) - 3 * first * second + 2 * first * first * first)
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _quotient(a: complex, b: complex) -> complex:
+    """Of two vectors of the size of the linkage; NumPy, Python and the compiler divide with other roundings."""
+    square = b.real * b.real + b.imag * b.imag
+    return complex((a.real * b.real + a.imag * b.imag) / square, (a.imag * b.real - a.real * b.imag) / square)
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)

@@ -123,8 +123,8 @@ def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> 
         x[A + LANES + i] = ay = dx * across + dy * along
         x[B + i] = ax - dx
         x[B + LANES + i] = ay - dy
-    rotate(x, A, first.conjugate() / l1, T)
-    rotate(x, B, second.conjugate() / l2, U)
+    rotate(x, A, complex(first.real / l1, -first.imag / l1), T)
+    rotate(x, B, complex(second.real / l2, -second.imag / l2), U)
     if order >= 1:
         for i in lanes(LANES):
             ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
@@ -144,7 +144,7 @@ def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> 
         for i in lanes(LANES):
             ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
             v, w, d = x[V + i], x[W + i], x[D + i]
-            v1, w1, v2, w2 = v**3, w**3, 3 * v * x[V + LANES + i], 3 * w * x[W + LANES + i]
+            v1, w1, v2, w2 = v * v * v, w * w * w, 3 * v * x[V + LANES + i], 3 * w * x[W + LANES + i]
             tx = x[Q + 3 * PAIR + i] - x[P + 3 * PAIR + i] + v2 * ax - w2 * bx - v1 * ay + w1 * by
             ty = x[Q + 3 * PAIR + LANES + i] - x[P + 3 * PAIR + LANES + i]
             ty += v2 * ay - w2 * by + v1 * ax - w1 * bx
@@ -180,7 +180,7 @@ def _rpr(order: int, sign: float, lines: tuple[complex, complex], off: float, si
                 x[V + LANES + i], x[B + LANES + i] = a, along + a * off + w * w / d
             else:
                 w, a, travel1, travel2 = x[V + i], x[V + LANES + i], x[B + i], x[B + LANES + i]
-                x[V + 2 * LANES + i] = (across + 3 * (w * a * off - a * travel1 - w * travel2)) * d + w**3
+                x[V + 2 * LANES + i] = (across + 3 * (w * a * off - a * travel1 - w * travel2)) * d + w * w * w
         for i in lanes(LANES):
             x[W + k * LANES + i] = x[V + k * LANES + i]
 
@@ -200,7 +200,8 @@ def _rrp(order: int, sign: float, line: complex, first: complex, second: complex
         x[Q + i] += travel * u
         x[Q + LANES + i] += travel * v
         x[U + i], x[U + LANES + i] = turn.real, turn.imag
-    rotate(x, A, first.conjugate() / (length * length), T)
+    square = length * length
+    rotate(x, A, complex(first.real / square, -first.imag / square), T)
     for k in range(order):
         for i in lanes(LANES):
             px, py = x[P + (k + 1) * PAIR + i], x[P + (k + 1) * PAIR + LANES + i]
@@ -216,8 +217,8 @@ def _rrp(order: int, sign: float, line: complex, first: complex, second: complex
                 spin = (w * w * across - spin) * d
                 push -= spin * across + w * w * along
             else:
-                spin = (3 * w * a * across - spin) * d + w**3
-                push -= (spin - w**3) * across + 3 * w * a * along
+                spin = (3 * w * a * across - spin) * d + w * w * w
+                push -= (spin - w * w * w) * across + 3 * w * a * along
             x[V + k * LANES + i], x[W + k * LANES + i] = spin, 0
             x[Q + (k + 1) * PAIR + i] += push * u
             x[Q + (k + 1) * PAIR + LANES + i] += push * v
