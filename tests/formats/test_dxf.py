@@ -1,19 +1,21 @@
 """Plates for cutting: their outlines, and the DXF file where ezdxf is installed."""
 
 import io
+from cmath import phase, rect
 from math import atan, cos, hypot, pi, sin, sqrt
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gruebler import files
-from gruebler.analysis.plates import plates_of, whole_motion
+from gruebler.analysis.plates import Plate, plates_of, whole_motion
 from gruebler.catalog import entry
 from gruebler.errors import GrueblerError
-from gruebler.formats.dxf import dxf_from_linkage, plate_outline
-from gruebler.formats.pin_drawings import lower_linkage
+from gruebler.formats.dxf import cut_outs, dxf_from_linkage, plate_outline
+from gruebler.formats.pin_drawings import linkage_of_drawing, lower_linkage
+from gruebler.formats.pmks import drawing_from_pmks
 from gruebler.fourbar import FourBar, SliderCrank
 
 FOLDER = Path(__file__).parent / "files"
@@ -70,7 +72,7 @@ def test_a_drawing_opens_without_complaint(name):
     assert len(curves) == len(linkage.points)
     edges = [line for line in space.query("LWPOLYLINE") if line.dxf.layer != "CURVES"]
     plates = plates_of(whole_motion(lower_linkage(linkage)))
-    assert len(edges) == sum(1 + len(plate.slots) for plate in plates.plates.values())
+    assert len(edges) == sum(1 + len(cut_outs(plate, 2.0).slots) for plate in plates.plates.values())
     assert all(line.closed for line in edges)
 
 
@@ -124,6 +126,83 @@ def test_a_file_for_each_link(tmp_path):
         assert (first.x, first.y) == (0, 0)
         assert (second.x, second.y) == pytest.approx((length, 0), abs=1e-9)
     assert "paths of points" in map(str, left_out)
+
+
+# --- cut-outs that run into each other ----------------------------------------------------------------
+
+PLUS = {  # verification mechanisms of PMKS+ (docs/fixture-urls.md), MIT: the plates whose cut-outs run into each other
+    "slotted tool": (
+        "2v.Ay,1E8.A,0.1011.6A,A,0,0,0.0B,B,Fe,0,0.0C,C,d4,ec,0.4D,D,_W,0,0.4E,E,VG,7q,0.1F,F,bo,cO,0,BCX,B,X"
+        ".0X,X,tU,151,0..YRAB,Input crank,Fe,Fe,7q,0,c5cae9,A,B,,.YRBCX,Tool carrier,Fe,Fe,ak,aY,303e9f,B,C,X"
+        ",,.YRCD,Return rocker,Fe,Fe,oo,KJ,0d125a,C,D,,.YREF,Loaded output,Fe,Fe,YX,N6,B2DFDB,E,F,,..3F1,BCX,"
+        "F1,d4,ec,PY,mQ,EfW.2F2,EF,F2,bo,cO,bo,Mm,OQW..N_c*2jYZFR",
+        {"BCX"},
+    ),
+    "scissor lift": (
+        "2v.Ay,Fe.5,0.1011.4A,A,2SG,0,0.0B,B,1fl,a3,0.hC,C,1wL,OD,0,AB,A,B.0D,D,17q,yH,0.4G,G,0,0,0.0M,M,1Vm,"
+        "1GM,0.1K,K,2-X,2Wj,0,TU,T,U.5S,S,2-X,0,0.0T,T,0,2Wj,0.0U,U,3_1,2Wj,0..YRAB,AB,Fe,Fe,230,I2,c5cae9,A,"
+        "B,,.YRCD,CD,Fe,Fe,1X5,gF,303e9f,C,D,,.YRGDMK,GDMK,Fe,Fe,1Pn,1BL,0d125a,G,D,M,K,,.YRSMT,SMT,Fe,Fe,1Vm"
+        ",1GM,B2DFDB,S,M,T,,.YRTU,TU,Fe,Fe,1-0,2Wj,26A69A,T,U,,...N_n*4OPua2",
+        {"ground", "TU"},
+    ),
+}
+
+
+def inside(z, outline):
+    """Whether a place lies in a closed line, by the turns of its places seen from there."""
+    turns = [phase((b - z) / (a - z)) for a, b in zip(outline, outline[1:] + outline[:1], strict=True)]
+    return abs(sum(turns)) > pi
+
+
+@pytest.mark.parametrize("name", [*PLUS, *LINKAGES])
+def test_plates_without_walls_between_cut_outs_are_named(name):
+    """As drawn: a place of the edge of one cut-out lies in another one of the same layer."""
+    ezdxf = pytest.importorskip("ezdxf")
+    text, expected = PLUS.get(name, ("", set()))
+    linkage = linkage_of_drawing(drawing_from_pmks(text, []), []) if text else LINKAGES[name]
+    left_out = []
+    document = ezdxf.read(io.StringIO(dxf_from_linkage(linkage, left_out)))
+    found = set()
+    for layer in {line.dxf.layer for line in document.modelspace().query("LWPOLYLINE")} - {"CURVES"}:
+        circles = document.modelspace().query(f'CIRCLE[layer=="{layer}"]')
+        cuts = [[complex(*c.dxf.center.vec2) + c.dxf.radius * rect(1, k / 10) for k in range(63)] for c in circles]
+        _, *slots = document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')
+        cuts += [list(edge([tuple(corner) for corner in slot.get_points("xyb")])) for slot in slots]
+        if any(inside(z, other) for one in cuts for other in cuts if one is not other for z in one):
+            found.add(layer)
+    said = {
+        note.split("plate ")[1].split(":")[0] for note in map(str, left_out) if note.startswith("walls of the plate")
+    }
+    assert found == said == expected
+
+
+@given(
+    holes=st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), max_size=3, unique=True),
+    ends=st.lists(st.tuples(*[st.integers(0, 9)] * 4), max_size=2),
+    hole=st.sampled_from([0.7, 1.3, 2.6]),
+)
+def test_cut_outs_run_into_each_other_where_their_middles_are_near(holes, ends, hole):
+    """Against the distances of a hundred places on each; and what is united covers the same places."""
+    slots = tuple((complex(a, b), complex(c, d)) for a, b, c, d in ends)
+    places = tuple(complex(*each) for each in holes)
+    cuts = cut_outs(Plate((*places, *(z for slot in slots for z in slot)), places, slots), hole)
+    lines = [[z] for z in cuts.holes] + [[a + (b - a) * k / 200 for k in range(201)] for a, b in cuts.slots]
+    near = min((abs(p - q) for k, one in enumerate(lines) for two in lines[:k] for p in one for q in two), default=99)
+    assume(abs(near - hole) > 0.01)  # the places lie 0.06 apart at most
+    assert bool(cuts.clashes) == (near < hole)
+    for place in [*places, *(a + (b - a) * k / 10 for a, b in slots for k in range(11))]:
+        assert min(abs(place - z) for line in lines for z in line) < 0.05
+
+
+def test_what_is_one_is_cut_once():
+    """Two pins at one place; both pins of a slide, whose ways on one line overlap; not slots with a wall between."""
+    plate = Plate(
+        (0j, 30 + 0j), (1 + 1j, 1 + 1.000000000001j), ((5 + 0j, 9 + 0j), (8 + 0j, 12 + 0j), (20 + 0j, 25 + 0j))
+    )
+    cuts = cut_outs(plate, 0.5)
+    assert cuts.holes == (1 + 1j,)
+    assert [tuple(sorted(slot, key=abs)) for slot in cuts.slots] == [(5, 12), (20, 25)]
+    assert not cuts.clashes
 
 
 def test_what_has_several_drives_is_drawn_in_its_position():

@@ -1,7 +1,8 @@
 """Drawings for CAD and laser cutting (DXF of release 2000): a plate for each link, with holes and slots.
 
 Every link has a layer of its own name with its outline, which keeps a margin around pins and slots, holes at their true
-diameter, and slots as long as pins move in them. CURVES has the paths of named points, POINTS the points themselves.
+diameter, and slots as long as pins move in them. Cut-outs that are one are drawn once; of those that run into each
+other the plate is named. CURVES has the paths of named points, POINTS the points themselves.
 With all links in one drawing these lie in one position, and the origin is the first hole or slot of the frame; a link
 alone has its first hole there. The unit stands in the header.
 """
@@ -11,8 +12,9 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import combinations
 from math import atan2, cos, pi, remainder, sin, tan
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,12 +29,14 @@ from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, Pose2D
 from gruebler.text import Message, message
 
-__all__ = ["dxf_from_linkage", "dxf_of_links", "plate_outline"]
+__all__ = ["CutOuts", "cut_outs", "dxf_from_linkage", "dxf_of_links", "plate_outline"]
 
 _UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "dm": 14}
 _FORBIDDEN = dict.fromkeys(map(ord, '<>/\\":;?*|=`'), "_")  # in names of layers
 _COLOURS = (7, 1, 3, 5, 4, 6, 30, 150)
 _POINTS, _CURVES = "POINTS", "CURVES"
+_ONE = 1e-9  # of the plate: places nearer to one another are one
+_NAMED = 4  # places at which cut-outs run into each other are named
 
 
 def dxf_from_linkage(
@@ -65,6 +69,7 @@ def dxf_from_linkage(
             plates.plates[link],
             sizes,
             partial(_posed, pose, origin),
+            left_out,
         )
         document.layers.get(layer).description = planes[link]
         document.layers.get(layer).color = _COLOURS[number % len(_COLOURS)]
@@ -99,7 +104,7 @@ def dxf_of_links(
         first = plate.places[0]
         other = next((z for z in plate.places if abs(z - first) > 1e-9 * plates.linkage.size), first + 1)
         turn = (other - first).conjugate() / abs(other - first)
-        _add_plate(document, layer, plate, sizes, partial(_laid, first, turn))
+        _add_plate(document, layer, plate, sizes, partial(_laid, first, turn), left_out)
         document.layers.get(layer).description = planes[link]
         files[f"{planes[link].removeprefix(_PLANE)} {layer}".strip()] = _text(document)
     return files
@@ -170,19 +175,103 @@ def _layers(links: Sequence[str]) -> dict[str, str]:
 
 
 def _add_plate(
-    document: Any, layer: str, plate: Plate, sizes: tuple[float, float], put: Callable[[complex], complex]
+    document: Any,
+    layer: str,
+    plate: Plate,
+    sizes: tuple[float, float],
+    put: Callable[[complex], complex],
+    left_out: list[Message],
 ) -> None:
-    """The edge, the holes and the slots of a plate, put where it lies."""
+    """The edge, the holes and the slots of a plate, put where it lies; the list names a plate without walls between."""
     document.layers.add(layer)
     space, (hole, margin) = document.modelspace(), sizes
     places = [put(z) for z in plate.places]
     edges = [plate_outline([(z.real, z.imag) for z in places], margin)]
-    for slot in plate.slots:
+    cuts = cut_outs(plate, hole)
+    for slot in cuts.slots:
         edges.append(plate_outline([(z.real, z.imag) for z in map(put, slot)], hole / 2))
     for edge in edges:
         space.add_lwpolyline(edge, format="xyb", close=True, dxfattribs={"layer": layer})
-    for z in map(put, plate.holes):
+    for z in map(put, cuts.holes):
         space.add_circle((z.real, z.imag), hole / 2, dxfattribs={"layer": layer})
+    if cuts.clashes:
+        at = ", ".join(f"({z.real:.6g}, {z.imag:.6g})" for z in map(put, cuts.clashes[:_NAMED]))
+        left_out.append(
+            message("walls of the plate {plate}: cut-outs run into each other at {places}", plate=layer, places=at)
+        )
+
+
+class CutOuts(NamedTuple):
+    """What is cut out of a plate, in its coordinates."""
+
+    holes: tuple[complex, ...]
+    slots: tuple[tuple[complex, complex], ...]
+    clashes: tuple[complex, ...]
+    """Places at which two of them run into each other, so that a pin has no wall there."""
+
+
+def cut_outs(plate: Plate, hole: float) -> CutOuts:
+    """The holes and slots of a plate, those that are one united; a hole has a diameter, a slot that width.
+
+    Holes at one place are one. Slots on one line are one if nothing is left between them: two pins of a slide run in
+    it. All others that are nearer than the diameter run into each other. Cost: O(n²).
+
+    >>> cut_outs(Plate((), (0j, 1e-12j, 9 + 0j), ((4 + 0j, 6 + 0j), (5 + 0j, 8 + 0j))), 2.0)
+    CutOuts(holes=(0j, (9+0j)), slots=(((4+0j), (8+0j)),), clashes=((8+0j),))
+    """
+    near = _ONE * max([hole, *(abs(z - plate.places[0]) for z in plate.places)])
+    holes: list[complex] = []
+    for z in plate.holes:
+        if all(abs(z - other) > near for other in holes):
+            holes.append(z)
+    slots: list[tuple[complex, complex]] = []
+    for slot in plate.slots:
+        joined = slot
+        while (other := next((each for each in slots if _one_slot(each, joined, hole, near)), None)) is not None:
+            slots.remove(other)
+            joined = _longest(*other, *joined)
+        slots.append(joined)
+    lines = [*((z, z) for z in holes), *slots]
+    clashes = []
+    for k, first in enumerate(lines):
+        for second in lines[:k]:
+            gap, place = _gap(first, second)
+            if gap < hole * (1 - _ONE):
+                clashes.append(place)
+    return CutOuts(tuple(holes), tuple(slots), tuple(clashes))
+
+
+def _one_slot(first: tuple[complex, complex], second: tuple[complex, complex], hole: float, near: float) -> bool:
+    """Whether two slots lie on one line, and no wall between them."""
+    a, b = _longest(*first, *second)
+    if abs(b - a) <= near:
+        return True
+    along = (b - a).conjugate() / abs(b - a)
+    return _gap(first, second)[0] < hole and all(abs(((z - a) * along).imag) <= near for z in (*first, *second))
+
+
+def _longest(*ends: complex) -> tuple[complex, complex]:
+    """The two places that are farthest apart."""
+    return max(combinations(ends, 2), key=lambda pair: abs(pair[1] - pair[0]))
+
+
+def _gap(first: tuple[complex, complex], second: tuple[complex, complex]) -> tuple[float, complex]:
+    """The distance of two straight lines between places, and the place on the first that is nearest."""
+    (a, b), (c, d) = first, second
+    turn = ((b - a).conjugate() * (d - c)).imag
+    if turn:
+        s, t = (((c - a).conjugate() * (d - c)).imag / turn, ((c - a).conjugate() * (b - a)).imag / turn)
+        if 0 <= s <= 1 and 0 <= t <= 1:
+            return 0.0, a + s * (b - a)
+    feet = [(_foot(z, second), z) for z in first] + [(z, _foot(z, first)) for z in second]
+    return min(((abs(p - q), q) for p, q in feet), key=lambda each: each[0])
+
+
+def _foot(z: complex, line: tuple[complex, complex]) -> complex:
+    """The place of a straight line that is nearest to another place."""
+    a, b = line
+    part = ((z - a) * (b - a).conjugate()).real / abs(b - a) ** 2 if b != a else 0.0
+    return a + min(1.0, max(0.0, part)) * (b - a)
 
 
 def plate_outline(places: Sequence[tuple[float, float]], margin: float) -> list[tuple[float, float, float]]:
