@@ -1,13 +1,10 @@
 """The ordered distance of a curve from targets: against exhaustive search, its laws, and verdicts on whole curves."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler import files
 from gruebler.fourbar import FourBar
 from gruebler.kinematics import circuit, move
 from gruebler.linkages import Linkage
@@ -17,8 +14,6 @@ from gruebler.synthesis.curves import Fit, linkages_of
 from gruebler.synthesis.four_bar_curves import FOUR_BAR
 from gruebler.synthesis.judging import Probe, Targets, judge_design, point_targets
 from gruebler.synthesis.ordered_matching import Places, SmoothCurve, TargetDistances
-
-KLANN = Path(__file__).parents[1] / "formats" / "files" / "klann.linkage2"
 
 # --- other methods ---------------------------------------------------------------------------------------
 
@@ -281,9 +276,16 @@ def jansen_foot():
 
 
 def klann_foot():
-    """60 places of the foot of Klann's leg, with the places that Linkage's example has."""
-    leg = files.read(KLANN, left_out=[])
-    return evenly(move(leg, np.linspace(0, 2 * np.pi, 3000, endpoint=False)).complex_point("8"), 60)
+    """60 places of the foot of Klann's leg, with the places of the joints in the example of Linkage by D. Rector."""
+    pivot, pin = 471.970983 - 296.009544j, 470.517568 - 332.484023j
+    low_pivot, low = 374.33583 - 342.08981j, 376.117415 - 281.360534j
+    high_pivot, high = 384.18812 - 263.389741j, 389.964056 - 172.445336j
+    knee, foot = 313.573392 - 224.432992j, 158.277169 - 418.544812j
+    crank = pivot + (pin - pivot) * np.exp(1j * np.linspace(0, 2 * np.pi, 3000, endpoint=False))
+    corner = beyond(crank, low_pivot, abs(low - pin), abs(low - low_pivot), -1)
+    knees = crank + (corner - crank) * (knee - pin) / (low - pin)
+    highs = beyond(knees, high_pivot, abs(high - knee), abs(high - high_pivot), 1)
+    return evenly(knees + (highs - knees) * (foot - knee) / (high - knee), 60) * 25.4 / 96
 
 
 def extent(z):

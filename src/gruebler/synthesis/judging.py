@@ -208,6 +208,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     """The design of a linkage with a reference pose, and its verdict. Cost: 3 to 30 ms, most for the circuit.
 
     >>> from gruebler.fourbar import FourBar
+    >>> from gruebler.kinematics import move
     >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
     >>> motion = move(bar, np.radians([10.0, 35.0, 60.0]))
     >>> bar = bar.with_reference_pose(motion.pose(0))
