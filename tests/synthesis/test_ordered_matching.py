@@ -409,6 +409,20 @@ def test_a_target_beyond_a_limit_of_the_drive_is_approached_on_the_branch():
     assert 0.01 < verdict.error < 0.1
 
 
+@pytest.mark.parametrize("tolerance", [1e-9, 0.01])
+def test_targets_on_another_branch_than_the_first_position(tolerance):
+    """The crank turns back between: the design begins at its first target, from where the drive leads to the last."""
+    rocker = FourBar(30, 30, 50, 60).linkage({"P": (20, 15)})
+    drives = np.array([0.2, 0.5, 0.8, 1.1])
+    other = move(rocker, drives, branch="-").complex_point("P")
+    assert np.abs(other - move(rocker, drives).complex_point("P")).min() > 10
+    held = rocker.with_reference_pose(move(rocker, [0.2]).pose(0))
+    design = judge_design(held, point_targets("P", other, 30.0), Demands(tolerance=tolerance), "four-bar")
+    assert design.verdict.accepted
+    assert design.drives == pytest.approx(drives, abs=1e-8)
+    assert move(design.linkage, design.drives).complex_point("P") == pytest.approx(other, abs=1e-8)
+
+
 def test_a_drive_that_gains_a_turn_but_backs_up_on_the_way_does_not_turn_fully():
     """A rocker on a coupler: its angle, by intersecting circles, gains a turn and falls meanwhile."""
     turn = np.linspace(0, 2 * np.pi, 2001)

@@ -229,6 +229,8 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         drives: tuple[float, ...] = ()
         missed_by, transmission = met.error if path.in_order else path.error, np.nan
         if path.one_branch:
+            if _limit_before(course, float(path.arcs[0])):
+                linkage = linkage.with_reference_pose(course.at(path.arcs[:1]).pose(0))
             drives, missed_by, transmission = _carried(linkage, course, path, targets)
     except LinkageError as error:
         reasons.append(message("it cannot be followed from its first position: {error}", error=error))
@@ -447,12 +449,10 @@ def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, ar
         bend = distances.bend(arcs)
         with np.errstate(invalid="ignore", divide="ignore"):
             step = np.where(bend > 0, -slope / bend, 0.0)
-        moved = sense * (arcs + np.nan_to_num(step))
-        before = np.concatenate([[-np.inf], sense * arcs[:-1]])
-        after = np.concatenate([sense * arcs[1:], [np.inf]])
-        rising = np.maximum.accumulate(np.clip(moved, before, after))
-        if piece is None:
-            rising = np.minimum(rising, rising[0] + course.length)
+        rising, lap = sense * arcs, course.length if piece is None else np.inf
+        before, after = np.append(rising[-1] - lap, rising[:-1]), np.append(rising[1:], rising[0] + lap)
+        rising = np.maximum.accumulate(np.clip(rising + sense * np.nan_to_num(step), before, after))
+        rising = np.minimum(rising, rising[0] + lap)
         arcs = np.clip(sense * rising, low + inside, high - inside)
     return arcs
 
@@ -499,6 +499,21 @@ def _path(course: Circuit, met: _Met, limit: float) -> _TargetPath:
     if match is not None and match.error <= limit:
         return _TargetPath(match.arcs, True, False, match.error)
     return _unordered(course, met.places, np.nan if match is None else match.error)
+
+
+def _limit_before(course: Circuit, arc: float) -> bool:
+    """Whether a limit of the drive lies between the position that a circuit was followed from and a place of it."""
+    inside = [
+        piece.start <= start <= piece.end
+        for piece in course.monotone_pieces
+        if any(piece.start <= arc + lap <= piece.end for lap in _laps(course))
+        for start in (course.start + lap for lap in _laps(course))
+    ]
+    return bool(course.drive_limits) and not any(inside)
+
+
+def _laps(course: Circuit) -> tuple[float, ...]:
+    return (-course.length, 0.0, course.length) if course.closed else (0.0,)
 
 
 def _branches(course: Circuit) -> list[Piece]:
