@@ -368,9 +368,9 @@ MOTIONS = [
     motion(
         "000/003, exercise 5",
         "filmclaw",
-        "the path of the tip; a, b, c, d = 10, 28, 25, 30, tip at (45, -12)",
+        "the path of the tip; a, b, c, d = 10, 25, 44, 57, tip at (47, 14)",
         lambda: _path("filmclaw", "tip", TURN),
-        [own.on_coupler(*own.four_bar(10, 28, 25, 30, phi), 45, -12) for phi in TURN],
+        [own.on_coupler(*own.four_bar(10, 25, 44, 57, phi), 47, 14) for phi in TURN],
     ),
 ]
 
