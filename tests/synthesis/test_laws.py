@@ -9,6 +9,7 @@ from gruebler.analysis import measures
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.fourbar import FourBar
 from gruebler.kinematics import circuit, move
+from gruebler.linkages.elements import Pin
 from gruebler.synthesis import (
     DeadCentreTask,
     FunctionTask,
@@ -36,7 +37,7 @@ def pins_of(linkage):
     """All distances of pins of one link, in order of size."""
     out = []
     for link in linkage.mechanism.chain.links:
-        own = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and len(e) == 2]
+        own = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and isinstance(e, Pin)]
         out += [abs(p - q) for k, p in enumerate(own) for q in own[:k]]
     return np.sort(out)
 
