@@ -6,14 +6,14 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.errors import GrueblerError, nearest
 from gruebler.notebook import ROWS_SHOWN, html_table
 from gruebler.text import number
@@ -24,7 +24,9 @@ FORMULA = r"^([=+\-@\t\r\n])"
 """How a text begins that a spreadsheet takes for a formula."""
 
 
-class Column(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
+class Column:
     """A quantity over the rows of a table."""
 
     name: str
@@ -47,7 +49,7 @@ class Column(NamedTuple):
 
     def without(self, rows: int) -> Column:
         """The column without its first rows."""
-        return self._replace(values=self.values[rows:])
+        return replace(self, values=self.values[rows:])
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ class GrueblerError(ValueError):
 
     It carries an English text with gaps and the values that fill them (or a message that has both), so that
     `text.error_in_language` can say it in another language. What it says is one line of bounded length, however long
-    the input is that it quotes.
+    the input is that it quotes. Errors are equal that are of one kind and say the same.
 
     >>> str(LinkageError("joint {joint!r} has no radius", joint="R(0-1)"))
     "joint 'R(0-1)' has no radius"
@@ -48,6 +48,12 @@ class GrueblerError(ValueError):
         super().__init__(shortened(text.format(**values) if values else text))
         self.text = text
         self.values = values
+
+    def __eq__(self, other: object) -> bool:
+        return other.__class__ is self.__class__ and (str(self), self.text) == (str(other), getattr(other, "text", ""))
+
+    def __hash__(self) -> int:
+        return hash((self.__class__, str(self)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), self.text, self.values)

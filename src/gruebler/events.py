@@ -6,8 +6,8 @@ cams (`cams`) all return these.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi, radians
-from typing import NamedTuple
 
 __all__ = ["GOOD", "ChangePoint", "DeadCentre", "Extremum", "Transmission", "TransmissionExtremes"]
 
@@ -15,7 +15,8 @@ GOOD = radians(40)
 """The rule of thumb: the transmission angle should not fall below."""
 
 
-class Extremum(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Extremum:
     """Where something is largest or smallest."""
 
     at: float
@@ -25,7 +26,8 @@ class Extremum(NamedTuple):
     """``maximum`` or ``minimum``."""
 
 
-class DeadCentre(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DeadCentre:
     """Where the output stops: it turns back there, or (``flat``, not a maximum or minimum) only pauses."""
 
     drive: float
@@ -40,7 +42,8 @@ class DeadCentre(NamedTuple):
     """Whether the second derivative vanishes as well, so that the output dwells."""
 
 
-class ChangePoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class ChangePoint:
     """Where two assembly modes meet and the motion goes on through: another curve of positions crosses."""
 
     drive: float
@@ -55,7 +58,8 @@ class ChangePoint(NamedTuple):
     """The place on the circuit, if it was followed along one."""
 
 
-class Transmission(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Transmission:
     """The transmission angle at one value of the drive."""
 
     drive: float
@@ -79,7 +83,8 @@ class Transmission(NamedTuple):
         return pi / 2 - self.mu
 
 
-class TransmissionExtremes(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class TransmissionExtremes:
     """The extremes of the transmission angle.
 
     >>> worst, right = Transmission(0.0, radians(37), ("coupler",)), Transmission(1.4, pi / 2, ("coupler",))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from math import atan2
@@ -39,7 +40,8 @@ _LARGEST_TABLE = 1_000_000  # bytes
 _POSE = 4  # numbers: a place and a direction
 
 
-class Format(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Format:
     """A row of the table of formats."""
 
     name: str

@@ -4,6 +4,7 @@ import cmath
 import io
 import math
 import re
+from dataclasses import astuple, replace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -29,9 +30,9 @@ from gruebler.geneva import Geneva, GenevaError
 
 SVG = "{http://www.w3.org/2000/svg}"
 LIFT = read_lift("rise 20 90; dwell 60; fall 20 90 cycloidal; dwell")
-ANGULAR = Lift(one._replace(scale=math.radians(one.scale)) for one in LIFT.segments)
+ANGULAR = Lift(replace(one, scale=math.radians(one.scale)) for one in LIFT.segments)
 SLOW = Lift(
-    one._replace(scale=math.radians(0.7 * one.scale)) for one in read_lift("rise 20 140; fall 20 140; dwell").segments
+    replace(one, scale=math.radians(0.7 * one.scale)) for one in read_lift("rise 20 140; fall 20 140; dwell").segments
 )
 CAMS = {
     "roller": Cam(LIFT, 40, Roller(10, offset=8)),
@@ -351,7 +352,7 @@ def test_the_svg_says_what_at_time_says():
     ):
         root = ElementTree.fromstring(moving_svg(shown))
         groups = [g for g in root.iter(f"{SVG}g") if g.find(f"{SVG}animateTransform") is not None]
-        moving = [body for body in shown.bodies if any(len(step[0]) > 1 for step in body.steps)]
+        moving = [body for body in shown.bodies if any(len(astuple(step)[0]) > 1 for step in body.steps)]
         assert len(groups) == len(moving)
         for group, body in zip(groups, moving, strict=True):
             steps = group.findall(f"{SVG}animateTransform")

@@ -1,6 +1,7 @@
 """Epicyclic trains against printed numbers, against counting without symmetries and against their own speeds."""
 
 import json
+from dataclasses import replace
 from itertools import combinations
 from random import Random
 
@@ -96,7 +97,7 @@ def test_all_sets_of_pairs_judged_by_their_speeds(links, mobility):
     for axes in hypertrees(links):
         for gears in combinations(_triples(links, axes), links - 1 - mobility):
             if len({v for gear in gears for v in gear}) == links and is_free(links, gears, random):
-                codes.add(code(trains[0]._replace(axes=axes, gears=gears).chain()))
+                codes.add(code(replace(trains[0], axes=axes, gears=gears).chain()))
     own = [code(train.chain()) for train in trains]
     assert len(own) == len(set(own))
     assert set(own) == codes

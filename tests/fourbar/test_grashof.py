@@ -142,7 +142,7 @@ def test_exercises_8_to_10(given_lengths, ranges):
     for part in found:
         assert part.above.key == "triple_rocker"
         assert part.below is None or part.below.key == "triple_rocker"
-        assert all(grashof(**given_lengths, **{free: end}).change_point for end in part[:2] if end)
+        assert all(grashof(**given_lengths, **{free: end}).change_point for end in (part.lower, part.upper) if end)
 
 
 def half_lines(turns: str, free: str, given_lengths: dict[str, float]) -> list[tuple[float, float]]:
@@ -168,7 +168,7 @@ def half_lines(turns: str, free: str, given_lengths: dict[str, float]) -> list[t
 @given(small, small, small, st.sampled_from("abcd"), st.sampled_from("abc"))
 def test_ranges_against_the_inequalities(x, y, z, free, turns):
     lengths = dict(zip([name for name in "abcd" if name != free], (x, y, z), strict=True))
-    ranges = [part[:2] for part in turning_ranges(turns, **lengths)]
+    ranges = [(part.lower, part.upper) for part in turning_ranges(turns, **lengths)]
     expected = half_lines(turns, free, lengths)
     for value in np.arange(0.125, 40, 0.125):
         inside = any(low <= value <= high for low, high in ranges)
@@ -197,8 +197,8 @@ def test_types_along_a_length_leave_no_gap_and_name_their_neighbours(x, y, z, fr
 
 def test_a_single_value_can_be_a_range():
     double_crank, kite = turning_ranges("b", a=2, b=2, c=3)
-    assert (double_crank[:2], double_crank.type.key) == ((0, 1), "double_crank")
-    assert (kite[:2], kite.type.key) == ((3, 3), "kite_crank_rocker")
+    assert ((double_crank.lower, double_crank.upper), double_crank.type.key) == ((0, 1), "double_crank")
+    assert ((kite.lower, kite.upper), kite.type.key) == ((3, 3), "kite_crank_rocker")
     assert turning_ranges("c", a=1, c=2, d=9) == ()
 
 

@@ -186,7 +186,8 @@ def test_many_at_once():
         if not bar.limits:
             continue
         for n, one in enumerate(cognates(bar, u[k], v[k])):
-            assert np.allclose([one.size.a, one.size.b, one.size.c, one.size.d], [x[n, k] for x in found[:4]])
+            lengths = [x[n, k] for x in (found.a, found.b, found.c, found.d)]
+            assert np.allclose([one.size.a, one.size.b, one.size.c, one.size.d], lengths)
             end = found.pivot[n, k] + found.turn[n, k] * found.d[n, k]
             assert abs(end - one.pins[3]) < 1e-12
 

@@ -185,7 +185,7 @@ def test_one_slider_variants_move():
 def test_the_range_is_that_of_the_measures(text):
     found = realise(Mechanism.parse(text), budget=300)
     span = measures(found.linkage).span
-    assert found.span[:2] == span[:2]
+    assert (found.span.low, found.span.high) == (span.low, span.high)
     (low, high), *_ = found.ranges
     assert span.low <= low < high <= span.high
     assert f"moves from {span.low:.7g} to {span.high:.7g} mm. It is well conditioned" in found.message()

@@ -1,5 +1,6 @@
 """The minimax optimum: certificates against other methods on four-bars and slider-cranks written out here."""
 
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
@@ -65,7 +66,8 @@ def changed(solution, step):
     scale = own[1] if solution.kind == "slider-crank" else own[2]
     lengths = (own[0] * (1 + step[0]), own[1] * (1 + step[1]), own[2] + scale * step[2], *own[3:])
     unit = 1.0 if solution.kind == "four-bar" else own[0]
-    return solution._replace(
+    return replace(
+        solution,
         lengths=lengths,
         input_start=solution.input_start + step[3],
         output_start=solution.output_start + unit * step[4],
@@ -213,7 +215,7 @@ def test_units_change_nothing(unit):
     best = found(SQUARE, "travel", 5)[0]
     law = FunctionLaw("x^2", (0, 1), RIGHT, 40.0 * unit)
     near = changed(best.solution, [0.01, -0.01, 0.005, 0.01, 0.0])
-    scaled = near._replace(lengths=tuple(unit * v for v in near.lengths), output_start=unit * near.output_start)
+    scaled = replace(near, lengths=tuple(unit * v for v in near.lengths), output_start=unit * near.output_start)
     first, second = minimax(near, SQUARE), minimax(scaled, law)
     assert second.certificate.optimum
     assert second.error == pytest.approx(unit * first.error, rel=1e-9)
@@ -223,7 +225,7 @@ def test_units_change_nothing(unit):
 def test_the_length_of_the_frame_changes_nothing():
     best = found(LOG_60, "angle", 5)[0]
     near = changed(best.solution, [0.01, 0.01, 0.0, 0.01, 0.0])
-    larger = near._replace(lengths=tuple(7 * v for v in near.lengths))
+    larger = replace(near, lengths=tuple(7 * v for v in near.lengths))
     assert minimax(larger, LOG_60).error == pytest.approx(best.error, rel=1e-9)
 
 

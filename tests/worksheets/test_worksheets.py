@@ -144,8 +144,9 @@ def test_latex_knows_every_sign_of_the_texts():
 def test_latex_files_compile(lang, tmp_path):
     if shutil.which("pdflatex") is None:
         pytest.skip("pdflatex is not here")
+    sheets = [task_sheet(list(KINDS), 6, level=level, seed=3, lang=lang) for level in (1, 2, 3)]
     made = [
-        *(task_sheet(list(KINDS), 6, level=level, seed=3, lang=lang)[:2] for level in (1, 2, 3)),
+        *((sheet.tasks, sheet.solutions) for sheet in sheets),
         (machine_document(entries()["crankrocker"], lang=lang), machine_document(entries()["geartrain"], lang=lang)),
     ]
     for k, document in enumerate(document for pair in made for document in pair):

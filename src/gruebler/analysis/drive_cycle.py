@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import degrees, inf, pi
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler._numeric.motion.closure import MESH, POLAR
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.kinematics.change_point_rows import set_change_point_rows
 from gruebler.kinematics.contacts import Condition
@@ -61,7 +61,8 @@ _TOGETHER = 1e-8  # radians or sizes: events that are nearer are at one place; c
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
-class CycleSpan(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class CycleSpan:
     """The range of a drive: radians, or lengths for a slide."""
 
     low: float
@@ -122,7 +123,8 @@ def by_place(events: Iterable[_AnyEvent], span: CycleSpan, drive_size: float) ->
     return [sorted(together, key=lambda event: event.links) for together in places]
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class DriveCycle(Brief):
     """A linkage on one branch over the whole range of its drive."""
 
@@ -279,7 +281,8 @@ def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> 
     return replace(cycle, grid=_grid(cycle))
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class PathCycle(DriveCycle):
     """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
 

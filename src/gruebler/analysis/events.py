@@ -7,8 +7,8 @@ respect to the drive. Definitions, method and errors: docs/theory/events.md.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from math import pi
-from typing import NamedTuple
 
 import numpy as np
 
@@ -51,7 +51,8 @@ _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change poin
 _STEP = 0.02  # radians, or parts of the size
 
 
-class Dwell(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Dwell:
     """A stretch of the drive on which the output rests: behind a cam or a Geneva drive."""
 
     begin: float
@@ -75,7 +76,8 @@ class Dwell(NamedTuple):
         return (self.begin + self.end) / 2
 
 
-class Crossing(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Crossing:
     """A zero of a transfer function of order 0, 1 or 2, or of the next derivative."""
 
     drive: float
@@ -115,7 +117,7 @@ def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, 
 
     samples = cycle.samples(order)
     if order == 0:  # the sine of half an angle does not repeat after an odd number of turns
-        samples = samples._replace(period=None)
+        samples = replace(samples, period=None)
     zeros = _inside(cycle, find_zeros(jet, samples, least))
     if order == 0 and output.turning and zeros:  # that sine falls where the angle rises through an odd multiple
         turned = np.round(transfer_function(cycle, output, np.array([zero.at for zero in zeros])) / (2 * pi)) % 2 == 1
@@ -180,11 +182,11 @@ def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[DeadCentre, ...], tu
         )
         for zero, value in zip(zeros, values, strict=True)
     ]
-    rests = sorted(_dwell(cycle, output, begin, end) for begin, end in resting)
+    rests = sorted((_dwell(cycle, output, begin, end) for begin, end in resting), key=lambda dwell: dwell.begin)
     sides = _sides(cycle, output, [*centres, *rests])
     return (
-        tuple(dead_centre._replace(side=side) for dead_centre, side in zip(centres, sides, strict=False)),
-        tuple(dwell._replace(side=side) for dwell, side in zip(rests, sides[len(centres) :], strict=True)),
+        tuple(replace(dead_centre, side=side) for dead_centre, side in zip(centres, sides, strict=False)),
+        tuple(replace(dwell, side=side) for dwell, side in zip(rests, sides[len(centres) :], strict=True)),
     )
 
 
@@ -305,7 +307,7 @@ def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
 def _meetings(cycle: DriveCycle, change_points: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
     return tuple(
-        change_point._replace(several=change_point.several or len(together) > 1)
+        replace(change_point, several=change_point.several or len(together) > 1)
         for together in cycle.by_place(change_points)
         for change_point in together
     )

@@ -26,7 +26,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import degrees, isfinite, pi
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -76,7 +76,8 @@ _UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
 _STILL = 1e-11  # of the natural size: an output, or its velocity, that varies by less does not move
 
 
-class Transfer(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Transfer:
     """What the transfer functions of order 0, 1 and 2 do over the range."""
 
     still: bool

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from math import degrees
-from typing import NamedTuple
 
 from gruebler.analysis.drive_cycle import CycleSpan
 from gruebler.analysis.events import Dwell
@@ -45,7 +45,8 @@ _DWELLS = {
 }
 
 
-class MeasureUnits(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class MeasureUnits:
     """How drive and output values are written."""
 
     turning_drive: bool

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, nearest
@@ -14,7 +14,8 @@ from gruebler.mechanism import Mechanism
 __all__ = ["Output", "find_output"]
 
 
-class Output(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Output:
     """An output of a linkage."""
 
     name: str

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,7 +22,8 @@ _ROWS = 721
 _SPREAD = 15  # the size of the linkage over the distance of the two pins that keep a slide from turning
 
 
-class Plate(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Plate:
     """A link as a flat body, in its own coordinates."""
 
     places: tuple[complex, ...]
@@ -33,7 +34,8 @@ class Plate(NamedTuple):
     """The places of a pin in a slot at both ends of its way."""
 
 
-class Peg(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Peg:
     """A pin through links: of a turning joint, or one that slides in a slot."""
 
     links: tuple[str, ...]
@@ -43,7 +45,8 @@ class Peg(NamedTuple):
     """Where, in coordinates of that link."""
 
 
-class Plates(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Plates:
     """A linkage of plates and pins in a motion."""
 
     motion: Motion

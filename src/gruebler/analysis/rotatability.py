@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from functools import lru_cache
 from math import pi
-from typing import NamedTuple
 
 import numpy as np
 
@@ -31,7 +31,8 @@ _ROUND = 1e-9  # a relative angle whose range is 2 pi but for this turns fully
 _STEADY = 1e-6  # radians: rounding turns a slide by some 1e-14, a motion by far more
 
 
-class Rotatability(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Rotatability:
     """How two neighbouring links move against each other over the whole circuit."""
 
     joint: str
@@ -52,7 +53,8 @@ class Rotatability(NamedTuple):
         return self.highest - self.lowest
 
 
-class DriveRange(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DriveRange:
     """How far a drive can be moved from the position in which the circuit starts."""
 
     full: bool

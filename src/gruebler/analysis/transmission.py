@@ -6,6 +6,7 @@ that point relative to what drives the group. Definitions and proofs: docs/theor
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi
 from typing import NamedTuple
 
@@ -46,7 +47,8 @@ Element = tuple[str, complex, complex]
 """A joint on a link: the link, the point, the direction."""
 
 
-class PushingLink(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PushingLink:
     """A link (or a body of several) that pushes another at one joint."""
 
     links: tuple[str, ...]

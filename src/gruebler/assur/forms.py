@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections import Counter, deque
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.chain.pairs import Alphabet, Pair, Space, in_alphabets, pair
 from gruebler.text import Message
@@ -22,7 +22,8 @@ DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 _Vertex = tuple[str, int]  # a link or a joint, with its number
 
 
-class GroupJoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class GroupJoint:
     """A joint of a group: its pair, the links of the group that carry it, whether links outside carry it too."""
 
     pair: Pair

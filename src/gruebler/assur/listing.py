@@ -8,7 +8,7 @@ automorphism exchanges give the same group, others different ones.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -29,7 +29,8 @@ _GROUP = 1.5e-5  # seconds on one core
 _INTERPRETED = 4e-3  # for a truss, if the kernel is interpreted
 
 
-class GroupRow(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class GroupRow:
     """An Assur group of simple turning joints in canonical form, without an object for each joint."""
 
     class_number: int

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.assur.splitting import BodyJoint
 from gruebler.chain.pairs import Space, pair
@@ -19,7 +19,8 @@ class AssurError(GrueblerError):
     """An input without Assur groups: not planar, or not a group."""
 
 
-class LockedMechanism(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LockedMechanism:
     """The locked mechanism."""
 
     bodies: tuple[tuple[str, ...], ...]

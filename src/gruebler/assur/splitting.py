@@ -18,7 +18,8 @@ from gruebler.mobility import pebble_rank
 __all__ = ["BodyGroup", "BodyJoint", "GroupSplit", "split_into_groups"]
 
 
-class BodyJoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class BodyJoint:
     """A joint between bodies: the number of the chain's joint, the pair with its drives locked, the bodies."""
 
     joint: int

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -29,7 +30,8 @@ _PLACE = {pair.name: k for k, pair in enumerate(PAIRS)}
 _INTERPRETED = 2.5e-4  # seconds for each link of a chain, if the kernel is interpreted
 
 
-class ChainArrays(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class ChainArrays:
     """Chains of one number of links as graphs: see `chain_memory`."""
 
     links: int

@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields, replace
 from hashlib import sha256
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -166,7 +166,8 @@ def _range(name: str, text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2] or match[1])
 
 
-class Part(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Part:
     """A part of an atlas."""
 
     request: Request
@@ -182,7 +183,8 @@ class Part(NamedTuple):
         return f"{where}/part-{self.number:05d}.parquet"
 
 
-class PartFile(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PartFile:
     """A finished file."""
 
     table: str

@@ -5,7 +5,8 @@ Definitions and theorems: docs/theory/atlas.md. The same texts stand in the meta
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from gruebler.errors import GrueblerError
 
@@ -18,7 +19,8 @@ SCHEMA = 1
 """The version of the columns; a change of a column or of its meaning raises it."""
 
 
-class SchemaColumn(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class SchemaColumn:
     """A column of a table."""
 
     table: str

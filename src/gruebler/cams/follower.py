@@ -27,7 +27,8 @@ class Path(NamedTuple):
     second: Complexes
 
 
-class FaceLine(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class FaceLine:
     """The face: its normal's angle away from the cam, its distance from the axis, and their derivatives."""
 
     angle: Reals

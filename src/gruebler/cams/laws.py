@@ -50,7 +50,8 @@ def finite_array(values: ArrayLike, quantity: Message) -> Reals:
     return numbers
 
 
-class LawPiece(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LawPiece:
     """From ``start`` on: sum of ``polynomial[k] t^k`` plus ``amplitude * sin(frequency t + phase)``, t = x - start."""
 
     start: float
@@ -189,13 +190,13 @@ def _from_acceleration(name: str, parts: Sequence[tuple[float, float, float, flo
         piece = LawPiece(start, (0.0, 0.0, constant / 2), wave, frequency, phase)
         begin = np.array(start)
         polynomial = (lift - float(piece.at(begin, 0)), velocity - float(piece.at(begin, 1)), constant / 2)
-        pieces.append(piece._replace(polynomial=polynomial))
+        pieces.append(replace(piece, polynomial=polynomial))
         start += length
         lift, velocity = (float(pieces[-1].at(np.array(start), order)) for order in (0, 1))
     return MotionLaw(
         name,
         tuple(
-            piece._replace(polynomial=tuple(c / lift for c in piece.polynomial), amplitude=piece.amplitude / lift)
+            replace(piece, polynomial=tuple(c / lift for c in piece.polynomial), amplitude=piece.amplitude / lift)
             for piece in pieces
         ),
     )

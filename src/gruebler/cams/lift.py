@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +23,8 @@ __all__ = ["DerivativeJump", "Lift", "LiftSegment", "SmoothSpan", "dwell", "moti
 _LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
 
 
-class LiftSegment(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LiftSegment:
     """A part of the turn: the lift changes by ``scale`` times the law; angle in radians. A dwell has no law."""
 
     angle: float
@@ -36,7 +37,8 @@ class LiftSegment(NamedTuple):
         return self.scale * (self.law.end(0) - float(self.law.at(0.0))) if self.law else 0.0
 
 
-class DerivativeJump(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DerivativeJump:
     """A jump of a derivative at an angle; 1: velocity, an impact; 2: acceleration, infinite jerk."""
 
     at: float
@@ -110,7 +112,7 @@ class Lift:
 
     def scaled(self, factor: float) -> Lift:
         """Every lift times a factor, as from degrees to radians."""
-        return Lift(segment._replace(scale=segment.scale * factor) for segment in self.segments)
+        return Lift(replace(segment, scale=segment.scale * factor) for segment in self.segments)
 
     @property
     def starts(self) -> tuple[float, ...]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import degrees, pi
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gruebler.arrays import compared_by_value
 from gruebler.catalog.feature_query import entry_features, entry_mechanism, features_to_json
 from gruebler.catalog.features import AccessFeatures
 from gruebler.chain.pairs import Alphabet, Contact
@@ -33,7 +34,8 @@ _ROUNDING = 1e-9
 # at rest computes to some 1e-15, the slowest gear of a machine that anybody draws is a thousandth.
 
 
-class Partial(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Partial:
     """The partial transfer function of an output for one of several drives, in the drawn position."""
 
     output: str
@@ -43,7 +45,8 @@ class Partial(NamedTuple):
     value: float
 
 
-class GuidedPoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class GuidedPoint:
     """The path of a named point over the whole motion of the drive, in the unit of the machine."""
 
     name: str
@@ -56,6 +59,7 @@ class GuidedPoint(NamedTuple):
     """Its extent along y."""
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
 class MachineReport(Brief):
     """The result of `machine_report`. `explain` returns it as text."""
@@ -117,8 +121,8 @@ class MachineReport(Brief):
             if sizes is None
             else {"assumed": sizes.assumed, "source": source_text(sizes.source, LANGUAGES[0])},
             "measures": None if self.measures is None else self.measures.to_json(),
-            "partials": [partial._asdict() for partial in self.partials],
-            "points": [point._asdict() for point in self.points],
+            "partials": [asdict(partial) for partial in self.partials],
+            "points": [asdict(point) for point in self.points],
             "transmission_angle_shown": None if self.shown_mu is None else [degrees(mu) for mu in self.shown_mu],
         }
 
@@ -288,7 +292,7 @@ def _sections(report: MachineReport, lang: str) -> Iterator[tuple[str, list[str]
         )
     if report.measures is not None and report.points:
         unit = report.measures.linkage.unit
-        yield "points", [say("closed" if p.closed else "open", unit=unit, **p._asdict()) for p in report.points]
+        yield "points", [say("closed" if p.closed else "open", unit=unit, **asdict(p)) for p in report.points]
 
 
 def _moves_lines(report: MachineReport, say: Any, lang: str) -> list[str]:

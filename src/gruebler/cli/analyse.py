@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
+from dataclasses import asdict
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -365,7 +366,7 @@ def _extent(row: Rotatability, unit: str) -> Message:
 
 def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
     """A row of the rotatability; the keys of angles end in ``_deg``."""
-    document = row._asdict()
+    document = asdict(row)
     angles = {key: document.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
     if row.freedom == "turn":
         return document | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}

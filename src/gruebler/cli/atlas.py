@@ -7,6 +7,7 @@ import csv
 import io
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, astuple, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -176,9 +177,9 @@ def _columns(arguments: argparse.Namespace) -> int:
 
     rows = [column for table in TABLES for column in columns_of(table)]
     if arguments.out is None and not arguments.json:
-        print_table(list(rows[0]._fields), rows)
+        print_table([field.name for field in fields(rows[0])], [astuple(row) for row in rows])
         return 0
-    _answer(arrow_library().Table.from_pylist([row._asdict() for row in rows]), arguments)
+    _answer(arrow_library().Table.from_pylist([asdict(row) for row in rows]), arguments)
     return 0
 
 

@@ -272,10 +272,14 @@ def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     report = cam.findings()
 
     def item(extremum: Extremum | None, angle: bool = False) -> dict[str, float] | None:
-        return extremum and {
-            "value": math.degrees(extremum.value) if angle else extremum.value,
-            "at_deg": math.degrees(extremum.at),
-        }
+        return (
+            extremum
+            if extremum is None
+            else {
+                "value": math.degrees(extremum.value) if angle else extremum.value,
+                "at_deg": math.degrees(extremum.at),
+            }
+        )
 
     document: dict[str, Any] = {
         "parts": [_part(segment, start, change) for segment, start, change in _parts(cam)],

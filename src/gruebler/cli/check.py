@@ -246,7 +246,7 @@ def _structures(word: str, space: str | None, lang: str) -> Iterator[Structure]:
 
 def _checked_structure(structure: Structure, arguments: argparse.Namespace) -> CheckedEntry:
     """The count checked, claims derived again, and the mobility with dimensions where there are any."""
-    name, place, value = structure
+    name, place, value = structure.name, structure.place, structure.value
     placed: Linkage | SpatialLinkage | None = None
     if isinstance(value, Entry):
         placed = value.placed()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.cli.commands import GROUPS
 from gruebler.cli.parser import Parser
@@ -15,7 +15,8 @@ __all__ = ["Argument", "CommandNode", "command_tree"]
 _FILES = ("FILE", "DIR", "IN", "OUT")
 
 
-class Argument(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Argument:
     """An option or a positional argument."""
 
     options: tuple[str, ...]
@@ -31,7 +32,8 @@ class Argument(NamedTuple):
     """Whether a value may be an entry of the catalog."""
 
 
-class CommandNode(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class CommandNode:
     """A command or an action of one."""
 
     name: str

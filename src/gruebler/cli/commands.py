@@ -5,9 +5,10 @@ from __future__ import annotations
 import shlex
 import textwrap
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from importlib import import_module
 from shutil import get_terminal_size
-from typing import Any, NamedTuple
+from typing import Any
 
 from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError, nearest
@@ -16,7 +17,8 @@ from gruebler.text import Message, message, translate
 __all__ = ["GROUPS", "Command", "command", "command_names", "overview", "welcome"]
 
 
-class Command(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Command:
     """A command: its module has `add`, which gives a parser its arguments, and `run`."""
 
     name: str

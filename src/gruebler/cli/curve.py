@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -227,7 +228,8 @@ def _print(
             )
         )
     else:
-        low, high = (_drive(curve, value, lang) for value in curve.point_path.cycle.span[:2])
+        span = curve.point_path.cycle.span
+        low, high = (_drive(curve, value, lang) for value in (span.low, span.high))
         print(
             translate(
                 "The path goes from {low} to {high}: length {length:.9g} {unit}.",
@@ -307,7 +309,7 @@ def _document(curve: CouplerCurve, contacts: list[TangentContact], directions: t
 
     def item(event: Any) -> dict[str, Any]:
         """An event as its fields, drives in degrees."""
-        fields = {key: value for key, value in event._asdict().items() if key != "parameter"}
+        fields = {key: value for key, value in asdict(event).items() if key != "parameter"}
         for key in ("drive", "drives"):
             if key in fields:
                 values = _values(curve, np.atleast_1d(fields[key]))

@@ -68,12 +68,13 @@ def _document(realisation: Realisation, lang: str) -> dict[str, object]:
         "tries": realisation.tries,
     }
     if realisation.linkage is not None:
+        span = realisation.span
         document |= {
             "full": realisation.full,
             "quality": realisation.quality,
             "drives": [
                 {"joint": name}
-                | _range("range", realisation.span and realisation.span[:2], turns)
+                | _range("range", None if span is None else (span.low, span.high), turns)
                 | _range("well_conditioned", ends, turns)
                 for name, ends, turns in zip(
                     realisation.mechanism.drive_names(),

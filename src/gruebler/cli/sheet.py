@@ -273,7 +273,7 @@ def _size(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> int:
 
 
 def _print_size(mechanism_sheet: Sheet, sized: SizedMechanism, unit: str, lang: str) -> None:
-    start, end = (math.degrees(angle) for angle in sized.sizing.piece[:2])
+    start, end = (math.degrees(angle) for angle in (sized.sizing.piece.start, sized.sizing.piece.end))
     unit, scale = f" {unit}" if unit else "", sized.lengths[0][0]
     print(
         translate(
@@ -298,7 +298,7 @@ def _print_size(mechanism_sheet: Sheet, sized: SizedMechanism, unit: str, lang: 
 
 
 def _sized_item(sized: SizedMechanism, unit: str) -> dict[str, Any]:
-    start, end = (math.degrees(angle) for angle in sized.sizing.piece[:2])
+    start, end = (math.degrees(angle) for angle in (sized.sizing.piece.start, sized.sizing.piece.end))
     return {
         "length": sized.length,
         "tolerance": sized.tolerance,

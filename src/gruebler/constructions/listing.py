@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from math import radians
-from typing import NamedTuple
 
 from gruebler.constructions.accelerations import (
     accelerations_of_four_bar,
@@ -52,7 +52,8 @@ Value = float | str
 Maker = Callable[..., Construction]
 
 
-class ConstructionRow(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class ConstructionRow:
     """A construction: its name, what it gives, its chapter, and who makes it for which form of linkage."""
 
     name: str

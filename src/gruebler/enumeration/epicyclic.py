@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import combinations, product
 from typing import NamedTuple
 
@@ -23,7 +24,8 @@ MOST_LINKS = 10
 _IMAGES = 10**7  # how many images of sets are held at once
 
 
-class EpicyclicTrain(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class EpicyclicTrain:
     """A train by its structure: links from 0, the axes about which they turn, and the gear pairs."""
 
     links: int

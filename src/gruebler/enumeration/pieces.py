@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future
+from dataclasses import dataclass
 from functools import cache
 from itertools import islice
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,8 @@ P = TypeVar("P")
 R = TypeVar("R")
 
 
-class WorkPiece(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class WorkPiece:
     """A part of an enumeration: contracted graphs of one number of loops."""
 
     links: int
@@ -41,7 +43,8 @@ class WorkPiece(NamedTuple):
     """The approximate number of string assignments to test; counting takes a nanosecond for each."""
 
 
-class PieceCount(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PieceCount:
     """The chains of one assortment in a piece, and the orbits on them (0 if not requested)."""
 
     assortment: Assortment

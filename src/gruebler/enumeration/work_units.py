@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from itertools import islice
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,13 +43,15 @@ _GROWN_AT_ONCE = 256  # chains with simple joints in a piece; at 12 links some t
 Edges = tuple[tuple[int, int], ...]
 
 
-class RingPiece(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class RingPiece:
     """The chain of one loop, which has no contracted graph."""
 
     links: int
 
 
-class MultipleJointPiece(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class MultipleJointPiece:
     """Chains with simple joints from which those with multiple joints grow."""
 
     links: int
@@ -60,7 +61,8 @@ class MultipleJointPiece(NamedTuple):
 Work = WorkPiece | RingPiece | BlockAddition | MultipleJointPiece
 
 
-class PieceTally(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PieceTally:
     """The chains of one class and assortment in a piece, and the orbits on them (0 if not requested)."""
 
     kind: str
@@ -71,7 +73,8 @@ class PieceTally(NamedTuple):
     drives: int
 
 
-class PieceListing(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PieceListing:
     """The chains of one class in a piece, written out."""
 
     kind: str
@@ -146,7 +149,7 @@ class PieceCounter:
     def __call__(self, work: Work) -> list[PieceTally]:
         """The numbers of a piece, by class and assortment."""
         if isinstance(work, WorkPiece):
-            return [PieceTally("none", *piece_count) for piece_count in count_piece(work, self.orbits)]
+            return [PieceTally("none", *astuple(piece_count)) for piece_count in count_piece(work, self.orbits)]
         if isinstance(work, MultipleJointPiece) and self.request.mobility < 2 and not self.orbits:
             return _grown_tallies(self.request, work)
         sums: dict[tuple[str, Assortment], list[int]] = {}
@@ -208,7 +211,8 @@ def add_tallies(request: Request, orbits: bool, tallies_of_pieces: Iterable[Iter
             if tally.chains:
                 by_assortment[tally.assortment] = by_assortment.get(tally.assortment, 0) + tally.chains
             by_kind[tally.kind] += tally.chains
-            sums = [old + new for old, new in zip(sums, tally[2:], strict=True)]
+            counts = tally.chains, tally.inversions, tally.joint_orbits, tally.drives
+            sums = [old + new for old, new in zip(sums, counts, strict=True)]
     chains, inversions, joint_orbits, drives = sums
     return RequestCount(
         request.links,

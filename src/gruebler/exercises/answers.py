@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from math import isfinite, pi
-from typing import NamedTuple
 
 from gruebler.errors import GrueblerError
 from gruebler.exercises.solution import Result
@@ -27,7 +27,8 @@ _UNITS = {
 """Each unit in the first unit of its kind, and the kind."""
 
 
-class GivenAnswer(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class GivenAnswer:
     """The number of an answer, in the unit of the result."""
 
     number: float

@@ -196,7 +196,7 @@ def _marked(mistakes: Sequence[Mistake], result: Result, answer: str, scales: Se
 def _marked_number(mistakes: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
     reading, value = read_answer(answer, result), float(result.value)  # type: ignore[arg-type]
     if result.either_sign:
-        reading = reading._replace(number=math.copysign(reading.number, value))
+        reading = replace(reading, number=math.copysign(reading.number, value))
     if not reading.has_unit:  # in the unit of the print, if it is right in that one
         read = [GivenAnswer(reading.number * scale, reading.place * scale, False) for scale in scales]
         reading = next((candidate for candidate in read if _mark_of(result.value, candidate) is Mark.RIGHT), reading)

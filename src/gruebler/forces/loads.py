@@ -8,7 +8,7 @@ from dataclasses import KW_ONLY, dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
@@ -44,7 +44,8 @@ class Loads:
     """Force for each unit of mass: metres a second squared for kilograms and newtons."""
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class Wrench:
     """A force on a link at each row, and a moment beside it."""
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from gruebler.arrays import Flags, Reals
+from gruebler.arrays import Flags, Reals, compared_by_value
 from gruebler.errors import LinkageError, expect
 from gruebler.forces.equilibrium import (
     JointConnection,
@@ -52,7 +52,8 @@ _MOST_VALUES = 6
 _NONE = 1e-13  # of the loads: a smaller effort is none
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class Statics(Brief):
     """Drive efforts and joint forces of a linkage under loads, at each row of a motion.
 

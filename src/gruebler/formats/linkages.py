@@ -24,9 +24,9 @@ from gruebler.linkages.elements import (
     Element,
     GenevaDriver,
     GenevaWheel,
+    Line,
     NonCircular,
     Pin,
-    Pose2D,
     Wheel,
 )
 from gruebler.linkages.model import Linkage
@@ -143,11 +143,13 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
         },
     }
     if linkage.reference_pose is not None:
-        document["reference_pose"] = {link: _plain(place) for link, place in linkage.reference_pose.items()}
+        document["reference_pose"] = {
+            link: _plain(Line(place.x, place.y, place.angle)) for link, place in linkage.reference_pose.items()
+        }
     return document
 
 
-def _plain(element: Element | Pose2D) -> Any:
+def _plain(element: Element) -> Any:
     at = [element.x + 0.0, element.y + 0.0]  # -0.0 + 0.0 is 0.0
     if isinstance(element, Circle):
         return {"at": at, "circle": element.radius}

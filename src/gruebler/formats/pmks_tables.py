@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from gruebler.errors import GrueblerError
@@ -46,7 +47,8 @@ class TableLink(NamedTuple):
     """Names of joints."""
 
 
-class Tables(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Tables:
     """What an address holds that is or concerns a linkage."""
 
     joints: tuple[TableJoint, ...]

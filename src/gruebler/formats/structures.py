@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from gruebler.chain import Chain
 from gruebler.documents import load_document
@@ -35,7 +36,8 @@ STRUCTURE_ENDINGS = (".toml", ".json", ".txt", ".g6")
 """Endings of files with structures; a file without ending has one chain per line."""
 
 
-class Structure(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Structure:
     """A chain, linkage or entry, and where it stands."""
 
     name: str

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.angles import warn_of_degrees
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.jets import turn_derivative
 from gruebler.linkages.quantities import as_finite, as_numbers
@@ -36,7 +36,8 @@ class CrankRates(NamedTuple):
     jerk: Reals
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
 class CrankMotion:
     """The poses of a linkage over crank angles, in closed form.
 
@@ -99,6 +100,7 @@ class CrankMotion:
         return CrankRates(*(at + points(rate) for at, rate in zip(self.A, rates, strict=True)))
 
 
+@compared_by_value
 @dataclass(frozen=True, slots=True, eq=False)
 class InvertedMotion(CrankMotion):
     """The poses of an inverted slider-crank: B is the foot of B0 on the guide through A."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -116,7 +117,8 @@ class StrokeTimes(NamedTuple):
         return self.longest - self.shortest
 
 
-class DeadCentres(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DeadCentres:
     """Both dead centres and how the crank's turn is divided between them."""
 
     inner: DeadCentre
@@ -199,7 +201,7 @@ def transmission_extremes(
     if min(first[1], second[1]) < math.pi / 2 < max(first[1], second[1]):
         extremes.append(Transmission(right, math.pi / 2, _LEG))
     smallest, largest = (choice(extremes, key=lambda extreme: extreme.mu) for choice in (min, max))
-    return TransmissionExtremes(tuple(sorted(extremes)), smallest, largest, (_LEG,))
+    return TransmissionExtremes(tuple(sorted(extremes, key=lambda extreme: extreme.drive)), smallest, largest, (_LEG,))
 
 
 def cannot_assemble(arcs: Sequence[CrankRange], missing: Mask, undetermined: Mask, singular: Mask) -> Message | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_lengths, given_and_missing
@@ -160,7 +159,8 @@ def _turns(lengths: dict[str, float], link: str, close: float) -> bool:
     return (short - first) + (second - two) <= close and (short - second) + abs(first - two) <= close
 
 
-class LengthRange(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LengthRange:
     """The values of one length, from lower to upper, for which a four-bar is of one type.
 
     A lower end of 0 is not reached; an upper end may be infinite. At any other end the four-bar is at a change point

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -47,7 +46,8 @@ from gruebler.mechanism import Mechanism
 __all__ = ["SliderCrank", "StrokeMidpoint", "slider_crank_linkage"]
 
 
-class StrokeMidpoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class StrokeMidpoint:
     """The middle of the way against the middle of the time, from the outer to the inner dead centre."""
 
     displacement: float

@@ -13,7 +13,6 @@ from enum import StrEnum
 from fractions import Fraction
 from numbers import Rational
 from types import MappingProxyType
-from typing import NamedTuple
 
 from gruebler import notebook
 from gruebler.errors import GrueblerError, nearest
@@ -49,7 +48,8 @@ _UNITS = {
 }
 
 
-class MeshKind(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class MeshKind:
     """The equation of a mesh: size_a (w_a - w_c) + sign size_b (w_b - w_c) = 0, or travel b - c = size_a * turn a."""
 
     sign: int

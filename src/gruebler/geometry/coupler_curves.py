@@ -9,7 +9,7 @@ from math import degrees, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.geometry.contact import TangentContact, tangent_contact
 from gruebler.geometry.double_points import DoublePoint, double_points
@@ -36,6 +36,7 @@ __all__ = ["CouplerCurve", "coupler_curve"]
 _TOLERANCE = 1e-4  # of the reach of linkage and path
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
 class CouplerCurve(Brief):
     """The path of a point on one branch of a linkage. Everything is found when it is asked for.

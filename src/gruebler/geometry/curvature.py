@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.geometry.relative import RelativeMotion, relative_motion
 from gruebler.kinematics import Motion
@@ -19,7 +19,8 @@ _POINT = 1e-10  # sizes of the linkage: a smaller inflection circle is a point, 
 _CUSP = 1e-10  # of the links' velocities: below it the point stands still and its path has no tangent
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class InflectionCircle:
     """What the motion of a link against another one is at an instant, up to the second order.
 
@@ -64,7 +65,8 @@ class InflectionCircle:
             return np.where(square == 0, self.pole, self.pole + ray * (inner / (inner - square)))
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class PathCurvature:
     """The path of a point at each row, in coordinates of the reference link; all arrays are (rows,).
 

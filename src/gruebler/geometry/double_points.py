@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,8 @@ _ROUNDS = 25
 _MOST_TOUCHES = 20  # more: the path is gone twice
 
 
-class DoublePoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DoublePoint:
     """A point that the path passes twice."""
 
     drives: tuple[float, float]
@@ -79,7 +81,7 @@ def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tu
             for double_point in touches
             if not any(_equal(point_path, double_point.drives, other.drives) for other in points)
         ]
-    return tuple(sorted(points))
+    return tuple(sorted(points, key=lambda double_point: double_point.drives))
 
 
 # --- sides that come near to one another ---------------------------------------------------------------

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.arrays import Complexes
+from gruebler.arrays import Complexes, compared_by_value
 from gruebler.errors import LinkageError, nearest
 from gruebler.geometry.relative import relative_motion, resting_and_translating
 from gruebler.kinematics import Motion
@@ -17,7 +17,8 @@ from gruebler.notebook import Brief
 __all__ = ["Centrodes", "Poles", "centrodes", "poles"]
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class Poles(Brief):
     """The instant centres of all pairs of links, in coordinates of the frame as x + iy.
 
@@ -62,7 +63,8 @@ class Poles(Brief):
         return self.links.index(link)
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class Centrodes(Brief):
     """The curves that the pole of two links draws on each of them; they roll on one another without slip."""
 

@@ -7,6 +7,7 @@ any kind there is `gruebler.geometry.contact`, by another way.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -26,7 +27,8 @@ _ORDER = 9
 _ZERO = 1e-9  # of the linkage's size, or of what a coefficient may be: smaller ones are roundings
 
 
-class LeverContact(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LeverContact:
     """The path as y = c x^n + ... in the frame of its point and its tangent."""
 
     points: int

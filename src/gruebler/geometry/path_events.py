@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -35,7 +35,8 @@ _MANIFOLD = 1e-8  # coefficients of the bend, by its natural size, that are zero
 _LEAST = 1e-9  # a function that is hardly ever larger than that, by its natural size, is zero
 
 
-class Cusp(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Cusp:
     """Where the point stands still."""
 
     drive: float
@@ -48,7 +49,8 @@ class Cusp(NamedTuple):
     parameter: float
 
 
-class Inflection(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Inflection:
     """Where the curvature is zero."""
 
     drive: float
@@ -65,7 +67,8 @@ class Inflection(NamedTuple):
         return self.points % 2 == 0
 
 
-class Vertex(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Vertex:
     """Where the curvature is extreme: a circle touches with four points or more."""
 
     drive: float
@@ -77,7 +80,8 @@ class Vertex(NamedTuple):
     parameter: float
 
 
-class TurningPoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class TurningPoint:
     """Where the path goes farthest in a direction, locally."""
 
     drive: float
@@ -107,7 +111,7 @@ def cusps(point_path: PointPath) -> tuple[Cusp, ...]:
         if abs(z[1]) <= _STILL * usual:
             sine = abs(cross_product(z[2], z[3])) / (abs(z[2]) * max(abs(z[3]), abs(z[2])) or 1.0)
             cusps.append(Cusp(_drive(point_path, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
-    return tuple(sorted(cusps))
+    return tuple(sorted(cusps, key=lambda cusp: cusp.drive))
 
 
 def goes_back(point_path: PointPath, cusp: Cusp) -> bool:
@@ -129,12 +133,11 @@ def inflections(point_path: PointPath, known: tuple[Cusp, ...]) -> tuple[Inflect
 
     zeros = _away(point_path, find_zeros(bend, point_path.grid, _LEAST * _usual(point_path) ** 2), known)
     settled = tuple(_settled(point_path, zero) for zero in zeros)
-    return tuple(
-        sorted(
-            Inflection(_drive(point_path, zero), z[0], float(np.angle(z[1])), zero.multiplicity + 2, zero.at)
-            for zero, z in _seen(point_path, settled)
-        )
-    )
+    events = [
+        Inflection(_drive(point_path, zero), z[0], float(np.angle(z[1])), zero.multiplicity + 2, zero.at)
+        for zero, z in _seen(point_path, settled)
+    ]
+    return tuple(sorted(events, key=lambda event: event.drive))
 
 
 def _settled(point_path: PointPath, zero: Zero) -> Zero:
@@ -174,18 +177,17 @@ def vertices(point_path: PointPath, known: tuple[Cusp, ...], flat: tuple[Inflect
     natural = float(np.median(np.abs(v) ** 2 * (np.abs(v) * np.abs(j) + 3 * np.abs(a) ** 2)))
     zeros = _away(point_path, find_zeros(change, point_path.grid, _LEAST * natural), known)
     zeros = tuple(zero._replace(at=_nearest(zero.at, flat)) for zero in zeros)
-    return tuple(
-        sorted(
-            Vertex(
-                _drive(point_path, zero),
-                z[0],
-                float(cross_product(z[1], z[2]) / abs(z[1]) ** 3),
-                "minimum" if zero.rises else "maximum",
-                zero.at,
-            )
-            for zero, z in _seen(point_path, zeros)
+    events = [
+        Vertex(
+            _drive(point_path, zero),
+            z[0],
+            float(cross_product(z[1], z[2]) / abs(z[1]) ** 3),
+            "minimum" if zero.rises else "maximum",
+            zero.at,
         )
-    )
+        for zero, z in _seen(point_path, zeros)
+    ]
+    return tuple(sorted(events, key=lambda event: event.drive))
 
 
 def _nearest(at: float, flat: tuple[Inflection, ...]) -> float:
@@ -204,12 +206,11 @@ def turning_points(point_path: PointPath, direction: float = 0.0) -> tuple[Turni
 
     zeros = find_zeros(along, point_path.grid, _LEAST * _usual(point_path))
     kinds = {(1, True): "minimum", (1, False): "maximum", (3, True): "minimum", (3, False): "maximum"}
-    return tuple(
-        sorted(
-            TurningPoint(_drive(point_path, zero), z[0], kinds.get((zero.multiplicity, zero.rises), "flat"), zero.at)
-            for zero, z in _seen(point_path, zeros)
-        )
-    )
+    events = [
+        TurningPoint(_drive(point_path, zero), z[0], kinds.get((zero.multiplicity, zero.rises), "flat"), zero.at)
+        for zero, z in _seen(point_path, zeros)
+    ]
+    return tuple(sorted(events, key=lambda event: event.drive))
 
 
 def _usual(point_path: PointPath) -> float:

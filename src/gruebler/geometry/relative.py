@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,7 +20,8 @@ _STILL = 1e-12  # velocities below this part of the largest in the row are round
 _ORDERS = (message("positions"), message("velocities"), message("accelerations"), message("jerks"))
 
 
-class RelativeMotion(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class RelativeMotion:
     """Places of a link in the coordinates of another one, with time derivatives; points are x + iy."""
 
     places: Complexes

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -28,7 +27,8 @@ _PARALLEL = (
 )
 
 
-class CognateSizes(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class CognateSizes:
     """The three cognates of many four-bars; every array is (3, ...), the first of the three being the given one.
 
     A cognate stands with its crank's pivot at ``pivot`` and its frame line in the direction ``turn`` (unit, x + iy), in
@@ -188,7 +188,7 @@ def cognates(
     sizes = cognate_sizes(four_bar.a, four_bar.b, four_bar.c, four_bar.d, u, v)
     first, second, third = (
         Cognate(
-            four_bar if n == 0 else FourBar(*(float(length[n]) for length in sizes[:4])),
+            four_bar if n == 0 else FourBar(*(float(length[n]) for length in (sizes.a, sizes.b, sizes.c, sizes.d))),
             float(sizes.u[n]),
             float(sizes.v[n]),
             pins[n],

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage
@@ -21,7 +21,8 @@ _HIGHEST = 40
 _SINGULAR = 1e-9  # a smaller root: the drive stands at a limit, or assembly modes meet
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class TaylorSeries:
     """Taylor coefficients by powers of the drive's increase (radians, or the unit), at each row of a motion."""
 

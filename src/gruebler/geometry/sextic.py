@@ -9,7 +9,7 @@ from math import comb
 import numpy as np
 import numpy.typing as npt
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar
 from gruebler.linkages.quantities import as_finite
@@ -17,6 +17,7 @@ from gruebler.linkages.quantities import as_finite
 __all__ = ["CouplerSextic", "coupler_sextic"]
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False)
 class CouplerSextic:
     """f(K) = sum of H[i, j] K^i conj(K)^j for i, j = 0..3, real for every point K = x + iy; zero on the coupler curve.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +28,8 @@ __all__ = [
 ]
 
 
-class Window(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Window:
     """Parts of a path about a value of its parameter, growing to both ends in one ratio."""
 
     start: float
@@ -58,7 +60,8 @@ class RatioCurve(NamedTuple):
     ratios: Reals
 
 
-class Sizing(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Sizing:
     """The size of a linkage for a task."""
 
     factor: float

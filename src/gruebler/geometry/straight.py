@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,7 +25,8 @@ _STENCIL = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105
 _STENCIL_STEP = 0.02
 
 
-class PathPiece(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PathPiece:
     """A piece of a path against a straight line."""
 
     start: float

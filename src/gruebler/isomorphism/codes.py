@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from gruebler.chain import Chain, Joint
@@ -24,7 +25,8 @@ __all__ = ["CODE_PREFIX", "DriveMark", "MarkedChain", "canonical_order", "code",
 CODE_PREFIX = "gr1:"
 
 
-class MarkedChain(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class MarkedChain:
     """A chain with a marked frame and marked joints or parts of joints, as a code describes it."""
 
     chain: Chain

@@ -13,11 +13,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import compared_by_value
 from gruebler.chain import Chain
 from gruebler.chain.pairs import PAIRS
 from gruebler.errors import expect
@@ -31,7 +31,8 @@ _FIRST_MARK = _FIRST_JOINT + 2 * len(PAIRS)
 _DIRECTIONS = ("", *(kind + axis for kind in "RTH" for axis in "xyz"))
 
 
-class DriveMark(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DriveMark:
     """A mark on a part of a joint: one of several freedoms, between two of more links."""
 
     joint: int
@@ -42,7 +43,8 @@ class DriveMark(NamedTuple):
     """The two links, in any order; empty where the joint has no others."""
 
 
-@dataclass(frozen=True, slots=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
 class ColouredGraph:
     """Vertices 0 to n - 1 are the links, the others joints, then marks on parts of joints."""
 

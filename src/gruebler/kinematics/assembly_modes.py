@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.motion.closure import PIN, SLIDE
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.errors import LinkageError
 
 __all__ = [
@@ -82,7 +82,8 @@ class GroupConditions(NamedTuple):
         return own
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class AssemblyModes:
     """Assembly modes: all ways to put the bodies of a group together, what is known being held."""
 

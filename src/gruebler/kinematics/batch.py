@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.jets import turn_derivative
@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 __all__ = ["Designs", "Motions", "designs", "four_bars", "inverted_slider_cranks", "move_many", "slider_cranks"]
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class Designs(Brief):
     """Many designs of one mechanism, as arrays. Made by `designs`, `four_bars` and the like."""
 
@@ -50,7 +51,8 @@ class Designs(Brief):
         return len(self.points)
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class Motions(Brief):
     """Poses of many designs along one path; NaN in rows that a design does not reach."""
 

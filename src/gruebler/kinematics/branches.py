@@ -138,12 +138,13 @@ def modes_of_group(plan: Plan, part: HigherGroup, drives: Reals, signs: Reals, u
     places, turns = pose_before(plan, part, drives, signs, unknowns)
     program = plan.program
     rows = []
-    for kind, (a, b), (body_a, body_b), *_ in plan.conditions[part.number]:
+    for condition in plan.conditions[part.number]:
+        (a, b), (body_a, body_b) = condition.sides, condition.owners
         (point_a, line_a), (point_b, line_b) = (
             (places[k] + turns[k] * program.points[e], turns[k] * program.lines[e])
             for e, k in ((a, program.links[a]), (b, program.links[b]))
         )
-        rows.append((kind, body_a, body_b, point_a, line_a, point_b, line_b))
+        rows.append((condition.kind, body_a, body_b, point_a, line_a, point_b, line_b))
     return all_modes(closing_conditions(rows)).poses
 
 

@@ -8,16 +8,15 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.angles import warn_of_degrees
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.events import ChangePoint, Extremum
 from gruebler.kinematics.configuration_curve import (
@@ -50,7 +49,8 @@ _TRIALS = 1024  # values of the drive that are tried for a start
 _REACH = 4.0  # ways of a driven slide up to that many sizes are tried
 
 
-class MonotonePiece(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class MonotonePiece:
     """A piece of the circuit on which the drive never turns back."""
 
     start: float
@@ -60,6 +60,7 @@ class MonotonePiece(NamedTuple):
     """The drive values at both."""
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
 class Circuit(Brief):
     """All positions of a linkage on one curve.
@@ -69,7 +70,8 @@ class Circuit(Brief):
     """
 
     linkage: Linkage
-    system: ClosureSystem
+    system: ClosureSystem = field(compare=False)
+    """That of the linkage, with arrays to work in."""
     traced: TracedCurve
     turned: float
     """What is added to the drive's angle so that it begins near the value asked for."""
@@ -207,7 +209,7 @@ class Circuit(Brief):
         arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
         values = quantity(self.at(arcs), 0)
         kinds = ["minimum" if zero.rises else "maximum" for zero in zeros]
-        return tuple(sorted(map(Extremum, arcs, values.tolist(), kinds)))
+        return tuple(sorted(map(Extremum, arcs, values.tolist(), kinds), key=lambda extremum: extremum.at))
 
     def _wrapped(self, arc: float) -> float:
         """The same place of a closed circuit, from 0 to its length."""

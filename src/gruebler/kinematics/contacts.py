@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cmath import phase, rect
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from math import degrees, floor, pi
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +22,12 @@ from gruebler.linkages.wheels import rolling_factors
 __all__ = ["Condition", "contact_conditions", "law_tables", "reference_angles", "side_of"]
 
 Keys = tuple[tuple[int, str], ...]
+_NO_LAW = PiecewiseLaw(())
 _MESHES = 1e-6  # radians: angles of a drawing with six digits fit
 
 
-class Condition(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Condition:
     """One closing condition of a group."""
 
     kind: int
@@ -34,7 +36,7 @@ class Condition(NamedTuple):
     owners: tuple[int, int]
     """The bodies of the group that carry them, -1 for what is known."""
     values: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    law: PiecewiseLaw = PiecewiseLaw(())
+    law: PiecewiseLaw = _NO_LAW
 
     @property
     def winds(self) -> bool:
@@ -109,7 +111,7 @@ def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
         second = _way(lower, keys, raw.sides).real
     elif raw.law.pieces:
         first = law_at(raw.law, first)
-    return raw._replace(values=(a, b, a * first + b * second))
+    return replace(raw, values=(a, b, a * first + b * second))
 
 
 def law_at(law: PiecewiseLaw, angle: float) -> float:

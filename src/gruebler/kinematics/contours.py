@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from math import log, pi
-from typing import NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,8 @@ _ROUNDING = 1e-14  # radians: a step of Newton's method that is shorter changes 
 _SHORTEST = 0.04  # radians: shorter pieces would lose in their rates what they gain in themselves
 
 
-class PiecewiseLaw(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PiecewiseLaw:
     """A function of an angle on one turn."""
 
     pieces: tuple[tuple[float, ...], ...]
@@ -40,8 +41,8 @@ class PiecewiseLaw(NamedTuple):
     def scaled(self, size: float, logarithm: bool) -> PiecewiseLaw:
         """The same in another unit of length: values by size, of a logarithm less its logarithm."""
         if logarithm:
-            return self._replace(pieces=tuple((m, h, c - log(size), *rest) for m, h, c, *rest in self.pieces))
-        return self._replace(pieces=tuple((m, h, *(c / size for c in rest)) for m, h, *rest in self.pieces))
+            return replace(self, pieces=tuple((m, h, c - log(size), *rest) for m, h, c, *rest in self.pieces))
+        return replace(self, pieces=tuple((m, h, *(c / size for c in rest)) for m, h, *rest in self.pieces))
 
 
 @lru_cache(maxsize=64)
@@ -129,7 +130,7 @@ def turn_law(first: GenevaDriver | NonCircular, second: Element) -> PiecewiseLaw
         pair = transfer_of(first, second)
         bounds = [*(pair.breaks or (0.0,)), 2 * pi]
         law = _law(lambda t, _a, _b: -pair.at(t), bounds, advance=-2 * pi * float(pair.mean))
-        return law._replace(joints=law.joints if pair.breaks else ())
+        return replace(law, joints=law.joints if pair.breaks else ())
     assert isinstance(second, GenevaWheel)
     return _geneva_law(first, second)
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler import notebook
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.columns import Table
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import law_at
@@ -46,7 +46,8 @@ class Stop:
     ``open`` (the redundant conditions of a joint are not met)."""
 
 
-@dataclass(frozen=True, repr=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, repr=False)
 class Motion(LinkPoses, Brief):
     """Poses of a linkage along a path of its drives, with derivatives.
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import degrees, pi, sqrt, tau
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +25,8 @@ _STEPS, _MOST = 360, 3600  # points of a lobe, and of a curve, at most
 _LOBES = 100  # equal parts of a curve: each has 36 points or more
 
 
-class WheelTransfer(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class WheelTransfer:
     """The turn of the second wheel by that of the first, in opposite senses, both from the line of centres.
 
     >>> pair = WheelTransfer(Fraction(1), kappa=0.5)

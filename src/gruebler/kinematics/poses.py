@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError
 from gruebler.kinematics.link_poses import LinkPoses
 from gruebler.linkages import Linkage
@@ -17,6 +17,7 @@ from gruebler.notebook import Brief
 __all__ = ["Poses"]
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
 class Poses(LinkPoses, Brief):
     """Positions on a circuit; ``order`` 0 is a value, 1 its derivative by the arc."""

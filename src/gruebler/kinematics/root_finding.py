@@ -7,12 +7,13 @@ lie between samples that have one. Definitions and errors: docs/theory/events.md
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from itertools import groupby, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 
 __all__ = ["FunctionSamples", "Zero", "bracketed_root", "find_zeros", "sample_function", "vanishing"]
 
@@ -80,7 +81,9 @@ def bracketed_root(function: Callable[[Reals], Reals], low: Reals, high: Reals) 
     return root
 
 
-class FunctionSamples(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
+class FunctionSamples:
     """Where a function is sampled, and where it is not smooth."""
 
     grid: Reals

@@ -155,7 +155,8 @@ def direction(element: Element) -> float:
     return element.angle if isinstance(element, Line | CamDisc | GenevaDriver | GenevaWheel | NonCircular) else 0.0
 
 
-class LinkPoint(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LinkPoint:
     """A point of a link that has a name, such as a coupler point."""
 
     link: str

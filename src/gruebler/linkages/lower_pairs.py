@@ -72,11 +72,11 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         for number in split:
             block = f"block {names[number]}"
             poses[block] = _block_pose(linkage, number)
-    points = {name: tuple(point) for name, point in linkage.points.items()}
+    points = {name: (point.link, point.x, point.y) for name, point in linkage.points.items()}
     return Linkage(
         Mechanism(lower_chain, mechanism.frame, drives),
         elements,
-        points,  # type: ignore[arg-type]
+        points,
         unit=linkage.unit,
         reference_pose=poses,  # type: ignore[arg-type]
         outputs=linkage.outputs,

@@ -233,7 +233,7 @@ class Linkage:
 
     def with_points(self, points: Mapping[str, tuple[str, float, float]]) -> Linkage:
         """The linkage with further named points, in coordinates of their links."""
-        return self._changed(points={**{n: tuple(p) for n, p in self.points.items()}, **points})
+        return self._changed(points={**{n: (p.link, p.x, p.y) for n, p in self.points.items()}, **points})
 
     def with_outputs(self, outputs: Iterable[str]) -> Linkage:
         """The same linkage with these links looked at."""
@@ -338,7 +338,7 @@ class Linkage:
         given: dict[str, Any] = {
             "mechanism": self.mechanism,
             "elements": self._by_link(),
-            "points": {n: tuple(p) for n, p in self.points.items()},
+            "points": {n: (p.link, p.x, p.y) for n, p in self.points.items()},
             "unit": self.unit,
             "reference_pose": self.reference_pose,
             "outputs": self.outputs,
@@ -350,10 +350,19 @@ class Linkage:
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a linkage does not change; build another one instead of setting {name!r}")
 
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a linkage does not change; {name!r} stays")
+
+    def __copy__(self) -> Linkage:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Linkage:
+        return self
+
     @cached_property
     def _key(self) -> tuple[object, ...]:
         reference = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
-        points = tuple(sorted(self.points.items()))
+        points = tuple(sorted(self.points.items(), key=lambda named: named[0]))
         elements = tuple(sorted(self.elements.items()))
         return self.mechanism.written_form, elements, points, self.unit, reference, self.outputs
 
@@ -376,7 +385,7 @@ class Linkage:
 
     def __reduce__(self) -> tuple[object, ...]:
         reference = None if self.reference_pose is None else {k: tuple(p) for k, p in self.reference_pose.items()}
-        points = {n: tuple(p) for n, p in self.points.items()}
+        points = {n: (p.link, p.x, p.y) for n, p in self.points.items()}
         return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, reference, self.outputs)
 
 

@@ -49,8 +49,10 @@ def points_of(linkage: Dimensioned, point: PointLike) -> tuple[LinkPoint, ...]:
             placed = ((link, linkage.elements[number, link]) for link in links)
             return tuple(LinkPoint(link, element.x, element.y) for link, element in placed)
     match text_as_point(point) if isinstance(point, str) else point:
-        case LinkPoint() | (str(), Real(), Real()) as place:
-            link, x, y = place
+        case LinkPoint(link, x, y):
+            pass
+        case (str() as link, Real() as x, Real() as y):
+            pass
         case (Real() as x, Real() as y):
             link = _coupler(linkage)
         case str(name):
@@ -90,8 +92,10 @@ def point_name(point: PointLike) -> str:
     ('K', 'coupler:45,40', '45,40')
     """
     match point:
-        case LinkPoint() | (str(), Real(), Real()):
-            return f"{point[0]}:{point[1]:g},{point[2]:g}"
+        case LinkPoint(link, x, y):
+            return f"{link}:{x:g},{y:g}"
+        case (str() as link, Real() as x, Real() as y):
+            return f"{link}:{x:g},{y:g}"
         case (Real(), Real()):
             return f"{point[0]:g},{point[1]:g}"
         case _:

@@ -219,6 +219,15 @@ class Mechanism:
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a mechanism does not change; build another one instead of setting {name!r}")
 
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a mechanism does not change; {name!r} stays")
+
+    def __copy__(self) -> Mechanism:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Mechanism:
+        return self
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mechanism):
             return NotImplemented

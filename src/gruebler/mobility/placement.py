@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from random import Random
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +46,8 @@ class Placement:
         return _ENTRY_DEGREE * (rank + 1) / P
 
 
-class LockedFreedom(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LockedFreedom:
     """A locked freedom: one motion direction of a joint, between two of its links."""
 
     joint: int

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import atan2, degrees, radians
-from typing import NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,8 @@ _LOSS = 0.9  # the share of the quality that remains at least after rounding
 _OPEN = 1e-12
 
 
-class FinishedLinkage(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class FinishedLinkage:
     """A linkage of rounded dimensions, the ranges of its drives, and its quality."""
 
     linkage: Linkage

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,8 @@ _STROKE = 0.3  # of the size, to either side: the search tries no longer stroke
 _LENGTH, _GAP, _FRAME, _CROSSING = 0.15, 0.1, 0.4, 0.97
 
 
-class LayoutTrial(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LayoutTrial:
     """The quality of a drawing."""
 
     score: float

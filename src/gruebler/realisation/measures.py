@@ -55,13 +55,12 @@ def _closing(conditions: Sequence[Condition], bodies: int, points: Complexes, li
 
     A body moves by the velocity of the mean of its joints and by its angular velocity times `arm`.
     """
-    sides = [
-        (body, element) for _, (a, b), (first, second), *_ in conditions for body, element in ((first, a), (second, b))
-    ]
+    sides = [pair for c in conditions for pair in zip(c.owners, c.sides, strict=True)]
     centres = [np.mean([points[:, e] for body, e in sides if body == k], axis=0) for k in range(bodies)]
     matrix = np.zeros((len(points), 3 * bodies, 3 * bodies))
     row = 0
-    for kind, (a, b), (first, second), *_ in conditions:
+    for condition in conditions:
+        kind, (a, b), (first, second) = condition.kind, condition.sides, condition.owners
         for body, sign in ((first, -1.0), (second, 1.0)):
             if body < 0:
                 continue

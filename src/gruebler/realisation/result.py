@@ -90,7 +90,7 @@ class Realisation(Brief):
                 ranges = [(texts["all at once"], well_conditioned)]
             else:
                 whole = _FULL if self.span.full else texts["range"]
-                ranges = [(whole, self.span[:2]), (texts["well conditioned"], well_conditioned)]
+                ranges = [(whole, (self.span.low, self.span.high)), (texts["well conditioned"], well_conditioned)]
             for text, ends in ranges:
                 low, high = (degrees(value) if drive.turning else value for value in ends)
                 sentences.append(text.filled(drive=name, low=low, high=high, unit=self.linkage.unit))

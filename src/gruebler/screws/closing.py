@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.chain.pairs import Space
 from gruebler.mechanism import Mechanism
 from gruebler.screws.closing_rows import Bent, joint_rows
@@ -36,7 +36,8 @@ _SETTLED = 1e-13  # sizes and radians: one step more would change rounding only
 _COLUMNS = {Space.PLANAR: [2, 3, 4], Space.SPHERICAL: [0, 1, 2], Space.SPATIAL: [0, 1, 2, 3, 4, 5]}
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class JointFrames:
     """A joint between two of its links, with its frame on each; lengths in units of the linkage's size."""
 

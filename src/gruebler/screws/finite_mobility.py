@@ -13,7 +13,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.notebook import Brief
 from gruebler.screws.closing import RANK
 from gruebler.screws.double_roots import is_near_double_root
@@ -59,6 +59,7 @@ class Evidence(StrEnum):
     """The velocities could not be followed at all: the pose is all but singular in yet another way."""
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
 class FiniteMobility(Brief):
     """What following the velocities gave."""

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.notebook import Brief
 from gruebler.screws.closing import TINY, Closing
 
@@ -16,6 +16,7 @@ __all__ = ["InstantMobility", "instant_mobility"]
 _STILL = 1e-7  # shares of unit vectors: a null space whose rank is decided at 1e-8 is known to some 1e-16/1e-8
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
 class InstantMobility(Brief):
     """The singular values of the constraints at a pose, and the spaces on either side of the gap among them."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.chain.pairs import Space
 from gruebler.screws.joint_geometry import SAME, JointGeometry, Reason
 
@@ -85,7 +85,9 @@ def sarrus(s: JointGeometry) -> Iterator[Reason]:
             return
 
 
-class Hooke(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
+class Hooke:
     """A Hooke's joint: its centre, the two links that it joins, and its joints."""
 
     centre: Reals

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from gruebler.arrays import compared_by_value
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
@@ -109,6 +110,7 @@ _REASONS = {
 }
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
 class Freedoms(Brief):
     """What `freedoms` found. `explain` says it in words."""

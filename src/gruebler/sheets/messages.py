@@ -70,7 +70,7 @@ def value_lines(sheet: Sheet, lang: str) -> list[str]:
 def example_lines(sheet: Sheet, lang: str) -> list[str]:
     """The sizing of the sheet's task, step by step."""
     example, unit, scale = sheet.example, sheet.record.guide.unit, sheet.dimensions[0].symbol
-    start, end = (math.degrees(angle) for angle in example.sizing.piece[:2])
+    start, end = (math.degrees(angle) for angle in (example.sizing.piece.start, example.sizing.piece.end))
 
     def shown(value: float, form: str = "g") -> str:
         return typeset_number(value, lang, form)

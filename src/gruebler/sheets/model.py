@@ -231,8 +231,9 @@ class Sheet(Brief):
     @cached_property
     def example_values(self) -> tuple[StatedValue, ...]:
         """The results of the task, with the printed ones of the source."""
+        piece = self.example.sizing.piece
         sized_mechanism, guide, scale = self.example, self.record.guide, self.record.dimensions[0].symbol
-        start, end = (math.degrees(angle) for angle in sized_mechanism.sizing.piece[:2])
+        start, end = (math.degrees(angle) for angle in (piece.start, piece.end))
         rows = (
             ("phi_G", "φ_G", end - start, "°", _EXAMPLE["phi_G"]),
             ("phi_A", "φ_A", start, "°", _EXAMPLE["phi_A"]),

@@ -117,7 +117,8 @@ def load_generic_solutions(problem: Problem) -> GenericSolutions:
     return GenericSolutions(p, z)
 
 
-class Solutions(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Solutions:
     """The complex solutions of a task, one of each class."""
 
     z: Complexes

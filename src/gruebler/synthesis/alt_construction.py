@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator
+from dataclasses import dataclass
 from math import degrees, pi, sin
-from typing import NamedTuple
 
 from gruebler.drawing.canvas.construction import (
     Angle,
@@ -31,7 +31,8 @@ STRAIGHT = 1e-9
 """Radians: dead centres so nearly half a turn apart have a line for the circle."""
 
 
-class AltConstruction(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class AltConstruction:
     """The points of the construction; rocker or stroke have the length 1."""
 
     crank_pivot: complex

@@ -6,6 +6,7 @@ pose changes with the dimensions by dq = -C_q^+ C_p dp (theorem of implicit func
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -36,7 +37,8 @@ class _Joined(NamedTuple):
     """(poses, slides) the gap along the slide."""
 
 
-class PoseDerivatives(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PoseDerivatives:
     """Poses, and how they change with one factorised Jacobian for each."""
 
     closure: DesignClosure

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +35,8 @@ __all__ = [
 _SMALL = 1e-9  # a length smaller than this part of the frame (or of the travel) is none
 
 
-class Coordination(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Coordination:
     """A linkage by its lengths, and where its input and output begin."""
 
     kind: str
@@ -190,7 +191,8 @@ KINDS = (
 )
 
 
-class Coordinations(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Coordinations:
     """The linkages of one kind for a task."""
 
     real: tuple[Coordination, ...]

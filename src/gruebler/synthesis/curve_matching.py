@@ -5,11 +5,11 @@ Every curve of a book has the same number of places, evenly along it. docs/theor
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 
 __all__ = ["PLACES", "CurveMatch", "best_matches", "drive_angles", "evenly_along", "resampled"]
 
@@ -19,7 +19,9 @@ PLACES = 64
 _WINDOWS = (8, 12, 16, 24, 32, 48)  # pieces of a curve, in such places, for open targets
 
 
-class CurveMatch(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
+class CurveMatch:
     """A curve of the book and the similarity that puts it onto the target."""
 
     gap: float

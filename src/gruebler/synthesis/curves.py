@@ -6,14 +6,14 @@ mirror image; least squares with exact derivatives makes the best of each. docs/
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.curve_matching import PLACES, CurveMatch, best_matches, drive_angles, evenly_along
@@ -36,7 +36,8 @@ ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
 
 
-class CurveAtlas(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class CurveAtlas:
     """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
 
     kind: FourBarKind
@@ -140,7 +141,9 @@ def _mirrored(kind: FourBarKind, row: Reals) -> Reals:
     return np.array([r[name] for name in kind.unknowns])
 
 
-class Fit(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
+class Fit:
     """A linkage fitted to points."""
 
     kind: FourBarKind
@@ -199,7 +202,7 @@ def fit_curve(
             chosen.append(fit)
         if len(chosen) == number:
             break
-    return [fit._replace(row=_transformed(fit.kind, fit.row, complex(size), complex(middle))) for fit in chosen]
+    return [replace(fit, row=_transformed(fit.kind, fit.row, complex(size), complex(middle))) for fit in chosen]
 
 
 def _shape(fit: Fit) -> Reals:

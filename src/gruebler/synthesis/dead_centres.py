@@ -33,7 +33,8 @@ _SAMPLES = 720
 _SAME = 1e-9  # dead centres of a member agree with the task to this
 
 
-class FamilyMember(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class FamilyMember:
     """A linkage of the family."""
 
     parameter: float

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 
 __all__ = ["Disc", "certified"]
 
@@ -23,6 +23,7 @@ _SHARPER = 2.0**-40
 """By how much the bound of rounding shrinks with twice the digits: the same operations with 2^-100 instead of 2^-52."""
 
 
+@compared_by_value
 @dataclass(frozen=True, eq=False)
 class Disc:
     """Discs of one centre and radius for each solution."""

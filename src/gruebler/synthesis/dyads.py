@@ -7,6 +7,7 @@ point x to q_j x + t_j. docs/theory/synthesis-positions.md has the equations and
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from itertools import combinations, product
 from typing import NamedTuple
 
@@ -38,7 +39,8 @@ _EXACT = 1e-11
 """A polished dyad misses its condition by less, relative to its size."""
 
 
-class GuidingDyad(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class GuidingDyad:
     """A connection of body and frame with two joints, the first on the frame: RR, PR or RP."""
 
     form: str

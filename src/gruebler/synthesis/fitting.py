@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes, Reals, compared_by_value
 from gruebler.errors import SynthesisError
 from gruebler.linkages.elements import Line
 from gruebler.mechanism import Mechanism
@@ -33,7 +33,8 @@ _ASIDE = (0.1, 0.01, 1e-3)
 """Radians: a dead centre lies where the output is the same so far before and after it, but for the square of this."""
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class FitTargets:
     """What poses are compared with; what a task does not give is None."""
 

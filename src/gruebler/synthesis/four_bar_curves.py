@@ -6,6 +6,7 @@ measured in the plane.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,8 @@ from gruebler.arrays import Complexes, Reals
 __all__ = ["FOUR_BAR", "SLIDER_CRANK", "CurvePoints", "FourBarKind", "curve_points"]
 
 
-class FourBarKind(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class FourBarKind:
     """What the numbers of a row are."""
 
     name: str

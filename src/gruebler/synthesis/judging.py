@@ -124,7 +124,8 @@ def _is_rectangle(value: object) -> bool:
     return bool(value[0] <= value[2] and value[1] <= value[3])
 
 
-class Probe(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Probe:
     """A complex quantity of a pose: a point, or the direction of a link times a length."""
 
     point: str = ""

@@ -86,7 +86,8 @@ def preferred(matches: Sequence[OrderedMatch], size: float) -> OrderedMatch:
     return matches[rest[0]]
 
 
-class Places(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Places:
     """Intervals of a curve for each target, from which places in order are chosen.
 
     >>> places = Places.of_points([[0.1, 0.8], [0.5], [0.2, 0.9]], 1.0, closed=False)

@@ -11,6 +11,7 @@ from typing import Any
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.analysis.outputs import find_output
 from gruebler.analysis.transmission import measure_transmission
+from gruebler.arrays import compared_by_value
 from gruebler.chain.pairs import Alphabet, in_alphabets, pair
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
@@ -31,7 +32,8 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
+@compared_by_value
+@dataclass(frozen=True, eq=False)
 class DesignVerdict:
     """What a design does when it moves. ``reasons`` is empty for an accepted design."""
 

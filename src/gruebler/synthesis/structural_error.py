@@ -151,7 +151,7 @@ class ErrorFamily:
         lengths = tuple(float(v if self.kind == "four-bar" else self.unit * v) for v in linkage.lengths)
         start = self.unit * (linkage.output_start + float(numbers[4]) - output)
         turned = np.sign(numbers[0] * numbers[1]) if self.kind == "four-bar" else 1
-        return linkage._replace(lengths=lengths, output_start=start, branch=self.branch * int(turned))
+        return replace(linkage, lengths=lengths, output_start=start, branch=self.branch * int(turned))
 
     def inputs(self, numbers: Reals, x: Reals) -> Reals:
         """The crank angles at x."""

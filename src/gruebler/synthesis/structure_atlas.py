@@ -127,7 +127,8 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> d
     return motions
 
 
-class StructureAtlas(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class StructureAtlas:
     """Curves of points of links that no joint holds at the frame; the crank turns fully and has the length 1."""
 
     structure: DyadStructure

@@ -7,7 +7,7 @@ docs/theory/transformations.md says when generic mobility follows.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.assur import DYADS
 from gruebler.chain import Chain
@@ -28,7 +28,8 @@ from gruebler.transformations.steps import Step
 __all__ = ["Insertion", "coupler_at", "dyad_at", "insert_coupler", "insert_dyad", "remove_coupler", "remove_dyad"]
 
 
-class Insertion(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Insertion:
     """The insertion that restores a removed dyad or coupler: pairs as letters, places, names of the links."""
 
     letters: str

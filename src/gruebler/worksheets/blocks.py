@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from gruebler.drawing.canvas.figure import Figure
 
@@ -14,7 +13,8 @@ __all__ = ["AnswerLines", "Block", "Contents", "Document", "Heading", "PageBreak
 _LEGIBLE = 0.8  # names of 13 pixels are then printed with 7.8 points, the smallest texts with 6.6
 
 
-class Heading(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Heading:
     """A heading; level 1 is that of a part."""
 
     text: str
@@ -23,14 +23,16 @@ class Heading(NamedTuple):
     """What `Contents` names it by."""
 
 
-class Paragraph(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Paragraph:
     """A text."""
 
     text: str
     small: bool = False
 
 
-class Pictures(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Pictures:
     """Pictures side by side, about so many pixels high, with a caption for each."""
 
     figures: tuple[Figure, ...]
@@ -54,14 +56,16 @@ class Pictures(NamedTuple):
         return scales
 
 
-class Rows(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Rows:
     """A table."""
 
     headers: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
 
 
-class Contents(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Contents:
     """A table of contents: each row begins with the key of a heading, and ends with its page where there are pages."""
 
     headers: tuple[str, ...]
@@ -78,7 +82,8 @@ class Contents(NamedTuple):
         return Rows(self.headers, tuple((*row, str(pages.get(row[0], ""))) for row in self.rows))
 
 
-class AnswerLines(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class AnswerLines:
     """Space for an answer: what is asked, with a line after each, and empty space for the calculation."""
 
     asked: tuple[str, ...]
@@ -86,7 +91,8 @@ class AnswerLines(NamedTuple):
     """In pixels."""
 
 
-class PageBreak(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PageBreak:
     """What follows begins a page."""
 
 

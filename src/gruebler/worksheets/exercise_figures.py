@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from math import pi, radians
-from typing import NamedTuple
 
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.linkage.picture import draw_linkage
@@ -21,7 +21,8 @@ __all__ = ["exercise_linkage", "linkage_figure"]
 _TWO_ROCKERS = "R(frame-first) R(first-coupler) R(coupler-second) R(frame-second); frame=frame; drive=R(frame-first)"
 
 
-class DrawnLinkage(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DrawnLinkage:
     """What is drawn: a linkage, the letters of its links, the driven joint's value and range, points with paths."""
 
     linkage: Linkage

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import cycle, islice
-from typing import NamedTuple
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet
@@ -45,7 +45,8 @@ _MOST = 60
 _SPACE = {"mobility": 60.0, "grashof": 80.0, "dyad": 60.0}
 
 
-class TaskSheet(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class TaskSheet:
     """A sheet with its tasks, and the sheet of their solutions with the marking key."""
 
     tasks: Document

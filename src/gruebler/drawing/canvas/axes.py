@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.text import decimal_sign_in
 
@@ -16,7 +16,8 @@ _TINY = 1e-9  # steps: the tolerance for a value beyond a tick
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-class Scale(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Scale:
     """From a lowest to a highest value, with ticks between."""
 
     low: float
@@ -33,7 +34,8 @@ class Scale(NamedTuple):
         return (value - self.low) / (self.high - self.low)
 
 
-class Axis(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Axis:
     """A scale and the name of its quantity, unit included."""
 
     text: str

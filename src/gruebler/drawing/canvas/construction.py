@@ -10,7 +10,6 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -60,7 +59,8 @@ _LEAST = 2.0  # pixels: shorter arrows are dots
 _NEW = {"help": "new", "given": "given", "dead": "new"}  # what is drawn otherwise while its step is shown
 
 
-class Segment(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Segment:
     """A line between two places, with a text beside its middle."""
 
     begin: complex
@@ -69,7 +69,8 @@ class Segment(NamedTuple):
     text: str | Message = ""
 
 
-class DrawnLine(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DrawnLine:
     """The line through a place in a direction, as far as the drawing reaches."""
 
     at: complex
@@ -77,7 +78,8 @@ class DrawnLine(NamedTuple):
     style: str = "help"
 
 
-class DrawnCircle(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DrawnCircle:
     """A circle, as far as the drawing reaches."""
 
     centre: complex
@@ -85,14 +87,16 @@ class DrawnCircle(NamedTuple):
     style: str = "help"
 
 
-class Dot(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Dot:
     """A place with its name."""
 
     at: complex
     name: str = ""
 
 
-class Angle(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Angle:
     """An angle at a place, from one direction by a turn, in radians; positive counter-clockwise."""
 
     apex: complex
@@ -103,7 +107,8 @@ class Angle(NamedTuple):
     """In pixels."""
 
 
-class Arrow(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Arrow:
     """A vector with its name."""
 
     begin: complex
@@ -113,7 +118,8 @@ class Arrow(NamedTuple):
     """``velocity`` or ``acceleration``."""
 
 
-class DrawnCurve(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DrawnCurve:
     """A line through places."""
 
     places: tuple[complex, ...]
@@ -123,7 +129,8 @@ class DrawnCurve(NamedTuple):
 Drawn = Segment | DrawnLine | DrawnCircle | Dot | Angle | Arrow | DrawnCurve
 
 
-class ConstructionStep(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class ConstructionStep:
     """What is done, and what it adds to the drawing."""
 
     text: Message

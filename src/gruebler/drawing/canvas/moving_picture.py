@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -49,26 +49,30 @@ _ROW, _SAMPLE = 20.0, 30.0  # of a list of lines
 _LOOKS = 32  # instants that determine the size of a moving picture
 
 
-class Shift(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Shift:
     """A displacement at keys; one key is valid for all times."""
 
     places: tuple[Point, ...]
 
 
-class Turn(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Turn:
     """An angle about the body's own origin, at keys."""
 
     angles: tuple[float, ...]
 
 
-class Body(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Body:
     """Shapes that move together; the first step is applied last, as in SVG."""
 
     shapes: tuple[Shape, ...]
     steps: tuple[Shift | Turn, ...] = ()
 
 
-class Clock(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Clock:
     """The period in seconds, and the motion of the drive in it, in the given unit."""
 
     seconds: float
@@ -79,7 +83,8 @@ class Clock(NamedTuple):
     """Evenly from low to high; else to and fro, as low + (high - low) sin²."""
 
 
-class MovingPicture(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class MovingPicture:
     """Bodies in painting order."""
 
     bodies: tuple[Body, ...]

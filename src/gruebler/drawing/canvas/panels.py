@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gruebler.arrays import Reals
+from gruebler.arrays import Reals, compared_by_value
 from gruebler.drawing.canvas.axes import Axis, Scale, angles, decades, decimals
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.free_space import Obstacles, complexes
@@ -31,7 +30,9 @@ _BESIDE = 20.0  # from the panels to the list of lines
 _ROW, _SAMPLE = 22.0, 34.0  # of the list
 
 
-class PlottedCurve(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
+class PlottedCurve:
     """A line through points; NaN breaks it."""
 
     x: Reals
@@ -43,7 +44,8 @@ class PlottedCurve(NamedTuple):
     """Whether it is read at the axis on the right."""
 
 
-class PointMarker(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class PointMarker:
     """A point with a name."""
 
     x: float
@@ -53,7 +55,8 @@ class PointMarker(NamedTuple):
     style: str = "dot"
 
 
-class Band(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Band:
     """A shaded range of heights, with a text in it."""
 
     low: float
@@ -61,14 +64,16 @@ class Band(NamedTuple):
     text: str
 
 
-class AxisMarker(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class AxisMarker:
     """A place on the axis below that is marked by a line upwards."""
 
     x: float
     text: str
 
 
-class DwellMarker(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DwellMarker:
     """A shaded range of the axis below: a dwell, with a text above it."""
 
     low: float
@@ -76,7 +81,8 @@ class DwellMarker(NamedTuple):
     text: str
 
 
-class Panel(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Panel:
     """One pair of axes, or one with a second axis on the right, and what is in it."""
 
     across: Axis
@@ -225,7 +231,7 @@ def _marks(panel: Panel) -> Iterator[Shape]:
     """Lines upwards; their texts and those of dwells are side by side above the panel, if there is space."""
     last = -math.inf
     dwells = [AxisMarker((dwell.low + dwell.high) / 2, dwell.text) for dwell in panel.dwells]
-    for mark in sorted([*panel.marks, *dwells]):
+    for mark in sorted([*panel.marks, *dwells], key=lambda mark: (mark.x, mark.text)):
         foot = panel.place(mark.x, panel.up.scale.low)
         top = Point(foot.x, -panel.size.y)
         if mark not in dwells:
@@ -342,14 +348,14 @@ def ratio_diagram(
         about = f"{about} {point}"
 
     def axis(text: str, scale: Scale) -> Axis:
-        return Axis(text, scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
+        return Axis(text, replace(scale, names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
 
     across = angles(0.0, float(degrees.max()), tight=True)
     top = None
     if begin is not None:
         starts = tuple(math.degrees(begin(math.radians(x))) for x in across.ticks)
         names = tuple(f"{start:.4g}" for start in starts)
-        top = axis(translate("φ_A in °", lang), across._replace(ticks=starts, names=names))
+        top = axis(translate("φ_A in °", lang), replace(across, ticks=starts, names=names))
     panel = Panel(
         axis(translate("φ_G in °", lang), across),
         axis("Q_G", decades(float(q.min()), float(q.max()))),

@@ -8,7 +8,7 @@ plot also differ by their dashes.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 __all__ = ["BAR", "COLOURS", "LINE", "LINES", "ROD", "SLOT", "STYLES", "Style"]
 
@@ -37,7 +37,8 @@ COLOURS = {
 }
 
 
-class Style(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Style:
     """Fill and stroke by role (none where empty), width of the stroke, size of text, lengths of dashes and gaps."""
 
     fill: str = ""

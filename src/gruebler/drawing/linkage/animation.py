@@ -7,8 +7,9 @@ the error.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import groupby
-from typing import NamedTuple, TypedDict, Unpack
+from typing import TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -42,7 +43,8 @@ class AnimationOptions(TypedDict, total=False):
     name: str
 
 
-class Scene(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Scene:
     """A linkage through a full turn of its drive, or to and fro, in pixels."""
 
     posed: PosedLinkage

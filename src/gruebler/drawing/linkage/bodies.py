@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -47,7 +47,8 @@ _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
 _LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
 
 
-class BodyPart(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class BodyPart:
     """Shapes of a link, in pixels and coordinates of the link."""
 
     layer: int
@@ -55,7 +56,8 @@ class BodyPart(NamedTuple):
     shapes: tuple[Shape, ...]
 
 
-class Slide(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Slide:
     """The sign of a sliding joint."""
 
     joint: int
@@ -356,7 +358,7 @@ def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
         members = [JointMember(Point(1.0, 0.0))] * len(joint.links)
         parts.append(BodyPart(PINS, link, joint_sign("revolute", posed.local(complex(e.x, e.y)), members).above))
     for point in dict.fromkeys(lower.points.values()):
-        if tuple(point) not in marked:
+        if (point.link, point.x, point.y) not in marked:
             parts.append(BodyPart(PINS, point.link, (CircleShape(posed.local(complex(point.x, point.y)), 3.2, "dot"),)))
     return parts
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.drawing.canvas.axes import as_text
 from gruebler.drawing.canvas.labels import note_near, short_names
@@ -31,7 +31,8 @@ _RESTING = 1e-9  # of the swiftest velocity: slower links are at rest against ea
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
-class Pole(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Pole:
     """The instant centre of two links in a pose."""
 
     links: tuple[str, str]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -72,9 +73,9 @@ def transfer_plot(
         values = np.where(np.abs(values) < _least(run, output_quantity, max(order, 1)), 0.0, values)
         scale = angles if output_quantity.turning and order == 0 else decimals
         axis = Axis(_order_words(run, output_quantity, order), scale(*run.bulk(values), few=6))
-        shown = marks if order == 0 else tuple(mark._replace(text="") for mark in marks)
+        shown = marks if order == 0 else tuple(replace(mark, text="") for mark in marks)
         curves = (PlottedCurve(run.x, values, "", LINES[0]),)
-        named = dwells if order == 0 else tuple(dwell._replace(text="") for dwell in dwells)
+        named = dwells if order == 0 else tuple(replace(dwell, text="") for dwell in dwells)
         panels.append(
             Panel(run.across, axis, curves, marks=shown, dwells=named, size=_LOW, marked=translate("dead centre", lang))
         )
@@ -159,7 +160,7 @@ def _stops(run: PlotRun, output: Output) -> tuple[tuple[AxisMarker, ...], tuple[
                 dwells.append(
                     DwellMarker(run.drive_in_units(begin), run.drive_in_units(end), translate("dwell", run.lang))
                 )
-    return tuple(marks), tuple(sorted(dwells))
+    return tuple(marks), tuple(sorted(dwells, key=lambda dwell: dwell.low))
 
 
 def transmission_plot(

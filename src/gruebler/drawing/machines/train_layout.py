@@ -23,7 +23,8 @@ _CLOSE = 1e-6
 _PER_SIZE = {"rack by pitch": 1 / math.tau, "rack": 1.0, "winch": 1.0}  # radius by size; of toothed wheels a half
 
 
-class StageWheel(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class StageWheel:
     """A wheel of a stage, in the reference pose."""
 
     link: str

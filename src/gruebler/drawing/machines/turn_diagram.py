@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -40,7 +41,7 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
     panels = []
     for k, (text, y) in enumerate(rows):
         axis = Axis(text, decimals(float(y.min()), float(y.max()), few=4))
-        shown = tuple(mark._replace(text=mark.text if k == 0 else "") for mark in marks)
+        shown = tuple(replace(mark, text=mark.text if k == 0 else "") for mark in marks)
         curves = (PlottedCurve(np.degrees(x), y, "", LINES[0]),)
         panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
     return draw_panels(panels, title, "", lang)

@@ -9,6 +9,7 @@ from itertools import islice, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import compared_by_value
 from gruebler.drawing.structure.bodies import LayoutBodies
 from gruebler.drawing.structure.embedding import Rotation, an_embedding, embeddings
 from gruebler.drawing.structure.initial_layouts import InitialLayout, initial_layouts, tutte
@@ -24,7 +25,8 @@ _FINALISTS = 4  # relaxed again, with more weight on the smallest distances
 _SYMMETRY = 1.35  # a symmetric layout is preferred to others with up to this factor of clearance
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True)
 class Layout:
     """The places of the points: the bodies do not overlap, except the pairs in ``crossings``."""
 
