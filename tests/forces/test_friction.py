@@ -171,6 +171,13 @@ def test_isosceles_slider_cranks_lock_near_their_dead_centres(name, degree, back
     assert "mehr als ein Gleichgewicht" in free.message("de")
 
 
+@pytest.mark.parametrize("mu", [1e-300, 1e-12])
+def test_hardly_any_friction_locks_nothing(mu):
+    held = statics(move(SliderCrank(30, 50, 10).linkage(), [radians(270)]), PUSHED, mu)
+    assert held.friction.locking_factor.tolist() == [inf]
+    assert held.drive == pytest.approx(held.friction.frictionless)
+
+
 def test_without_a_load_nothing_locks():
     held = statics(move(SliderCrank(30, 50, 10).linkage(), [radians(270)]), Loads(moments={"crank": 5}), 1.0)
     assert held.drive == pytest.approx(np.array([[-5.0]]))
@@ -643,6 +650,9 @@ SLIDER_CRANK = SliderCrank(25, 70).linkage()
         (lambda: Friction({SLIDE: -0.1}), "coefficient is not negative, but found -0.1"),
         (lambda: Friction(float("nan")), "coefficient must be a finite number"),
         (lambda: Friction("much"), "coefficient must be a finite number, not 'much'"),
+        (lambda: Friction(1e300), "a coefficient of friction is 100 at most, but found 1e\\+300"),
+        (lambda: Friction(0.1, pin_radius=1e300), "pin_radius = 1e\\+300 is out of all proportion to the linkage"),
+        (lambda: Friction(0.1, guide_length={SLIDE: 1e-300}), "guide_length = 1e-300 is out of all proportion"),
         (lambda: Friction(0.1, pin_radius=-1), "pin_radius is not negative, but found -1"),
         (lambda: Friction(0.1, guide_length=0), "guide_length is positive, but found 0"),
         (lambda: Friction(0.1, guide_length=-3), "guide_length is not negative, but found -3"),

@@ -29,7 +29,9 @@ PerJoint = float | Mapping[str, float]
 
 _AT_REST = 1e-9  # of the fastest motion, lengths in sizes: a slower one has no direction
 _NOISE = 1e-12  # of the loads: a smaller force is none
-_LARGEST = 100.0  # coefficient up to which self-locking is sought
+_LARGEST = 100.0  # coefficient; self-locking is sought up to it
+_FACTORS = 1e9  # of the coefficients, at most, in that search
+_PROPORTION = 1e6  # of the linkage's size: lengths are smaller; that of a guide is larger than its inverse
 
 
 @dataclass(frozen=True)
@@ -70,6 +72,12 @@ class Friction:
                     continue
                 if as_finite(name, value) < 0:
                     raise LinkageError("{name} is not negative, but found {found!r}", name=name, found=value)
+                if name == "coefficient" and value > _LARGEST:
+                    raise LinkageError(
+                        "a coefficient of friction is {largest:g} at most, but found {found!r}",
+                        largest=_LARGEST,
+                        found=value,
+                    )
                 if name == "guide_length" and not value:
                     raise LinkageError("{name} is positive, but found {found!r}", name=name, found=value)
 
@@ -132,7 +140,7 @@ class FrictionForces(Brief):
     def locking_factor(self) -> Reals:
         """(rows,): factor on all coefficients at which the equilibrium ends, the safety against self-locking.
 
-        Infinite where there is none up to coefficients of 100; NaN where there are no forces.
+        Infinite where there is none up to coefficients of 100, or a factor of 1e9; NaN where there are no forces.
         """
         return self.branches.factor
 
@@ -253,10 +261,9 @@ def _moves(first: str, second: str, motion: Motion) -> bool:
 def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, kind: str) -> list[float]:
     """One number for each joint of the linkage; a size only for joints that slide, or turn."""
     chain = motion.linkage.mechanism.chain
-    if not isinstance(given, Mapping):
-        return [float(given)] * len(chain.joints)
-    values = [float(given.get("*", default))] * len(chain.joints)
-    for joint, value in given.items():
+    named = given if isinstance(given, Mapping) else {"*": given}
+    values = [float(named.get("*", default))] * len(chain.joints)
+    for joint, value in named.items():
         if joint == "*":
             continue
         number = chain.joint_number(joint, LinkageError)
@@ -268,6 +275,15 @@ def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, kind: 
                 joint=chain.joint_title(number),
             )
         values[number] = float(value)
+    least, most = motion.size / _PROPORTION if name == "guide_length" else 0.0, motion.size * _PROPORTION
+    for value in values:
+        if kind and value != default and not least <= value <= most:
+            raise LinkageError(
+                "{name} = {value:g} is out of all proportion to the linkage, whose size is {size:g}",
+                name=name,
+                value=value,
+                size=motion.size,
+            )
     return values
 
 
@@ -378,6 +394,8 @@ def _branches(
     levers = np.array([c.coefficient * (1.0 if c.slides else c.radius / motion.size) for c in contacts])
     scales = np.concatenate([total[:, None], np.broadcast_to(levers, (len(motion), len(contacts)))], axis=1)
     brought = np.where(np.abs(brought) <= _NOISE * scales[:, None, :, None], 0.0, brought)
+    halves = [2 * motion.size / c.length if c.slides else 1.0 for c in contacts]
+    brought[..., 1] *= np.array(halves)[:, None]
     signed = [c.coefficient * c.height / c.length if c.slides else 0.0 for c in contacts]
     held = np.flatnonzero(~cases[0].singular & ~unknown)
     rubbing = Contacts(
@@ -386,7 +404,8 @@ def _branches(
         leaning=directions * np.array(signed),
         round=np.array([not contact.slides for contact in contacts], bool),
     ).at(held)
-    limit = max(2.0, _LARGEST / max((contact.coefficient for contact in contacts), default=1.0))
+    largest = max((contact.coefficient for contact in contacts), default=_LARGEST)
+    limit = max(2.0, min(_LARGEST / largest, _FACTORS))
     followed = continued(rubbing, limit)
     count = len(motion)
     filled = Branches(
@@ -402,7 +421,7 @@ def _branches(
 
 
 def _components(motion: Motion, contact: RubbingContact, cases: Sequence[Reactions]) -> Reals:
-    """(rows, cases, 2): a pin's force; the normal force of a slide and its couple by half the length of the guide."""
+    """(rows, cases, 2): a pin's force; the normal force of a slide and its couple by the linkage's size."""
     forces = np.stack([case.forces[:, contact.connection] for case in cases], axis=1)
     if not contact.slides:
         return np.stack([forces.real, forces.imag], axis=2)
@@ -413,7 +432,7 @@ def _components(motion: Motion, contact: RubbingContact, cases: Sequence[Reactio
     if contact.centred_on_first:
         arm = _place(motion, connection.second, far) - _place(motion, connection.first, near)
         couple = couple + (np.conj(along) * arm).real[:, None] * normal
-    return np.stack([normal, 2 * couple / contact.length], axis=2)
+    return np.stack([normal, couple / motion.size], axis=2)
 
 
 def _total(motion: Motion, free: Reactions, mutual: Sequence[Reactions], forces: FrictionForces) -> Reactions:
