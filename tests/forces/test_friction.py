@@ -21,6 +21,7 @@ from tests.geometry.linkages import MOVING
 
 SLIDE = "P(frame-slider)"
 PINS = ("R(frame-crank)", "R(crank-coupler)", "R(coupler-slider)")
+SLIDER_CRANK = SliderCrank(25, 70).linkage()
 PUSHED = Loads({"R(coupler-slider)": (-100, 0)})
 
 
@@ -555,6 +556,58 @@ def test_continuation_against_all_pieces(seed):
     assert np.allclose(found.normal[0], np.nan if at_one is None else at_one, rtol=1e-8, equal_nan=True)
 
 
+@pytest.mark.parametrize(("number", "end"), [(434, 1.636), (947, 0.838), (1110, 1.923)])
+def test_the_way_does_not_leave_its_branch(number, end):
+    """Folds that another branch passes nearby, found among 2,000 random systems; the end by steps of 0.001 among all
+    equilibria, where nothing lies within 2 % any more."""
+    draws = np.random.default_rng(7)
+    loads, mutual = (draws.normal(size=(2000, 2, 2)))[number], (draws.normal(size=(2000, 2, 2, 2)) * 0.8)[number]
+    found = continued(Contacts(loads[None], mutual[None], leaning=np.zeros((1, 2)), round=np.zeros(2, bool)), 8.0)
+    start = Contacts(loads[None], mutual[None] * (end - 0.1), leaning=np.zeros((1, 2)), round=np.zeros(2, bool))
+    branch, last = continued(start, 2.0).normal[0], end - 0.1
+    while last < 8:
+        choices = all_equilibria(loads, mutual * (last + 0.001))
+        gaps = [np.abs(choice - branch).max() / np.abs(branch).max() for choice in choices]
+        if min(gaps) > 0.02:
+            break
+        branch, last = choices[int(np.argmin(gaps))], last + 0.001
+    assert last == pytest.approx(end, abs=2e-3)
+    assert found.factor[0] == pytest.approx(end, abs=2e-3)
+
+
+@pytest.mark.parametrize("phi", [240, 270, 315, 345])
+@pytest.mark.parametrize("radius", [3.0, 30.0])
+def test_the_joint_named_is_the_one_that_matters_most(phi, radius):
+    """By differences: a hundredth more of which coefficient lowers the factor most."""
+    names = SLIDER_CRANK.mechanism.chain.joint_names()
+    motion = move(SliderCrank(30, 50, 10).linkage(), [radians(phi)])
+
+    def factor(more=""):
+        mu = {name: 0.3 * (1.01 if name == more else 1.0) for name in names}
+        found = statics(motion, PUSHED, Friction(mu, pin_radius=radius)).friction
+        return found.locking_factor[0], found.locking_joint(0)
+
+    plain, named = factor()
+    falls = [plain - factor(name)[0] for name in names]
+    assert max(falls) > 1e-4 * plain
+    assert falls[named] == pytest.approx(max(falls), rel=1e-2)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7, 2.1])
+def test_rounding_locks_nothing(turn):
+    """A moment on the crank presses no slide but by rounding, in poses where a pressed slide would lock."""
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) P(0-3); frame=0; drive=R(0-1)")
+    places = np.array([0, 30 * np.exp(-1.4j), 45 + 10j]) * np.exp(1j * turn) + (3.3 - 1.7j)
+    drawn = {k: (z.real, z.imag) for k, z in enumerate(places)}
+    linkage = Linkage.from_drawing(mechanism, {**drawn, 3: (*drawn[2], turn)})
+    motion = move(linkage, -1.4 + turn + np.linspace(-0.3, 0.3, 7))
+    pressed = statics(motion, Loads({"R(2-3)": tuple(-100 * np.array([cos(turn), sin(turn)]))}), 1.2)
+    held = statics(motion, Loads(moments={"1": 1000.0}), Friction(1.2, guide_length=10, pin_radius=4))
+    assert pressed.locked.any()
+    assert not held.locked.any()
+    assert not held.friction.normal[:, 1:].any()
+
+
 # --- kinds of joints, wrong calls ------------------------------------------------------------------
 
 
@@ -638,9 +691,6 @@ def test_friction_in_the_middle_of_many_rows():
     whole = statics(move(linkage, rows), PUSHED, 0.1)
     part = statics(move(linkage, rows[2040:2060]), PUSHED, 0.1)
     assert np.allclose(whole.drive[2040:2060], part.drive, rtol=1e-12)
-
-
-SLIDER_CRANK = SliderCrank(25, 70).linkage()
 
 
 @pytest.mark.parametrize(

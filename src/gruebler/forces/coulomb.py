@@ -21,6 +21,7 @@ __all__ = ["Branches", "Contacts", "continued"]
 _TOLERANCE = 1e-12  # of the largest force of a row: so far Newton's method goes
 _STEPS = 12  # of Newton's method, which doubles the digits; a longer way is another solution
 _SEARCH = 30  # steps of the search for other equilibria
+_BENT = 0.002  # of a step: so far it may leave the tangents at its ends
 _GROWTH = 0.5  # of the forces, at most, from one factor to the next
 _NEAR = 1e-7  # of the factor: so near to a pole its place is that of the tangent
 _FOLD = 1e-9  # of the factor: a smaller step that fails is a fold
@@ -105,7 +106,8 @@ def continued(contacts: Contacts, limit: float) -> Branches:
     """Follow the equilibrium of each row from no friction to the given coefficients, and on to where it ends.
 
     Steps are taken along the tangent and corrected by Newton's method; a step is accepted if forces change by a half at
-    most and the determinant stays positive, else halved. Ends are met to 1e-7 of the factor.
+    most, the determinant stays positive, and the step is made of the tangents at its ends, else halved. Ends are met to
+    1e-7 of the factor.
 
     Args:
         contacts: Those of all rows, finite.
@@ -143,17 +145,19 @@ def _follow(contacts: Contacts, normal: Reals, limit: float, bounds: Reals) -> t
     step = np.minimum(0.5 / np.maximum(bounds, 0.5 / limit), limit)
     active, ends = np.flatnonzero(size.max(axis=1, initial=0.0) > 0), list[int]()
     normal[size.max(axis=1, initial=0.0) == 0] = 0.0
+    tangents, _ = _tangents(contacts, state)
     for _ in range(_ROUNDS):
         if not active.size:
             break
-        here, at, now = contacts.at(active), state.factor[active], state.normal[active]
-        _, slopes, by_factor = here.sizes(now, at)
-        tangent, _ = _solved(slopes, by_factor)
+        here, at, now, tangent = contacts.at(active), state.factor[active], state.normal[active], tangents[active]
         goal = np.minimum(at + step[active], np.where(at < 1, 1.0, limit))
         corrected, sound = _newton(here, now + (goal - at)[:, None] * tangent, goal)
+        after, _ = _tangents(here, _State(corrected, goal))
         largest = np.maximum(now.max(axis=1), size[active].max(axis=1))
         sound &= np.abs(corrected - now).max(axis=1) <= _GROWTH * largest
+        sound &= _follows(corrected - now, (goal - at)[:, None] * tangent, (goal - at)[:, None] * after, largest)
         state.normal[active[sound]], state.factor[active[sound]] = corrected[sound], goal[sound]
+        tangents[active[sound]] = after[sound]
         step[active] *= np.where(sound, 2.0, 0.5)
         reached = active[sound & (goal == 1.0)]
         normal[reached] = state.normal[reached]
@@ -165,6 +169,26 @@ def _follow(contacts: Contacts, normal: Reals, limit: float, bounds: Reals) -> t
         ends += active[over].tolist()
         active = active[~over & (state.factor[active] < limit)]
     return np.array(sorted(ends), np.int64), state
+
+
+def _tangents(contacts: Contacts, state: _State) -> tuple[Reals, Reals]:
+    """The derivatives of the normal forces by the factor, and the determinants."""
+    _, slopes, by_factor = contacts.sizes(state.normal, state.factor)
+    return _solved(slopes, by_factor)
+
+
+def _follows(moved: Reals, before: Reals, after: Reals, largest: Reals) -> Flags:
+    """Whether a step is, but for a part of it, one piece of the first tangent and then one of the second.
+
+    So it is along a smooth branch and across one kink of it, but hardly on the way to another branch.
+    """
+    bend = before - after
+    square = (bend * bend).sum(axis=1)
+    part = ((moved - after) * bend).sum(axis=1) / np.where(square > 0, square, 1.0)
+    rest = moved - after - np.clip(part, 0.0, 1.0)[:, None] * bend
+    longest = np.maximum(np.abs(before).max(axis=1), np.abs(after).max(axis=1))
+    near: Flags = np.abs(rest).max(axis=1) <= _BENT * longest + _TOLERANCE * largest
+    return near
 
 
 def _newton(contacts: Contacts, normal: Reals, factor: Reals) -> tuple[Reals, Flags]:
