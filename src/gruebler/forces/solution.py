@@ -239,7 +239,7 @@ def statics(motion: Motion, loads: Loads, friction: Friction | PerJoint | None =
 
     Equilibrium of every link gives all forces; the drives' efforts also come from virtual work, with the velocities of
     the loads' points for each drive alone. Error: that of the poses times the condition of the pose. Cost: some 20 us a
-    row of a four-bar, with friction 0.5 ms (one slide) to 2 ms (four contacts).
+    row of a four-bar, with friction 0.5 ms (one slide) to 3 ms (four contacts).
 
     Args:
         motion: The poses; with speeds, if given, they say in which sense friction acts, else the drive goes forward.
