@@ -5,16 +5,31 @@ class of the front door and of what its functions return.
 """
 
 import ast
+import copy
 import dataclasses
 import importlib
 import inspect
 import itertools
+import math
+import pickle
 import pkgutil
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
+import pytest
+
 import gruebler as gr
+from gruebler.analysis import motion_table
+from gruebler.analysis.drive_cycle import drive_cycle
+from gruebler.arrays import same
+from gruebler.cams import Roller, read_lift
+from gruebler.columns import Column
+from gruebler.errors import LinkageError
+from gruebler.gears import Mesh
+from gruebler.kinematics import four_bars
 from gruebler.linkages import Circle, Line
+from gruebler.synthesis import DeadCentreTask
 
 SOURCE = Path(gr.__file__).parent
 
@@ -117,3 +132,114 @@ def test_elements_of_a_joint_with_the_same_numbers():
     assert Line(0.0, 0.0, 1.0) != Circle(0.0, 0.0, 1.0)
     assert len({Line(0.0, 0.0, 1.0), Circle(0.0, 0.0, 1.0)}) == 2
     assert Line(0.0, 0.0, 1.0) == Line(0, 0, 1)
+
+
+# --- every value equals its copies -------------------------------------------------------------------
+
+
+FOUR_BAR = gr.FourBar(25, 70, 40, 70)
+DRIVES = np.linspace(0.3, 0.9, 4)
+_AXIS = {"z": (0, 0, 1)}
+WINCH = gr.SpatialLinkage(
+    gr.Mechanism.parse("spatial: R(frame-spindle) H(spindle-nut) P(frame-nut)"),
+    {0: _AXIS, 1: _AXIS | {"pitch": 0.8}, 2: {"x": (0, 0, 1), "at": (0, 5, 0)}},
+)
+TASK = DeadCentreTask(stroke=50, time_ratio=1.2)
+
+
+def moved(last: float) -> gr.Motion:
+    return gr.move(FOUR_BAR, [0.3, 0.5, last], speed=1.0)
+
+
+def at_a_limit(first: float) -> gr.Motion:
+    """A row at the limit of the drive has rates that are NaN, and then it stops."""
+    crank = gr.SliderCrank(50, 40)
+    limit = math.asin(40 / 50)
+    return gr.move(crank, [first, limit, 1.2], speed=1.0)
+
+
+PAIRS = {
+    "Cam": lambda k: gr.Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), 40.0 + k, Roller(10.0)),
+    "Chain": lambda k: gr.Chain.parse(("R(0-1) R(1-2) R(2-0)", "R(0-1) R(1-2) P(2-0)")[k]),
+    "Circuit": lambda k: gr.circuit(FOUR_BAR.linkage(), branch="+-"[k]),
+    "Column": lambda k: Column("a", "mm", np.array([1.0, np.nan, k])),
+    "CouplerCurve": lambda k: gr.coupler_curve(FOUR_BAR.linkage({"K": (30, 20 + k)}), "K"),
+    "CycleSpan": lambda k: drive_cycle(gr.FourBar(25 + 40 * k, 70, 40, 70).linkage()).span,
+    "DriveCycle": lambda k: drive_cycle(gr.FourBar(25 + k, 70, 40, 70).linkage()),
+    "FourBar": lambda k: gr.FourBar(25 + k, 70, 40, 70),
+    "Freedoms": lambda k: gr.freedoms(gr.FourBar(25 + k, 70, 40, 70).linkage()),
+    "Geneva": lambda k: gr.Geneva(4 + k),
+    "GrueblerError": lambda k: LinkageError("there is no link {link!r}", link=("a", "b")[k]),
+    "InvertedSliderCrank": lambda k: gr.InvertedSliderCrank(25 + k, 60, 5),
+    "Joint": lambda k: gr.Chain.parse("R(0-1) R(1-2) R(2-0)").joints[k],
+    "Linkage": lambda k: gr.FourBar(25 + k, 70, 40, 70).linkage(),
+    "Loads": lambda k: gr.Loads(moments={"rocker": 3.0 + k}),
+    "Measures": lambda k: gr.measures(gr.FourBar(25 + k, 70, 40, 70).linkage()),
+    "Mechanism": lambda k: FOUR_BAR.linkage().mechanism.renamed({"crank": "ab"[k]}),
+    "MobilityReport": lambda k: gr.mobility_report(gr.Chain.parse("R(0-1) R(1-2) R(2-3) " + ("R(3-0)", "P(3-0)")[k])),
+    "Motion": lambda k: moved(0.9 + k),
+    "Motion, stopped": lambda k: at_a_limit(0.1 + k / 10),
+    "Motions": lambda k: gr.move_many(four_bars(25, [60 + k, 70], 40, 70), DRIVES),
+    "Realisation": lambda k: gr.realise(FOUR_BAR.linkage().mechanism, seed=k, budget=20),
+    "Requirements": lambda k: gr.Requirements(k + 1),
+    "SliderCrank": lambda k: gr.SliderCrank(25, 70 + k),
+    "SpatialLinkage": lambda k: WINCH.scaled(k + 1),
+    "Statics": lambda k: gr.statics(moved(0.9), gr.Loads(moments={"rocker": 3.0 + k})),
+    "SynthesisResult": lambda k: gr.synthesise(TASK, number=2 + k),
+    "Table": lambda k: motion_table(moved(0.9 + k)),
+    "Train": lambda k: gr.Train((Mesh("sun", "planet", 24 + k, 18, "arm"),)),
+}
+"""For each kind of value two that differ."""
+
+
+def hash_of(value: object) -> int | None:
+    """The hash; None of a value that has none, because it holds a dictionary."""
+    try:
+        return hash(value)
+    except TypeError:
+        return None
+
+
+@pytest.mark.parametrize("kind", PAIRS)
+def test_a_value_equals_its_copies_and_no_other_value(kind):
+    value, again, other = PAIRS[kind](0), PAIRS[kind](0), PAIRS[kind](1)
+    for copied in (again, pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
+        assert value == copied
+        assert copied == value
+        assert hash_of(value) == hash_of(copied)
+    assert value != other
+    assert value != object()
+    assert value != ()
+
+
+def test_every_class_of_the_front_door_is_among_them():
+    classes_there = {name for name in dir(gr) if inspect.isclass(getattr(gr, name))}
+    assert classes_there - set(PAIRS) == {"UnitWarning"}  # a warning is a kind, not a value
+
+
+@pytest.mark.parametrize(
+    ("value", "name"),
+    [
+        (gr.Chain.parse("R(0-1) R(1-2) R(2-0)"), "links"),
+        (FOUR_BAR.linkage().mechanism, "frame"),
+        (FOUR_BAR.linkage(), "unit"),
+    ],
+)
+def test_chain_mechanism_and_linkage_are_immutable_alike(value, name):
+    assert copy.copy(value) is value
+    assert copy.deepcopy([value])[0] is value
+    with pytest.raises(AttributeError, match="does not change"):
+        setattr(value, name, "x")
+    with pytest.raises(AttributeError, match="does not change"):
+        delattr(value, name)
+    assert getattr(value, name)
+
+
+def test_arrays_are_compared_by_what_they_hold():
+    assert same({"a": [np.array([np.nan, 1j])]}, {"a": [np.array([np.nan, 1j])]})
+    assert not same(np.array([1, 2]), np.array([1.0, 2.0]))
+    assert not same(np.zeros((2, 1)), np.zeros((1, 2)))
+    assert not same(np.zeros(2), (0.0, 0.0))
+    assert not same({"a": 1.0}, {"b": 1.0})
+    assert same(float("nan"), float("nan"))
+    assert not same(float("nan"), 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -44,8 +44,8 @@ class Designs(Brief):
     """(designs, elements): the direction of each slide, cosine + i sine."""
     sizes: Reals
     """(designs,): a length of the order of each."""
-    linkage: Callable[[int], Linkage]
-    """The linkage of a number."""
+    linkage: Callable[[int], Linkage] = field(compare=False)
+    """The linkage of a number; what it makes is compared by the arrays."""
 
     def __len__(self) -> int:
         return len(self.points)

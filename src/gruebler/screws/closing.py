@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gruebler.arrays import Reals, compared_by_value
+from gruebler.arrays import Reals, compared_by_value, same
 from gruebler.chain.pairs import Space
 from gruebler.mechanism import Mechanism
 from gruebler.screws.closing_rows import Bent, joint_rows
@@ -80,6 +80,16 @@ class Closing:
         self._owner = np.array(owners)
         self._weights = np.stack(weights)
         self.joint_of_row = np.array([ties[k].joint for k in owners])
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Closing):
+            return NotImplemented
+        return self.mechanism.written_form == other.mechanism.written_form and same(
+            (self.ties, self.reference), (other.ties, other.reference)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.mechanism, self.reference.shape))
 
     @classmethod
     def of(cls, linkage: SpatialLinkage) -> Closing:
