@@ -392,6 +392,18 @@ def test_two_blocks_on_one_rail_are_a_driven_slide(driven):
     assert measures(gripper).span.width == pytest.approx(way, rel=1e-6)
 
 
+def test_a_ram_that_only_pushes_one_link_is_no_mechanism():
+    """The hydraulic crosshead of PMKS+: barrel and frame are welded, rod and platen too; two links are what is left."""
+    body = (
+        "2v.Ay,Fe.5,0.1011.CA,A,0,0,0.0N,N,vD,0,0.hS,S,aZ,0,0,ANG,A,N.8B,B,1Tm,0,0.4G,G,0,0VG,0.0C,C,1Tm,S8,0"
+        ".0D,D,1Tm,0S8,0..YRANG,Fixed frame,Fe,Fe,J4,0AR,0d125a,A,N,G,,AN,AG.YRSBCD,Press crosshead,Fe,Fe,1FT"
+        ",0,00695C,S,B,C,D,,SB,BCD.NRAN,AN,Fe,Fe,Sd,0,c5cae9,A,N,,.NRAG,AG,Fe,Fe,0,0Fe,303e9f,A,G,,.NRSB,SB,F"
+        "e,Fe,119,0,B2DFDB,S,B,,.NRBCD,BCD,Fe,Fe,1Tm,0,26A69A,B,C,D,,...N_t*1Tb9pN"
+    )
+    with pytest.raises(GrueblerError, match="at least three links, and here are only ground, SBCD"):
+        linkage_of_drawing(drawing_from_pmks(body, []), [])
+
+
 @pytest.mark.parametrize("program", ["pyslvs", "motiongen", "pmks"])
 def test_a_driven_slide_survives(program):
     joints = (

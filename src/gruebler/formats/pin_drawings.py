@@ -281,8 +281,12 @@ def _connected(
         for other in links[1:]:
             sets.unite(links[0], other)
     chain = [joint for joint in joints if sets.find(joint[1][0]) == sets.find(frame)]
-    if len({link for _, links, _ in chain for link in links}) < _LEAST:
-        raise LinkageError("there is no mechanism on the frame: it needs three links, the frame among them")
+    links_there = dict.fromkeys([frame, *(link for _, links, _ in chain for link in links)])
+    if len(links_there) < _LEAST:
+        raise LinkageError(
+            "there is no mechanism on the frame: a mechanism has at least three links, and here are only {links}",
+            links=", ".join(links_there),
+        )
     if len(chain) < len(joints):
         others = {link for joint in joints if joint not in chain for link in joint[1]}
         left_out.append(message("links that the frame does not hold: {links}", links=", ".join(sorted(others))))
