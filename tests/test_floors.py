@@ -21,6 +21,7 @@ FLOORS = [
         "arrays",
         "convex_hull",
         "disjoint_sets",
+        "doors",
         "errors",
         "events",
         "text",

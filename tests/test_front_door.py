@@ -132,7 +132,7 @@ CHAIN = gr.Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
 MECHANISM = gr.Mechanism(CHAIN, "0", [0])
 FOUND_A_MECHANISM = "expected Chain, but found Mechanism: take its chain"
 MISTAKES = [
-    (lambda: gr.Chain.parse(5), "expected str, but found int"),
+    (lambda: gr.Chain.parse(5), "text: expected a text, but found 5"),
     (lambda: gr.draw(CRANK_ROCKER, curvs=["K"]), "no option 'curvs' (did you mean 'curves'?)"),
     (lambda: gr.move(CHAIN, [0.0]), "a Chain has no dimensions: realise(mechanism) finds some"),
     (lambda: gr.move(gr.FourBar, [0.0]), "expected a linkage, a FourBar"),
@@ -143,14 +143,14 @@ MISTAKES = [
     (lambda: gr.plot(CRANK_ROCKER, "transmision"), "there is no plot 'transmision' (did you mean 'transmission'?)"),
     (lambda: gr.draw(CRANK_ROCKER).save("x.bmp"), "end it with .svg, .png or .pdf"),
     (lambda: gr.write("x.toml", CRANK_ROCKER), "the value comes first, then 'x.toml'"),
-    (lambda: gr.write(CRANK_ROCKER, 7), "expected the path of a file, but found 7"),
+    (lambda: gr.write(CRANK_ROCKER, 7), "path: expected a text or PathLike, but found 7"),
     (lambda: gr.write(7, "x.toml"), "values of type int cannot be written"),
     (lambda: gr.write(CHAIN, "x.toml"), "chains go to .json, .txt or .g6, not '.toml'"),
-    (lambda: gr.read(7), "expected the path of a file, but found 7"),
+    (lambda: gr.read(7), "path: expected a text or PathLike, but found 7"),
     (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .txt, .g6,"),
     (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),
-    (lambda: gr.synthesise(7), "expected a task of positions"),
-    (lambda: gr.mobility_report("R(0-1)"), "expected Chain, but found str"),
+    (lambda: gr.synthesise(7), "task: expected PositionTask, PathTask, FunctionTask or DeadCentreTask, but found 7"),
+    (lambda: gr.mobility_report("R(0-1)"), "expected Chain, but found 'R(0-1)'"),
     *(
         (lambda function=function: function(MECHANISM), FOUND_A_MECHANISM)
         for function in (gr.mobility_report, gr.code, gr.symmetry, gr.inversions, gr.derive, gr.extend)
@@ -160,8 +160,8 @@ MISTAKES = [
     (lambda: gr.decompose(CHAIN), "expected Mechanism, but found Chain"),
     (lambda: gr.realise(CHAIN), "expected Mechanism, but found Chain"),
     (lambda: gr.statics(CRANK_ROCKER, gr.Loads(moments={"rocker": 1})), "expected Motion, but found FourBar"),
-    (lambda: gr.statics(gr.move(CRANK_ROCKER, [0.0]), None), "expected Loads, but found NoneType"),
-    (lambda: list(gr.variants(4)), "expected Requirements, but found int"),
+    (lambda: gr.statics(gr.move(CRANK_ROCKER, [0.0]), None), "loads: expected Loads, but found None"),
+    (lambda: list(gr.variants(4)), "requirements: expected Requirements, but found 4"),
 ]
 
 

@@ -5,14 +5,13 @@ docs/theory/kinematics.md, "Degrees by mistake".
 
 from __future__ import annotations
 
-import sys
 import warnings
 from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.errors import UnitWarning
+from gruebler.errors import UnitWarning, level_of_user
 from gruebler.text import Message, message
 
 __all__ = ["doubt_of_angles", "warn_of_degrees"]
@@ -32,7 +31,7 @@ def doubt_of_angles(values: ArrayLike, *, path: bool = False, once: bool = False
     >>> print(doubt_of_angles(np.arange(0, 361)))
     all are whole numbers, up to 360
     >>> print(doubt_of_angles(np.linspace(0, 360, 50), path=True))
-    neighbouring values differ by up to 7.35 rad, more than half a turn
+    neighbouring values differ by up to 7.347 rad, more than half a turn
     >>> doubt_of_angles(np.linspace(0, 20 * pi, 2000), path=True)
     """
     angles = np.asarray(values, np.float64).ravel()
@@ -58,7 +57,4 @@ def warn_of_degrees(name: str, values: ArrayLike, *, path: bool = False, once: b
     if doubt is None:
         return
     text = message("{name}: angles are in radians, but {doubt}; from_degrees() converts", name=name, doubt=doubt)
-    level, frame = 1, sys._getframe().f_back
-    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gruebler":
-        level, frame = level + 1, frame.f_back
-    warnings.warn(str(text), UnitWarning, stacklevel=level + 1)
+    warnings.warn(str(text), UnitWarning, stacklevel=level_of_user())

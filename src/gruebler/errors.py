@@ -5,6 +5,7 @@ raises; a failure (a budget spent, a proof not found) is a result and never one 
 """
 
 import re
+import sys
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any, Protocol
@@ -98,6 +99,17 @@ class TransformationError(GrueblerError):
 
 class UnitWarning(UserWarning):
     """Angles, which are in radians everywhere, look as if they were degrees; `gruebler.angles` says when."""
+
+
+def level_of_user() -> int:
+    """The ``stacklevel`` with which a warning stands at the line of the user: behind all frames of this library.
+
+    Call it where the warning is given.
+    """
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gruebler":
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def shortened(text: str) -> str:

@@ -377,13 +377,14 @@ def _graph(name: str, suffixes: tuple[str, ...], title: Message, carries: Messag
 def _chains_of(value: Any, left_out: list[Message]) -> Iterable[Chain]:
     """The chains to write: those given, or the chain of a linkage."""
     from gruebler.chain import Chain
-    from gruebler.linkages.conversion import HasLinkage
+    from gruebler.linkages.conversion import makes_linkage
+    from gruebler.mechanism import Mechanism
 
     if isinstance(value, Chain):
         return [value]
-    if isinstance(value, HasLinkage) or hasattr(value, "mechanism"):
+    mechanism = getattr(value.linkage() if makes_linkage(value) else value, "mechanism", None)
+    if isinstance(mechanism, Mechanism):
         left_out.append(message("dimensions, frame and drives"))
-        mechanism = value.mechanism if hasattr(value, "mechanism") else value.linkage().mechanism
         return [mechanism.chain]
     if isinstance(value, Sequence) and all(isinstance(each, Chain) for each in value):
         return value

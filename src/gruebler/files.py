@@ -8,7 +8,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gruebler.errors import GrueblerError, nearest
+from gruebler.doors import door
+from gruebler.errors import GrueblerError, level_of_user, nearest
 from gruebler.file_formats import FORMATS, Format, json_of_another_program
 from gruebler.text import Message, joined, joined_by_or, message
 
@@ -75,6 +76,7 @@ def is_of_another_program(path: Path) -> bool:
     return path.name.lower().endswith(tuple(ending for form in others for ending in form.suffixes))
 
 
+@door
 def read(path: str | PathLike[str], format_name: str | None = None, *, left_out: list[Message] | None = None) -> Value:
     """The value in a file: a linkage, a chain or a list of chains, a task, a gear train.
 
@@ -86,8 +88,6 @@ def read(path: str | PathLike[str], format_name: str | None = None, *, left_out:
 
     Raises `GrueblerError` that names the file and what does not fit. docs/theory/formats.md has every format.
     """
-    if not isinstance(path, str | PathLike):
-        raise GrueblerError("expected the path of a file, but found {path!r}", path=path)
     path = Path(path)
     form = format_of(path, format_name)
     if form.read is None:
@@ -102,7 +102,7 @@ def _say(notes: list[Message], left_out: list[Message] | None, text: Message) ->
     if left_out is not None:
         left_out += notes
     elif notes:
-        warnings.warn(str(text), FormatWarning, stacklevel=3)
+        warnings.warn(str(text), FormatWarning, stacklevel=level_of_user())
 
 
 def write(
@@ -125,8 +125,11 @@ def write(
     """
     if isinstance(value, str | PathLike) and not isinstance(path, str | PathLike):
         raise GrueblerError("write(value, path): the value comes first, then {path!r}", path=fspath(value))
-    if not isinstance(path, str | PathLike):
-        raise GrueblerError("write(value, path): expected the path of a file, but found {path!r}", path=path)
+    return _written(value, path, format_name, left_out)
+
+
+@door
+def _written(value: object, path: str | PathLike[str], format_name: str | None, left_out: list[Message] | None) -> Path:
     from gruebler.linkages.conversion import makes_linkage
 
     path = Path(path)

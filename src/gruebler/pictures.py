@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gruebler.atomic_files import atomic_file
+from gruebler.doors import door
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import picture_bytes, suffix_of
 from gruebler.errors import GrueblerError, nearest
@@ -129,6 +130,7 @@ def draw(value: Any, **options: Any) -> Picture:
     return Picture(_called(_function(kind.module, kind.still), value, options))
 
 
+@door
 def animate(value: Any, *, seconds: float = 4.0, **options: Any) -> Animation:
     """A moving picture of a linkage, cam, Geneva drive or gear train, one turn of the drive in the given time.
 
@@ -152,6 +154,7 @@ def animate(value: Any, *, seconds: float = 4.0, **options: Any) -> Animation:
     return Animation(shown.page.title, partial(_machine_content, shown, lang))
 
 
+@door
 def plot(linkage: object, kind: str = "transfer", **options: Any) -> Picture:
     """A diagram of a linkage with one drive.
 

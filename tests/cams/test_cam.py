@@ -190,7 +190,7 @@ def test_absurd_lifts_are_refused(text, words):
     [
         (lambda: Cam(LENGTHS, 0, Flat()), "positive radius below 1e70, not 0"),
         (lambda: Cam(LENGTHS, math.nan, Flat()), "positive radius below 1e70, not nan"),
-        (lambda: Cam(LENGTHS, "40", Flat()), "positive radius"),
+        (lambda: Cam(LENGTHS, "40", Flat()), "base: expected a number, but found '40'"),
         (lambda: Cam(LENGTHS, 40, Roller(10, offset=60)), "offset 60 must be smaller"),
         (lambda: Cam(LENGTHS, 40, Roller(8, arm=80, distance=100)), "swings from"),
         (lambda: Cam(ANGLES, 40, Roller(8, arm=80, distance=200)), "no triangle"),

@@ -193,13 +193,18 @@ def test_many_rows_are_the_same_as_few():
         (Loads(moments={"rocker": (1, 2, 3, 4)}), "one number for each row"),
         (Loads(moments={"rocker": float("inf")}), "finite"),
         (Loads(masses={"K": -1}), "negative"),
-        (Loads(masses={"K": 1}, gravity=(1, 2, 3)), "gravity: expected"),
     ],
 )
 def test_wrong_loads(loads, message):
     motion = move(FourBar(25, 70, 40, 70).linkage({"K": (45, 40)}), [0.1, 0.2])
     with pytest.raises(LinkageError, match=message):
         statics(motion, loads)
+
+
+@pytest.mark.parametrize("gravity", [(1, 2, 3), 9.81, "down", (0, "x")])
+def test_gravity_is_x_and_y(gravity):
+    with pytest.raises(LinkageError, match="gravity: expected a list of 2"):
+        Loads(masses={"K": 1}, gravity=gravity)
 
 
 def test_wrong_questions():

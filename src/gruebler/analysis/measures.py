@@ -61,6 +61,7 @@ from gruebler.analysis.transmission import (
     NoTransmissionAngleError,
     measure_transmission,
 )
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.events import ChangePoint, DeadCentre, Transmission, TransmissionExtremes
 from gruebler.fourbar.extremes import StrokeTimes
@@ -353,6 +354,7 @@ class Measures(Brief):
         }
 
 
+@door_that_raises(LinkageError)
 def measures(
     linkage: LinkageLike,
     speed_rpm: float | None = None,

@@ -10,6 +10,7 @@ from math import pi
 
 import numpy as np
 
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.kinematics.circuits import Circuit, Quantity, circuit
 from gruebler.linkages import Linkage
@@ -63,6 +64,7 @@ class DriveRange:
     highest: float
 
 
+@door_that_raises(LinkageError)
 def rotatability(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> tuple[Rotatability, ...]:
     """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
 
@@ -122,7 +124,8 @@ def _quantity(joint: int, links: tuple[str, str], freedom: str) -> Quantity:
     return lambda poses, order: poses.displacement(joint, order, across=freedom == "across")
 
 
-def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, Role]:
+@door_that_raises(LinkageError)
+def motion_roles(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, Role]:
     """The role of each link from its real motion; `gruebler.mechanism.roles` knows the structure only.
 
     At the frame a link with a turning joint is a crank if it turns fully, else a rocker; one with a slide is a slider;
@@ -164,6 +167,7 @@ def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str]
     }
 
 
+@door_that_raises(LinkageError)
 def drive_range(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> DriveRange:
     """How far the drive can be moved, both ways, without passing a limit.
 

@@ -19,7 +19,7 @@ from gruebler.assur.locking import LockedMechanism, independent, lock_drives, wh
 from gruebler.assur.splitting import BodyGroup, split_into_groups
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet, Pair
-from gruebler.errors import expect
+from gruebler.doors import door
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.mobility import generic, overconstrained
 from gruebler.notebook import Brief
@@ -217,6 +217,7 @@ class Decomposition(Brief):
         return "\n".join(lines)
 
 
+@door
 def decompose(mechanism: Mechanism) -> Decomposition:
     """The Assur groups of a planar mechanism, in solving order.
 
@@ -230,7 +231,6 @@ def decompose(mechanism: Mechanism) -> Decomposition:
     >>> decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)")).formula()
     'drive R(0-1) -> RRR{2, 3} -> RRR{4, 5}'
     """
-    expect(mechanism, Mechanism)
     locked = lock_drives(mechanism)
     if locked.counted < 0 or not independent(mechanism, locked):
         links = tuple(link for body in locked.bodies[1:] for link in body)

@@ -15,6 +15,7 @@ import numpy as np
 from gruebler.assur.groups import AssurGroup, place_name
 from gruebler.assur.locking import AssurError
 from gruebler.chain import Chain
+from gruebler.doors import door
 
 __all__ = [
     "GroupRow",
@@ -47,6 +48,7 @@ class GroupRow:
         return AssurGroup.known(Chain([("revolute", ends) for ends in self.joints]))
 
 
+@door
 def assur_groups(links: int) -> Iterator[AssurGroup]:
     """Every Assur group with this many links and simple turning joints, each once, in canonical form.
 

@@ -16,6 +16,7 @@ from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
 from gruebler.cams.lift import Lift
+from gruebler.doors import door_that_raises
 from gruebler.events import Extremum
 from gruebler.notebook import Brief
 from gruebler.text import message
@@ -58,6 +59,7 @@ class CamReport:
         return self.room.value <= 0
 
 
+@door_that_raises(CamError)
 @dataclass(frozen=True, slots=True, repr=False)
 class Cam(Brief):
     """A disc cam for a lift of a follower; the lift is a length, or radians for a swinging follower.

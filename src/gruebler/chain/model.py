@@ -19,7 +19,8 @@ from gruebler.chain.documents import read_document, read_graph6
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Alphabet, Pair, Space, SymbolText, in_alphabets
 from gruebler.chain.soundness import check_connected, checked_edges, checked_joints, checked_links
-from gruebler.errors import ChainError, GrueblerError, expect, nearest
+from gruebler.doors import door_that_raises
+from gruebler.errors import ChainError, GrueblerError, NotationError, expect, nearest
 from gruebler.text import message
 
 if TYPE_CHECKING:
@@ -78,6 +79,7 @@ class Chain:
     # --- reading and writing -------------------------------------------------------------------------
 
     @classmethod
+    @door_that_raises(NotationError)
     def parse(cls, text: str, space: str | Space | None = None) -> Chain:
         """The chain that a text describes; see `gruebler.chain.notation` for the grammar.
 
@@ -113,12 +115,14 @@ class Chain:
         return cls([(pair, links) for links in checked_edges(edges)], space=space)
 
     @classmethod
+    @door_that_raises(NotationError)
     def from_graph6(cls, code: str) -> Chain:
         """The planar chain of revolute joints whose link graph this graph6 code describes."""
         joints, links = read_graph6(code)
         return cls(joints, links=links)
 
     @classmethod
+    @door_that_raises(NotationError)
     def from_json(cls, document: str | Mapping[str, Any]) -> Chain:
         """The chain of a JSON document made by `to_json` (the text, or the object already read)."""
         joints, links, space = read_document(document)

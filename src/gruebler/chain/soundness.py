@@ -58,9 +58,7 @@ def _no_edge(raw: object) -> ChainError:
 def _checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
     """The joint of raw input, checked."""
     match raw:
-        case Joint(kind, links):
-            pass
-        case (str() | Pair() as kind, links) if isinstance(links, Iterable):
+        case Joint(Pair() as kind, links) | (str() | Pair() as kind, links) if isinstance(links, Iterable):
             pass
         case _:
             raise _no_joint(raw)
@@ -118,6 +116,8 @@ def _name(raw: str | int) -> str:
 
 def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tuple[Joint, ...]) -> tuple[str, ...]:
     """The names of the links, which must be those that the joints name."""
+    if not isinstance(links, Iterable):
+        raise ChainError("links: expected a list of names, not {raw}", raw=repr(links))
     declared = tuple(_name(link) for link in links)
     known, joined = set(declared), set(named)
     if len(known) < len(declared):

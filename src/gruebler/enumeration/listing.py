@@ -6,11 +6,13 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 
 from gruebler.chain import Chain
+from gruebler.doors import door
 from gruebler.enumeration.request import Request, RequestCount
 
 __all__ = ["chains", "count_chains"]
 
 
+@door
 def chains(
     links: int,
     mobility: int = 1,
@@ -41,6 +43,7 @@ def chains(
     return chains_of_request(Request(links, mobility, fractionated, numbers, multiple_joints))
 
 
+@door
 def count_chains(
     links: int,
     mobility: int = 1,

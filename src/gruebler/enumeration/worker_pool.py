@@ -200,6 +200,10 @@ class _Workers(Generic[P, R]):
         self.source = executor
         self.owned = not isinstance(executor, Executor)
         self.executor = executor if isinstance(executor, Executor) else executor()
+        if not isinstance(self.executor, Executor):
+            raise RunError(
+                "expected an executor, or a function that creates one, not {name}", name=type(self.executor).__name__
+            )
         self.retries = retries
         self.losses = 0
         self.pending: dict[Future[R], tuple[int, P]] = {}

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.arrays import Complexes, Reals, compared_by_value
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
@@ -22,6 +23,7 @@ Rows = NDArray[np.int64]
 _STANDARD = 9.80665
 
 
+@door_that_raises(LinkageError)
 @dataclass(frozen=True)
 class Loads:
     """What acts on a linkage from outside, in coordinates of the plane.

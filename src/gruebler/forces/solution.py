@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from gruebler.arrays import Flags, Reals, compared_by_value
-from gruebler.errors import LinkageError, expect
+from gruebler.doors import door_that_raises
+from gruebler.errors import LinkageError
 from gruebler.forces.equilibrium import (
     JointConnection,
     Reactions,
@@ -234,6 +235,7 @@ class Statics(Brief):
         return joint_connections(self.motion)
 
 
+@door_that_raises(LinkageError)
 def statics(motion: Motion, loads: Loads, friction: Friction | PerJoint | None = None) -> Statics:
     """Drive efforts and joint forces that hold the loads at every row of a motion, by two independent methods.
 
@@ -265,8 +267,6 @@ def statics(motion: Motion, loads: Loads, friction: Friction | PerJoint | None =
     >>> rubbing.friction.locking_factor.round(6).tolist()  # 4/3 of the coefficient; going back it never locks
     [inf, 2.666667]
     """
-    expect(motion, Motion)
-    expect(loads, Loads)
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released or joints_left_out(motion):

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler import notebook
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.events import TransmissionExtremes
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
@@ -119,6 +120,7 @@ class SliderCrank:
         return cls((total - difference) / 2, (total + difference) / 2, e)
 
     @classmethod
+    @door_that_raises(LinkageError)
     def from_stroke(cls, stroke: float, ratio: float, e: float = 0.0) -> SliderCrank:
         """The slider-crank with a stroke H, a crank-conrod ratio lambda = a/b below 1 and an eccentricity.
 
@@ -128,6 +130,8 @@ class SliderCrank:
         SliderCrank(a=20.0, b=50.0, e=0.0)
         """
         h, lam, e = as_positive("stroke", stroke), as_positive("ratio", ratio), as_finite("e", e)
+        if max(h, abs(e)) > 1e100:
+            raise LinkageError("lengths must be below 1e100, not {length:g}", length=max(h, abs(e)))
         if lam >= 1:
             raise LinkageError("ratio = a/b must be below 1 for a crank that turns fully, not {ratio!r}", ratio=ratio)
         # sqrt((b + a)^2 - e^2) - sqrt((b - a)^2 - e^2) = H is a quadratic equation for a^2.

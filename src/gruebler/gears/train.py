@@ -15,6 +15,7 @@ from numbers import Rational
 from types import MappingProxyType
 
 from gruebler import notebook
+from gruebler.doors import door
 from gruebler.errors import GrueblerError, nearest
 from gruebler.gears.rational import Elimination, Row, rational_echelon
 from gruebler.text import Message, message
@@ -178,6 +179,7 @@ class Mesh:
         return {self.a: Unit.TURNING, self.b: kind.unit, self.carrier: kind.unit if slides else Unit.TURNING}
 
 
+@door
 @dataclass(frozen=True, slots=True)
 class Train:
     """Links and meshes; the link ``frame`` is fixed.

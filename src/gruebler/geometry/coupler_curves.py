@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.arrays import Complexes, Reals, compared_by_value
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.geometry.contact import TangentContact, tangent_contact
 from gruebler.geometry.double_points import DoublePoint, double_points
@@ -152,6 +153,7 @@ class CouplerCurve(Brief):
         return double_points(self.point_path, self._samples, 2 * self.tolerance)
 
 
+@door_that_raises(LinkageError)
 def coupler_curve(
     linkage: LinkageLike,
     point: PointLike,

@@ -8,6 +8,8 @@ from typing import TypeVar
 
 from gruebler.chain import Chain
 from gruebler.disjoint_sets import DisjointSets
+from gruebler.doors import door_that_raises
+from gruebler.errors import ChainError
 from gruebler.isomorphism.colouring import ColouredGraph, DriveMark, coloured_graph
 
 __all__ = ["Permutation", "Symmetry", "orbits", "symmetry"]
@@ -35,6 +37,7 @@ class Symmetry:
     """A flag is a link with a joint that it carries."""
 
 
+@door_that_raises(ChainError)
 def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> Symmetry:
     """The automorphisms that keep space, pairs, a marked frame and marked joints.
 

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from gruebler.chain import Chain, Joint
-from gruebler.errors import NotationError
+from gruebler.doors import door_that_raises
+from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism.colouring import DriveMark, coloured_graph
 
 __all__ = ["CODE_PREFIX", "DriveMark", "MarkedChain", "canonical_order", "code", "decode"]
@@ -62,6 +63,7 @@ def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[i
     return Order(tuple(links), tuple(sorted(range(len(chain.joints)), key=key)))
 
 
+@door_that_raises(ChainError)
 def code(chain: Chain, *, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> str:
     """The canonical code of a chain, optionally with a marked frame and marked joints (drives, by number or in part).
 
@@ -93,6 +95,7 @@ def _mark(drive: int | DriveMark, place: Mapping[int, int], rank: Mapping[str, s
     return place[drive.joint], ":".join(part for part in (str(place[drive.joint]), drive.direction, links) if part)
 
 
+@door_that_raises(ChainError)
 def decode(text: str) -> MarkedChain:
     """The chain, frame and marked joints that a code describes; links are named 0, 1, 2, ...
 

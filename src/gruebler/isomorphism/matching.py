@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gruebler.chain import Chain
-from gruebler.errors import expect
+from gruebler.doors import door_that_raises
+from gruebler.errors import ChainError, expect
 from gruebler.isomorphism.codes import canonical_order, code
 
 __all__ = ["Isomorphism", "find_isomorphism", "is_isomorphic"]
@@ -39,6 +40,7 @@ def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
     return Isomorphism(links, tuple(joints[k] for k in range(len(first.joints))))
 
 
+@door_that_raises(ChainError)
 def is_isomorphic(first: Chain, second: Chain) -> bool:
     """Whether two chains have the same structure, whatever the links are called.
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.arrays import Complexes, Reals, compared_by_value
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.jets import turn_derivative
@@ -143,8 +144,8 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
     """
     if isinstance(linkages, Linkage):
         raise LinkageError("expected a list of linkages; one alone is moved by `move`")
-    if not linkages:
-        raise LinkageError("expected at least one design")
+    if not len(linkages) or not all(isinstance(linkage, Linkage) for linkage in linkages):
+        raise LinkageError("expected at least one design, each a linkage")
     lower = [with_lower_pairs(linkage) for linkage in linkages]
     for number, (linkage, blocks) in enumerate(zip(linkages, lower, strict=True)):
         if linkage.mechanism != linkages[0].mechanism:
@@ -233,6 +234,7 @@ def _lengths(given: dict[str, ArrayLike]) -> dict[str, Reals]:
     return dict(zip(arrays, (np.atleast_1d(array).astype(np.float64) for array in together), strict=True))
 
 
+@door_that_raises(LinkageError)
 def move_many(
     many: Designs | Sequence[Linkage],
     drives: ArrayLike,
@@ -279,6 +281,8 @@ def move_many(
     speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
     chain, frame = plan.lower.mechanism.chain, plan.lower.mechanism.frame
     kept = tuple(link for link in chain.links if link != frame) if links is None else tuple(links)
+    if not kept:
+        raise LinkageError("links: expected at least one whose motion is kept")
     for link in kept:
         if link not in chain.links:
             raise LinkageError(

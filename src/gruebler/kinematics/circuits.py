@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.angles import warn_of_degrees
 from gruebler.arrays import Reals, compared_by_value
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.events import ChangePoint, Extremum
 from gruebler.kinematics.configuration_curve import (
@@ -279,6 +280,7 @@ _OPEN = {
 }
 
 
+@door_that_raises(LinkageError)
 def circuit(
     linkage: LinkageLike,
     *,

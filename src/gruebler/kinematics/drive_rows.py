@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.angles import doubt_of_angles, warn_of_degrees
 from gruebler.arrays import Reals
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan
 
@@ -16,6 +17,7 @@ _ROUNDING = 1e-12  # of a number of steps: its error by two roundings, with room
 _LAST = 1e-9  # of a step: an end that is missed by less is reached
 
 
+@door_that_raises(LinkageError)
 def from_degrees(start: float, stop: float, step: float) -> Reals:
     """Angles from start to stop, both included, given in degrees, in radians.
 
@@ -38,7 +40,7 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     wanted = len(plan.linkage.mechanism.drives)
     try:
         path = np.array(drives, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise LinkageError("drive values are numbers, but found {drives!r}", drives=drives) from None
     if path.ndim == 0:
         path = path.reshape(1, 1)
@@ -76,7 +78,10 @@ def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals
     for k, (name, value) in enumerate(zip(("speed", "acceleration", "jerk"), given, strict=True)):
         if k >= order:
             break
-        numbers = np.asarray(value, np.float64)
+        try:
+            numbers = np.asarray(value, np.float64)
+        except (TypeError, ValueError, OverflowError):
+            numbers = np.array(np.nan)
         if not np.isfinite(numbers).all():
             raise LinkageError("{name}: expected finite numbers, but found {value!r}", name=name, value=value)
         if numbers.ndim == 1 and path.shape[1] == 1 and len(numbers) == len(path):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.arrays import Reals
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.kinematics.branches import (
     Unassembled,
@@ -41,6 +42,7 @@ def cached_plan(linkage: Linkage) -> Plan:
     return plan(linkage)
 
 
+@door_that_raises(LinkageError)
 def move(
     linkage: LinkageLike | Plan,
     drives: ArrayLike,
@@ -241,6 +243,7 @@ def _stop(plan: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason
     return Stop(at, tuple(float(v) for v in drives), group.links, group.form(), reason)
 
 
+@door_that_raises(LinkageError)
 def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]:
     """Every assembly mode that a linkage has at a drive value, as `move` takes it for ``branch``.
 

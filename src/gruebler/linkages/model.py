@@ -13,6 +13,7 @@ from typing import Any
 from gruebler import notebook
 from gruebler.angles import warn_of_degrees
 from gruebler.chain.pairs import Space
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import (
     CENTRED,
@@ -80,6 +81,7 @@ class Linkage:
     reference_pose: Mapping[str, Pose2D] | None
     outputs: tuple[str, ...]
 
+    @door_that_raises(LinkageError)
     def __init__(
         self,
         mechanism: Mechanism,
@@ -151,6 +153,7 @@ class Linkage:
                         )
 
     @classmethod
+    @door_that_raises(LinkageError)
     def from_drawing(
         cls,
         mechanism: Mechanism,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from math import isfinite
 from numbers import Real
-from typing import Protocol
+from typing import Annotated, Protocol
 
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import Element, LinkPoint
@@ -13,7 +13,7 @@ from gruebler.mechanism import Mechanism
 
 __all__ = ["PointLike", "each_point", "place_of", "point_name", "points_of", "text_as_point"]
 
-PointLike = str | LinkPoint | tuple[str, float, float] | tuple[float, float]
+PointLike = Annotated[str | LinkPoint | tuple[str, float, float] | tuple[float, float], "checked by points_of"]
 """A name of a point or joint, ``LINK:X,Y`` or ``X,Y`` as a text, ``(link, x, y)``, or ``(x, y)`` on the coupler."""
 _COUPLER = "coupler"
 

@@ -16,7 +16,8 @@ from itertools import combinations
 from gruebler.chain import Chain
 from gruebler.chain.notation import link_text
 from gruebler.chain.pairs import Alphabet
-from gruebler.errors import ChainError, expect
+from gruebler.doors import door_that_raises
+from gruebler.errors import ChainError
 from gruebler.isomorphism import Permutation, code, orbits, symmetry
 from gruebler.mechanism.drives import check_drives
 from gruebler.mechanism.model import Drive, Mechanism
@@ -49,6 +50,7 @@ class DrivenMechanism:
     __str__ = text
 
 
+@door_that_raises(ChainError)
 def inversions(chain: Chain) -> list[Mechanism]:
     """The mechanisms of a chain, one for each orbit of links under its symmetry, without drives.
 
@@ -58,6 +60,7 @@ def inversions(chain: Chain) -> list[Mechanism]:
     return [Mechanism(chain, orbit[0]) for orbit in symmetry(chain).link_orbits]
 
 
+@door_that_raises(ChainError)
 def driven_mechanisms(
     chain: Chain, *, drives: int = 1, at_frame: bool = True, output: bool = False, fixed_only: bool = False
 ) -> Iterator[DrivenMechanism]:
@@ -76,10 +79,10 @@ def driven_mechanisms(
     >>> len(list(driven_mechanisms(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))))
     4
     """
-    expect(chain, Chain)
     if drives < 1:
         raise ChainError("a driven mechanism has at least one drive, not {drives}", drives=drives)
     freedoms = _freedoms(chain)
+    drives = min(drives, len(freedoms) + 1)  # with more there is no choice either
     choices = [
         (frame, chosen, output_link)
         for frame in range(chain.n)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gruebler import notebook
 from gruebler.chain import Chain, graphs, notation
 from gruebler.chain.pairs import Alphabet
+from gruebler.doors import door_that_raises
 from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism import DriveMark, code, decode
 from gruebler.text import joined_by_and
@@ -59,6 +60,7 @@ class Mechanism:
     frame: str
     drives: tuple[Drive, ...]
 
+    @door_that_raises(ChainError)
     def __init__(self, chain: Chain, frame: str, drives: Iterable[int | str | Drive | DriveMark] = ()) -> None:
         chain.index(frame)
         checked = tuple(sorted((_drive(chain, d) for d in drives), key=lambda d: (d.joint, d.direction, d.between)))
@@ -71,6 +73,7 @@ class Mechanism:
         object.__setattr__(self, "drives", checked)
 
     @classmethod
+    @door_that_raises(ChainError)
     def parse(cls, text: str) -> Mechanism:
         """The mechanism of a text or of a code with a marked frame.
 
@@ -82,6 +85,7 @@ class Mechanism:
         return cls.parse_with_output(text)[0]
 
     @classmethod
+    @door_that_raises(ChainError)
     def parse_with_output(cls, text: str) -> tuple[Mechanism, str | None]:
         """The mechanism of a text, and the link of its mark ``output=``, None without one.
 
@@ -116,6 +120,7 @@ class Mechanism:
         return cls(chain, frame, drives), output
 
     @classmethod
+    @door_that_raises(ChainError)
     def from_json(cls, document: Mapping[str, Any]) -> Mechanism:
         """The mechanism of an object made by `to_json`."""
         chain_document = dict(document)

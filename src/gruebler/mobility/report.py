@@ -11,7 +11,7 @@ from typing import Any
 from gruebler import notebook
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet, Space
-from gruebler.errors import expect
+from gruebler.doors import door
 from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count_freedoms
 from gruebler.mobility.idle import IdleCondition, IdleFreedom, idle_freedoms
@@ -162,6 +162,7 @@ class MobilityReport(Brief):
         }
 
 
+@door
 def mobility_report(
     chain: Chain, *, b: int | None = None, frame: str | None = None, large: bool = False
 ) -> MobilityReport:
@@ -182,7 +183,6 @@ def mobility_report(
     >>> report.counted, report.generic, str(report.verdict)
     (1, 1, 'constrained')
     """
-    expect(chain, Chain)
     still = chain.links[0] if frame is None else frame
     chain.index(still)
     number = count_freedoms(chain, b)

@@ -8,8 +8,9 @@ from functools import partial
 from itertools import combinations
 
 from gruebler.assur import decompose
+from gruebler.doors import door_that_raises
 from gruebler.enumeration.worker_pool import run_work
-from gruebler.errors import LinkageError, expect
+from gruebler.errors import LinkageError
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic
 from gruebler.realisation.finishing import finish_linkage
@@ -24,6 +25,7 @@ _NOTHING_TO_DRIVE = message("There is nothing to drive: the chain has no mobilit
 _AGAIN = 3  # searches with other random numbers if the first finds no full turn
 
 
+@door_that_raises(LinkageError)
 def realise(
     mechanism: Mechanism, *, seed: int = 0, budget: int = 1500, target_quality: float = 0.5, unit: str = "mm"
 ) -> Realisation:
@@ -48,7 +50,6 @@ def realise(
     >>> result.full, result.quality > 0.4
     (True, True)
     """
-    expect(mechanism, Mechanism)
     _check("seed", seed, 0)
     _check("budget", budget, 1)
     if isinstance(target_quality, bool) or not isinstance(target_quality, int | float) or not 0 < target_quality <= 1:

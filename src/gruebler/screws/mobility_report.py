@@ -12,6 +12,7 @@ import numpy as np
 
 from gruebler.arrays import compared_by_value
 from gruebler.chain.pairs import Alphabet
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 from gruebler.linkages.conversion import LinkageLike, as_linkage
@@ -217,6 +218,7 @@ class Freedoms(Brief):
         }
 
 
+@door_that_raises(LinkageError)
 def freedoms(
     linkage: LinkageLike | SpatialLinkage,
     *,

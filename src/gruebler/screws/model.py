@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
+from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError
 from gruebler.mechanism import Mechanism
 from gruebler.screws.joint_places import JointPlace, Vector, joint_axes, read_place
@@ -20,6 +21,7 @@ __all__ = ["SpatialLinkage"]
 _ORTHOGONAL = 1e-9  # by how much a rotation matrix may miss its transpose as inverse: nine digits were written
 
 
+@door_that_raises(LinkageError)
 @dataclass(frozen=True, eq=True)
 class SpatialLinkage:
     """A mechanism and where its joints lie in one position, its reference pose; planar, spherical or spatial.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from gruebler.doors import door_that_raises
 from gruebler.errors import SynthesisError
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.dead_centres import synthesise_dead_centres
@@ -19,6 +20,7 @@ from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, Pos
 __all__ = ["synthesise"]
 
 
+@door_that_raises(SynthesisError)
 def synthesise(
     task: Task,
     structures: Iterable[Mechanism] | None = None,

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from itertools import permutations
 
 from gruebler.chain import Chain
-from gruebler.errors import TransformationError, expect
+from gruebler.doors import door
+from gruebler.errors import TransformationError
 from gruebler.isomorphism import code
 from gruebler.transformations.dyads import insert_coupler, insert_dyad
 from gruebler.transformations.places import Attachment, links_at
@@ -31,6 +32,7 @@ class Extension:
         return self.step.chain
 
 
+@door
 def extend(
     chain: Chain, *, dyad: str | None = None, coupler: str | None = None, at_joints: bool = False
 ) -> list[Extension]:
@@ -49,7 +51,6 @@ def extend(
     >>> [len(extension.places) for extension in extend(four_bar, dyad="RRR")]  # Watt between neighbours, Stephenson
     [4, 2]
     """
-    expect(chain, Chain)
     if (dyad is None) == (coupler is None):
         raise TransformationError("say what extends the chain: a dyad of some form, or a coupler")
     letters = (dyad or coupler or "").upper()

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet
-from gruebler.errors import TransformationError, expect
+from gruebler.doors import door
+from gruebler.errors import TransformationError
 from gruebler.isomorphism import code
 from gruebler.mobility import counted, generic
 from gruebler.text import message, plural, translate
@@ -118,6 +119,7 @@ def removable_dyads(chain: Chain) -> Iterator[Insertion]:
             continue
 
 
+@door
 def derive(chain: Chain) -> Growth:
     """The growth of a chain by dyads from a closed loop; without one, from the smallest core found.
 
@@ -129,7 +131,6 @@ def derive(chain: Chain) -> Growth:
     >>> print(growth.core)
     R(2-3) R(2-4) R(4-5) R(5-3)
     """
-    expect(chain, Chain)
     longest: list[Insertion] = []
     visited: set[frozenset[str]] = set()
     stack: list[tuple[Chain, list[Insertion]]] = [(chain, [])]

@@ -8,6 +8,7 @@ from enum import StrEnum
 
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import PAIRS, Pair, pair
+from gruebler.doors import door
 from gruebler.errors import GrueblerError
 from gruebler.mechanism.inversion import DrivenMechanism
 
@@ -56,6 +57,7 @@ class JointRequirement:
         )
 
 
+@door
 @dataclass(frozen=True, slots=True)
 class Requirements:
     """All requirements; a field that is left out means no requirement."""

@@ -11,8 +11,9 @@ from zlib import compress, decompress
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import pair
+from gruebler.doors import door
 from gruebler.enumeration.worker_pool import run_work
-from gruebler.errors import GrueblerError, expect
+from gruebler.errors import GrueblerError
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
 from gruebler.type_synthesis.assignment import assignments, every_joint_moves
@@ -59,6 +60,7 @@ def _typed(chain: Chain, requirements: Requirements) -> Iterator[Chain]:
                 yield typed
 
 
+@door
 def variants(
     requirements: Requirements, *, executor: Executor | Callable[[], Executor] | None = None
 ) -> Iterator[Chain | DrivenMechanism]:
@@ -71,7 +73,6 @@ def variants(
 
     Drives fix the motion: as many as the mobility, none of them in conflict.
     """
-    expect(requirements, Requirements)
     turning = _turning_chains(requirements)
     if executor is None:
         return chain_of.from_iterable(_variants(chain, requirements) for chain in turning)

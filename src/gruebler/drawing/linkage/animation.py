@@ -14,6 +14,7 @@ from typing import TypedDict, Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler.doors import door_that_raises
 from gruebler.drawing.canvas.figure import MARGIN, Figure, svg_document
 from gruebler.drawing.canvas.shapes import Point, Shape, bounds
 from gruebler.drawing.canvas.svg import svg_element, svg_number
@@ -65,6 +66,7 @@ class Scene:
         return rows if self.posed.repeats else rows + rows[-2::-1]
 
 
+@door_that_raises(LinkageError)
 def scene(
     linkage: Linkage,
     *,

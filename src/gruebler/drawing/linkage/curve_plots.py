@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from gruebler.arrays import Complexes
+from gruebler.doors import door_that_raises
 from gruebler.drawing.canvas.axes import Axis, Scale, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
@@ -31,6 +32,7 @@ _AROUND = 0.04  # of the field
 _MOST = len(LINES)
 
 
+@door_that_raises(LinkageError)
 def hodograph(
     linkage: Linkage,
     points: Sequence[PointLike],
@@ -105,6 +107,7 @@ def _joined(ranges: Sequence[tuple[float, float]]) -> tuple[float, float]:
     return min(0.0, *(low for low, _ in ranges)), max(0.0, *(high for _, high in ranges))
 
 
+@door_that_raises(LinkageError)
 def coupler_plot(
     linkage: Linkage,
     points: Sequence[PointLike],
@@ -122,6 +125,7 @@ def coupler_plot(
     return _paths(linkage, places, branch, between, lang, name)
 
 
+@door_that_raises(LinkageError)
 def family_plot(
     linkage: Linkage,
     link: str | None = None,

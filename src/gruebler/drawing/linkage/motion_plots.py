@@ -12,6 +12,7 @@ from gruebler.analysis import transmission_angle
 from gruebler.analysis.events import natural_speed, stops
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import measure_transmission
+from gruebler.doors import door_that_raises
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.panels import AxisMarker, Band, DwellMarker, Panel, PlottedCurve, PointMarker, draw_panels
@@ -30,6 +31,7 @@ _LOW = Point(520.0, 190.0)  # panels of which there are three
 _NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values count as zero
 
 
+@door_that_raises(LinkageError)
 def transfer_plot(
     linkage: Linkage,
     output: str | None = None,
@@ -163,6 +165,7 @@ def _stops(run: PlotRun, output: Output) -> tuple[tuple[AxisMarker, ...], tuple[
     return tuple(marks), tuple(sorted(dwells, key=lambda dwell: dwell.low))
 
 
+@door_that_raises(LinkageError)
 def transmission_plot(
     linkage: Linkage,
     output: str | None = None,

@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 from math import cos, degrees, pi, sin
 
+from gruebler.doors import door_that_raises
 from gruebler.drawing.canvas.axes import as_text
 from gruebler.drawing.canvas.figure import MARGIN, Figure, figure_of
 from gruebler.drawing.canvas.labels import labels_with_names, legend
@@ -61,6 +62,7 @@ _MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 
 
+@door_that_raises(LinkageError)
 def draw_linkage(
     linkage: Linkage,
     drive: float | Sequence[float] | None = None,
@@ -240,7 +242,7 @@ def picture_notes(
             values=number_separator(lang).join(values),
         )
     ]
-    if curves:
+    if len(curves):
         sentences.append(translate("Curve of {points}.", lang, points=", ".join(each_point(curves))))
     if count:
         sentences.append(plural("{count} position thinly.", "{count} positions thinly.", count, lang))

@@ -27,6 +27,7 @@ from gruebler.text import Message, message
 __all__ = ["PosedLinkage", "drive_rows", "floating_link", "link_nodes", "posed_along_motion", "posed_linkage"]
 
 
+_FARTHEST = 1e9  # of drive values that are shown: beyond, an angle has lost its sense
 _PIXELS = 380.0  # for the longer side of all that the pins reach
 _WITH_WHEELS = 520.0  # for that of all that wheels reach, too
 _SHORTEST = 34.0  # pixels between two pins of one link, unless the picture becomes too large
@@ -132,7 +133,7 @@ def posed_linkage(
     linkage = as_linkage(linkage)
     try:
         values = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise LinkageError("drive values are numbers, but found {drive!r}", drive=drive) from None
     if not linkage.mechanism.drives:
         return _at_rest(linkage)
@@ -231,7 +232,7 @@ def _value(cycle: DriveCycle, values: Reals | None, rows: Reals) -> float:
         if cycle.lower_linkage.reference_pose is not None and rows[0] <= start <= rows[-1]:
             return start
         return math.pi / 3 if _is_whole(cycle, rows) else float(rows[len(rows) // 3])
-    if values.shape != (1,) or not np.isfinite(values).all():
+    if values.shape != (1,) or not abs(values[0]) < _FARTHEST:
         raise LinkageError("expected one finite drive value, but found {found}", found=values.tolist())
     value, span = float(values[0]), cycle.span
     if cycle.turning_drive and not span.full:
