@@ -119,6 +119,18 @@ def test_zeros_know_how_often_they_are_zeros() -> None:
     assert [zero.rises for zero in found if zero.multiplicity != 2] == [False, True, False, True]
 
 
+def test_a_triple_zero_is_known_by_the_digits_of_its_function() -> None:
+    """(x - 1/3)^3 with coefficients of nine decimals: by them alone it is a simple zero, 4e-4 beside the triple one."""
+
+    def jet(x: np.ndarray) -> np.ndarray:
+        value = x**3 - x**2 + 0.333333333 * x - 0.037037037
+        return np.stack([value, 3 * x**2 - 2 * x + 0.333333333, 6 * x - 2])
+
+    (zero,) = find_zeros(jet, np.linspace(-1, 1.5, 20))
+    assert (zero.multiplicity, zero.rises) == (3, True)
+    assert zero.at == pytest.approx(1 / 3, rel=0, abs=1e-12)
+
+
 def test_a_jump_is_no_zero() -> None:
     assert find_zeros(lambda x: np.sign(x - 0.501)[None] + 0.1, np.linspace(0, 1, 20)) == ()
     assert find_zeros(lambda x: np.zeros((1, len(x))), np.linspace(0, 1, 20)) == ()
@@ -249,6 +261,22 @@ def test_the_rank_with_the_output_locked_falls_at_dead_centres(linkage: Linkage,
         here, aside = (least_singular(course, drive - x, (frame, link)) for x in (0.0, 1e-3))
         assert here < 1e-11
         assert aside > 1e-6
+
+
+def test_a_value_at_an_end_is_not_taken_from_poses_that_have_lost_its_digits() -> None:
+    """1 / (t^2 + 0.01), which is 100 at the limit; from poses that all have t below 0.04 it comes with errors of 1."""
+    course = drive_cycle(FourBar(50, 70, 40, 70).linkage())
+    low, width = course.span.low, course.span.width
+    assert course.span.stops[0] is not None
+    least: list[float] = []
+
+    def value(motion: Motion) -> np.ndarray:
+        t = 2 * np.arcsin(np.sqrt((motion.drives[:, 0] - low) / width))
+        least.append(float(t.max()))
+        return 1 / (t**2 + 0.01) + (t.max() < 0.04) * (-1.0) ** np.arange(len(t))
+
+    assert complex(course.end(value, False)).real == pytest.approx(100, abs=0.5)
+    assert min(least) < 0.04  # poses that near were asked for
 
 
 # --- dense sampling ----------------------------------------------------------------------------------

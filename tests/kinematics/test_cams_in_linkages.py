@@ -273,11 +273,46 @@ def test_a_range_of_the_drive_may_end_in_a_dwell():
         assert np.abs(inside.displacement("P(0-valve)", 1)).max() < 1e-10
 
 
-def swinging_cam():
+SWING = "rise 8 60; dwell 60; fall 8 60; dwell"
+STEPS = "rise 2 60; dwell 30; rise 2 60; dwell 30; fall 4 60; dwell"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kinds", "sides"),
+    [
+        ((), ["minimum", "maximum", "minimum"], ["inner", "outer", ""]),
+        ((SWING, 2.5), ["maximum", "minimum", "maximum"], ["outer", "inner", ""]),
+        ((STEPS, 0.9, 100), ["flat", "flat", "minimum"], ["", "", "inner"]),  # begins in the rise
+    ],
+)
+def test_the_kind_of_dwells_at_and_after_the_begin_of_a_range(arguments, kinds, sides):
+    """As the valve lies lower or higher a little before and behind; of two as far out the first one is named."""
+    linkage = swinging_cam(*arguments)
+    found = measures(linkage)
+    assert [dwell.kind for dwell in found.dwells] == kinds
+    assert [dwell.side for dwell in found.dwells] == sides
+    low, high = found.span.low, found.span.high
+    assert max(abs(found.dwells[0].begin - low) * ("flat" not in kinds), abs(found.dwells[-1].end - high)) < 1e-9
+    for dwell in found.dwells:
+        beside = [drive for drive in (dwell.begin - 0.05, dwell.end + 0.05) if low < drive < high]
+        lift = move(linkage, [dwell.drive, *beside]).displacement("P(0-valve)")
+        higher = {bool(other > lift[0]) for other in lift[1:]}
+        assert higher == {"minimum": {True}, "maximum": {False}, "flat": {False, True}}[dwell.kind]
+
+
+def test_of_equal_extremes_the_first_is_named():
+    """Two lifts of 8 in a turn and two rests between them."""
+    lift = "rise 8 60; fall 8 60; dwell 30; rise 8 60; fall 8 60; dwell"
+    _, centres, rests = turning_point(flat_follower(lift, 40.0))
+    near(centres, [(60, "maximum", "outer"), (210, "maximum", "")])
+    near(rests, [(120, 150, "minimum", "inner"), (270, 360, "minimum", "")])
+
+
+def swinging_cam(lift=SWING, angle=0.3, base=40.0):
     """The rocker of a double rocker carries a cam with a flat follower."""
     mechanism = Mechanism.parse(
         "R(0-arm) R(arm-rod) R(rod-cam) R(0-cam) P(0-valve) G(cam-valve); frame=0; drive=R(0-arm)"
     )
-    touch = {"cam": CamDisc(0, 0, 0.3, "rise 8 60; dwell 60; fall 8 60; dwell", 40.0, flat=True), "valve": (0, 40, 0)}
+    touch = {"cam": CamDisc(0, 0, angle, lift, base, flat=True), "valve": (0, base, 0)}
     places = {"R(0-arm)": (150, 0), "R(arm-rod)": (150, 60), "R(rod-cam)": (30, 45), "R(0-cam)": (0, 0)}
-    return Linkage.from_drawing(mechanism, {**places, "P(0-valve)": (0, 40, pi / 2), "G(cam-valve)": touch})
+    return Linkage.from_drawing(mechanism, {**places, "P(0-valve)": (0, base, pi / 2), "G(cam-valve)": touch})

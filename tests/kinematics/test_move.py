@@ -199,6 +199,16 @@ def test_rates_at_rest_in_a_change_point():
     assert np.abs(motion.angular("rocker", 2) - 2).max() < 1e-9
 
 
+def test_a_rest_has_the_rates_that_are_given_for_it_on_a_way_into_a_change_point_and_back():
+    """In a parallelogram the rocker does what the crank does."""
+    path, speed = [3.0, 3.1, 3.1, pi, pi, 3.0], np.array([1.0, 2.0, 0.0, 5.0, -1.0, -3.0])
+    bend = np.array([0.0, 1.0, 2.0, 3.0, 0.0, -4.0])
+    motion = move(FourBar(20, 50, 20, 50).linkage(), path, speed=speed, acceleration=bend)
+    assert motion.complete
+    assert motion.angular("rocker") == pytest.approx(speed, abs=1e-9)
+    assert motion.angular("rocker", 2) == pytest.approx(bend, abs=1e-9)
+
+
 def test_a_row_at_a_limit_says_that_rates_are_not_finite():
     four_bar = FourBar(50, 70, 40, 70)
     motion = move(four_bar.linkage(), [1.0, four_bar.limits[0].end], order=2)

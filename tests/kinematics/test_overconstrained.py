@@ -198,6 +198,27 @@ def test_change_points_are_those_of_the_linkage_not_of_its_part():
     assert np.degrees([point.drive for point in line.change_points]) == pytest.approx([0, 180], abs=1e-6)
 
 
+def test_the_last_digits_beside_a_change_point_of_the_independent_part_open_no_joint():
+    """Poses next to it are known to 1e-16 over the root; the third pin lies off the line of the other two by 10."""
+    linkage = locomotive(((0, 0), (50, 0), (10, 40)))
+    path = np.concatenate([[1.0], np.linspace(3e-7, -3e-7, 601), [-1.0]])
+    motion = move(linkage, path)
+    assert motion.complete
+    assert np.abs(motion.roots).min() < 1e-7  # rows with lost digits are among them
+    for crank in ("crank", "second", "third"):
+        turned = motion.angle(crank) - motion.angle(crank)[0]
+        assert turned == pytest.approx(path - 1.0, rel=0, abs=1e-7)
+
+
+def test_angles_begin_with_the_principal_value_in_a_change_point_too():
+    """The way there from the reference pose, at 57 degrees, goes over 180 degrees; it is no part of the motion."""
+    in_line = locomotive(((0, 0), (50, 0), (120, 0)))
+    for beside in (1e-8, 1e-2):
+        motion = move(in_line, [np.pi + beside, np.pi + 0.3])
+        assert motion.angle("crank") == pytest.approx([beside - np.pi, 0.3 - np.pi], rel=0, abs=1e-12)
+        assert not motion.whole[0].any()
+
+
 def test_two_sides_that_repeat_each_other():
     places = {
         "R(base-a1)": (0, 0),

@@ -137,6 +137,17 @@ def test_uncertain_answers_say_so_and_certain_ones_are_proved():
     assert mobility_report(Chain.parse("g6:C~")).exact
 
 
+def test_a_joint_with_just_as_many_constraints_as_are_redundant_resolves_them():
+    """31 triangles on the frame need nothing more; 62 constraints of one joint of all are redundant, and no others."""
+    triangles = " ".join(f"R(0-a{k}) R(a{k}-b{k}) R(b{k}-0)" for k in range(31))
+    everywhere = "R(0-" + "-".join(f"a{k}" for k in range(31)) + ")"
+    assert generic(Chain.parse(triangles)).redundancy == 0
+    chain = Chain.parse(f"{triangles} {everywhere}")
+    (part,) = overconstrained(generic(chain))
+    assert (part.redundancy, part.minimal, len(part.joints)) == (62, False, len(chain.joints))
+    assert part.resolved_by_removing == (len(chain.joints) - 1,)
+
+
 @pytest.mark.parametrize("size", [200, 400])
 def test_large_chains_are_answered_and_their_circuit_is_found(size):
     ring = nx.cycle_graph(size)
