@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 
 from gruebler.atomic_files import temporary_directory
@@ -70,7 +70,7 @@ def run_count(
 
     def finished(number: int, tallies: list[PieceTally]) -> None:
         if store is not None:
-            store.save(number, {"tallies": tallies})
+            store.save(number, {"tallies": [astuple(tally) for tally in tallies]})
         watch.add(sum(tally.chains for tally in tallies), fresh=True)
 
     size = _COUNTED_LONG if (loop_count(request.links, request.mobility) or 0) > 7 else _COUNTED
