@@ -129,8 +129,11 @@ def test_every_door_that_takes_angles_warns_at_the_line_of_the_user(call):
 
 
 def test_lengths_are_not_angles():
-    gr.move(SLIDER, [900.0, 905.0, 950.0])
-    FunctionTask([0.1, 0.2, 0.3], [10, 20, 30], output="travel")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        gr.move(SLIDER, [900.0, 905.0, 950.0])
+        FunctionTask([0.1, 0.2, 0.3], [10, 20, 30], output="travel")
+    assert caught == []
 
 
 def test_degrees_on_the_command_line_and_in_files_are_degrees(tmp_path, capsys):

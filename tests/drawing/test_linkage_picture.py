@@ -75,9 +75,10 @@ def test_pins_are_where_the_links_meet(a, b, phi, unit):
 def test_bodies_reach_all_their_joints(linkage):
     stage = posed_linkage(linkage)
     found = slides(stage)
-    for (number, link), e in stage.lower.elements.items():
-        if link == stage.lower.mechanism.frame or not isinstance(e, Pin):
-            continue
+    frame = stage.lower.mechanism.frame
+    pins = [(*key, e) for key, e in stage.lower.elements.items() if key[1] != frame and isinstance(e, Pin)]
+    assert len(pins) >= 3
+    for number, link, e in pins:
         corners = corners_of(stage, link, found)
         at = stage.local(complex(e.x, e.y))
         closed = [*corners, corners[0]]

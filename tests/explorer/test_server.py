@@ -115,6 +115,7 @@ def test_whole_requests_have_all_their_time(impatient_server):
             received = b""
             while not received.endswith(b"hi"):
                 received += client.recv(4096)
+            assert received.count(b"hi") == 1
             time.sleep(0.5)  # longer than a request may take to arrive
 
 

@@ -63,9 +63,7 @@ def test_free_bodies(name):
     held = statics(motion, Loads({"K": (3, -8)}, {one: 40}))
     place = linkage.points_named("K")[-1]
     about = 0.3 - 1.7j
-    for link in chain.links:
-        if link == linkage.mechanism.frame:
-            continue
+    for link in set(chain.links) - {linkage.mechanism.frame}:
         force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
         for number, joint in enumerate(chain.joints):
             if link not in joint.links:

@@ -61,9 +61,9 @@ def test_slider_crank_chain(size):
 def test_neighbours_move_against_each_other_as_in_the_chain(made):
     # The angle between two neighbouring links has the same range, whichever link is held.
     chain = made.linkage.mechanism.chain
-    for joint in chain.joints:
-        if joint.pair.name != "revolute":
-            continue
+    turning = [joint for joint in chain.joints if joint.pair.name == "revolute"]
+    assert len(turning) >= 2
+    for joint in turning:
         first, second = joint.links
         spans = []
         for linkage in (made.linkage, made.linkage.with_frame(first, second)):

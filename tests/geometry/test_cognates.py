@@ -53,20 +53,20 @@ def test_three_cognates_trace_one_curve(drawn):
     assert np.abs(driven - curve).max() < 1e-6  # driven there, it stays on one branch
 
 
+def lengths(size):
+    return [size.a, size.b, size.c, size.d]
+
+
 @given(four_bars())
 def test_cognates_of_cognates_are_the_three(drawn):
     """The second's second and the third's third are the given one; the other ones are the remaining of the three."""
     bar, u, v, phi, side = drawn
     first, second, third = cognates(bar, u, v, branch=side, phi=phi[16])
     again = cognates(second.size, second.u, second.v, branch=second.branch, phi=second.phi)
-    for found, known in ((again[1], first), (again[2].reversed(), third.reversed())):
-        lengths = [found.size.a, found.size.b, found.size.c, found.size.d]
-        expected = [known.size.a, known.size.b, known.size.c, known.size.d]
-        if found is again[1]:
-            assert np.allclose(lengths, expected)
-            assert np.allclose([found.u, found.v], [known.u, known.v])
-        else:
-            assert np.allclose(sorted(lengths), sorted(expected))
+    back, other = again[1], again[2].reversed()
+    assert np.allclose(lengths(back.size), lengths(first.size))
+    assert np.allclose([back.u, back.v], [first.u, first.v])
+    assert np.allclose(sorted(lengths(other.size)), sorted(lengths(third.size)))
 
 
 @given(four_bars())

@@ -56,17 +56,19 @@ def test_poles_of_joined_links_are_their_joints(name):
     motion, _, _ = moved(name)
     found = poles(motion)
     mechanism = motion.linkage.mechanism
-    for joint, text in zip(mechanism.chain.joints, mechanism.chain.joint_names(), strict=True):
-        one, other = joint.links
-        if joint.pair.name == "revolute":
-            assert np.allclose(
-                found.of(one, other), motion.complex_point(text), rtol=0, atol=1e-9 * motion.linkage.size
-            )
-        else:
-            line = motion.linkage.element(text, one)
-            along = motion.turns[:, found.links.index(one)] * np.exp(1j * line.angle)
-            assert np.isnan(found.of(one, other)).all()
-            assert np.abs((np.conj(along) * found.towards(one, other)).real).max() < 1e-9
+    names = dict(zip(mechanism.chain.joint_names(), mechanism.chain.joints, strict=True))
+    pins = {text: joint.links for text, joint in names.items() if joint.pair.name == "revolute"}
+    slides = {text: joint.links for text, joint in names.items() if joint.pair.name == "prismatic"}
+    assert len(pins) >= 3
+    assert len(pins) + len(slides) == len(names)
+    assert bool(slides) == (name in ("slider-crank", "inverted", "cylinder"))
+    for text, (one, other) in pins.items():
+        assert np.allclose(found.of(one, other), motion.complex_point(text), rtol=0, atol=1e-9 * motion.linkage.size)
+    for text, (one, other) in slides.items():
+        line = motion.linkage.element(text, one)
+        along = motion.turns[:, found.links.index(one)] * np.exp(1j * line.angle)
+        assert np.isnan(found.of(one, other)).all()
+        assert np.abs((np.conj(along) * found.towards(one, other)).real).max() < 1e-9
 
 
 @pytest.mark.parametrize("name", MOVING)

@@ -2,7 +2,7 @@
 
 import networkx as nx
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from gruebler import Chain
@@ -99,16 +99,26 @@ def test_a_further_joint_never_raises_it(chain, data):
     assert generic_mobility(chain.with_joint("revolute", links)) <= generic_mobility(chain)
 
 
+BRACED = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-2) R(3-4) R(4-5) R(5-0)")
+
+
+def alone(chain):
+    """The overconstrained subchains of a chain, each with the chain that it makes alone, if it makes one."""
+    parts = [(part, induced(chain, part.links)) for part in mobility_report(chain).overconstrained]
+    return [(part, inner) for part, inner in parts if inner is not None]
+
+
+def test_an_overconstrained_subchain_is_there():
+    assert [(part.redundancy, inner.n, len(part.joints)) for part, inner in alone(BRACED)] == [(1, 4, 5)]
+
+
 @given(chains(pairs=PLANAR))
+@example(BRACED)
 @settings(max_examples=60)
 def test_what_is_said_to_mend_mends(chain):
     """Take the joint out of the subchain alone: nothing is redundant in it any more."""
-    for part in mobility_report(chain).overconstrained:
-        inner = induced(chain, part.links)
-        if inner is None:
-            continue
-        before = generic(inner).redundancy
-        assert before == part.redundancy
+    for part, inner in alone(chain):
+        assert generic(inner).redundancy == part.redundancy
         for number in part.joints:
             joint = chain.joints[number]
             kept = [link for link in joint.links if link in part.links]
@@ -160,13 +170,11 @@ def test_large_chains_are_answered_and_their_circuit_is_found(size):
 
 
 @given(chains(pairs=REVOLUTE, multiple=False))
+@example(BRACED)
 @settings(max_examples=60)
 def test_one_more_freedom_mends_where_it_is_said_to(chain):
     """Turn a revolute of the subchain into a roll-slide joint, which has one freedom more."""
-    for part in mobility_report(chain).overconstrained:
-        inner = induced(chain, part.links)
-        if inner is None:
-            continue
+    for part, inner in alone(chain):
         for number in part.joints:
             joint = chain.joints[number]
             position = next(k for k, j in enumerate(inner.joints) if set(j.links) == set(joint.links))

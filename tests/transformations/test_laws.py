@@ -1,6 +1,7 @@
 """Transformations of arbitrary chains: what they do to mobility, and that they can be undone and done again."""
 
 import json
+from contextlib import suppress
 
 import pytest
 from hypothesis import assume, given, settings
@@ -165,16 +166,25 @@ def test_a_roll_slide_joint_and_its_equivalent_have_the_same_mobility(chain, pai
     assert done_again(back)
 
 
+def removed(chain, links):
+    """What can be taken away there, and by how much the mobility rises with it."""
+    steps = []
+    for remove, arguments in ((remove_dyad, links), (remove_group, links), (remove_coupler, links[0])):
+        with suppress(TransformationError, AssurError):
+            steps.append((remove(chain, arguments), int(remove is remove_coupler)))
+    return steps
+
+
+def test_the_dyad_of_a_six_bar_can_be_removed():
+    watt = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)")
+    assert [(step.chain.n, rise) for step, rise in removed(watt, ["4", "5"])] == [(4, 0), (4, 0), (5, 1)]
+
+
 @given(ANY, st.data())
 def test_what_is_removed_was_there(chain, data):
     """Any removal either undoes an insertion, or is refused."""
     links = data.draw(st.lists(st.sampled_from(chain.links), min_size=1, max_size=4, unique=True))
-    for remove, arguments in ((remove_dyad, links), (remove_group, links), (remove_coupler, links[0])):
-        try:
-            step = remove(chain, arguments)
-        except (TransformationError, AssurError):
-            continue
-        rise = remove is remove_coupler
+    for step, rise in removed(chain, links):
         assert counted(step.chain) == counted(chain) + rise
         assert generic_mobility(step.chain) in (
             {generic_mobility(chain)} | ({generic_mobility(chain) + 1} if rise else set())
