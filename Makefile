@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-lowest test-newest torture bench clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-lowest test-newest torture mutants bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -13,6 +13,7 @@ help:
 	@echo "make messages    brings the German catalog up to date with the code and lists what is untranslated"
 	@echo "make slow        the long tests, and the fast ones with new random examples"
 	@echo "make torture     5,000 damaged inputs, 200 interrupts, 300 kills, see docs/reliability.md; about an hour"
+	@echo "make mutants     one line of a room changed at a time: do its tests notice? ROOM=mobility NUMBER=20"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with kernels of OpenBLAS that this processor does not choose"
 	@echo "make test-kernels all tests with compiled kernels only, then with interpreted ones; hours, not part of CI"
@@ -58,6 +59,11 @@ slow: $(READY)
 
 torture: $(READY)
 	$(BIN)/python -m tests.torture --inputs 5000 --interrupts 200 --kills 300
+
+ROOM   ?= mobility
+NUMBER ?= 20
+mutants: $(READY)
+	$(BIN)/python -m tests.mutation $(ROOM) --number $(NUMBER)
 
 # Kernels are the same wherever the sources lie: those of `make test` are loaded.
 wheel-test: $(READY)
