@@ -129,6 +129,7 @@ def test_sizes_close_the_right_angle():
         (lambda: Geneva(4).move("now"), "finite"),
         (lambda: Geneva(4).sizes(0), "positive length, not 0"),
         (lambda: Geneva(4).sizes(math.nan), "positive length, not nan"),
+        (lambda: Geneva(4).sizes(math.inf), "positive length, not inf"),
     ],
 )
 def test_absurd_numbers_are_refused(make, words):

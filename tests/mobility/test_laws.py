@@ -77,6 +77,12 @@ def test_the_pebble_game_never_guesses(chain):
         pebble_mobility(chain)
 
 
+def test_one_theorem_is_enough():
+    """With a multiple joint in the plane that of points (Laman) holds, and none of bodies."""
+    licence = theorem(Chain.parse("R(0-1-2) R(1-3) R(2-3) R(0-3)"))
+    assert (licence.bodies, licence.points, bool(licence)) == (False, True, True)
+
+
 def test_multiple_joints_in_space_are_refused_by_the_pebble_game():
     chain = Chain.parse("spatial: R(a-b-c) R(a-d) R(b-d)")
     with pytest.raises(ChainError, match=r"multiple joints in space"):

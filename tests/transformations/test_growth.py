@@ -145,3 +145,15 @@ def test_long_chains_are_answered():
     ladder = [(str(k), str(k + 1)) for k in range(60)] + [(str(k), str(k + 3)) for k in range(0, 58, 3)] + [("60", "0")]
     growth = derive(Chain.from_edges(ladder))
     assert growth.derivation.chain == Chain.from_edges(ladder)
+
+
+@pytest.mark.parametrize(
+    ("text", "dyads"),
+    [
+        ("R(0-1) R(1-2) R(2-0) R(0-3) R(3-4) R(4-1)", [("3", "4")]),  # a triangle is left, the smallest chain of all
+        ("R(0-1) R(1-2) R(2-3) R(3-4) R(4-5) R(5-0)", []),  # of a loop two links would be left with one joint
+        ("R(0-1) R(1-2) R(2-3) R(3-0)", []),
+    ],
+)
+def test_what_is_left_without_a_dyad_is_closed(text, dyads):
+    assert [dyad.links for dyad in removable_dyads(Chain.parse(text))] == dyads

@@ -20,6 +20,7 @@ from gruebler.transformations import (
     replay,
     restore_roll_slide,
 )
+from gruebler.transformations.dyads import coupler_at, dyad_at
 
 FOUR_BAR = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
 WATT = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)")
@@ -127,3 +128,10 @@ def test_every_operation_is_named_like_its_function():
 
 def test_braced_four_bar_loses_its_brace():
     assert remove_coupler(BRACED, "4").chain == FOUR_BAR
+
+
+def test_ends_on_one_link_are_refused_in_the_words_of_what_was_asked():
+    with pytest.raises(TransformationError, match="1 and 2 are not a dyad between different links: both ends are on"):
+        dyad_at(Chain.parse("R(0-1) R(1-2) R(2-0)"), ("1", "2"))
+    with pytest.raises(TransformationError, match="1 is not a coupler between different links: both ends are on"):
+        coupler_at(Chain.parse("R(0-1) R(1-0) R(0-2)"), "1")
