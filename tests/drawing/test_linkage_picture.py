@@ -259,7 +259,7 @@ def test_several_drives_have_a_pose_but_no_course():
     ("options", "words"),
     [
         ({"drive": float("nan")}, "finite drive value"),
-        ({"drive": "north"}, "drive values are numbers"),
+        ({"drive": "north"}, "drive: expected a number"),
         ({"drive": [1.0, 2.0]}, "one finite drive value"),
         ({"drive": 3.0}, "no pose at 171.887 degrees"),
         ({"curves": ["Z"]}, "no point 'Z'"),

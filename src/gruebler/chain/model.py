@@ -122,7 +122,6 @@ class Chain:
         return cls(joints, links=links)
 
     @classmethod
-    @door_that_raises(NotationError)
     def from_json(cls, document: str | Mapping[str, Any]) -> Chain:
         """The chain of a JSON document made by `to_json` (the text, or the object already read)."""
         joints, links, space = read_document(document)

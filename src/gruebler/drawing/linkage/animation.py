@@ -24,6 +24,7 @@ from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.points import PointLike, each_point
 from gruebler.text import plural, translate
 
@@ -68,7 +69,7 @@ class Scene:
 
 @door_that_raises(LinkageError)
 def scene(
-    linkage: Linkage,
+    linkage: LinkageLike,
     *,
     branch: str | Iterable[str] | None = None,
     between: tuple[float, float] | None = None,
@@ -92,6 +93,7 @@ def scene(
 
     Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
     """
+    linkage = as_linkage(linkage)
     if not 0 < seconds <= _LONGEST:
         raise LinkageError(
             "the time is a number of seconds up to {longest:g}, not {seconds!r}", longest=_LONGEST, seconds=seconds

@@ -20,6 +20,7 @@ from gruebler.drawing.linkage.posed_linkage import floating_link, link_nodes
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.points import PointLike, each_point, place_of
 from gruebler.text import decimal_sign_in, message, translate
 
@@ -34,7 +35,7 @@ _MOST = len(LINES)
 
 @door_that_raises(LinkageError)
 def hodograph(
-    linkage: Linkage,
+    linkage: LinkageLike,
     points: Sequence[PointLike],
     *,
     speed: float | None = None,
@@ -60,6 +61,7 @@ def hodograph(
     >>> hodograph(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), ["K"]).title
     'four-bar linkage: hodograph of K'
     """
+    linkage = as_linkage(linkage)
     chosen = _few(points)
     if speed is not None and not (math.isfinite(speed) and speed):
         raise LinkageError(
@@ -109,7 +111,7 @@ def _joined(ranges: Sequence[tuple[float, float]]) -> tuple[float, float]:
 
 @door_that_raises(LinkageError)
 def coupler_plot(
-    linkage: Linkage,
+    linkage: LinkageLike,
     points: Sequence[PointLike],
     *,
     branch: Branch = None,
@@ -121,13 +123,14 @@ def coupler_plot(
 
     Arguments and errors as for `hodograph`.
     """
+    linkage = as_linkage(linkage)
     places = {name: place_of(linkage, point) for name, point in _few(points).items()}
     return _paths(linkage, places, branch, between, lang, name)
 
 
 @door_that_raises(LinkageError)
 def family_plot(
-    linkage: Linkage,
+    linkage: LinkageLike,
     link: str | None = None,
     *,
     start: complex | None = None,
@@ -158,6 +161,7 @@ def family_plot(
     >>> family_plot(FourBar(25, 70, 40, 70).linkage(), count=3).description[:35]
     'Paths of −35, 0; 35, 0; 105, 0, dri'
     """
+    linkage = as_linkage(linkage)
     return _paths(linkage, family_of(linkage, link, start, end, count), branch, between, lang, name)
 
 

@@ -20,7 +20,7 @@ from gruebler.drawing.canvas.shapes import Point
 from gruebler.drawing.canvas.styles import LINES
 from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
 from gruebler.errors import LinkageError
-from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.text import translate
 
 __all__ = ["transfer_plot", "transmission_plot"]
@@ -33,7 +33,7 @@ _NOISE = 1e-6  # of the usual size of an output or its derivative: smaller value
 
 @door_that_raises(LinkageError)
 def transfer_plot(
-    linkage: Linkage,
+    linkage: LinkageLike,
     output: str | None = None,
     *,
     branch: Branch = None,
@@ -60,6 +60,7 @@ def transfer_plot(
     >>> transfer_plot(FourBar(25, 70, 40, 70).linkage()).title
     'four-bar linkage: transfer functions of rocker'
     """
+    linkage = as_linkage(linkage)
     run = plot_run(linkage, 2, branch, between, lang, name)
     output_quantity = find_output(linkage, output)
     _check(run, output_quantity, output)
@@ -167,7 +168,7 @@ def _stops(run: PlotRun, output: Output) -> tuple[tuple[AxisMarker, ...], tuple[
 
 @door_that_raises(LinkageError)
 def transmission_plot(
-    linkage: Linkage,
+    linkage: LinkageLike,
     output: str | None = None,
     *,
     branch: Branch = None,
@@ -184,6 +185,7 @@ def transmission_plot(
     >>> transmission_plot(FourBar(2, 5, 4, 5).linkage()).description[-72:]
     'Smallest 36.87° at 0°; shaded below 40°. Dead centres at 34.05°, 233.1°.'
     """
+    linkage = as_linkage(linkage)
     run = plot_run(linkage, 2, branch, between, lang, name)
     output_quantity = find_output(linkage, output)
     called = (names or {}).get(output_quantity.name, output_quantity.name)

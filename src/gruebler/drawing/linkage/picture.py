@@ -36,6 +36,7 @@ from gruebler.drawing.structure.messages import describe, title
 from gruebler.drawing.structure.picture import draw_structure
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.points import PointLike, each_point
 from gruebler.text import message, number, number_separator, plural, translate
 
@@ -64,7 +65,7 @@ _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 
 @door_that_raises(LinkageError)
 def draw_linkage(
-    linkage: Linkage,
+    linkage: LinkageLike,
     drive: float | Sequence[float] | None = None,
     *,
     branch: str | Iterable[str] | None = None,
@@ -103,6 +104,7 @@ def draw_linkage(
     >>> len(figure.svg()) < 8000
     True
     """
+    linkage = as_linkage(linkage)
     posed = posed_linkage(linkage, drive, branch=branch, between=between)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
