@@ -5,6 +5,8 @@ others that come from within are foreign; only Python itself says what does not 
 """
 
 import inspect
+import subprocess
+import sys
 import types
 import warnings
 from collections.abc import Iterator
@@ -214,3 +216,9 @@ def test_a_wrong_argument_is_refused_in_a_sentence(name, parameter, tmp_path, mo
         except Exception as error:  # every foreign kind is collected here, to be told at once
             foreign[words] = repr(error)[:150]
     assert foreign == {}
+
+
+def test_chains_are_read_without_numpy():
+    """Doors are as light as what they guard: numpy takes longer to load than most chains to read."""
+    code = "import sys, gruebler as gr; gr.Chain.parse('R(0-1) R(1-2) R(2-0)'); sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

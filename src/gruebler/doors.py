@@ -9,13 +9,12 @@ from __future__ import annotations
 import functools
 import inspect
 import reprlib
+import sys
 import types
 import typing
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
 from numbers import Integral, Real
 from typing import Annotated, Any, TypeGuard, TypeVar
-
-import numpy as np
 
 from gruebler.errors import GrueblerError
 from gruebler.text import Message, joined_by_or, message
@@ -108,7 +107,7 @@ def _fits(hint: Any) -> Fits | None:
 def _fits_class(kind: Any) -> Fits | None:
     if kind is Callable:
         return callable
-    if not isinstance(kind, type) or kind in (np.ndarray, Annotated) or getattr(kind, "_is_protocol", False):
+    if not isinstance(kind, type) or kind in (_numpy("ndarray"), Annotated) or getattr(kind, "_is_protocol", False):
         return None
     return lambda value: isinstance(value, kind)
 
@@ -128,9 +127,18 @@ def _fits_part(kind: Fits | None, value: object) -> bool:
 
 
 def _is_list(value: object, wanted: type) -> TypeGuard[Iterable[object]]:
-    if isinstance(value, np.ndarray):
-        return value.ndim > 0
+    if isinstance(value, _numpy("ndarray")):
+        return bool(value.ndim)  # type: ignore[attr-defined]
     return isinstance(value, wanted) and not isinstance(value, str | bytes)
+
+
+def _numpy(name: str) -> type:
+    """A class of NumPy; one without values where NumPy is not loaded, so that chains are read without it."""
+    return getattr(sys.modules.get("numpy"), name, _Nothing)
+
+
+class _Nothing:
+    """Has no values."""
 
 
 def _all(values: Iterable[object], fits: Fits | None) -> bool:
@@ -157,7 +165,7 @@ _PLAIN: dict[Any, tuple[Fits | None, Message]] = {
     str: (lambda value: isinstance(value, str), message("a text")),
     int: (_is_whole, message("a whole number")),
     float: (_is_number, message("a number")),
-    bool: (lambda value: isinstance(value, bool | np.bool_), message("True or False")),
+    bool: (lambda value: isinstance(value, (bool, _numpy("bool_"))), message("True or False")),
 }
 
 
