@@ -15,7 +15,8 @@ __all__ = ["main"]
 def _stop(number: int, frame: FrameType | None) -> None:
     """End at once: nothing has been begun. The catalogs of texts are not loaded yet."""
     del number, frame
-    german = "de" in (*sys.argv, os.environ.get("GRUEBLER_LANG"))
+    words = " ".join(["--lang", os.environ.get("GRUEBLER_LANG", ""), *sys.argv[1:]]).replace("--lang=", "--lang ")
+    german = words.rpartition("--lang ")[2].split(" ")[0] == "de"
     os.write(2, b"\ngruebler: abgebrochen\n" if german else b"\ngruebler: stopped\n")
     os._exit(130)
 

@@ -1,7 +1,9 @@
 """Angles in radians that look like degrees: which are warned of, at every door, and which are not."""
 
+import re
 import warnings
 from math import pi
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -124,15 +126,57 @@ def test_every_door_that_takes_angles_warns_at_the_line_of_the_user(call):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         call()
-    assert {each.category for each in caught} == {gr.UnitWarning}
-    assert {each.filename for each in caught} == {__file__}
+    assert {(each.category, each.filename) for each in caught} == {(gr.UnitWarning, __file__)}
+    assert len(caught) == (3 if call is DOORS["a slide"] else 1)  # drawn, and then on each of its two links
+
+
+def test_the_library_does_not_doubt_its_own_angles(capsys):
+    """What it moves for an answer was given in radians already, however far the rows are apart."""
+    press = gr.SliderCrank(20, 50).linkage()
+    loads = gr.Loads(forces={"R(coupler-slider)": (-100, 0)})
+    motion = gr.move(press, np.radians([0.0, 90.0, 180.0, 270.0]))
+    assert gr.statics(motion, loads, 0.1).drive.shape == (4, 1)
+    assert main(["statics", "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1", *AT]) == 0
+    assert "radians" not in capsys.readouterr().err
+    FunctionTask(np.linspace(0, 4 * pi, 5), [0.0, 0.3, 0.5, 0.3, 0.1])  # two turns of the input
+
+
+AT = ["--at", "0", "--at", "270", "--at", "1000"]
+
+
+def test_only_the_doors_of_a_motion_doubt_its_angles():
+    """Inside the library `move_in_radians` is called: what is computed there are radians."""
+    sources = Path(gr.__file__).parent
+    doors = {"kinematics/solve.py", "kinematics/__init__.py", "geometry/lever_contact.py"}
+    importing = re.compile(r"^ *from gruebler\.kinematics(?:\.solve)? import [^(\n]*\bmove\b(?!_)", re.MULTILINE)
+    found = {str(path.relative_to(sources)) for path in sources.rglob("*.py") if importing.search(path.read_text())}
+    assert found - doors == set()
 
 
 def test_lengths_are_not_angles():
+    crane = gr.Linkage.from_drawing(
+        gr.Mechanism.parse("R(frame-arm) P(arm-hook) R(hook-rod) R(rod-frame); frame=frame; drive=P(arm-hook)"),
+        {"R(frame-arm)": (0, 0), "P(arm-hook)": (700, 0, 0), "R(hook-rod)": (700, 0), "R(rod-frame)": (900, 600)},
+    )
+    two = gr.Linkage.from_drawing(
+        gr.Mechanism.parse(
+            "R(frame-arm) P(arm-hook) R(hook-rod) R(rod-lever) R(lever-frame); frame=frame; "
+            "drive=R(frame-arm); drive=P(arm-hook)"
+        ),
+        {
+            "R(frame-arm)": (0, 0),
+            "P(arm-hook)": (700, 0, 0),
+            "R(hook-rod)": (700, 0),
+            "R(rod-lever)": (800, 500),
+            "R(lever-frame)": (900, 0),
+        },
+    )
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         gr.move(SLIDER, [900.0, 905.0, 950.0])
         FunctionTask([0.1, 0.2, 0.3], [10, 20, 30], output="travel")
+        gr.draw(crane, drive=700.0)
+        gr.draw(two, drive=[0.0, 700.0])
     assert caught == []
 
 

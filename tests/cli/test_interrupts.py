@@ -45,6 +45,9 @@ def test_an_interrupt_while_a_module_is_loaded(module):
 def test_an_interrupt_in_german():
     assert interrupted("gruebler.text", "check", "vcomp", "--lang", "de")[2] == "\ngruebler: abgebrochen\n"
     assert interrupted("gruebler.text", "check", "vcomp", GRUEBLER_LANG="de")[2] == "\ngruebler: abgebrochen\n"
+    assert interrupted("gruebler.text", "check", "vcomp", "--lang=de")[2] == "\ngruebler: abgebrochen\n"
+    assert interrupted("gruebler.text", "check", "de")[2] == "\ngruebler: stopped\n"
+    assert interrupted("gruebler.text", "check", "--lang", "en", GRUEBLER_LANG="de")[2] == "\ngruebler: stopped\n"
     assert interrupted("gruebler.mobility", "check", "vcomp", "--lang", "de")[2] == "\ngruebler: abgebrochen\n"
 
 

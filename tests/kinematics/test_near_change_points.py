@@ -70,7 +70,7 @@ def test_a_row_in_a_change_point_that_is_nearly_met_is_named(excess):
     """The true rocker stands at right angles there, in the middle of its quick turn; the exact one goes straight on."""
     motion = move(FourBar(*kite(KITES[0], 0, excess)).linkage(), [-0.1, 0.0, 0.1], branch="+", order=1)
     assert motion.taken_for_exact == (1,)
-    assert motion.message().startswith("From R(frame-crank) = 0° to R(frame-crank) = 0° the sizes miss a change point")
+    assert motion.message().startswith("At R(frame-crank) = 0° the sizes miss a change point")
     assert motion.message("de").endswith("Lagen und Ableitungen sind dort die eines Getriebes, das sie trifft.")
 
 

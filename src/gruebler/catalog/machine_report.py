@@ -181,9 +181,8 @@ def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]
 def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     """Transfer functions of order 1 by each drive, in the reference pose."""
     from gruebler.analysis.outputs import find_output
-    from gruebler.kinematics import move
     from gruebler.kinematics.reference_pose import pose_at_reference
-    from gruebler.kinematics.solve import cached_plan
+    from gruebler.kinematics.solve import cached_plan, move_in_radians
 
     names, plan = linkage.mechanism.drive_names(), cached_plan(linkage)
     if plan.lower.reference_pose is None:
@@ -192,7 +191,9 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     output = find_output(linkage)
     far = 1.0 if output.turning else linkage.size
     each = [1.0 if drive.turning else linkage.size for drive in linkage.mechanism.drives]
-    values = [output.values(move(linkage, [reference], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
+    values = [
+        output.values(move_in_radians(linkage, [reference], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))
+    ]
     rest = [abs(value) * drive <= _ROUNDING * far for value, drive in zip(values, each, strict=True)]
     rates = [0.0 if still else float(value) for value, still in zip(values, rest, strict=True)]
     return tuple(Partial(output.name, *row) for row in zip(names, reference.tolist(), rates, strict=True))

@@ -13,7 +13,8 @@ from gruebler.analysis import drive_range
 from gruebler.analysis.measures import measures
 from gruebler.errors import LinkageError
 from gruebler.formats.catalog_records import Claims, Entry, MotionKind
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.text import Message, Text, in_every_language, message, number, number_separator, numbers, translate
 
@@ -86,7 +87,7 @@ def motion_lines(claims: Claims, lang: str = "en") -> list[str]:
 
 def _wrong_kinds(record: Entry, linkage: Linkage) -> Iterator[Disagreement]:
     values, full = _shown_values(record, linkage)
-    moved = move(linkage, values)
+    moved = move_in_radians(linkage, values)
     if not moved.complete:
         yield Disagreement("claims.motion", message("a linkage that moves"), moved.message)
         return

@@ -16,9 +16,9 @@ from gruebler.arrays import Reals
 from gruebler.catalog.claims import WrongClaim
 from gruebler.errors import LinkageError
 from gruebler.formats.catalog_records import Entry, MotionQuantity
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
 from gruebler.kinematics.reference_pose import pose_at_reference
-from gruebler.kinematics.solve import cached_plan
+from gruebler.kinematics.solve import cached_plan, move_in_radians
 from gruebler.linkages import Linkage
 
 __all__ = ["derived_numbers", "wrong_quantities"]
@@ -73,7 +73,7 @@ class _Run(NamedTuple):
     def moved(self, low: float, high: float, rows: int = _ROWS) -> Motion:
         """The motion between two values of the drive, at speed 1."""
         speed = [float(k == self.drive) for k in range(len(self.linkage.mechanism.drives))]
-        motion = move(self.linkage, self.values(np.linspace(low, high, rows)), speed=[speed], order=1)
+        motion = move_in_radians(self.linkage, self.values(np.linspace(low, high, rows)), speed=[speed], order=1)
         if not motion.complete:
             raise LinkageError("{reason}", reason=motion.reason)
         return motion

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from numbers import Integral
 from typing import Any
 
 from gruebler.enumeration.condition import CLASSES
@@ -44,8 +45,10 @@ class Request:
 
     def __post_init__(self) -> None:
         for name in ("links", "mobility"):
-            if not isinstance(getattr(self, name), int) or isinstance(getattr(self, name), bool):
-                raise RequestError("{name} is a whole number, not {found!r}", name=name, found=getattr(self, name))
+            found = getattr(self, name)
+            if not isinstance(found, Integral) or isinstance(found, bool):
+                raise RequestError("{name} is a whole number, not {found!r}", name=name, found=found)
+            object.__setattr__(self, name, int(found))
         if self.links < 3:
             raise RequestError("a chain has at least three links, not {links}", links=self.links)
         if self.mobility < 0:

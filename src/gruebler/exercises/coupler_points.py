@@ -14,7 +14,8 @@ from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_ste
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.geometry.sizing import longest_in_band
-from gruebler.kinematics import from_degrees, move
+from gruebler.kinematics import from_degrees
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.text import Message, in_every_language, message
 
@@ -29,7 +30,7 @@ BY_SOLVER = message("Largest distance of the path from that of the general solve
 
 def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
     """Check the path against that of the general solver, whose point is ``C``."""
-    moved = move(linkage, drives, branch=branch)
+    moved = move_in_radians(linkage, drives, branch=branch)
     apart = (
         float(np.abs(moved.complex_point("C") - (points[:, 0] + 1j * points[:, 1])).max()) if moved.complete else 1.0
     )

@@ -10,7 +10,8 @@ import numpy as np
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, SolutionBuilder, angle, figure
 from gruebler.fourbar import FourBar, SliderCrank
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages.quantities import as_finite
 from gruebler.text import message
 
@@ -49,7 +50,7 @@ def four_bar(
     )
     rates = _four_bar_rates(builder, size, (phi, theta, psi), omega)
     _four_bar_accelerations(builder, size, (phi, theta, psi), (omega, *rates))
-    moved = move(size.linkage(), [radians(phi)], speed=omega, branch="+" if side > 0 else "-")
+    moved = move_in_radians(size.linkage(), [radians(phi)], speed=omega, branch="+" if side > 0 else "-")
     _add_vectors(builder, moved)
     _check_four_bar(builder, size, moved, phi)
     return builder.done()
@@ -314,7 +315,7 @@ def _check_slider(
     phi, omega = inputs
     v, acceleration = results
     unit, a, b = builder.unit, size.a, size.b
-    moved = move(size.linkage(), [radians(phi)], speed=omega)
+    moved = move_in_radians(size.linkage(), [radians(phi)], speed=omega)
     slide = "P(frame-slider)"
     builder.check(
         message("{quantity} by the general solver", quantity="v_B"),

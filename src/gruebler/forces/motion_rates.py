@@ -8,8 +8,9 @@ import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.forces.loads import Rows
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
 from gruebler.kinematics.branches import branch_of
+from gruebler.kinematics.solve import move_in_radians
 
 __all__ = ["drive_speed", "with_velocities"]
 
@@ -29,7 +30,7 @@ def with_velocities(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion
         return
     branch = branch_of(motion.plan, motion.roots[best], motion.unknowns[best], motion.drives[best])
     for rows in (np.arange(best, len(motion)), np.arange(best, -1, -1)):
-        moved = move(motion.plan, motion.drives[rows], speed=speed, order=1, branch=branch)
+        moved = move_in_radians(motion.plan, motion.drives[rows], speed=speed, order=1, branch=branch)
         yield rows[: len(moved)], moved
 
 

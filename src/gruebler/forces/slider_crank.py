@@ -24,11 +24,11 @@ class SliderFriction(NamedTuple):
     """The deviation angle of the coupler from the path, in radians; positive where the coupler rises to the slider's
     side."""
     coupler: Reals
-    """F_K along the coupler."""
+    """F_K along the coupler, in the unit of the load."""
     side: Reals
-    """F_N = F_K sin(alpha), at right angles to the path."""
+    """F_N = F_K sin(alpha), at right angles to the path, in the unit of the load."""
     friction: Reals
-    """F_R = mu_R |F_N|, a magnitude."""
+    """F_R = mu_R |F_N|, a magnitude, in the unit of the load."""
 
 
 def slider_friction(

@@ -55,7 +55,7 @@ def statics_table(statics: Statics, *, lang: str = "en") -> Table:
             efforts.append(Column(effort, unit, _without_noise(statics, statics.work, k)))
         else:
             efforts.append(Column(effort, unit, _without_noise(statics, rubbing.frictionless, k)))
-            header = translate("with friction {effort}", lang, effort=effort)
+            header = translate("{effort} with friction", lang, effort=effort)
             with_friction.append(Column(header, unit, _without_noise(statics, statics.work, k)))
     if rubbing is not None:
         if len(drives) == 1:

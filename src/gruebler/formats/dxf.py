@@ -23,9 +23,8 @@ from gruebler.analysis.plates import Plate, Plates, plates_of, whole_motion
 from gruebler.convex_hull import convex_hull
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.pin_drawings import lower_linkage
-from gruebler.kinematics import move
 from gruebler.kinematics.reference_pose import pose_at_reference
-from gruebler.kinematics.solve import cached_plan
+from gruebler.kinematics.solve import cached_plan, move_in_radians
 from gruebler.linkages import Linkage, Pose2D
 from gruebler.text import Message, message
 
@@ -134,7 +133,7 @@ def _cut(
         motion = whole_motion(lower)
     except LinkageError as error:
         drives = pose_at_reference(cached_plan(lower), np.zeros(len(lower.mechanism.drives))).drives
-        plates = plates_of(move(lower, drives[None]))
+        plates = plates_of(move_in_radians(lower, drives[None]))
         left_out.append(message("the lengths of slots, paths and planes ({reason})", reason=error))
         return plates, sizes, dict.fromkeys(plates.plates, "")
     plates = plates_of(motion)

@@ -20,7 +20,7 @@ from gruebler.chain.pairs import pair
 from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import LinkageError
 from gruebler.formats.measured_lengths import MILLIMETRES, in_unit
-from gruebler.kinematics import move
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Line, Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.mechanism import Drive, Mechanism
@@ -485,7 +485,9 @@ def _posed(linkage: Linkage) -> Linkage:
         return linkage
     drives = linkage.mechanism.drives
     for k in range(_TRIALS):
-        motion = move(linkage, [[(2 * pi if drive.turning else linkage.size) * k / _TRIALS for drive in drives]])
+        motion = move_in_radians(
+            linkage, [[(2 * pi if drive.turning else linkage.size) * k / _TRIALS for drive in drives]]
+        )
         if motion.complete:
             return linkage.with_reference_pose(motion.pose())
     raise LinkageError("no pose of the linkage was found in which its joints are closed: give it a reference pose")

@@ -10,7 +10,7 @@ import numpy as np
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.straight import Path, PathPiece, linkage_path, longest_piece, path_piece
-from gruebler.kinematics import move
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.linkages.points import PointLike, point_name
 from gruebler.linkages.quantities import as_finite, as_positive
@@ -117,7 +117,7 @@ def tangent_windows(
     (True, 0.02)
     """
     least, most = ratios
-    middle = move(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
+    middle = move_in_radians(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
     if not len(middle):
         raise LinkageError("{reason}", reason=middle.reason)
     path, tangent = linkage_path(linkage, point, branch), float(np.angle(middle.complex_point(point, 1)[0]))

@@ -22,7 +22,7 @@ from gruebler.kinematics.branches import Unassembled, read_branch, starting_stat
 from gruebler.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.solve import cached_plan, move, starting_configuration
+from gruebler.kinematics.solve import cached_plan, move_in_radians, starting_configuration
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.notebook import Brief
 
@@ -116,7 +116,7 @@ class Motions(Brief):
 
     def motion(self, number: int) -> Motion:
         """The motion of one design with everything that a `Motion` knows, such as where it stopped and why."""
-        return move(self.designs.linkage(number), self.drives, branch=self.branch)
+        return move_in_radians(self.designs.linkage(number), self.drives, branch=self.branch)
 
     def link_index(self, link: str) -> int:
         """Where a link is in the arrays' last axis; `LinkageError` if it was not kept."""

@@ -29,7 +29,7 @@ from gruebler.kinematics.configuration_curve import (
 )
 from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.root_finding import FunctionSamples, find_zeros
-from gruebler.kinematics.solve import move
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.points import PointLike
@@ -403,7 +403,7 @@ def _assembled(
 ) -> Reals | None:
     """The pose at a drive value, or None."""
     try:
-        motion = move(linkage, [value], branch=branch)
+        motion = move_in_radians(linkage, [value], branch=branch)
     except LinkageError as error:
         if system.redundant and system.lower.reference_pose is None:
             raise LinkageError(

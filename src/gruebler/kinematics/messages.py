@@ -17,6 +17,10 @@ _EXACT = message(
     "From {first} to {last} the sizes miss a change point by so little that they were taken for exact: poses and rates "
     "there are those of a linkage that meets it."
 )
+_EXACT_THERE = message(
+    "At {first} the sizes miss a change point by so little that they were taken for exact: pose and rates there are "
+    "those of a linkage that meets it."
+)
 _STOPS = {
     "limit": message("The motion ends at {drives}: there {form} {{{links}}} can no longer be assembled."),
     "singular": message("The motion ends at {drives}: there two assembly modes of {form} {{{links}}} meet."),
@@ -35,7 +39,8 @@ def unbounded_message(linkage: Linkage, drives: tuple[float, ...]) -> Message:
 
 def taken_for_exact_message(linkage: Linkage, first: tuple[float, ...], last: tuple[float, ...]) -> Message:
     """That a linkage was taken to meet a change point which it misses, in the rows between these drive values."""
-    return _EXACT.filled(first=_drive_values(linkage, first), last=_drive_values(linkage, last))
+    text = _EXACT_THERE if first == last else _EXACT
+    return text.filled(first=_drive_values(linkage, first), last=_drive_values(linkage, last))
 
 
 def stop_message(

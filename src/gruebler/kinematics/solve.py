@@ -273,7 +273,7 @@ def _extended(
     plan: Plan, drives: Reals, parts: tuple[Dyad | HigherGroup, ...], labels: tuple[str, ...]
 ) -> Iterator[tuple[str, ...]]:
     if len(labels) == len(parts):
-        if len(move(plan, drives.reshape(1, -1), branch=labels)):
+        if len(move_in_radians(plan, drives.reshape(1, -1), branch=labels)):
             yield labels
         return
     part = parts[len(labels)]

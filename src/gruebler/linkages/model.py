@@ -11,7 +11,6 @@ from types import MappingProxyType
 from typing import Any
 
 from gruebler import notebook
-from gruebler.angles import warn_of_degrees
 from gruebler.chain.pairs import Space
 from gruebler.doors import door_that_raises
 from gruebler.errors import LinkageError, nearest
@@ -426,7 +425,6 @@ def _checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, f
         line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), message("reference pose, {link}", link=link))
         if not isinstance(line, Line):
             raise LinkageError("reference pose, {link}: expected x, y and an angle", link=link)
-        warn_of_degrees(f"reference pose, {link}", line.angle)
         poses[link] = Pose2D(line.x, line.y, line.angle)
     for link in poses_given:
         _link(mechanism, link, message("reference pose"))

@@ -7,6 +7,8 @@ from math import isfinite
 from numbers import Real
 from typing import Annotated, Protocol
 
+import numpy as np
+
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import Element, LinkPoint
 from gruebler.mechanism import Mechanism
@@ -48,6 +50,8 @@ def points_of(linkage: Dimensioned, point: PointLike) -> tuple[LinkPoint, ...]:
             links = sorted(chain.joints[number].links, key=lambda link: link != linkage.mechanism.frame)
             placed = ((link, linkage.elements[number, link]) for link in links)
             return tuple(LinkPoint(link, element.x, element.y) for link, element in placed)
+    if isinstance(point, np.ndarray):
+        point = tuple(point.tolist())
     match text_as_point(point) if isinstance(point, str) else point:
         case LinkPoint(link, x, y):
             pass

@@ -14,7 +14,7 @@ import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics import move
+from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.synthesis.tasks import FunctionTask
 from gruebler.text import Message
@@ -108,7 +108,7 @@ class Minimax:
         """The linkage in the position where the interval begins, on its branch."""
         solution = self.solution
         own = solution.linkage().linkage(unit=unit)
-        start = move(own, [solution.input_start], branch="+" if solution.branch > 0 else "-")
+        start = move_in_radians(own, [solution.input_start], branch="+" if solution.branch > 0 else "-")
         return own.with_reference_pose(start.pose(0))
 
     def to_json(self) -> dict[str, Any]:

@@ -146,7 +146,6 @@ class _Search:
             if best.error < place.error:
                 place = best
                 long = long + 1 if self.differ(place) else 0
-            small = max(linear.decrease, 0 if model is None else model.decrease) < 1e-11
             if small or long > _LONG or max(near, along if model is not None else 0) < 1e-9:
                 break
         else:

@@ -15,9 +15,9 @@ from gruebler.angles import warn_of_degrees
 from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import GrueblerError, LinkageError
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion
 from gruebler.kinematics.reference_pose import pose_at_reference
-from gruebler.kinematics.solve import cached_plan
+from gruebler.kinematics.solve import cached_plan, move_in_radians
 from gruebler.linkages import Linkage, LinkPoint, Pin
 from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.elements import Circle, Wheel
@@ -137,9 +137,10 @@ def posed_linkage(
         raise LinkageError("drive values are numbers, but found {drive!r}", drive=drive) from None
     if not linkage.mechanism.drives:
         return _at_rest(linkage)
-    if linkage.mechanism.drives[0].turning:
-        for name, angles in (("drive", values), ("between", between), ("drives", drives)):
-            warn_of_degrees(name, () if angles is None else angles)
+    for k, driven in enumerate(linkage.mechanism.drives):
+        if driven.turning:
+            for name, given in (("drive", values), ("between", between), ("drives", drives)):
+                warn_of_degrees(name, _of_drive(given, k, len(linkage.mechanism.drives)))
     plan = cached_plan(linkage)
     if drives is not None:
         along = path_cycle(linkage, drives, branch)
@@ -158,7 +159,7 @@ def posed_linkage(
     if values is None:
         zeros = np.zeros(len(linkage.mechanism.drives))
         values = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
-    pose = move(linkage, values.reshape(1, -1), branch=branch)
+    pose = move_in_radians(linkage, values.reshape(1, -1), branch=branch)
     if not len(pose):
         raise LinkageError("{reason}", reason=pose.reason)
     return _posed(pose)
@@ -177,7 +178,7 @@ def _one_position(
     turning = linkage.mechanism.drives[0].turning
     for row in candidates if values is not None or turning else ():
         try:
-            pose = move(linkage, row.reshape(1, -1), branch=branch)
+            pose = move_in_radians(linkage, row.reshape(1, -1), branch=branch)
         except LinkageError:
             raise error from None
         if len(pose):
@@ -192,7 +193,7 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
         try:
             driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [number]))
             plan = cached_plan(driven)
-            pose = move(driven, pose_at_reference(plan, np.zeros(1)).drives.reshape(1, -1))
+            pose = move_in_radians(driven, pose_at_reference(plan, np.zeros(1)).drives.reshape(1, -1))
         except GrueblerError:
             continue
         if len(pose):
@@ -303,3 +304,9 @@ def _scale(lower: Linkage, path: Motion) -> float:
     pins.pop(lower.mechanism.frame)
     sides = [math.dist(a, b) for link_pins in pins.values() for a, b in combinations(sorted(link_pins), 2)]
     return min(max(usual, _SHORTEST / min(sides, default=math.inf)), _LARGEST * usual)
+
+
+def _of_drive(given: ArrayLike | None, number: int, drives: int) -> Reals:
+    """Of drive values in a row, or in rows, those of one drive; a range of the only drive is all its own."""
+    values = np.asarray(() if given is None else given, np.float64)
+    return values if drives == 1 else np.atleast_1d(values)[..., number : number + 1]
