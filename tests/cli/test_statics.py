@@ -23,7 +23,7 @@ def test_a_press_over_a_turn(capsys):
     status, out, _ = run(capsys, "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1")
     assert status == 0
     assert "Largest effort, without friction: torque R(frame-crank) = -2148.69 N·mm at 75°." in out
-    assert "Largest effort: with friction torque R(frame-crank) = 2242.63 N·mm at 285°." in out
+    assert "Largest effort: torque R(frame-crank) with friction = 2242.63 N·mm at 285°." in out
     # 1/(0.1 tan(alpha)), sin(alpha) = 0.4, as the slider goes forth against its load
     assert "Least safety against self-locking: 22.9129 at 270°, by P(frame-slider)." in out
     row = next(line.split() for line in out.splitlines() if line.strip()[:2] == "90")
@@ -63,7 +63,7 @@ def test_self_locking(capsys):
     assert [row[2] == "–" for row in rows] == [False, False, True, True, True]
     status, found, columns = document(capsys, *arguments)
     assert found["locked"] == [2, 3, 4]
-    torques = columns["with friction torque R(frame-crank)"]
+    torques = columns["torque R(frame-crank) with friction"]
     assert [torque is None for torque in torques] == [False, False, True, True, True]
     status, out, _ = run(capsys, *arguments, "--lang", "de")
     assert "ist das Getriebe selbsthemmend, es klemmt" in out
@@ -80,12 +80,12 @@ def test_pins_and_guides(capsys):
     assert columns["friction moment R(frame-crank)"] == [pytest.approx(0.1 * 8 * force)]
     assert columns["moment of R(frame-crank) on crank"] == [pytest.approx(-0.1 * 8 * force)]
     assert columns["friction moment R(crank-coupler)"] == [pytest.approx(0.1 * 5 * force)]
-    assert columns["with friction torque R(frame-crank)"] > plain["with friction torque R(frame-crank)"]
+    assert columns["torque R(frame-crank) with friction"] > plain["torque R(frame-crank) with friction"]
     assert columns["torque R(frame-crank)"] == plain["torque R(frame-crank)"]
     only = document(capsys, *arguments[:3], "--friction", "R(frame-crank)=0.1", *pins, *arguments[5:])[2]
     assert "friction P(frame-slider)" not in only
-    back = document(capsys, *arguments, "--backward")[2]["with friction torque R(frame-crank)"]
-    assert back[0] < plain["torque R(frame-crank)"][0] < plain["with friction torque R(frame-crank)"][0]
+    back = document(capsys, *arguments, "--backward")[2]["torque R(frame-crank) with friction"]
+    assert back[0] < plain["torque R(frame-crank)"][0] < plain["torque R(frame-crank) with friction"][0]
     bush = document(capsys, *arguments, "--guide-length", "40", "--guide-on", "P(frame-slider)=frame")[2]
     # the pin lies 56.9 mm from the bush's middle, on the crank's axis: both edges bear, 2 * 56.9/40 times the force
     assert bush["friction P(frame-slider)"][0] > 2 * plain["friction P(frame-slider)"][0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -287,8 +288,11 @@ def _print(held: Statics, table: Sequence[Column], lang: str) -> None:
             if np.isfinite(column.values).any():
                 print(_largest(column, table[0], lang, rubbing=False))
         for column in table[2 * drives : 3 * drives] if held.friction else ():
-            if np.isfinite(column.values).any():
-                print(_largest(column, table[0], lang, rubbing=True))
+            if held.friction and np.isfinite(column.values).any():
+                rests = (held.friction.directions == 0).any(axis=1)  # a row without some of its friction stands alone
+                moving = np.where(rests, np.nan, column.values)
+                shown_rows = replace(column, values=moving) if np.isfinite(moving).any() else column
+                print(_largest(shown_rows, table[0], lang, rubbing=True))
         if held.friction and np.isfinite(held.friction.locking_factor).any():
             print(_safety(held, table[0], lang))
     if math.isfinite(held.disagreement):

@@ -48,6 +48,9 @@ _APART = message(
     "At the drive values {values} of these there are equilibria that do not grow out of that without friction: forces "
     "that could hold the linkage jammed."
 )
+_RESTS = message(
+    "At the drive values {values} {joint} is at rest and turns back: no friction there, but just before and behind it."
+)
 _RUBS_NOT = message("Nothing rubs: there are no slides with a coefficient of friction, and no pins with a radius.")
 _MOST_VALUES = 6
 _NONE = 1e-13  # of the loads: a smaller effort is none
@@ -191,6 +194,11 @@ class Statics(Brief):
                 )
             )
         more, apart = ~rubbing.locked & (rubbing.equilibria > 1), rubbing.locked & (rubbing.equilibria > 0)
+        for k, contact in enumerate(rubbing.contacts):
+            rests = (rubbing.directions[:, k] == 0) & np.isfinite(self.work).all(axis=1)
+            if rests.any() and not rests.all():
+                joint = chain.joint_title(contact.joint)
+                sentences.append(_RESTS.filled(values=self._values(rests), joint=joint))
         several = ((_OTHERS, more), (_APART, apart))
         return sentences + [text.filled(values=self._values(rows)) for text, rows in several if rows.any()]
 
