@@ -71,7 +71,7 @@ def test_a_row_in_a_change_point_that_is_nearly_met_is_named(excess):
     motion = move(FourBar(*kite(KITES[0], 0, excess)).linkage(), [-0.1, 0.0, 0.1], branch="+", order=1)
     assert motion.taken_for_exact == (1,)
     assert motion.message().startswith("At R(frame-crank) = 0° the sizes miss a change point")
-    assert motion.message("de").endswith("Lagen und Ableitungen sind dort die eines Getriebes, das sie trifft.")
+    assert motion.message("de").endswith("Lage und Ableitungen sind dort die eines Getriebes, das sie trifft.")
 
 
 @pytest.mark.parametrize("sizes", [*KITES, (1.0, 2.0, 1.0, 2.0), (1.0, 1.0, 2.0, 2.0), (3.0, 2.0, 1.5, 0.5)])
