@@ -45,10 +45,10 @@ class Request:
 
     def __post_init__(self) -> None:
         for name in ("links", "mobility"):
-            found = getattr(self, name)
-            if not isinstance(found, Integral) or isinstance(found, bool):
-                raise RequestError("{name} is a whole number, not {found!r}", name=name, found=found)
-            object.__setattr__(self, name, int(found))
+            value = getattr(self, name)
+            if not isinstance(value, Integral) or isinstance(value, bool):
+                raise RequestError("{name} is a whole number, not {found!r}", name=name, found=value)
+            object.__setattr__(self, name, int(value))
         if self.links < 3:
             raise RequestError("a chain has at least three links, not {links}", links=self.links)
         if self.mobility < 0:
