@@ -35,8 +35,8 @@ class Walk:
         if room(module) in WORKING and room(module) not in self.entered:
             self.entered.append(room(module))
         caller = frame.f_back
-        while caller is not None and module_of(caller.f_code.co_filename) is None:
-            caller = caller.f_back
+        while caller is not None and module_of(caller.f_code.co_filename) in (None, "doors"):
+            caller = caller.f_back  # a door checks the arguments and goes on to what it opens
         if caller is not None:
             calling = module_of(caller.f_code.co_filename)
             if room(calling) != room(module) and 0 <= depth(calling) < depth(module) and module:
@@ -82,7 +82,8 @@ def test_a_command_does_everything_once(path, capsys):
         "kinematics",
         "columns",
     ]
-    passed = [call for call in walk.upward if "<locals>" not in call]  # functions that are given to a solver come back
+    # Functions that are given to a solver come back; values that hold others ask them for their hash and equality.
+    passed = [call for call in walk.upward if "<locals>" not in call and not call.endswith(("__hash__", "__eq__"))]
     assert passed == []
     once = (
         "formats.linkages.read_linkage",

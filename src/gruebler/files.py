@@ -177,7 +177,7 @@ def convert(
     >>> convert(folder / "chain.txt", folder / "chain.graphml")
     []
     >>> print(read(folder / "chain.graphml"))
-    R(a-b) R(a-d) R(b-c) R(c-d)
+    R(a-b) R(b-c) R(c-d) R(d-a)
     """
     from gruebler.formats.chain_files import LINES, read_lines, write_lines
 

@@ -176,7 +176,9 @@ def test_a_double_rocker_passes_both_limits_and_returns():
     assert made.closed
     reach = np.arccos((30**2 + 60**2 - 80**2) / (2 * 30 * 60))  # coupler and rocker in line: b + c = 80
     assert sorted(limit.value for limit in made.drive_limits) == pytest.approx([-reach, reach], abs=1e-12)
-    assert drive_range(made) == (False, pytest.approx(-reach, abs=1e-12), pytest.approx(reach, abs=1e-12))
+    span = drive_range(made)
+    assert not span.full
+    assert (span.lowest, span.highest) == pytest.approx((-reach, reach), abs=1e-12)
     assert made.at(made.length + 1.0).point("R(crank-coupler)") == pytest.approx(made.at(1.0).point("R(crank-coupler)"))
     check_against_move(made)
 

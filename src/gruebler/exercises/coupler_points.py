@@ -19,7 +19,7 @@ from gruebler.kinematics.solve import move_in_radians
 from gruebler.linkages import Linkage
 from gruebler.text import Message, in_every_language, message
 
-__all__ = ["conchoid", "four_bar", "read_points"]
+__all__ = ["conchoid", "four_bar"]  # the methods of exercises
 
 
 STRIP = 1e-6

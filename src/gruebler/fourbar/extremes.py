@@ -134,8 +134,9 @@ class DeadCentres:
     def between(cls, inner: tuple[float, float, float], outer: tuple[float, float, float]) -> DeadCentres:
         """Both from crank angle, output and direction of the coupler's line.
 
-        >>> [centre.kind for centre in DeadCentres.between((3.2, 4.0, 0.1), (0.2, 7.5, 0.2))[:2]]
-        ['minimum', 'maximum']
+        >>> both = DeadCentres.between((3.2, 4.0, 0.1), (0.2, 7.5, 0.2))
+        >>> both.inner.kind, both.outer.kind
+        ('minimum', 'maximum')
         """
         kinds = ("minimum", "maximum") if inner[1] < outer[1] else ("maximum", "minimum")
         return cls(

@@ -21,7 +21,7 @@ def policy_element(*scripts: str, styles: bool = True) -> str:
         scripts: as given to `script_element`.
         styles: whether the page has style sheets and styles of elements.
 
-    >>> policy_element()[:76]
+    >>> policy_element()[:77]
     '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; style'
     """
     allowed = [f"'sha256-{_digest(script)}'" for script in scripts]

@@ -26,7 +26,7 @@ def animated_page(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
 
     >>> from gruebler.fourbar import FourBar
     >>> page = animated_page(FourBar(25, 70, 40, 70).linkage(), lang="de")
-    >>> page.count("<svg"), page.count("<script"), "http" in page.replace("http://www.w3.org/2000/svg", "")
+    >>> page.count("<svg"), page.count("<script"), "://" in page.replace("http://www.w3.org/2000/svg", "")
     (1, 1, False)
     """
     shown = scene(linkage, **options)
