@@ -168,9 +168,9 @@ def _length(id: str, link: str, *joints: str) -> float:
     places = []
     for name in joints:
         if name in linkage.points:
-            of, x, y = linkage.points[name]
-            assert of == link
-            places.append(complex(x, y))
+            point = linkage.points[name]
+            assert point.link == link
+            places.append(complex(point.x, point.y))
         else:
             number = linkage.mechanism.chain.find_joint(name)
             assert number is not None

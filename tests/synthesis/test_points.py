@@ -414,7 +414,9 @@ def test_designs_of_six_points_are_different():
     """They come from as many curves: no two have the same lengths."""
     linkages = [design.linkage for design in solved_open("six on a wave").designs]
     shapes = [
-        np.array([own.length("crank", 0, 1), own.length("coupler", 1, 2), *np.abs(own.points["P"][1:])])
+        np.array(
+            [own.length("crank", 0, 1), own.length("coupler", 1, 2), abs(own.points["P"].x), abs(own.points["P"].y)]
+        )
         for own in linkages
     ]
     assert len(linkages) >= 12

@@ -236,8 +236,7 @@ def _seen_from_crank(task: FunctionTask) -> PositionTask:
         q, t = turned * np.exp(1j * moved), turned * (1 - np.exp(1j * moved))
     else:
         q, t = turned, turned * moved
-    angles = np.unwrap(np.angle(q))
-    return PositionTask(tuple((z.real, z.imag, a) for z, a in zip(t, angles, strict=True)))
+    return PositionTask(tuple((z.real, z.imag, a) for z, a in zip(t, np.angle(q), strict=True)))
 
 
 def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:

@@ -359,7 +359,8 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
         raise SynthesisError("crank angles need at least three points: two are met by any crank")
     timing = np.array(task.crank_angles)
     # The body of the crank seen with the coupler point at rest: its point A - A0 goes to exp(i angle) (A - A0) - P.
-    seen = PositionTask(tuple((-z.real, -z.imag, a) for z, a in zip(task.z, timing, strict=True)))
+    within = np.angle(np.exp(1j * timing))  # a body looks the same after a whole turn
+    seen = PositionTask(tuple((-z.real, -z.imag, a) for z, a in zip(task.z, within, strict=True)))
     designs: list[Design] = []
     cranks = [d for d in guiding_dyads(seen, number) if d.form == "RR"]
     real = 0
@@ -368,7 +369,7 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
         pivot, pin = -crank.fixed, crank.moving + task.z[0] - crank.fixed
         turned = np.exp(1j * (timing - timing[0]))
         pins = pivot + (pin - pivot) * turned
-        coupler = np.unwrap(np.angle((task.z - pins) / (task.z[0] - pin)))
+        coupler = np.angle((task.z - pins) / (task.z[0] - pin))
         carried = PositionTask(tuple((z.real, z.imag, a) for z, a in zip(task.z, coupler, strict=True)))
         own = GuidingDyad("RR", complex(pin), complex(pivot))
         for other in guiding_dyads(carried, number):
