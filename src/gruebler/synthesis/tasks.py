@@ -285,7 +285,7 @@ class FunctionTask:
                     raise SynthesisError("inputs {m} and {k} are equal", m=m + 1, k=k + 1)
         warn_of_degrees("inputs", self.inputs, path=True)
         if self.output == "angle":
-            warn_of_degrees("outputs", self.outputs, path=True)
+            warn_of_degrees("outputs", self.outputs, once=True)
         if self.law is not None and _pairs_of(self.law, len(self)) != self._pairs:
             raise SynthesisError("the pairs are not those of the function at Chebyshev's spacing")
 
