@@ -18,6 +18,8 @@ __all__ = [
     "RequestError",
 ]
 
+_TOO_MANY = 1_000_000  # multiple joints: no chain that can be listed has as many
+
 
 class RequestError(GrueblerError):
     """A request that no enumeration can answer."""
@@ -72,11 +74,11 @@ class Request:
     def joints_range(self) -> tuple[int, int | None]:
         """The smallest and largest number of multiple joints; None: no limit."""
         number = self.multiple_joints
-        if isinstance(number, int) and not isinstance(number, bool) and number >= 0:
-            return number, number
+        if isinstance(number, Integral) and not isinstance(number, bool) and 0 <= number < _TOO_MANY:
+            return int(number), int(number)
         if number == "any":
             return 0, None
-        if isinstance(number, str) and (match := re.fullmatch(r"(\d+)(?:-(\d+))?", number)):
+        if isinstance(number, str) and (match := re.fullmatch(r"([0-9]{1,6})(?:-([0-9]{1,6}))?", number)):
             return int(match[1]), int(match[2] or match[1])
         raise RequestError("multiple joints are a number, a range such as 0-2 or 'any', not {wanted!r}", wanted=number)
 
