@@ -443,3 +443,9 @@ def test_ratios_with_thousands_of_digits_are_said_in_six():
 
 def test_one_mesh_is_not_several():
     assert explain_train(read_train("sun:24 planet:18")).startswith("2 moving links, 1 independent mesh: mobility 1.")
+
+
+def test_powers_beyond_all_numbers_are_refused():
+    state = balance(read_train("in:20 out:40").train, {"in": 10**200}, {"out": 10**200})
+    with pytest.raises(GearError, match="too large"):
+        state.watts  # noqa: B018  it is computed when it is asked for

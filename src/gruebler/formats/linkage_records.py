@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import itertools
 import math
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
 import msgspec
 
 from gruebler.documents import convert_document
-from gruebler.errors import LinkageError, nearest
+from gruebler.errors import LinkageError, UnitWarning, nearest
 from gruebler.formats.angles import in_degrees, in_radians
 from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.inverted_slider_crank import InvertedSliderCrank
@@ -166,7 +167,8 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
             )
         elements[link] = _by_joint(mechanism, values, f"elements.{link}")
     pose = next((_reference_pose(key, raw, mechanism.chain.links) for key, raw in poses.items()), None)
-    return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
+    with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these were degrees
+        return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
 
 
 def _door(

@@ -140,7 +140,10 @@ class Balance:
         >>> {link: round(power, 1) for link, power in state.watts.items()}
         {'in': 1570.8, 'out': -1570.8}
         """
-        return {link: float(power) * math.tau / 60 for link, power in self.powers.items()}
+        try:
+            return {link: float(power) * math.tau / 60 for link, power in self.powers.items()}
+        except OverflowError:
+            raise GearError("the powers are too large to be told as numbers") from None
 
 
 def balance(train: Train, drives: Mapping[str, object], loads: Mapping[str, object]) -> Balance:
