@@ -1,7 +1,8 @@
 // Builds the page into the folder given, else into the Python package: one ES module, no other files.
-import { build } from "esbuild";
-import { fileURLToPath } from "node:url";
+
 import path from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/explorer/static");

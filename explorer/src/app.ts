@@ -1,24 +1,17 @@
 /** The page: its header, its views, its language and theme, the link that is its document. */
 
+import { CatalogView } from "./catalog";
 import { h } from "./dom";
+import { ExercisesView } from "./exercises";
 import { Backend, type HostModel } from "./host";
-import { currentLanguage, setLanguage, t, type Language } from "./language";
+import { currentLanguage, type Language, setLanguage, t } from "./language";
 import { BadLink, packed, unpacked } from "./link";
 import type { LinkageDocument, Model } from "./model";
 import { MotionView } from "./motion";
-import { CatalogView } from "./catalog";
-import { ExercisesView } from "./exercises";
 import { StructureView } from "./structure";
-import { SynthesisView } from "./synthesis";
 import styles from "./style.css";
-
-export interface View {
-  readonly element: HTMLElement;
-  /** Lay the view out anew, in the language of the page. */
-  arrange(): void;
-  /** It has come to sight. */
-  appeared?(): void;
-}
+import { SynthesisView } from "./synthesis";
+import type { Page, View } from "./view";
 
 /** What a link carries. */
 interface Shared {
@@ -28,7 +21,7 @@ interface Shared {
   drive: number;
 }
 
-export class App {
+export class App implements Page {
   readonly backend: Backend;
   readonly motion: MotionView;
   private readonly views: Record<string, View>;
@@ -41,7 +34,10 @@ export class App {
   private writing = 0;
   private hash = "";
 
-  constructor(readonly model: HostModel, element: HTMLElement) {
+  constructor(
+    readonly model: HostModel,
+    element: HTMLElement,
+  ) {
     this.host = h("div", { class: "gruebler-explorer" });
     element.append(this.host);
     this.host.style.display = "block";
@@ -57,12 +53,21 @@ export class App {
     this.views = { motion: this.motion };
     if (this.backend.present) {
       this.views = {
-        structure: new StructureView(this), motion: this.motion, synthesis: new SynthesisView(this), catalog: new CatalogView(this),
+        structure: new StructureView(this),
+        motion: this.motion,
+        synthesis: new SynthesisView(this),
+        catalog: new CatalogView(this),
         exercises: new ExercisesView(this),
       };
     }
     for (const view of Object.values(this.views)) if (view !== this.motion) view.arrange();
-    this.root = h("div", { class: "app" }, this.header, this.message, ...Object.values(this.views).map((view) => view.element));
+    this.root = h(
+      "div",
+      { class: "app" },
+      this.header,
+      this.message,
+      ...Object.values(this.views).map((view) => view.element),
+    );
     // a page of its own listens everywhere, a cell of a notebook to itself
     (this.linkable ? document : this.root).addEventListener("keydown", (event) => this.key(event as KeyboardEvent));
     shadow.append(this.root);
@@ -85,6 +90,14 @@ export class App {
     this.host.remove();
   }
 
+  get served(): boolean {
+    return this.backend.present;
+  }
+
+  get shown(): Model {
+    return this.motion.machine.model;
+  }
+
   private get linkable(): boolean {
     return this.model.get("host") !== "notebook";
   }
@@ -101,7 +114,8 @@ export class App {
   setTheme(theme: "light" | "dark"): void {
     this.host.dataset.theme = theme;
     // a page that is longer than the window is of one colour down to its end
-    if (this.linkable) document.documentElement.style.background = getComputedStyle(this.host).getPropertyValue("--paper");
+    if (this.linkable)
+      document.documentElement.style.background = getComputedStyle(this.host).getPropertyValue("--paper");
   }
 
   // --- views ---------------------------------------------------------------------------------------------------------
@@ -122,27 +136,65 @@ export class App {
 
   private arrangeHeader(): void {
     this.host.lang = currentLanguage();
-    const names: Record<string, string> = { structure: t("Structure"), motion: t("Motion"), synthesis: t("Synthesis"), catalog: t("Catalog"), exercises: t("Exercises") };
+    const names: Record<string, string> = {
+      structure: t("Structure"),
+      motion: t("Motion"),
+      synthesis: t("Synthesis"),
+      catalog: t("Catalog"),
+      exercises: t("Exercises"),
+    };
     const keys = Object.keys(this.views);
-    const tabs = keys.length < 2 ? null : h("nav", { role: "tablist" }, ...keys.map((key) => h("button", {
-      role: "tab", "data-view": key, "aria-selected": String(key === this.view), onclick: () => this.show(key),
-    }, names[key]!)));
+    const tabs =
+      keys.length < 2
+        ? null
+        : h(
+            "nav",
+            { role: "tablist" },
+            ...keys.map((key) =>
+              h(
+                "button",
+                {
+                  role: "tab",
+                  "data-view": key,
+                  "aria-selected": String(key === this.view),
+                  onclick: () => this.show(key),
+                },
+                names[key]!,
+              ),
+            ),
+          );
     const [back, forth] = this.motion.undoable;
     const tool = (sign: string, title: string, act: () => void, disabled = false) =>
       h("button", { class: "quiet", title, "aria-label": title, onclick: act, disabled }, sign);
-    const language = h("select", { "aria-label": t("Language"), onchange: () => {
-      setLanguage(language.value as Language);
-      this.arrange();
-    } }, ...([["en", "English"], ["de", "Deutsch"]] as const).map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)));
+    const language = h(
+      "select",
+      {
+        "aria-label": t("Language"),
+        onchange: () => {
+          setLanguage(language.value as Language);
+          this.arrange();
+        },
+      },
+      ...(
+        [
+          ["en", "English"],
+          ["de", "Deutsch"],
+        ] as const
+      ).map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)),
+    );
     this.header.replaceChildren(
-      h("h1", {}, "gruebler", h("small", {}, this.name)), ...(tabs ? [tabs] : []), h("span", { class: "spring" }),
-      tool("↶", t("Undo"), () => this.motion.undo(), !back), tool("↷", t("Redo"), () => this.motion.redo(), !forth),
+      h("h1", {}, "gruebler", h("small", {}, this.name)),
+      ...(tabs ? [tabs] : []),
+      h("span", { class: "spring" }),
+      tool("↶", t("Undo"), () => this.motion.undo(), !back),
+      tool("↷", t("Redo"), () => this.motion.redo(), !forth),
       tool("⤴", t("Copy the link"), () => void this.share()),
       tool("◐", t("Light or dark"), () => {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
         this.motion.stage.draw();
       }),
-      tool("?", t("Keys"), () => this.help()), language,
+      tool("?", t("Keys"), () => this.help()),
+      language,
     );
   }
 
@@ -156,7 +208,10 @@ export class App {
   }
 
   say(text: string, action?: HTMLElement): void {
-    if (!this.connected && !text) text = t("The connection to gruebler is lost. The page goes on by itself; it connects again when the server is back.");
+    if (!this.connected && !text)
+      text = t(
+        "The connection to gruebler is lost. The page goes on by itself; it connects again when the server is back.",
+      );
     if (this.message.firstChild?.textContent === text && !action) return;
     this.message.hidden = !text;
     this.message.replaceChildren(h("span", {}, text), ...(action ? [action] : []));
@@ -182,7 +237,7 @@ export class App {
   /** Show the structure of a text. */
   describe(text: string): void {
     this.show("structure");
-    void (this.views["structure"] as StructureView).describe(text);
+    void (this.views.structure as StructureView).describe(text);
   }
 
   /** After a change: the link follows, a notebook is told. */
@@ -194,7 +249,12 @@ export class App {
 
   private shared(): Shared {
     const { machine } = this.motion;
-    return { document: machine.document(), name: machine.model.name, source: machine.model.source, drive: machine.drives[machine.active] ?? 0 };
+    return {
+      document: machine.document(),
+      name: machine.model.name,
+      source: machine.model.source,
+      drive: machine.drives[machine.active] ?? 0,
+    };
   }
 
   private async write(): Promise<void> {
@@ -214,7 +274,12 @@ export class App {
       await navigator.clipboard.writeText(address);
       this.say(t("The link is copied. It holds the mechanism with its sizes."));
     } catch {
-      const field = h("input", { value: address, readonly: true, "aria-label": t("Copy the link"), onfocus: () => field.select() });
+      const field = h("input", {
+        value: address,
+        readonly: true,
+        "aria-label": t("Copy the link"),
+        onfocus: () => field.select(),
+      });
       this.say(t("Copy this link:"), field);
       field.focus();
     }
@@ -237,7 +302,9 @@ export class App {
     const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(shared.document[key]);
     if (["joints", "frame", "drives", "links"].every(same)) this.motion.openDocument(shared.document, shared.drive);
     else if (this.backend.present) {
-      this.open(await this.ask<Model>("open_document", { document: shared.document, name: shared.name, source: shared.source }));
+      this.open(
+        await this.ask<Model>("open_document", { document: shared.document, name: shared.name, source: shared.source }),
+      );
     } else this.say(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
   }
 
@@ -267,12 +334,19 @@ export class App {
 
   private help(): void {
     const rows: [string, string][] = [
-      [t("Space"), t("play and pause")], ["← →", t("move the drive by 1°, with Shift by 10°")],
+      [t("Space"), t("play and pause")],
+      ["← →", t("move the drive by 1°, with Shift by 10°")],
       ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
-      ["Ctrl Z, Ctrl Y", t("undo, redo")], ["+ − 0", t("zoom, show everything")], ["?", t("this list")],
+      ["Ctrl Z, Ctrl Y", t("undo, redo")],
+      ["+ − 0", t("zoom, show everything")],
+      ["?", t("this list")],
     ];
-    const dialog = h("dialog", { "aria-label": t("Keys") }, h("table", {}, ...rows.map(([key, text]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, text)))),
-      h("form", { method: "dialog" }, h("button", { class: "key" }, t("Close"))));
+    const dialog = h(
+      "dialog",
+      { "aria-label": t("Keys") },
+      h("table", {}, ...rows.map(([key, text]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, text)))),
+      h("form", { method: "dialog" }, h("button", { class: "key" }, t("Close"))),
+    );
     dialog.addEventListener("close", () => dialog.remove());
     this.root.append(dialog);
     dialog.showModal();

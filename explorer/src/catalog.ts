@@ -1,10 +1,9 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
-import type { App, View } from "./app";
-import { h } from "./dom";
+import { h, thumbnail } from "./dom";
 import { t } from "./language";
 import type { Model } from "./model";
-import { thumbnail } from "./structure";
+import type { Page, View } from "./view";
 
 interface Entry {
   id: string;
@@ -27,15 +26,18 @@ export class CatalogView implements View {
   private typing = 0;
   private asked = 0;
   private filled = false;
-  private readonly watcher = new IntersectionObserver((seen) => {
-    for (const { target, isIntersecting } of seen) {
-      if (!isIntersecting) continue;
-      this.watcher.unobserve(target);
-      void this.draw(target as HTMLElement);
-    }
-  }, { rootMargin: "200px" });
+  private readonly watcher = new IntersectionObserver(
+    (seen) => {
+      for (const { target, isIntersecting } of seen) {
+        if (!isIntersecting) continue;
+        this.watcher.unobserve(target);
+        void this.draw(target as HTMLElement);
+      }
+    },
+    { rootMargin: "200px" },
+  );
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly page: Page) {}
 
   appeared(): void {
     if (!this.filled) void this.search();
@@ -43,42 +45,93 @@ export class CatalogView implements View {
 
   arrange(): void {
     const field = (label: string, value: string, set: (text: string) => void, hint: string, key: string) => {
-      const input = h("input", { value, placeholder: hint, "data-field": key, oninput: () => {
-        set(input.value);
-        clearTimeout(this.typing);
-        this.typing = window.setTimeout(() => void this.search(), 250);
-      } });
+      const input = h("input", {
+        value,
+        placeholder: hint,
+        "data-field": key,
+        oninput: () => {
+          set(input.value);
+          clearTimeout(this.typing);
+          this.typing = window.setTimeout(() => void this.search(), 250);
+        },
+      });
       return h("label", {}, label, input);
     };
-    const feature = (key: string, label: string) => field(label, this.features[key] ?? "", (text) => (this.features[key] = text), "", key);
-    const more = h("details", { open: this.refining, "data-panel": "features", ontoggle: () => (this.refining = more.open) },
+    const feature = (key: string, label: string) =>
+      field(label, this.features[key] ?? "", (text) => (this.features[key] = text), "", key);
+    const more = h(
+      "details",
+      { open: this.refining, "data-panel": "features", ontoggle: () => (this.refining = more.open) },
       h("summary", {}, t("Access features")),
-      h("div", { class: "form numbers" },
-        feature("mobility", t("Mobility by the count")), feature("drive_joints", t("Drive joints")),
-        feature("drive_joints_at_frame", t("of them at the frame")), feature("output_links", t("Output links")),
-        feature("output_links_at_frame", t("of them jointed to the frame")), feature("binary", t("Binary links")),
-        feature("ternary", t("Ternary links")), feature("multiple_joints", t("Multiple joints")),
-        field(t("Joints by type"), this.joints, (text) => (this.joints = text), t("R:4,P:0"), "joints")));
-    this.element.replaceChildren(h("div", { class: "page" },
-      h("h2", {}, t("Catalog")),
-      h("div", { class: "form" },
-        field(t("Words"), this.words, (text) => (this.words = text), t("crank, Kurbel, …"), "words"),
-        field(t("Joint types"), this.pairs, (text) => (this.pairs = text), "P G", "pairs"), feature("links", t("Links"))),
-      more, this.note, this.cards));
+      h(
+        "div",
+        { class: "form numbers" },
+        feature("mobility", t("Mobility by the count")),
+        feature("drive_joints", t("Drive joints")),
+        feature("drive_joints_at_frame", t("of them at the frame")),
+        feature("output_links", t("Output links")),
+        feature("output_links_at_frame", t("of them jointed to the frame")),
+        feature("binary", t("Binary links")),
+        feature("ternary", t("Ternary links")),
+        feature("multiple_joints", t("Multiple joints")),
+        field(t("Joints by type"), this.joints, (text) => (this.joints = text), t("R:4,P:0"), "joints"),
+      ),
+    );
+    this.element.replaceChildren(
+      h(
+        "div",
+        { class: "page" },
+        h("h2", {}, t("Catalog")),
+        h(
+          "div",
+          { class: "form" },
+          field(t("Words"), this.words, (text) => (this.words = text), t("crank, Kurbel, …"), "words"),
+          field(t("Joint types"), this.pairs, (text) => (this.pairs = text), "P G", "pairs"),
+          feature("links", t("Links")),
+        ),
+        more,
+        this.note,
+        this.cards,
+      ),
+    );
     if (this.filled) void this.search();
   }
 
   private async search(): Promise<void> {
     const number = ++this.asked;
-    const features = Object.fromEntries(Object.entries(this.features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])));
+    const features = Object.fromEntries(
+      Object.entries(this.features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])),
+    );
     try {
-      const found = await this.app.ask<Entry[]>("catalog", { words: this.words, pairs: this.pairs, joints: this.joints, ...features });
+      const found = await this.page.ask<Entry[]>("catalog", {
+        words: this.words,
+        pairs: this.pairs,
+        joints: this.joints,
+        ...features,
+      });
       if (number !== this.asked) return;
       this.filled = true;
       this.note.textContent = t("{count} machines", { count: found.length });
-      this.cards.replaceChildren(...found.map((entry) => h("button", {
-        class: "card", "data-id": entry.id, onclick: () => void this.choose(entry),
-      }, h("div", { "data-place": "" }), h("b", {}, entry.name), h("span", {}, t("{links} links, F = {counted}", { links: entry.links, counted: entry.counted }) + (entry.moves ? "" : ` · ${t("structure only")}`)))));
+      this.cards.replaceChildren(
+        ...found.map((entry) =>
+          h(
+            "button",
+            {
+              class: "card",
+              "data-id": entry.id,
+              onclick: () => void this.choose(entry),
+            },
+            h("div", { "data-place": "" }),
+            h("b", {}, entry.name),
+            h(
+              "span",
+              {},
+              t("{links} links, F = {counted}", { links: entry.links, counted: entry.counted }) +
+                (entry.moves ? "" : ` · ${t("structure only")}`),
+            ),
+          ),
+        ),
+      );
       for (const card of this.cards.children) this.watcher.observe(card);
     } catch (error) {
       if (number === this.asked) this.note.textContent = (error as Error).message;
@@ -86,9 +139,9 @@ export class CatalogView implements View {
   }
 
   private async draw(card: HTMLElement): Promise<void> {
-    const id = card.dataset["id"]!;
+    const id = card.dataset.id!;
     try {
-      const { picture } = await this.app.ask<{ picture: string }>("picture", { id });
+      const { picture } = await this.page.ask<{ picture: string }>("picture", { id });
       card.querySelector("[data-place]")?.replaceWith(thumbnail(picture, id));
     } catch {
       // it keeps its name
@@ -96,11 +149,11 @@ export class CatalogView implements View {
   }
 
   private async choose(entry: Entry): Promise<void> {
-    if (!entry.moves) return this.app.describe(entry.text);
+    if (!entry.moves) return this.page.describe(entry.text);
     try {
-      this.app.open(await this.app.ask<Model>("open", { id: entry.id }));
+      this.page.open(await this.page.ask<Model>("open", { id: entry.id }));
     } catch (error) {
-      this.app.say((error as Error).message);
+      this.page.say((error as Error).message);
     }
   }
 }

@@ -17,13 +17,17 @@ function filled<E extends Element>(element: E, attributes: Attributes, children:
 }
 
 export function h<K extends keyof HTMLElementTagNameMap>(
-  tag: K, attributes: Attributes = {}, ...children: Child[]
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   return filled(document.createElement(tag), attributes, children);
 }
 
 export function svg<K extends keyof SVGElementTagNameMap>(
-  tag: K, attributes: Attributes = {}, ...children: Child[]
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
 ): SVGElementTagNameMap[K] {
   return filled(document.createElementNS(SVG, tag), attributes, children) as SVGElementTagNameMap[K];
 }
@@ -37,4 +41,12 @@ export function picture(text: string, label: string): Element {
   parsed.setAttribute("role", "img");
   parsed.setAttribute("aria-label", label);
   return document.importNode(parsed, true);
+}
+
+/** The same, in the size of a card. */
+export function thumbnail(drawn: string, label: string): Element {
+  const made = picture(drawn, label);
+  made.setAttribute("height", "120");
+  made.removeAttribute("width");
+  return made;
 }

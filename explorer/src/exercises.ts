@@ -1,8 +1,8 @@
 /** Exercises: a fresh task, the student's answers marked with their hints, the solution step by step. */
 
-import type { App, View } from "./app";
 import { h } from "./dom";
 import { t } from "./language";
+import type { Page, View } from "./view";
 
 interface Task {
   id: string;
@@ -26,7 +26,7 @@ export class ExercisesView implements View {
   private readonly kinds = h("select", { onchange: () => (this.kind = this.kinds.value) });
   private answers: Record<string, string> = {};
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly page: Page) {}
 
   appeared(): void {
     if (!this.kinds.options.length) void this.fillKinds().then(() => this.fresh());
@@ -34,26 +34,50 @@ export class ExercisesView implements View {
 
   arrange(): void {
     this.kinds.setAttribute("aria-label", t("Theory"));
-    const level = h("select", { "aria-label": t("Level"), onchange: () => (this.level = Number(level.value)) },
-      ...[1, 2, 3].map((k) => h("option", { value: k, selected: k === this.level }, t("Level {level}", { level: k }))));
-    this.element.replaceChildren(h("div", { class: "page" },
-      h("h2", {}, t("Exercises")),
-      h("div", { class: "form" }, this.kinds, level, h("button", { class: "key", "data-act": "fresh", onclick: () => {
-        this.seed += 1;
-        void this.fresh();
-      } }, t("A fresh task"))),
-      this.place));
+    const level = h(
+      "select",
+      { "aria-label": t("Level"), onchange: () => (this.level = Number(level.value)) },
+      ...[1, 2, 3].map((k) => h("option", { value: k, selected: k === this.level }, t("Level {level}", { level: k }))),
+    );
+    this.element.replaceChildren(
+      h(
+        "div",
+        { class: "page" },
+        h("h2", {}, t("Exercises")),
+        h(
+          "div",
+          { class: "form" },
+          this.kinds,
+          level,
+          h(
+            "button",
+            {
+              class: "key",
+              "data-act": "fresh",
+              onclick: () => {
+                this.seed += 1;
+                void this.fresh();
+              },
+            },
+            t("A fresh task"),
+          ),
+        ),
+        this.place,
+      ),
+    );
     if (this.kinds.options.length) void this.fillKinds().then(() => this.fresh());
   }
 
   private async fillKinds(): Promise<void> {
-    const kinds = await this.app.ask<{ kind: string; name: string }[]>("exercise_kinds", {});
-    this.kinds.replaceChildren(...kinds.map(({ kind, name }) => h("option", { value: kind, selected: kind === this.kind }, name)));
+    const kinds = await this.page.ask<{ kind: string; name: string }[]>("exercise_kinds", {});
+    this.kinds.replaceChildren(
+      ...kinds.map(({ kind, name }) => h("option", { value: kind, selected: kind === this.kind }, name)),
+    );
   }
 
   private async fresh(): Promise<void> {
     try {
-      this.task = await this.app.ask<Task>("exercise", { kind: this.kind, level: this.level, seed: this.seed });
+      this.task = await this.page.ask<Task>("exercise", { kind: this.kind, level: this.level, seed: this.seed });
       this.answers = {};
       this.show(null);
     } catch (error) {
@@ -66,24 +90,50 @@ export class ExercisesView implements View {
     const words = { right: t("right"), near: t("nearly right"), wrong: t("wrong") };
     const rows = task.asked.map(({ key, name, unit }) => {
       const mark = marked?.marks.find((one) => one.key === key);
-      const input = h("input", { id: `answer-${key}`, value: this.answers[key] ?? "", "data-answer": key, oninput: () => (this.answers[key] = input.value) });
-      return h("tr", {}, h("td", {}, h("label", { for: `answer-${key}` }, name)), h("td", {}, input, ` ${unit}`),
-        h("td", {}, mark ? h("b", { "data-mark": mark.mark }, words[mark.mark]) : null, mark?.hint ? h("div", { class: "note" }, mark.hint) : null));
+      const input = h("input", {
+        id: `answer-${key}`,
+        value: this.answers[key] ?? "",
+        "data-answer": key,
+        oninput: () => (this.answers[key] = input.value),
+      });
+      return h(
+        "tr",
+        {},
+        h("td", {}, h("label", { for: `answer-${key}` }, name)),
+        h("td", {}, input, ` ${unit}`),
+        h(
+          "td",
+          {},
+          mark ? h("b", { "data-mark": mark.mark }, words[mark.mark]) : null,
+          mark?.hint ? h("div", { class: "note" }, mark.hint) : null,
+        ),
+      );
     });
     this.place.replaceChildren(
-      h("h2", {}, task.name), h("p", {}, task.task),
-      h("form", { onsubmit: (event: Event) => {
-        event.preventDefault();
-        void this.mark();
-      } }, h("table", {}, ...rows), h("div", { class: "form" }, h("button", { class: "key", "data-act": "mark" }, t("Mark my answers")))),
-      ...(marked ? [h("details", {}, h("summary", {}, t("The solution")), h("div", {}, h("pre", {}, marked.solution)))] : []));
+      h("h2", {}, task.name),
+      h("p", {}, task.task),
+      h(
+        "form",
+        {
+          onsubmit: (event: Event) => {
+            event.preventDefault();
+            void this.mark();
+          },
+        },
+        h("table", {}, ...rows),
+        h("div", { class: "form" }, h("button", { class: "key", "data-act": "mark" }, t("Mark my answers"))),
+      ),
+      ...(marked
+        ? [h("details", {}, h("summary", {}, t("The solution")), h("div", {}, h("pre", {}, marked.solution)))]
+        : []),
+    );
   }
 
   private async mark(): Promise<void> {
     try {
-      this.show(await this.app.ask<Marked>("mark", { id: this.task!.id, answers: this.answers }));
+      this.show(await this.page.ask<Marked>("mark", { id: this.task!.id, answers: this.answers }));
     } catch (error) {
-      this.app.say((error as Error).message);
+      this.page.say((error as Error).message);
     }
   }
 }

@@ -1,8 +1,19 @@
-/** What can be taken away: pictures, tables, files, the link, and what gives the same in Python and on a command line. */
+/** What can be taken away: pictures, tables, files, the link, and the same in Python and on a command line. */
 
-import type { App } from "./app";
 import { h } from "./dom";
 import { t } from "./language";
+import type { Machine } from "./machine";
+import { chainText } from "./model";
+import type { Page } from "./view";
+
+/** What is taken away. */
+export interface Exported {
+  readonly machine: Machine;
+  /** The picture as an SVG file. */
+  picture(): string;
+  /** The curves as CSV. */
+  table(): string;
+}
 
 export function download(name: string, content: Blob): void {
   const address = URL.createObjectURL(content);
@@ -11,35 +22,64 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-export function exportPanel(app: App): HTMLElement {
-  const { motion } = app;
+export function exportPanel(page: Page, motion: Exported): HTMLElement {
   const stem = () => (motion.machine.model.source || motion.machine.model.name || "linkage").replace(/[^\w-]+/g, "_");
   const save = (suffix: string, type: string, content: string | Blob) =>
     download(`${stem()}.${suffix}`, content instanceof Blob ? content : new Blob([content], { type }));
   const button = (text: string, act: () => void) => h("button", { class: "plain", onclick: act }, text);
   const own = [
-    button("SVG", () => save("svg", "image/svg+xml", motion.stage.file())),
-    button("PNG", () => void png(motion.stage.file()).then((blob) => save("png", "image/png", blob))),
+    button("SVG", () => save("svg", "image/svg+xml", motion.picture())),
+    button("PNG", () => void png(motion.picture()).then((blob) => save("png", "image/png", blob))),
     button("CSV", () => save("csv", "text/csv", motion.table())),
     button("JSON", () => save("json", "application/json", JSON.stringify(motion.machine.document(), null, 1))),
   ];
-  const served = app.backend.present ? ["TOML", "GIF", "HTML", "PDF"].map((kind) => button(kind, () => {
-    app.ask<{ base64: string; type: string }>("export", { document: motion.machine.document(), kind: kind.toLowerCase(), name: motion.machine.model.name }).then(
-      ({ base64, type }) => save(kind.toLowerCase(), type, new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type })),
-      (error: Error) => app.say(error.message),
-    );
-  })) : [];
+  const served = page.served
+    ? ["TOML", "GIF", "HTML", "PDF"].map((kind) =>
+        button(kind, () => {
+          page
+            .ask<{ base64: string; type: string }>("export", {
+              document: motion.machine.document(),
+              kind: kind.toLowerCase(),
+              name: motion.machine.model.name,
+            })
+            .then(
+              ({ base64, type }) =>
+                save(
+                  kind.toLowerCase(),
+                  type,
+                  new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type }),
+                ),
+              (error: Error) => page.say(error.message),
+            );
+        }),
+      )
+    : [];
   const { model } = motion.machine;
-  const chain = `${String(model.document.joints)}; frame=${model.links[model.frame]}; ${model.drives.map((drive) => `drive=${drive.name}`).join("; ")}`;
+  const [reader, measured] = ["from gruebler.formats import read_linkage", "print(gr.measures(linkage).explain())"];
   const word = model.source || `${stem()}.toml`;
-  return h("div", {},
-    h("div", { class: "chips" }, ...own, ...served, button(t("Copy the link"), () => void app.share())),
-    h("p", { class: "note" }, t("The chain as text")), h("pre", { "data-text": "chain" }, chain),
-    h("p", { class: "note" }, t("The same on the command line")), h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem()}.svg`),
+  return h(
+    "div",
+    {},
+    h(
+      "div",
+      { class: "chips" },
+      ...own,
+      ...served,
+      button(t("Copy the link"), () => void page.share()),
+    ),
+    h("p", { class: "note" }, t("The chain as text")),
+    h("pre", { "data-text": "chain" }, chainText(model)),
+    h("p", { class: "note" }, t("The same on the command line")),
+    h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem()}.svg`),
     h("p", { class: "note" }, t("The same in Python")),
-    h("pre", {}, model.source && !model.source.includes(":")
-      ? `import gruebler as gr\n\nlinkage = gr.catalog.entry("${model.source}").linkage()\nprint(gr.measures(linkage).explain())`
-      : `from gruebler.formats import read_linkage\nimport gruebler as gr\n\nlinkage = read_linkage("${stem()}.toml")\nprint(gr.measures(linkage).explain())`));
+    h(
+      "pre",
+      {},
+      model.source && !model.source.includes(":")
+        ? `import gruebler as gr\n\nlinkage = gr.catalog.entry("${model.source}").linkage()\n${measured}`
+        : `${reader}\nimport gruebler as gr\n\nlinkage = read_linkage("${stem()}.toml")\n${measured}`,
+    ),
+  );
 }
 
 async function png(file: string): Promise<Blob> {
@@ -48,5 +88,7 @@ async function png(file: string): Promise<Blob> {
   await image.decode();
   const canvas = h("canvas", { width: 2 * image.naturalWidth, height: 2 * image.naturalHeight });
   canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture")))));
+  return new Promise((resolve, reject) =>
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture")))),
+  );
 }

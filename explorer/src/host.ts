@@ -18,6 +18,9 @@ export class RequestError extends Error {}
 /** The request was cancelled by the reader. */
 export class Cancelled extends Error {}
 
+/** An answer that is awaited and can be given up. */
+export type Request<Result> = Promise<Result> & { cancel(): void };
+
 interface Waiting {
   resolve(result: unknown): void;
   reject(error: Error): void;
@@ -55,7 +58,12 @@ export class Backend {
     else request.resolve(answer.result);
   }
 
-  ask<Result>(method: string, params: Record<string, unknown>, lang: string, progress?: (text: string) => void): Promise<Result> & { cancel(): void } {
+  ask<Result>(
+    method: string,
+    params: Record<string, unknown>,
+    lang: string,
+    progress?: (text: string) => void,
+  ): Request<Result> {
     const id = this.next++;
     const promise = new Promise((resolve, reject) => {
       this.waiting.set(id, { resolve, reject, progress });
@@ -96,13 +104,18 @@ export class StillModel implements HostModel {
   }
 }
 
-/** A model over a WebSocket. When the server goes, requests wait; when it is back, they are sent again in their order. */
+/** A model over a WebSocket.
+ *
+ * When the server goes, requests wait; when it is back, they are sent again in their order. */
 export class SocketModel extends StillModel {
   private socket: WebSocket | null = null;
   private pending = new Map<number, unknown>();
   private delay = 250;
 
-  constructor(values: Record<string, unknown>, private readonly address: string) {
+  constructor(
+    values: Record<string, unknown>,
+    private readonly address: string,
+  ) {
     super(values);
     this.open();
   }
@@ -132,6 +145,7 @@ export class SocketModel extends StillModel {
     const { id, cancel } = content as { id: number; cancel?: boolean };
     if (!cancel) this.pending.set(id, content);
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(content));
-    else if (cancel && this.pending.delete(id)) this.emit("msg:custom", { id, cancelled: true }); // it was not sent, or is lost
+    // it was not sent, or is lost
+    else if (cancel && this.pending.delete(id)) this.emit("msg:custom", { id, cancelled: true });
   }
 }

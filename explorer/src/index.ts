@@ -4,11 +4,11 @@
  * page starts by itself. */
 
 import { App } from "./app";
-import { SocketModel, StillModel, type HostModel } from "./host";
+import { type HostModel, SocketModel, StillModel } from "./host";
 
 export { Kernel } from "./kernel";
-export { Machine } from "./machine";
 export { packed, unpacked } from "./link";
+export { Machine } from "./machine";
 export { programOf } from "./program";
 
 function render({ model, el }: { model: HostModel; el: HTMLElement }): () => void {
@@ -19,18 +19,19 @@ function render({ model, el }: { model: HostModel; el: HTMLElement }): () => voi
 
 export default { render };
 
-function begin(place: HTMLElement): void {
-  for (const element of [document.documentElement, document.body, place]) {
+function begin(at: HTMLElement): void {
+  for (const element of [document.documentElement, document.body, at]) {
     element.style.margin = "0";
     element.style.height = "100%";
   }
   const values = JSON.parse(document.getElementById("gruebler-model")!.textContent ?? "{}") as Record<string, unknown>;
-  const host = place.dataset["gruebler"] ?? "file";
+  const host = at.dataset.gruebler ?? "file";
   const address = new URL("ws", location.href);
   address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
   address.hash = "";
-  const model = host === "server" ? new SocketModel({ ...values, host }, address.href) : new StillModel({ ...values, host });
-  const app = new App(model, place);
+  const model =
+    host === "server" ? new SocketModel({ ...values, host }, address.href) : new StillModel({ ...values, host });
+  const app = new App(model, at);
   Object.assign(window, { gruebler: app });
   void app.start();
 }

@@ -13,7 +13,10 @@ export function checksum(bytes: Uint8Array): string {
   return (~crc >>> 0).toString(16).padStart(8, "0");
 }
 
-async function through(stream: CompressionStream | DecompressionStream, bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
+async function through(
+  stream: CompressionStream | DecompressionStream,
+  bytes: Uint8Array<ArrayBuffer>,
+): Promise<Uint8Array<ArrayBuffer>> {
   const out = new Blob([bytes]).stream().pipeThrough(stream);
   return new Uint8Array(await new Response(out).arrayBuffer());
 }
@@ -29,7 +32,8 @@ export class BadLink extends Error {}
 
 export async function unpacked(text: string): Promise<unknown> {
   const [version, data, sum] = text.split(".");
-  if (version !== VERSION && /^\d+$/.test(version ?? "")) throw new BadLink("This link was made by a newer version of this page.");
+  if (version !== VERSION && /^\d+$/.test(version ?? ""))
+    throw new BadLink("This link was made by a newer version of this page.");
   if (!data || !sum || text.length > LONGEST) throw new BadLink("This link is not complete.");
   try {
     const bytes = Uint8Array.from(atob(data.replace(/-/g, "+").replace(/_/g, "/")), (c) => c.charCodeAt(0));

@@ -1,10 +1,10 @@
 /** A linkage on the page: its sizes, its pose, its cycle, and what changes them. */
 
-import { Kernel, Status, type Rows, type State } from "./kernel";
-import type { Leg, LinkageDocument, Model, Place, PointRecord, ShapeRecord } from "./model";
-import { Code, Kind, programOf, type Program } from "./program";
 import { unwoundAngle } from "./closure";
+import { Kernel, type Rows, type State, Status } from "./kernel";
 import { currentLanguage } from "./language";
+import type { Leg, LinkageDocument, Model, Place, PointRecord, ShapeRecord } from "./model";
+import { Code, Kind, type Program, programOf } from "./program";
 
 const TURN = 2 * Math.PI;
 /** The same angle between -180° and 180°. */
@@ -102,22 +102,35 @@ export class Machine {
 
   constructor(model: Model) {
     this.model = model;
-    const p = (this.program = programOf(model.program));
+    const p = programOf(model.program);
+    this.program = p;
     this.size = p.size;
     this.kernel = new Kernel(p);
     this.at = Float64Array.from(model.elements.flatMap((e) => e.at));
     this.angles = Float64Array.from(model.elements.map((e) => e.angle));
     this.points = model.points.map((point) => ({ ...point, at: [...point.at] }));
-    this.offsets = Float64Array.from(model.sources, (source, k) =>
-      Math.atan2(p.lines[2 * k + 1]!, p.lines[2 * k]!) - (source < 0 ? 0 : this.angles[source]!));
+    this.offsets = Float64Array.from(
+      model.sources,
+      (source, k) => Math.atan2(p.lines[2 * k + 1]!, p.lines[2 * k]!) - (source < 0 ? 0 : this.angles[source]!),
+    );
     this.drives = Float64Array.from(model.start.drives);
     this.state = { signs: Float64Array.from(model.start.signs), unknowns: Float64Array.from(model.start.unknowns) };
     this.wheels = model.elements.some((e) => e.kind === "round");
     const locked = model.joints.map((_, joint) => this.isLocked(joint));
     // an axis goes with those of wheels at the same place of its link
-    this.locked = locked.map((held, joint) => held || this.elementsOf(joint).some((k) =>
-      this.elementsOn(model.elements[k]!.link).some((m) => locked[model.elements[m]!.joint] && m !== k &&
-        model.elements[m]!.kind === "pin" && this.gap(k, m) <= 1e-9 * this.size)));
+    this.locked = locked.map(
+      (held, joint) =>
+        held ||
+        this.elementsOf(joint).some((k) =>
+          this.elementsOn(model.elements[k]!.link).some(
+            (m) =>
+              locked[model.elements[m]!.joint] &&
+              m !== k &&
+              model.elements[m]!.kind === "pin" &&
+              this.gap(k, m) <= 1e-9 * this.size,
+          ),
+        ),
+    );
     this.axes = model.links.map((_, link) => this.axisOf(link));
     this.pose = this.solve(this.drives, this.state, 2);
     this.meshes = Array.from(p.kinds).flatMap((kind, condition) => {
@@ -144,8 +157,11 @@ export class Machine {
     const mine = this.elementsOf(joint);
     if (!mine.some((k) => this.model.elements[k]!.kind === "pin")) return true;
     if (mine.some((k) => this.model.elements[k]!.kind === "round")) return true;
-    return mine.some((k) => this.elementsOn(this.model.elements[k]!.link).some((other) =>
-      this.model.elements[other]!.kind === "round" && this.gap(k, other) <= 1e-9 * this.size));
+    return mine.some((k) =>
+      this.elementsOn(this.model.elements[k]!.link).some(
+        (other) => this.model.elements[other]!.kind === "round" && this.gap(k, other) <= 1e-9 * this.size,
+      ),
+    );
   }
 
   /** What a link is called in the reader's language. */
@@ -169,40 +185,61 @@ export class Machine {
     const elements = this.model.elements;
     let found: Pivot | null = null;
     let centre = -1;
-    for (const { sides } of this.meshes) for (const side of [0, 1] as const) {
-      const mine = sides[side], about = sides[1 - side]!;
-      const wheel = elements[mine]!.link;
-      const pin = pins.find((k) => elements[k]!.link === wheel && elements[k]!.kind === "pin" && this.gap(k, mine) <= near);
-      if (pin === undefined) continue;
-      if (found && (found.wheel !== wheel || this.apart(found.about, about) > near)) return null;
-      found = { wheel, about };
-      centre = pin;
-    }
+    for (const { sides } of this.meshes)
+      for (const side of [0, 1] as const) {
+        const mine = sides[side],
+          about = sides[1 - side]!;
+        const wheel = elements[mine]!.link;
+        const pin = pins.find(
+          (k) => elements[k]!.link === wheel && elements[k]!.kind === "pin" && this.gap(k, mine) <= near,
+        );
+        if (pin === undefined) continue;
+        if (found && (found.wheel !== wheel || this.apart(found.about, about) > near)) return null;
+        found = { wheel, about };
+        centre = pin;
+      }
     if (!found) return null;
     const meshing = new Set(this.meshes.flatMap(({ sides }) => sides));
     const { wheel, about } = found;
-    if (this.elementsOn(wheel).some((k) => elements[k]!.kind === "round" && (!meshing.has(k) || this.gap(k, centre) > near))) return null;
+    if (
+      this.elementsOn(wheel).some(
+        (k) => elements[k]!.kind === "round" && (!meshing.has(k) || this.gap(k, centre) > near),
+      )
+    )
+      return null;
     const carriers = pins.filter((k) => elements[k]!.link !== wheel);
-    const bare = carriers.every((k) => this.elementsOn(elements[k]!.link).every((m) => elements[m]!.kind !== "round" || this.gap(k, m) > near));
+    const bare = carriers.every((k) =>
+      this.elementsOn(elements[k]!.link).every((m) => elements[m]!.kind !== "round" || this.gap(k, m) > near),
+    );
     return bare && carriers.some((k) => this.holds(elements[k]!.link, about)) ? found : null;
   }
 
-  /** Whether the centre of a wheel is fixed on a link: by a joint of both, or by one at the same place of a third link. */
+  /** Whether the centre of a wheel is fixed on a link: by a joint of both, or one at the same place of a third link. */
   private holds(link: number, centre: number): boolean {
     const near = 1e-9 * this.size;
     const elements = this.model.elements;
-    const pins = this.elementsOn(elements[centre]!.link).filter((k) => elements[k]!.kind === "pin" && this.gap(k, centre) <= near);
+    const pins = this.elementsOn(elements[centre]!.link).filter(
+      (k) => elements[k]!.kind === "pin" && this.gap(k, centre) <= near,
+    );
     return pins.some((pin) => {
       const joint = elements[pin]!.joint;
       if (this.elementsOf(joint).some((k) => elements[k]!.link === link)) return true;
-      return this.elementsOn(link).some((k) => elements[k]!.kind === "pin" && this.elementsOf(elements[k]!.joint).some((m) =>
-        this.elementsOf(joint).some((other) => elements[other]!.link === elements[m]!.link && this.gap(m, other) <= near)));
+      return this.elementsOn(link).some(
+        (k) =>
+          elements[k]!.kind === "pin" &&
+          this.elementsOf(elements[k]!.joint).some((m) =>
+            this.elementsOf(joint).some(
+              (other) => elements[other]!.link === elements[m]!.link && this.gap(m, other) <= near,
+            ),
+          ),
+      );
     });
   }
 
   /** The distance of two elements in the plane. */
   private apart(k: number, m: number): number {
-    const [ax, ay] = this.elementAt(k), [bx, by] = this.elementAt(m);
+    const [ax, ay] = this.elementAt(k),
+      [bx, by] = this.elementAt(m);
     return Math.hypot(bx - ax, by - ay);
   }
 
@@ -210,7 +247,8 @@ export class Machine {
   permitted(joint: number, x: number, y: number): [number, number] {
     const pivot = this.pivots[joint];
     if (!pivot) return [x, y];
-    const [cx, cy] = this.elementAt(pivot.about), [px, py] = this.jointAt(joint);
+    const [cx, cy] = this.elementAt(pivot.about),
+      [px, py] = this.jointAt(joint);
     const away = Math.hypot(x - cx, y - cy);
     if (!(away > 1e-9 * this.size)) return [px, py];
     const part = Math.hypot(px - cx, py - cy) / away;
@@ -261,11 +299,15 @@ export class Machine {
     const D = this.program.drives;
     const rows: number[] = [];
     const asked: number[] = [];
-    const special = this.shortest().filter(([number]) => number === drive).map(([, value]) => value);
+    const special = this.shortest()
+      .filter(([number]) => number === drive)
+      .map(([, value]) => value);
     values.forEach((value, row) => {
       if (row > 0) {
         const last = values[row - 1]!;
-        const passed = special.filter((s) => (s - last) * (s - value) < 0).sort((a, b) => (a - b) * Math.sign(value - last));
+        const passed = special
+          .filter((s) => (s - last) * (s - value) < 0)
+          .sort((a, b) => (a - b) * Math.sign(value - last));
         rows.push(...passed);
       }
       asked.push(rows.length);
@@ -287,16 +329,22 @@ export class Machine {
     for (const operation of p.operations) {
       if (operation[0] !== Code.PUSH) continue;
       const [, k, near, far, sign] = operation as [number, number, number, number, number];
-      const lx = p.lines[2 * near]!, ly = p.lines[2 * near + 1]!, fx = p.lines[2 * far]!, fy = p.lines[2 * far + 1]!;
-      const tx = lx * fx + ly * fy, ty = ly * fx - lx * fy;
+      const lx = p.lines[2 * near]!,
+        ly = p.lines[2 * near + 1]!,
+        fx = p.lines[2 * far]!,
+        fy = p.lines[2 * far + 1]!;
+      const tx = lx * fx + ly * fy,
+        ty = ly * fx - lx * fy;
       for (const other of p.operations) {
         if (other[0] !== Code.RRR) continue;
         for (const at of [2, 4]) {
-          let a = other[at]!, b = other[at + 1]!;
+          let a = other[at]!,
+            b = other[at + 1]!;
           const links = [p.links[near]!, p.links[far]!];
           if (!links.includes(p.links[a]!) || !links.includes(p.links[b]!) || p.links[a] === p.links[b]) continue;
           if (p.links[a] !== p.links[near]) [a, b] = [b, a];
-          const dx = p.points[2 * b]! - p.points[2 * far]!, dy = p.points[2 * b + 1]! - p.points[2 * far + 1]!;
+          const dx = p.points[2 * b]! - p.points[2 * far]!,
+            dy = p.points[2 * b + 1]! - p.points[2 * far + 1]!;
           const gx = p.points[2 * near]! + tx * dx - ty * dy - p.points[2 * a]!;
           const gy = p.points[2 * near + 1]! + tx * dy + ty * dx - p.points[2 * a + 1]!;
           out.push([k, -sign * (lx * gx + ly * gy)]);
@@ -309,10 +357,13 @@ export class Machine {
   /** A point of a link in a row of poses, or its velocity (1) or acceleration (2). */
   place(rows: Rows, row: number, link: number, x: number, y: number, k = 0): [number, number] {
     const n = rows.links;
-    const tx = rows.turns[row * 2 * n + 2 * link]!, ty = rows.turns[row * 2 * n + 2 * link + 1]!;
-    const ax = tx * x - ty * y, ay = tx * y + ty * x;
+    const tx = rows.turns[row * 2 * n + 2 * link]!,
+      ty = rows.turns[row * 2 * n + 2 * link + 1]!;
+    const ax = tx * x - ty * y,
+      ay = tx * y + ty * x;
     const o = (row * (rows.order + 1) + k) * 2 * n + 2 * link;
-    const ox = rows.places[o]!, oy = rows.places[o + 1]!;
+    const ox = rows.places[o]!,
+      oy = rows.places[o + 1]!;
     if (k === 0) return [ox + ax, oy + ay];
     const w = rows.rates[row * rows.order * n + link]!;
     if (k === 1) return [ox - w * ay, oy + w * ax];
@@ -347,8 +398,10 @@ export class Machine {
     const { lines = [], between } = shape;
     if (!between) return lines;
     const [ax, ay, bx, by] = between;
-    const nearest = (x: number, y: number) => { // the pin of the frame that was there
-      let best = -1, least = Infinity;
+    const nearest = (x: number, y: number) => {
+      // the pin of the frame that was there
+      let best = -1,
+        least = Infinity;
       this.model.elements.forEach((e, k) => {
         if (e.link !== shape.link || e.kind !== "pin") return;
         const off = Math.hypot(e.at[0] - x, e.at[1] - y);
@@ -356,19 +409,25 @@ export class Machine {
       });
       return best;
     };
-    const one = nearest(ax, ay), two = nearest(bx, by);
+    const one = nearest(ax, ay),
+      two = nearest(bx, by);
     const [cx, cy, dx, dy] = [this.at[2 * one]!, this.at[2 * one + 1]!, this.at[2 * two]!, this.at[2 * two + 1]!];
     const wide = (bx - ax) ** 2 + (by - ay) ** 2;
-    const c = ((bx - ax) * (dx - cx) + (by - ay) * (dy - cy)) / wide, s = ((bx - ax) * (dy - cy) - (by - ay) * (dx - cx)) / wide;
-    return lines.map((line) => line.map((_, k) => {
-      const u = line[k - (k % 2)]! - ax, v = line[k - (k % 2) + 1]! - ay;
-      return k % 2 ? cy + s * u + c * v : cx + c * u - s * v;
-    }));
+    const c = ((bx - ax) * (dx - cx) + (by - ay) * (dy - cy)) / wide,
+      s = ((bx - ax) * (dy - cy) - (by - ay) * (dx - cx)) / wide;
+    return lines.map((line) =>
+      line.map((_, k) => {
+        const u = line[k - (k % 2)]! - ax,
+          v = line[k - (k % 2) + 1]! - ay;
+        return k % 2 ? cy + s * u + c * v : cx + c * u - s * v;
+      }),
+    );
   }
 
   toLocal(link: number, x: number, y: number): [number, number] {
     const [c, s] = this.turn(this.pose, 0, link);
-    const dx = x - this.pose.places[2 * link]!, dy = y - this.pose.places[2 * link + 1]!;
+    const dx = x - this.pose.places[2 * link]!,
+      dy = y - this.pose.places[2 * link + 1]!;
     return [c * dx + s * dy, c * dy - s * dx];
   }
 
@@ -385,25 +444,40 @@ export class Machine {
     if (this.drive?.turning && !this.wheels) this.drives[drive] = principal(this.drives[drive]!);
     const start = this.drives[drive] ?? 0;
     const only = (): Cycle => ({
-      drive, values: Float64Array.of(start), rows: this.pose, full: false, turns: 0, low: start, high: start,
-      stops: [null, null], home: 0,
+      drive,
+      values: Float64Array.of(start),
+      rows: this.pose,
+      full: false,
+      turns: 0,
+      low: start,
+      high: start,
+      stops: [null, null],
+      home: 0,
     });
     if (!this.drive) return only();
     let beyond: [number, Stop | null] | null = null; // the upper end, if the first turn came to it
-    const endOf = (values: Float64Array, rows: Rows, way: number): [number, Stop | null] | null => {
+    const endOf = (tried: Float64Array, rows: Rows, way: number): [number, Stop | null] | null => {
       const open = this.firstOpen(rows);
-      if (open) return [values[Math.max(0, open.row - 1)]!, { value: values[open.row]!, status: "open", form: open.name, links: [] }];
+      if (open)
+        return [
+          tried[Math.max(0, open.row - 1)]!,
+          { value: tried[open.row]!, status: "open", form: open.name, links: [] },
+        ];
       if (rows.status === Status.DONE) return null;
-      const row = Math.min(Math.floor(rows.at), values.length - 2);
-      const value = values[row]! + (rows.at - row) * way;
+      const row = Math.min(Math.floor(rows.at), tried.length - 2);
+      const value = tried[row]! + (rows.at - row) * way;
       return [value, this.stopOf(rows, value)];
     };
     if (this.drive.turning) {
       const most = this.wheels ? MOST_WITH_WHEELS : MOST_TURNS;
       let turns = 1;
       let steps = 360;
-      for (; turns <= most; turns = turns === 1 && this.model.span.turns > 1 ? Math.min(this.model.span.turns, most) : turns + 1) {
-        steps = turns === 1 ? 360 : turns <= MOST_TURNS ? 120 : 60;
+      for (
+        ;
+        turns <= most;
+        turns = turns === 1 && this.model.span.turns > 1 ? Math.min(this.model.span.turns, most) : turns + 1
+      ) {
+        if (turns > 1) steps = turns <= MOST_TURNS ? 120 : 60;
         const values = Float64Array.from({ length: turns * steps + 1 }, (_, k) => start + (k * TURN) / steps);
         const rows = this.runAlong(values, this.state, turns === 1 ? order : Math.min(order, 2));
         const end = endOf(values, rows, TURN / steps);
@@ -412,7 +486,17 @@ export class Machine {
           break;
         }
         if (this.same(rows, turns * steps)) {
-          return { drive, values, rows, full: true, turns, low: start, high: start + turns * TURN, stops: [null, null], home: 0 };
+          return {
+            drive,
+            values,
+            rows,
+            full: true,
+            turns,
+            low: start,
+            high: start + turns * TURN,
+            stops: [null, null],
+            home: 0,
+          };
         }
         if (turns === most) break;
       }
@@ -443,17 +527,26 @@ export class Machine {
       return { ...only(), low, high, stops: [below, above] };
     }
     const count = this.drive.turning ? Math.max(181, Math.ceil((high - low) / (TURN / 60))) : 181;
-    const all = Array.from({ length: count }, (_, k) => low + (high - low) * Math.sin((Math.PI * (k + 0.5)) / (2 * count)) ** 2);
-    const up = all.filter((value) => value > start), down = all.filter((value) => value <= start).reverse();
+    const all = Array.from(
+      { length: count },
+      (_, k) => low + (high - low) * Math.sin((Math.PI * (k + 0.5)) / (2 * count)) ** 2,
+    );
+    const up = all.filter((value) => value > start),
+      down = all.filter((value) => value <= start).reverse();
     const one = this.runAlong(Float64Array.of(start, ...up), this.state, order);
     const two = this.runAlong(Float64Array.of(start, ...down), this.state, order);
     const home = Math.max(0, two.reached - 1);
-    const values = Float64Array.from([...down.slice(0, home).reverse(), start, ...up.slice(0, Math.max(0, one.reached - 1))]);
+    const values = Float64Array.from([
+      ...down.slice(0, home).reverse(),
+      start,
+      ...up.slice(0, Math.max(0, one.reached - 1)),
+    ]);
     return { drive, values, rows: joined(two, one), full: false, turns: 0, low, high, stops: [below, above], home };
   }
 
   private same(rows: Rows, row: number): boolean {
-    const n = rows.links, stride = (rows.order + 1) * 2 * n;
+    const n = rows.links,
+      stride = (rows.order + 1) * 2 * n;
     for (let k = 0; k < 2 * n; k++) {
       if (Math.abs(rows.places[row * stride + k]! - rows.places[k]!) > BACK * this.size) return false;
       if (Math.abs(rows.turns[row * 2 * n + k]! - rows.turns[k]!) > BACK) return false;
@@ -462,7 +555,8 @@ export class Machine {
   }
 
   stateAt(rows: Rows, row: number): State {
-    const dyads = this.program.dyads, unknowns = this.state.unknowns.length;
+    const dyads = this.program.dyads,
+      unknowns = this.state.unknowns.length;
     return {
       signs: rows.roots.slice(row * dyads, (row + 1) * dyads).map((root) => (root < 0 ? -1 : 1)),
       unknowns: rows.unknowns.slice(row * unknowns, (row + 1) * unknowns),
@@ -481,7 +575,8 @@ export class Machine {
     if (this.model.released.length === 0) return null;
     for (let row = 0; row < rows.reached; row++) {
       if (this.leastRoot(rows, row) < DOUBTFUL) continue;
-      for (const joint of this.model.released) if (this.opening(rows, row, joint) > OPEN) return { row, name: this.model.joints[joint]!.name };
+      for (const joint of this.model.released)
+        if (this.opening(rows, row, joint) > OPEN) return { row, name: this.model.joints[joint]!.name };
     }
     return null;
   }
@@ -495,8 +590,10 @@ export class Machine {
     };
     let out = 0;
     for (const k of others) {
-      const [ax, ay] = this.elementAt(first, rows, row), [bx, by] = this.elementAt(k, rows, row);
-      const gx = (bx - ax) / this.size, gy = (by - ay) / this.size;
+      const [ax, ay] = this.elementAt(first, rows, row),
+        [bx, by] = this.elementAt(k, rows, row);
+      const gx = (bx - ax) / this.size,
+        gy = (by - ay) / this.size;
       const kinds = [this.model.elements[first]!.kind, this.model.elements[k]!.kind];
       const [lx, ly] = lineAt(kinds[0] === "line" ? first : k);
       const [ox, oy] = lineAt(k);
@@ -528,7 +625,8 @@ export class Machine {
   /** The row of the cycle nearest to a value, but not one in which modes meet. */
   private nearestRow(value: number): number {
     const { values, rows } = this.cycle;
-    let low = 0, high = values.length - 1;
+    let low = 0,
+      high = values.length - 1;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
       if (values[middle]! <= value) low = middle;
@@ -558,8 +656,12 @@ export class Machine {
 
   snapshot(): Snapshot {
     return {
-      at: [...this.at], angles: [...this.angles], points: this.points.map((p) => ({ ...p, at: [...p.at] })),
-      drives: [...this.drives], signs: [...this.state.signs], unknowns: [...this.state.unknowns],
+      at: [...this.at],
+      angles: [...this.angles],
+      points: this.points.map((p) => ({ ...p, at: [...p.at] })),
+      drives: [...this.drives],
+      signs: [...this.state.signs],
+      unknowns: [...this.state.unknowns],
     };
   }
 
@@ -575,7 +677,7 @@ export class Machine {
     this.cycle = this.findCycle(order);
   }
 
-  /** Do something to the sizes; if the linkage cannot be assembled then, everything is as before and `Refused` says why. */
+  /** Do something to the sizes; if it cannot be assembled then, everything is as before and `Refused` says why. */
   private change(edit: () => void, assemble: () => Rows): void {
     const old = this.snapshot();
     edit();
@@ -628,7 +730,8 @@ export class Machine {
   private shiftWheel(poses: Rows, wheel: number, joint: number, x: number, y: number): void {
     const [px, py] = this.jointAt(joint);
     const [c, s] = this.turn(poses, 0, wheel);
-    const dx = x - px, dy = y - py;
+    const dx = x - px,
+      dy = y - py;
     poses.places[2 * wheel]! += dx;
     poses.places[2 * wheel + 1]! += dy;
     for (const k of this.elementsOn(wheel)) {
@@ -638,15 +741,20 @@ export class Machine {
     }
   }
 
-  /** Let wheels mesh in a pose: their turns are counted from it, as the library counts them from that of the document. */
+  /** Let wheels mesh in a pose: their turns are counted from it, as the library does from that of the document. */
   private setPhases(poses: Rows): void {
-    const p = this.program, reference = this.model.reference;
+    const p = this.program,
+      reference = this.model.reference;
     for (const { condition, sides } of this.meshes) {
       const [one, two] = [p.sides[2 * condition]!, p.sides[2 * condition + 1]!];
       const k = reference.windings.findIndex(([, a, b]) => a === one && b === two);
       if (k < 0) continue;
       const at = 3 * reference.bodies.length + 2 * k;
-      const [first, second, value] = p.values.subarray(6 * condition, 6 * condition + 3) as unknown as [number, number, number];
+      const [first, second, value] = p.values.subarray(6 * condition, 6 * condition + 3) as unknown as [
+        number,
+        number,
+        number,
+      ];
       const open = first * this.state.unknowns[at]! + second * this.state.unknowns[at + 1]! - value;
       this.angles[sides[1]]! -= open / second;
     }
@@ -658,7 +766,8 @@ export class Machine {
   private moveElement(k: number, x: number, y: number, cylinders: Cylinder[]): void {
     const e = this.model.elements[k]!;
     const [u, v] = this.toLocal(e.link, x, y);
-    const ou = this.at[2 * k]!, ov = this.at[2 * k + 1]!;
+    const ou = this.at[2 * k]!,
+      ov = this.at[2 * k + 1]!;
     if (e.kind === "line") {
       this.shiftLine(k, u, v);
       return;
@@ -673,14 +782,17 @@ export class Machine {
       const off = Math.cos(a) * (ov - this.at[2 * m + 1]!) - Math.sin(a) * (ou - this.at[2 * m]!);
       if (Math.abs(off) > 1e-9 * this.size || cylinders.some(([one, two]) => one === m || two === m)) continue;
       for (const other of this.elementsOf(this.model.elements[m]!.joint)) {
-        if (this.model.elements[other]!.kind === "line") this.shiftLine(other, ...this.toLocal(this.model.elements[other]!.link, x, y));
+        if (this.model.elements[other]!.kind === "line")
+          this.shiftLine(other, ...this.toLocal(this.model.elements[other]!.link, x, y));
       }
     }
   }
 
   /** Let a line pass through a point of its link, its own point moved across it only. */
   private shiftLine(k: number, u: number, v: number): void {
-    const a = this.angles[k]!, c = Math.cos(a), s = Math.sin(a);
+    const a = this.angles[k]!,
+      c = Math.cos(a),
+      s = Math.sin(a);
     const off = c * (v - this.at[2 * k + 1]!) - s * (u - this.at[2 * k]!);
     this.at[2 * k]! -= s * off;
     this.at[2 * k + 1]! += c * off;
@@ -699,20 +811,30 @@ export class Machine {
 
   /** A cylinder whose end is dragged keeps its links, and turns into the line of its pins. */
   private straighten(poses: Rows, [one, two, pinOne, pinTwo]: Cylinder, dragged: number, x: number, y: number): void {
-    const ends = [pinOne, pinTwo].map((k) => (this.model.elements[k]!.joint === dragged ? [x, y] as const : this.elementAt(k)));
+    const ends = [pinOne, pinTwo].map((k) =>
+      this.model.elements[k]!.joint === dragged ? ([x, y] as const) : this.elementAt(k),
+    );
     if (![pinOne, pinTwo].some((k) => this.model.elements[k]!.joint === dragged)) return;
-    const dx = ends[1]![0] - ends[0]![0], dy = ends[1]![1] - ends[0]![1];
-    for (const [line, pin, end] of [[one, pinOne, ends[0]!], [two, pinTwo, ends[1]!]] as const) {
+    const dx = ends[1]![0] - ends[0]![0],
+      dy = ends[1]![1] - ends[0]![1];
+    for (const [line, pin, end] of [
+      [one, pinOne, ends[0]!],
+      [two, pinTwo, ends[1]!],
+    ] as const) {
       const link = this.model.elements[line]!.link;
       const [tx, ty] = this.turn(poses, 0, link);
       const a = this.angles[line]!;
-      const along = (tx * Math.cos(a) - ty * Math.sin(a)) * dx + (tx * Math.sin(a) + ty * Math.cos(a)) * dy < 0 ? -1 : 1;
+      const along =
+        (tx * Math.cos(a) - ty * Math.sin(a)) * dx + (tx * Math.sin(a) + ty * Math.cos(a)) * dy < 0 ? -1 : 1;
       this.setPose(poses, link, Math.atan2(along * dy, along * dx) - a, pin, end[0], end[1]);
     }
   }
 
   private setPose(poses: Rows, link: number, angle: number, pin: number, x: number, y: number): void {
-    const c = Math.cos(angle), s = Math.sin(angle), u = this.at[2 * pin]!, v = this.at[2 * pin + 1]!;
+    const c = Math.cos(angle),
+      s = Math.sin(angle),
+      u = this.at[2 * pin]!,
+      v = this.at[2 * pin + 1]!;
     poses.turns[2 * link] = c;
     poses.turns[2 * link + 1] = s;
     poses.places[2 * link] = x - (c * u - s * v);
@@ -721,11 +843,14 @@ export class Machine {
 
   /** Give a link its x axis back, from pin to pin; nothing moves in the plane. */
   private align(poses: Rows, link: number, [first, other]: readonly [number, number]): void {
-    const x = this.at[2 * first]!, y = this.at[2 * first + 1]!;
-    const dx = this.at[2 * other]! - x, dy = this.at[2 * other + 1]! - y;
+    const x = this.at[2 * first]!,
+      y = this.at[2 * first + 1]!;
+    const dx = this.at[2 * other]! - x,
+      dy = this.at[2 * other + 1]! - y;
     const length = Math.hypot(dx, dy);
     if (!(length > 0) || (x === 0 && y === 0 && dy === 0 && dx > 0)) return;
-    const c = dx / length, s = dy / length;
+    const c = dx / length,
+      s = dy / length;
     const to = (u: number, v: number): [number, number] => [c * (u - x) + s * (v - y), c * (v - y) - s * (u - x)];
     for (const k of this.elementsOn(link)) {
       [this.at[2 * k], this.at[2 * k + 1]] = to(this.at[2 * k]!, this.at[2 * k + 1]!);
@@ -743,18 +868,24 @@ export class Machine {
 
   /** Drive values, signs and unknowns of a pose, as `gruebler.kinematics.reference_pose` reads them. */
   private readState(poses: Rows): void {
-    const p = this.program, reference = this.model.reference;
+    const p = this.program,
+      reference = this.model.reference;
     const point = (e: number) => this.place(poses, 0, p.links[e]!, p.points[2 * e]!, p.points[2 * e + 1]!);
     const line = (e: number): [number, number] => {
       const [c, s] = this.turn(poses, 0, p.links[e]!);
-      const x = p.lines[2 * e]!, y = p.lines[2 * e + 1]!;
+      const x = p.lines[2 * e]!,
+        y = p.lines[2 * e + 1]!;
       return [c * x - s * y, c * y + s * x];
     };
     reference.drives.forEach(([a, b, near, far], k) => {
-      const [ax, ay] = this.turn(poses, 0, a!), [bx, by] = this.turn(poses, 0, b!);
-      if (this.model.drives[k]?.turning ?? true) this.drives[k] = unwoundAngle(ax * bx + ay * by, ax * by - ay * bx, this.drives[k]!);
+      const [ax, ay] = this.turn(poses, 0, a!),
+        [bx, by] = this.turn(poses, 0, b!);
+      if (this.model.drives[k]?.turning ?? true)
+        this.drives[k] = unwoundAngle(ax * bx + ay * by, ax * by - ay * bx, this.drives[k]!);
       else {
-        const [lx, ly] = line(near!), [px, py] = point(near!), [qx, qy] = point(far!);
+        const [lx, ly] = line(near!),
+          [px, py] = point(near!),
+          [qx, qy] = point(far!);
         this.drives[k] = lx * (qx - px) + ly * (qy - py);
       }
     });
@@ -762,7 +893,9 @@ export class Machine {
       const kind: Code = operation[0]!;
       if (kind !== Code.RRR && kind !== Code.RRP && kind !== Code.RPR) continue;
       const [, outer, , inner, , , other] = operation as number[];
-      const [ox, oy] = point(outer!), [ix, iy] = point(inner!), [tx, ty] = point(other!);
+      const [ox, oy] = point(outer!),
+        [ix, iy] = point(inner!),
+        [tx, ty] = point(other!);
       let side: number;
       if (kind === Code.RRR) side = (tx - ox) * (iy - oy) - (ty - oy) * (ix - ox);
       else if (kind === Code.RRP) {
@@ -776,18 +909,23 @@ export class Machine {
     }
     const y = this.state.unknowns;
     reference.bodies.forEach(([root, base], k) => {
-      const [bx, by] = this.turn(poses, 0, base!), [rx, ry] = this.turn(poses, 0, root!);
-      const dx = poses.places[2 * root!]! - poses.places[2 * base!]!, dy = poses.places[2 * root! + 1]! - poses.places[2 * base! + 1]!;
+      const [bx, by] = this.turn(poses, 0, base!),
+        [rx, ry] = this.turn(poses, 0, root!);
+      const dx = poses.places[2 * root!]! - poses.places[2 * base!]!,
+        dy = poses.places[2 * root! + 1]! - poses.places[2 * base! + 1]!;
       y[3 * k] = bx * dx + by * dy;
       y[3 * k + 1] = bx * dy - by * dx;
       y[3 * k + 2] = unwoundAngle(bx * rx + by * ry, bx * ry - by * rx, y[3 * k + 2]!);
     });
     reference.windings.forEach(([kind, one, two], k) => {
       const at = 3 * reference.bodies.length + 2 * k;
-      const [lx, ly] = line(one!), [ox, oy] = line(two!);
+      const [lx, ly] = line(one!),
+        [ox, oy] = line(two!);
       if (kind === Kind.MESH) {
-        const [px, py] = point(one!), [qx, qy] = point(two!);
-        const gx = qx - px, gy = qy - py;
+        const [px, py] = point(one!),
+          [qx, qy] = point(two!);
+        const gx = qx - px,
+          gy = qy - py;
         y[at] = unwoundAngle(lx * gx + ly * gy, ly * gx - lx * gy, y[at]!);
         y[at + 1] = unwoundAngle(ox * gx + oy * gy, oy * gx - ox * gy, y[at + 1]!);
       } else y[at] = unwoundAngle(lx * ox + ly * oy, lx * oy - ly * ox, y[at]!);
@@ -800,15 +938,16 @@ export class Machine {
     for (let link = 0; link < this.model.own; link++) {
       const mine = this.elementsOn(link).filter((k) => this.model.elements[k]!.kind !== "round");
       // each joint against the first two of its link: these distances fix the link
-      for (let j = 1; j < mine.length; j++) for (let i = 0; i < Math.min(j, 2); i++) {
-        const [a, b] = [mine[i]!, mine[j]!];
-        const lines = [a, b].filter((k) => this.model.elements[k]!.kind === "line");
-        if (lines.length === 2) continue;
-        const value = lines.length ? Math.abs(this.offLine(lines[0]!, lines[0] === a ? b : a)) : this.gap(a, b);
-        if (lines.length && value < 1e-9 * this.size && link !== this.model.frame) continue;
-        if (this.locked[this.model.elements[a]!.joint] && this.locked[this.model.elements[b]!.joint]) continue;
-        out.push({ link, first: a, second: b, value });
-      }
+      for (let j = 1; j < mine.length; j++)
+        for (let i = 0; i < Math.min(j, 2); i++) {
+          const [a, b] = [mine[i]!, mine[j]!];
+          const lines = [a, b].filter((k) => this.model.elements[k]!.kind === "line");
+          if (lines.length === 2) continue;
+          const value = lines.length ? Math.abs(this.offLine(lines[0]!, lines[0] === a ? b : a)) : this.gap(a, b);
+          if (lines.length && value < 1e-9 * this.size && link !== this.model.frame) continue;
+          if (this.locked[this.model.elements[a]!.joint] && this.locked[this.model.elements[b]!.joint]) continue;
+          out.push({ link, first: a, second: b, value });
+        }
     }
     return out;
   }
@@ -816,7 +955,10 @@ export class Machine {
   /** How far a pin lies left of a line of its link. */
   private offLine(line: number, pin: number): number {
     const a = this.angles[line]!;
-    return Math.cos(a) * (this.at[2 * pin + 1]! - this.at[2 * line + 1]!) - Math.sin(a) * (this.at[2 * pin]! - this.at[2 * line]!);
+    return (
+      Math.cos(a) * (this.at[2 * pin + 1]! - this.at[2 * line + 1]!) -
+      Math.sin(a) * (this.at[2 * pin]! - this.at[2 * line]!)
+    );
   }
 
   /** Give two joints of a link another distance: the second moves on the line through both. */
@@ -826,12 +968,15 @@ export class Machine {
     const kinds = [this.model.elements[first]!.kind, this.model.elements[second]!.kind];
     if (kinds.includes("line")) {
       const [line, pin] = kinds[0] === "line" ? [first, second] : [second, first];
-      const off = this.offLine(line, pin), more = (off < 0 ? -length : length) - off, a = this.angles[line]!;
+      const off = this.offLine(line, pin),
+        more = (off < 0 ? -length : length) - off,
+        a = this.angles[line]!;
       goal[2 * line]! += Math.sin(a) * more;
       goal[2 * line + 1]! -= Math.cos(a) * more;
     } else {
       if (length < 1e-9 * this.size) throw new Refused(null);
-      const dx = this.at[2 * second]! - this.at[2 * first]!, dy = this.at[2 * second + 1]! - this.at[2 * first + 1]!;
+      const dx = this.at[2 * second]! - this.at[2 * first]!,
+        dy = this.at[2 * second + 1]! - this.at[2 * first + 1]!;
       const now = Math.hypot(dx, dy);
       goal[2 * second] = this.at[2 * first]! + (dx / now) * length;
       goal[2 * second + 1] = this.at[2 * first + 1]! + (dy / now) * length;
@@ -865,21 +1010,27 @@ export class Machine {
   switchMode(number: number): void {
     const signs = new Float64Array(this.state.signs);
     signs[number]! *= -1;
-    this.change(() => undefined, () => this.solve(this.drives, { signs, unknowns: this.state.unknowns }, 2));
+    this.change(
+      () => undefined,
+      () => this.solve(this.drives, { signs, unknowns: this.state.unknowns }, 2),
+    );
   }
 
   addPoint(name: string, link: number, x: number, y: number): void {
     this.points.push({ name, link, at: this.toLocal(link, x, y) });
   }
 
-  /** The linkage as `gruebler.formats` reads it, with the pose that is shown (or a row of others) as its reference pose. */
+  /** The linkage as `gruebler.formats` reads it; its reference pose is the one that is shown, or a row of others. */
   document(rows = this.pose, row = 0): LinkageDocument {
     const { model } = this;
     const out = structuredClone(model.document);
     const degrees = (angle: number) => (angle * 180) / Math.PI;
     model.elements.forEach((e, k) => {
       if (e.kind === "round") {
-        (out.elements![model.links[e.link]!]![model.joints[e.joint]!.name] as { at: number[] }).at = [this.at[2 * k]!, this.at[2 * k + 1]!];
+        (out.elements![model.links[e.link]!]![model.joints[e.joint]!.name] as { at: number[] }).at = [
+          this.at[2 * k]!,
+          this.at[2 * k + 1]!,
+        ];
         return;
       }
       const place: number[] = [this.at[2 * k]!, this.at[2 * k + 1]!];
@@ -888,10 +1039,12 @@ export class Machine {
     });
     out.points = Object.fromEntries(this.points.map((p) => [p.name, { link: model.links[p.link]!, at: [...p.at] }]));
     delete out.home;
-    out.reference_pose = Object.fromEntries(model.links.slice(0, model.own).map((name, link) => {
-      const [c, s] = this.turn(rows, row, link);
-      return [name, [...this.place(rows, row, link, 0, 0), degrees(Math.atan2(s, c))]];
-    }));
+    out.reference_pose = Object.fromEntries(
+      model.links.slice(0, model.own).map((name, link) => {
+        const [c, s] = this.turn(rows, row, link);
+        return [name, [...this.place(rows, row, link, 0, 0), degrees(Math.atan2(s, c))]];
+      }),
+    );
     return out;
   }
 
@@ -901,7 +1054,8 @@ export class Machine {
     const degrees = Math.PI / 180;
     const numbers = (raw: unknown, count: number): number[] => {
       if (!Array.isArray(raw) || raw.length !== count) throw new Refused(null);
-      const found = raw.map((v) => (typeof v === "string" ? parseFloat(v) : v) as number); // angles may have more digits than a number
+      // angles may have more digits than a number
+      const found = raw.map((v) => (typeof v === "string" ? parseFloat(v) : v) as number);
       if (!found.every((v) => Number.isFinite(v))) throw new Refused(null);
       return found;
     };
@@ -911,9 +1065,10 @@ export class Machine {
       () => {
         model.elements.forEach((e, k) => {
           const given = document.elements?.[model.links[e.link]!]?.[model.joints[e.joint]!.name];
-          const raw = e.kind === "round"
-            ? numbers((given as { at?: unknown } | undefined)?.at, 2)
-            : numbers(given, e.kind === "line" ? 3 : 2);
+          const raw =
+            e.kind === "round"
+              ? numbers((given as { at?: unknown } | undefined)?.at, 2)
+              : numbers(given, e.kind === "line" ? 3 : 2);
           this.at[2 * k] = raw[0]!;
           this.at[2 * k + 1] = raw[1]!;
           if (e.kind === "line") this.angles[k] = raw[2]! * degrees;
@@ -926,7 +1081,11 @@ export class Machine {
         });
         this.writeSizes();
         model.links.slice(0, model.own).forEach((name, link) => {
-          const [x, y, angle] = numbers((document.reference_pose ?? document.home)?.[name], 3) as [number, number, number];
+          const [x, y, angle] = numbers((document.reference_pose ?? document.home)?.[name], 3) as [
+            number,
+            number,
+            number,
+          ];
           poses.places[2 * link] = x;
           poses.places[2 * link + 1] = y;
           poses.turns[2 * link] = Math.cos(angle * degrees);
@@ -942,19 +1101,24 @@ export class Machine {
 
   /** Where the blocks of pins in slots lie when the other links are placed: at the pin, turned with the slot. */
   private placeBlocks(poses: Rows): void {
-    const p = this.program, { model } = this;
+    const p = this.program,
+      { model } = this;
     for (let block = model.own; block < model.links.length; block++) {
       const mine = model.sources.flatMap((source, e) => (source < 0 && p.links[e] === block ? [e] : []));
       const name = model.links[block]!.replace(/^block /, "");
       const joint = model.joints.findIndex((j) => j.name === name);
       if (joint < 0 || !mine.length) continue;
-      const [k, m] = this.elementsOf(joint).sort((a, b) => Number(model.elements[b]!.kind === "line") - Number(model.elements[a]!.kind === "line"));
+      const [k, m] = this.elementsOf(joint).sort(
+        (a, b) => Number(model.elements[b]!.kind === "line") - Number(model.elements[a]!.kind === "line"),
+      );
       const slot = this.turn(poses, 0, model.elements[k!]!.link);
-      const [x, y] = this.elementAt(k!, poses), [px, py] = this.elementAt(m!, poses);
+      const [x, y] = this.elementAt(k!, poses),
+        [px, py] = this.elementAt(m!, poses);
       let [u, v] = [px, py];
       if (model.elements[m!]!.kind === "line") {
         const a = this.angles[k!]!;
-        const lx = slot[0] * Math.cos(a) - slot[1] * Math.sin(a), ly = slot[0] * Math.sin(a) + slot[1] * Math.cos(a);
+        const lx = slot[0] * Math.cos(a) - slot[1] * Math.sin(a),
+          ly = slot[0] * Math.sin(a) + slot[1] * Math.cos(a);
         const way = lx * (px - x) + ly * (py - y);
         [u, v] = [x + way * lx, y + way * ly];
       }
@@ -981,20 +1145,29 @@ export class Machine {
     const link = this.model.elements[line]!.link;
     const [c, s] = this.turn(rows, row, link);
     const a = this.angles[line]!;
-    const lx = c * Math.cos(a) - s * Math.sin(a), ly = c * Math.sin(a) + s * Math.cos(a);
+    const lx = c * Math.cos(a) - s * Math.sin(a),
+      ly = c * Math.sin(a) + s * Math.cos(a);
     const gap = [0, 1, 2].map((k) => {
       const [px, py] = this.place(rows, row, link, this.at[2 * line]!, this.at[2 * line + 1]!, k);
-      const [qx, qy] = this.place(rows, row, this.model.elements[other]!.link, this.at[2 * other]!, this.at[2 * other + 1]!, k);
+      const [qx, qy] = this.place(
+        rows,
+        row,
+        this.model.elements[other]!.link,
+        this.at[2 * other]!,
+        this.at[2 * other + 1]!,
+        k,
+      );
       return [qx - px, qy - py] as const;
     }) as [readonly [number, number], readonly [number, number], readonly [number, number]];
     const dot = (k: 0 | 1 | 2) => lx * gap[k][0] + ly * gap[k][1];
     const across = (k: 0 | 1 | 2) => lx * gap[k][1] - ly * gap[k][0];
-    const w = this.rate(rows, row, link, 1), al = this.rate(rows, row, link, 2);
+    const w = this.rate(rows, row, link, 1),
+      al = this.rate(rows, row, link, 2);
     return [dot(0), dot(1) + w * across(0), dot(2) + 2 * w * across(1) + al * across(0) - w * w * dot(0)];
   }
 
-  /** The output at rows of the cycle that follow one another. An angle has no jumps, and lies between -180° and 180° where
-   * the cycle was found, as the library measures it from a reference pose. */
+  /** The output at rows of the cycle that follow one another. An angle has no jumps, and lies between -180° and 180°
+   * where the cycle was found, as the library measures it from a reference pose. */
   outputAlong(rows: number[]): Float64Array {
     const values = Float64Array.from(rows, (row) => this.output(this.cycle.rows, row)[0]);
     if (this.model.outputs[0]?.joint !== null) return values;
@@ -1017,9 +1190,11 @@ export class Machine {
 
   /** Cosine and sine between the force of a leg and the way of the point on which it acts. */
   private forceAndWay(rows: Rows, row: number, leg: Leg): [number, number] {
-    const outer = this.legPlace(rows, row, leg.outer), inner = this.legPlace(rows, row, leg.inner);
+    const outer = this.legPlace(rows, row, leg.outer),
+      inner = this.legPlace(rows, row, leg.inner);
     const acts = leg.form === "RP" ? outer : inner;
-    let fx = inner.x - outer.x, fy = inner.y - outer.y;
+    let fx = inner.x - outer.x,
+      fy = inner.y - outer.y;
     if (leg.form === "RP") [fx, fy] = [-inner.ly, inner.lx];
     else if (leg.form === "PR") [fx, fy] = [-outer.ly, outer.lx];
     let wx: number, wy: number;
@@ -1044,18 +1219,27 @@ export class Machine {
 
   /** The velocity of the place of a link where a point is; at rest the way in which it leaves. */
   private wayOf(rows: Rows, row: number, link: number, point: [number, number], place: Place): [number, number] {
-    const n = rows.links, o = row * (rows.order + 1) * 2 * n + 2 * link;
-    const dx = point[0] - rows.places[o]!, dy = point[1] - rows.places[o + 1]!;
-    const w = this.rate(rows, row, link, 1), a = this.rate(rows, row, link, 2);
-    const vx = rows.places[o + 2 * n]! - w * dy, vy = rows.places[o + 2 * n + 1]! + w * dx;
+    const n = rows.links,
+      o = row * (rows.order + 1) * 2 * n + 2 * link;
+    const dx = point[0] - rows.places[o]!,
+      dy = point[1] - rows.places[o + 1]!;
+    const w = this.rate(rows, row, link, 1),
+      a = this.rate(rows, row, link, 2);
+    const vx = rows.places[o + 2 * n]! - w * dy,
+      vy = rows.places[o + 2 * n + 1]! + w * dx;
     let fastest = 0;
     for (let k = 0; k < n; k++) {
       const at = row * (rows.order + 1) * 2 * n + 2 * n + 2 * k;
-      fastest = Math.max(fastest, Math.hypot(rows.places[at]!, rows.places[at + 1]!), this.size * Math.abs(this.rate(rows, row, k)));
+      fastest = Math.max(
+        fastest,
+        Math.hypot(rows.places[at]!, rows.places[at + 1]!),
+        this.size * Math.abs(this.rate(rows, row, k)),
+      );
     }
     if (Math.hypot(vx, vy) >= 1e-7 * fastest) return [vx, vy];
     const [px, py] = this.place(rows, row, place[0], ...this.legPoint(place), 1);
-    const rx = px - rows.places[o + 2 * n]!, ry = py - rows.places[o + 2 * n + 1]!;
+    const rx = px - rows.places[o + 2 * n]!,
+      ry = py - rows.places[o + 2 * n + 1]!;
     return [rows.places[o + 4 * n]! - a * dy - w * ry, rows.places[o + 4 * n + 1]! + a * dx + w * rx];
   }
 
@@ -1095,7 +1279,8 @@ export class Machine {
       const one = this.at1(value, row);
       return one === null ? NaN : f(one);
     };
-    let fa = at(a), fb = at(b);
+    let fa = at(a),
+      fb = at(b);
     for (let k = 0; k < 60 && Math.abs(b - a) > 1e-11 * (1 + Math.abs(a)); k++) {
       let middle = k % 3 === 2 ? (a + b) / 2 : a - (fa * (b - a)) / (fb - fa);
       if (!(middle > Math.min(a, b) && middle < Math.max(a, b))) middle = (a + b) / 2;
@@ -1118,24 +1303,28 @@ export class Machine {
     if (!this.model.outputs[0]?.legs.length) return null;
     const { values, rows, full } = this.cycle;
     const angles = Array.from(values, (_, row) => this.transmission(rows, row));
-    const known = angles.filter(Number.isFinite).sort((a, b) => a - b);
+    const known = angles.filter(Number.isFinite).sort(ascending);
     if (!known.length) return null;
     const median = known[known.length >> 1]!;
-    const spread = known.map((mu) => Math.abs(mu - median)).sort((a, b) => a - b);
+    const spread = known.map((one) => Math.abs(one - median)).sort(ascending);
     if (spread[Math.floor(0.9 * (spread.length - 1))]! <= 1e-8) return { value: values[0]!, mu: median };
-    let best = -1, mu = Infinity;
+    let best = -1,
+      mu = Infinity;
     angles.forEach((now, row) => {
       if (now < mu) [best, mu] = [row, now];
     });
     let found = { value: values[best]!, mu };
-    let low = values[Math.max(0, best - 1)]!, high = values[Math.min(values.length - 1, best + 1)]!;
+    let low = values[Math.max(0, best - 1)]!,
+      high = values[Math.min(values.length - 1, best + 1)]!;
     const f = (value: number) => {
       const one = this.at1(value, best);
       return one === null ? Infinity : this.transmission(one.rows, one.row);
     };
     const ratio = 0.6180339887498949;
-    let a = high - ratio * (high - low), b = low + ratio * (high - low);
-    let fa = f(a), fb = f(b);
+    let a = high - ratio * (high - low),
+      b = low + ratio * (high - low);
+    let fa = f(a),
+      fb = f(b);
     for (let k = 0; k < 40; k++) {
       if (fa <= fb) {
         [high, b, fb] = [b, a, fa];
@@ -1147,7 +1336,11 @@ export class Machine {
         fb = f(b);
       }
     }
-    for (const [value, angle] of [[a, fa], [b, fb]] as const) if (angle < found.mu) found = { value, mu: angle };
+    for (const [value, angle] of [
+      [a, fa],
+      [b, fb],
+    ] as const)
+      if (angle < found.mu) found = { value, mu: angle };
     if (!full && values.length > 2) {
       for (const upper of [false, true]) {
         const end = this.transmissionAtEnd(upper);
@@ -1161,11 +1354,14 @@ export class Machine {
    * middle - cos t times half the width, it is analytic and extrapolated from t up to 0.3 by a polynomial. */
   private transmissionAtEnd(upper: boolean): number {
     const { values, low, high } = this.cycle;
-    const half = (high - low) / 2, nodes = 10;
+    const half = (high - low) / 2,
+      nodes = 10;
     const row = upper ? values.length - 2 : 1;
     let out = Infinity;
     for (const leg of this.model.outputs[0]!.legs) {
-      let re = 0, im = 0, sum = 0;
+      let re = 0,
+        im = 0,
+        sum = 0;
       for (let k = 0; k < nodes; k++) {
         const angle = ((2 * k + 1) * Math.PI) / (2 * nodes);
         const t = 0.15 * (1 - Math.cos(angle));
@@ -1186,26 +1382,38 @@ export class Machine {
   /** The pole of a link and the diameter of its inflection circle in a row; null where it does not turn. */
   pole(rows: Rows, row: number, link: number): { x: number; y: number; dx: number; dy: number } | null {
     const w = this.rate(rows, row, link);
-    const n = rows.links, o = row * (rows.order + 1) * 2 * n + 2 * link;
-    const vx = rows.places[o + 2 * n]!, vy = rows.places[o + 2 * n + 1]!;
+    const n = rows.links,
+      o = row * (rows.order + 1) * 2 * n + 2 * link;
+    const vx = rows.places[o + 2 * n]!,
+      vy = rows.places[o + 2 * n + 1]!;
     if (Math.abs(w) * 1e4 * this.size <= Math.hypot(vx, vy) || !(Math.abs(w) > 1e-12)) return null;
-    const px = -vy / w, py = vx / w; // from the link's origin
+    const px = -vy / w,
+      py = vx / w; // from the link's origin
     if (rows.order < 2) return { x: rows.places[o]! + px, y: rows.places[o + 1]! + py, dx: 0, dy: 0 };
     const a = this.rate(rows, row, link, 2);
-    const ax = rows.places[o + 4 * n]! - w * w * px - a * py, ay = rows.places[o + 4 * n + 1]! - w * w * py + a * px;
+    const ax = rows.places[o + 4 * n]! - w * w * px - a * py,
+      ay = rows.places[o + 4 * n + 1]! - w * w * py + a * px;
     return { x: rows.places[o]! + px, y: rows.places[o + 1]! + py, dx: ax / (w * w), dy: ay / (w * w) };
   }
 }
 
+const ascending = (a: number, b: number): number => a - b;
+
 function oneRow(rows: Rows, row: number): Rows {
-  const n = rows.links, wide = (rows.order + 1) * 2 * n;
+  const n = rows.links,
+    wide = (rows.order + 1) * 2 * n;
   const roots = rows.roots.length / Math.max(1, rows.turns.length / (2 * n));
   const unknowns = rows.unknowns.length / Math.max(1, rows.turns.length / (2 * n));
   return {
-    ...rows, status: Status.DONE, reached: 1, at: 0,
-    places: rows.places.slice(row * wide, (row + 1) * wide), turns: rows.turns.slice(row * 2 * n, (row + 1) * 2 * n),
+    ...rows,
+    status: Status.DONE,
+    reached: 1,
+    at: 0,
+    places: rows.places.slice(row * wide, (row + 1) * wide),
+    turns: rows.turns.slice(row * 2 * n, (row + 1) * 2 * n),
     rates: rows.rates.slice(row * rows.order * n, (row + 1) * rows.order * n),
-    roots: rows.roots.slice(row * roots, (row + 1) * roots), unknowns: rows.unknowns.slice(row * unknowns, (row + 1) * unknowns),
+    roots: rows.roots.slice(row * roots, (row + 1) * roots),
+    unknowns: rows.unknowns.slice(row * unknowns, (row + 1) * unknowns),
   };
 }
 
@@ -1219,13 +1427,15 @@ function picked(rows: Rows, asked: number[], all: number[], values: Float64Array
   for (const key of WIDE) {
     const wide = rows[key].length / count;
     const made = new Float64Array(wide * asked.length);
-    asked.forEach((row, k) => made.set(rows[key].subarray(row * wide, (row + 1) * wide), k * wide));
+    for (const [k, row] of asked.entries()) made.set(rows[key].subarray(row * wide, (row + 1) * wide), k * wide);
     out[key] = made;
   }
   if (rows.status !== Status.DONE) {
-    const low = Math.min(Math.floor(rows.at), count - 1), high = Math.min(low + 1, count - 1);
+    const low = Math.min(Math.floor(rows.at), count - 1),
+      high = Math.min(low + 1, count - 1);
     const value = all[low]! + (rows.at - low) * (all[high]! - all[low]!);
-    const last = Math.max(0, reached - 1), next = Math.min(last + 1, values.length - 1);
+    const last = Math.max(0, reached - 1),
+      next = Math.min(last + 1, values.length - 1);
     out.at = last + (next === last ? 0 : (value - values[last]!) / (values[next]! - values[last]!));
   }
   return out;

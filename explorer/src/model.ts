@@ -89,3 +89,9 @@ export interface Model {
   outputs: OutputRecord[];
   shapes: ShapeRecord[];
 }
+
+/** The chain of a linkage as text, with its frame and its drives. */
+export function chainText(model: Model): string {
+  const drives = model.drives.map((drive) => `; drive=${drive.name}`).join("");
+  return `${String(model.document.joints)}; frame=${model.links[model.frame]}${drives}`;
+}

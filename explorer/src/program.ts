@@ -1,9 +1,28 @@
 /** What the kernel gets from Python: the flattened solving plan of a linkage. The codes are those of
  * `gruebler._numeric.motion.program` and `closure`; complex arrays are given as real and imaginary parts in turn. */
 
-export const enum Code { TURN, PUSH, RRR, RRP, RPR, PRP, RPP, GROUP, CARRY }
+export const enum Code {
+  TURN,
+  PUSH,
+  RRR,
+  RRP,
+  RPR,
+  PRP,
+  RPP,
+  GROUP,
+  CARRY,
+}
 
-export const enum Kind { PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE }
+export const enum Kind {
+  PIN,
+  SLIDE,
+  RIDE,
+  REACH,
+  MESH,
+  RACK,
+  POLAR,
+  FACE,
+}
 
 export interface Program {
   readonly operations: readonly (readonly number[])[];

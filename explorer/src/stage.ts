@@ -62,7 +62,10 @@ export class Stage {
   private bands = new Map<number, Band>();
   private readonly observer: ResizeObserver;
 
-  constructor(private readonly events: StageEvents, shown: Shown) {
+  constructor(
+    private readonly events: StageEvents,
+    shown: Shown,
+  ) {
     this.shown = shown;
     this.element = h("div", { class: "stage" }, this.canvas, this.root);
     this.root.addEventListener("pointerdown", (event) => this.down(event));
@@ -129,17 +132,20 @@ export class Stage {
     const { rows, values } = machine.cycle;
     const step = Math.max(1, Math.floor(values.length / 90));
     for (let row = 0; row < values.length; row += step) {
-      machine.model.joints.forEach((_, joint) => add(machine.jointAt(joint, rows, row)));
+      for (const joint of machine.model.joints.keys()) add(machine.jointAt(joint, rows, row));
       for (const point of machine.points) add(machine.place(rows, row, point.link, ...point.at));
       for (const shape of machine.model.shapes) {
         if (shape.circle) add(machine.place(rows, row, shape.link, shape.circle[0], shape.circle[1]), shape.circle[2]);
-        for (const line of machine.linesOf(shape)) for (let k = 0; k + 1 < line.length; k += 16) add(machine.place(rows, row, shape.link, line[k]!, line[k + 1]!));
+        for (const line of machine.linesOf(shape))
+          for (let k = 0; k + 1 < line.length; k += 16)
+            add(machine.place(rows, row, shape.link, line[k]!, line[k + 1]!));
       }
     }
     const narrow = this.width < 500;
     const margin = narrow ? 34 : 60;
     const keys = narrow ? 36 : 0; // the buttons on the right
-    const wide = Math.max(right - left, 0.2 * machine.size), high = Math.max(top - bottom, 0.2 * machine.size);
+    const wide = Math.max(right - left, 0.2 * machine.size),
+      high = Math.max(top - bottom, 0.2 * machine.size);
     this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin) / high);
     this.ox = (this.width - keys) / 2 - (this.scale * (left + right)) / 2;
     this.oy = this.height / 2 + (this.scale * (bottom + top)) / 2;
@@ -167,7 +173,12 @@ export class Stage {
     const machine = this.machine;
     if (!machine) return;
     const { model } = machine;
-    const layers = ["back", "bodies", "marks", "front"].map((name) => svg("g", { class: name })) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement];
+    const layers = ["back", "bodies", "marks", "front"].map((name) => svg("g", { class: name })) as [
+      SVGGElement,
+      SVGGElement,
+      SVGGElement,
+      SVGGElement,
+    ];
     const [back, bodies, marks, front] = layers;
     this.links = model.links.map((name, link) => {
       const group = svg("g", { class: link === model.frame ? "link ground" : "link", "data-link": name });
@@ -179,13 +190,25 @@ export class Stage {
       const ground = joint.links.includes(model.frame) && joint.pair === "revolute";
       const free = machine.draggable(number);
       const element = svg("g", {
-        class: free ? "pin free" : "pin", "data-joint": joint.name, tabindex: free ? 0 : -1,
-        role: free ? "button" : "img", "aria-label": joint.name,
+        class: free ? "pin free" : "pin",
+        "data-joint": joint.name,
+        tabindex: free ? 0 : -1,
+        role: free ? "button" : "img",
+        "aria-label": joint.name,
         onkeydown: (event: KeyboardEvent) => this.key(event, number),
       });
-      if (ground) element.append(svg("path", { class: "support", d: "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23 l5 -6 M13 23 l4 -5" }));
+      if (ground)
+        element.append(
+          svg("path", {
+            class: "support",
+            d: "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23 l5 -6 M13 23 l4 -5",
+          }),
+        );
       element.append(svg("circle", { class: "halo", r: 13 }), svg("circle", { class: "joint", r: ground ? 5.5 : 4.6 }));
-      if (model.drives.some((drive) => drive.joint === number)) element.append(svg("path", { class: "driven", d: "M-9.5 -9.5 A13.4 13.4 0 0 1 12.5 -5 M12.5 -5 l-6 -1.5 M12.5 -5 l0.6 -6" }));
+      if (model.drives.some((drive) => drive.joint === number))
+        element.append(
+          svg("path", { class: "driven", d: "M-9.5 -9.5 A13.4 13.4 0 0 1 12.5 -5 M12.5 -5 l-6 -1.5 M12.5 -5 l0.6 -6" }),
+        );
       front.append(element);
       return [{ element, joint: number, ground }];
     });
@@ -207,10 +230,14 @@ export class Stage {
         const mine = machine.elementsOn(link);
         text(machine.linkName(link), "name", () => {
           const places = mine.map((k) => machine.elementAt(k));
-          return [places.reduce((sum, p) => sum + p[0], 0) / places.length, places.reduce((sum, p) => sum + p[1], 0) / places.length];
+          return [
+            places.reduce((sum, p) => sum + p[0], 0) / places.length,
+            places.reduce((sum, p) => sum + p[1], 0) / places.length,
+          ];
         });
       });
-      machine.points.forEach((point) => text(point.name, "mark", () => machine.place(machine.pose, 0, point.link, ...point.at)));
+      for (const point of machine.points)
+        text(point.name, "mark", () => machine.place(machine.pose, 0, point.link, ...point.at));
     }
     front.append(this.arrows, this.changes, this.circle, this.pole);
     this.root.setAttribute("aria-label", model.name || model.source || t("The mechanism"));
@@ -223,7 +250,7 @@ export class Stage {
     const machine = this.machine;
     if (!machine) return;
     this.findBands();
-    machine.model.links.forEach((_, link) => this.links[link]!.replaceChildren(...this.body(link)));
+    for (const link of machine.model.links.keys()) this.links[link]!.replaceChildren(...this.body(link));
     this.draw();
   }
 
@@ -235,25 +262,35 @@ export class Stage {
     machine.model.elements.forEach((e, k) => {
       if (e.kind !== "line") return;
       const a = machine.angles[k]!;
-      const band: Band = { x: machine.at[2 * k]!, y: machine.at[2 * k + 1]!, c: Math.cos(a), s: Math.sin(a), low: 0, high: 0 };
+      const band: Band = {
+        x: machine.at[2 * k]!,
+        y: machine.at[2 * k + 1]!,
+        c: Math.cos(a),
+        s: Math.sin(a),
+        low: 0,
+        high: 0,
+      };
       [band.low, band.high] = [Infinity, -Infinity];
       const partners = machine.elementsOf(e.joint).filter((m) => m !== k);
       const step = Math.max(1, Math.floor(values.length / 60));
-      for (let row = 0; row < values.length; row += step) for (const m of partners) {
-        const [x, y] = machine.elementAt(k, rows, row), [px, py] = machine.elementAt(m, rows, row);
-        const [tx, ty] = machine.turn(rows, row, e.link);
-        const way = (tx * band.c - ty * band.s) * (px - x) + (tx * band.s + ty * band.c) * (py - y);
-        if (!Number.isFinite(way)) continue;
-        band.low = Math.min(band.low, way);
-        band.high = Math.max(band.high, way);
-      }
+      for (let row = 0; row < values.length; row += step)
+        for (const m of partners) {
+          const [x, y] = machine.elementAt(k, rows, row),
+            [px, py] = machine.elementAt(m, rows, row);
+          const [tx, ty] = machine.turn(rows, row, e.link);
+          const way = (tx * band.c - ty * band.s) * (px - x) + (tx * band.s + ty * band.c) * (py - y);
+          if (!Number.isFinite(way)) continue;
+          band.low = Math.min(band.low, way);
+          band.high = Math.max(band.high, way);
+        }
       if (!(band.high >= band.low)) [band.low, band.high] = [0, 0];
       this.bands.set(k, band);
     });
   }
 
   private body(link: number): SVGElement[] {
-    const machine = this.machine!, { model } = machine;
+    const machine = this.machine!,
+      { model } = machine;
     if (link >= model.own) return [];
     const out: SVGElement[] = [];
     const frame = link === model.frame;
@@ -263,7 +300,10 @@ export class Stage {
     for (const shape of model.shapes) {
       if (shape.link !== link) continue;
       const style = `shape ${shape.style}`;
-      if (shape.circle) out.push(svg("circle", { class: style, cx: px(shape.circle[0]), cy: px(-shape.circle[1]), r: px(shape.circle[2]) }));
+      if (shape.circle)
+        out.push(
+          svg("circle", { class: style, cx: px(shape.circle[0]), cy: px(-shape.circle[1]), r: px(shape.circle[2]) }),
+        );
       for (const line of machine.linesOf(shape)) {
         let d = "M";
         for (let k = 0; k + 1 < line.length; k += 2) d += `${k ? "L" : ""}${place(line[k]!, line[k + 1]!)}`;
@@ -281,29 +321,59 @@ export class Stage {
         out.push(...cylinder);
         continue;
       }
-      const band = this.bands.get(k)!, partners = machine.elementsOf(e.joint).filter((m) => m !== k);
+      const band = this.bands.get(k)!,
+        partners = machine.elementsOf(e.joint).filter((m) => m !== k);
       const pinned = partners.some((m) => model.elements[m]!.kind === "pin");
       const carries = frame || pinned || this.carries(link, e.joint);
       const turn = `rotate(${(-machine.angles[k]! * 180) / Math.PI})`;
       if (carries) {
         const room = 26 / this.scale;
-        const pins = frame ? [] : mine.filter((m) => model.elements[m]!.kind === "pin").map((m) => {
-          const dx = machine.at[2 * m]! - band.x, dy = machine.at[2 * m + 1]! - band.y;
-          return [band.c * dx + band.s * dy, band.c * dy - band.s * dx] as const;
-        }).filter(([, off]) => Math.abs(off) < 1e-6 * machine.size).map(([way]) => way);
-        const from = Math.min(band.low - room, ...pins), to = Math.max(band.high + room, ...pins);
-        const a = place(band.x + band.c * from, band.y + band.s * from), b = place(band.x + band.c * to, band.y + band.s * to);
-        if (frame) out.push(svg("path", { class: "rail", d: `M${a}L${b}` }), svg("path", { class: "rail-hatch", d: `M${a}L${b}` }));
-        else out.push(svg("path", { class: pinned ? "slot-outline" : "rod-outline", d: `M${a}L${b}` }), svg("path", { class: pinned ? "slot" : "rod", d: `M${a}L${b}` }));
-        if (!frame && !pins.length) nodes.push([band.x + band.c * (band.low + band.high) / 2, band.y + band.s * (band.low + band.high) / 2]);
+        const pins = frame
+          ? []
+          : mine
+              .filter((m) => model.elements[m]!.kind === "pin")
+              .map((m) => {
+                const dx = machine.at[2 * m]! - band.x,
+                  dy = machine.at[2 * m + 1]! - band.y;
+                return [band.c * dx + band.s * dy, band.c * dy - band.s * dx] as const;
+              })
+              .filter(([, off]) => Math.abs(off) < 1e-6 * machine.size)
+              .map(([way]) => way);
+        const from = Math.min(band.low - room, ...pins),
+          to = Math.max(band.high + room, ...pins);
+        const a = place(band.x + band.c * from, band.y + band.s * from),
+          b = place(band.x + band.c * to, band.y + band.s * to);
+        if (frame)
+          out.push(
+            svg("path", { class: "rail", d: `M${a}L${b}` }),
+            svg("path", { class: "rail-hatch", d: `M${a}L${b}` }),
+          );
+        else
+          out.push(
+            svg("path", { class: pinned ? "slot-outline" : "rod-outline", d: `M${a}L${b}` }),
+            svg("path", { class: pinned ? "slot" : "rod", d: `M${a}L${b}` }),
+          );
+        if (!frame && !pins.length)
+          nodes.push([band.x + (band.c * (band.low + band.high)) / 2, band.y + (band.s * (band.low + band.high)) / 2]);
       } else {
-        out.push(svg("rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3, transform: `translate(${place(...here)}) ${turn}` }));
+        out.push(
+          svg("rect", {
+            class: "block",
+            x: -15,
+            y: -9,
+            width: 30,
+            height: 18,
+            rx: 3,
+            transform: `translate(${place(...here)}) ${turn}`,
+          }),
+        );
         nodes.push(here);
       }
     }
     if (frame) return out;
     for (const point of machine.points) if (point.link === link) nodes.push(point.at);
-    for (const k of mine) if (model.elements[k]!.kind === "round") nodes.push([machine.at[2 * k]!, machine.at[2 * k + 1]!]);
+    for (const k of mine)
+      if (model.elements[k]!.kind === "round") nodes.push([machine.at[2 * k]!, machine.at[2 * k + 1]!]);
     const hull = convexHull(nodes);
     if (hull.length > 1) {
       const d = hull.map(([x, y], k) => `${k ? "L" : "M"}${place(x, y)}`).join("") + (hull.length > 2 ? "Z" : "");
@@ -315,16 +385,20 @@ export class Stage {
 
   /** Whether of the two links of a slide this one has the bar: the frame, the one with more joints, or at the frame. */
   private carries(link: number, joint: number): boolean {
-    const machine = this.machine!, { model } = machine;
+    const machine = this.machine!,
+      { model } = machine;
     const [one, two] = model.joints[joint]!.links as [number, number];
-    const rank = (k: number) => (k === model.frame ? 100 : 0) + 2 * machine.elementsOn(k).length +
+    const rank = (k: number) =>
+      (k === model.frame ? 100 : 0) +
+      2 * machine.elementsOn(k).length +
       Number(model.joints.some((other) => other.links.includes(k) && other.links.includes(model.frame)));
     return rank(one) >= rank(two) ? link === one : link === two;
   }
 
   /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */
   private cylinderBody(k: number, px: (value: number) => string): SVGElement[] | null {
-    const machine = this.machine!, e = machine.model.elements[k]!;
+    const machine = this.machine!,
+      e = machine.model.elements[k]!;
     const found = machine.cylinder(e.joint);
     if (!found) return null;
     const [one, , pinOne, pinTwo] = found;
@@ -332,7 +406,8 @@ export class Stage {
     const { rows, values } = machine.cycle;
     let [near, far] = [Infinity, 0];
     for (let row = 0; row < values.length; row += Math.max(1, Math.floor(values.length / 60))) {
-      const [ax, ay] = machine.elementAt(own, rows, row), [bx, by] = machine.elementAt(other, rows, row);
+      const [ax, ay] = machine.elementAt(own, rows, row),
+        [bx, by] = machine.elementAt(other, rows, row);
       const gap = Math.hypot(bx - ax, by - ay);
       if (!Number.isFinite(gap)) continue;
       near = Math.min(near, gap);
@@ -340,11 +415,14 @@ export class Stage {
     }
     if (far > 1.9 * near) return null; // a rod cannot be drawn in by so much: a block on a bar
     const [u, v] = machine.toLocal(e.link, ...machine.elementAt(other));
-    const x = machine.at[2 * own]!, y = machine.at[2 * own + 1]!;
+    const x = machine.at[2 * own]!,
+      y = machine.at[2 * own + 1]!;
     const length = Math.hypot(u - x, v - y) || 1;
     const reach = one === k ? 0.86 * near : Math.min(far - 0.62 * near, 0.95 * near);
     const d = `M${px(x)} ${px(-y)}L${px(x + ((u - x) / length) * reach)} ${px(-(y + ((v - y) / length) * reach))}`;
-    return (one === k ? ["slot-outline", "slot"] : ["rod-outline", "rod"]).map((style) => svg("path", { class: style, d }));
+    return (one === k ? ["slot-outline", "slot"] : ["rod-outline", "rod"]).map((style) =>
+      svg("path", { class: style, d }),
+    );
   }
 
   /** Put everything where the pose has it. */
@@ -355,9 +433,13 @@ export class Stage {
     this.links.forEach((group, link) => {
       const [c, s] = machine.turn(pose, 0, link);
       const [x, y] = this.screen(...machine.place(pose, 0, link, 0, 0));
-      group!.setAttribute("transform", `matrix(${c.toFixed(6)} ${(-s).toFixed(6)} ${s.toFixed(6)} ${c.toFixed(6)} ${x.toFixed(2)} ${y.toFixed(2)})`);
+      group!.setAttribute(
+        "transform",
+        `matrix(${c.toFixed(6)} ${(-s).toFixed(6)} ${s.toFixed(6)} ${c.toFixed(6)} ${x.toFixed(2)} ${y.toFixed(2)})`,
+      );
     });
-    const put = (element: SVGElement, [x, y]: [number, number]) => element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+    const put = (element: SVGElement, [x, y]: [number, number]) =>
+      element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
     for (const { element, joint } of this.pins) put(element, this.screen(...machine.jointAt(joint)));
     for (const { element, point } of this.marks) {
       const record = machine.points[point];
@@ -372,13 +454,17 @@ export class Stage {
   }
 
   private drawVectors(): void {
-    const machine = this.machine!, { pose } = machine;
+    const machine = this.machine!,
+      { pose } = machine;
     const arrow = (x: number, y: number, dx: number, dy: number) => {
       const length = Math.hypot(dx, dy);
       if (!(length > 3) || !Number.isFinite(length)) return "";
       const [ux, uy] = [dx / length, dy / length];
       const [ex, ey] = [x + dx, y + dy];
-      return `M${x.toFixed(1)} ${y.toFixed(1)}L${ex.toFixed(1)} ${ey.toFixed(1)}M${(ex - 8 * ux - 4 * uy).toFixed(1)} ${(ey - 8 * uy + 4 * ux).toFixed(1)}L${ex.toFixed(1)} ${ey.toFixed(1)}L${(ex - 8 * ux + 4 * uy).toFixed(1)} ${(ey - 8 * uy - 4 * ux).toFixed(1)}`;
+      const at = (u: number, v: number) => `${u.toFixed(1)} ${v.toFixed(1)}`;
+      const left = at(ex - 8 * ux - 4 * uy, ey - 8 * uy + 4 * ux);
+      const right = at(ex - 8 * ux + 4 * uy, ey - 8 * uy - 4 * ux);
+      return `M${at(x, y)}L${at(ex, ey)}M${left}L${at(ex, ey)}L${right}`;
     };
     const vectors = (k: 1 | 2) => {
       const places: [number, number, number, number][] = [];
@@ -389,8 +475,14 @@ export class Stage {
       };
       machine.model.joints.forEach((joint, number) => {
         if (joint.links.includes(machine.model.frame) && joint.pair === "revolute") return;
-        const element = machine.elementsOf(number).find((e) => machine.model.elements[e]!.link !== machine.model.frame && machine.model.elements[e]!.kind !== "round");
-        if (element !== undefined) add(machine.model.elements[element]!.link, machine.at[2 * element]!, machine.at[2 * element + 1]!);
+        const element = machine
+          .elementsOf(number)
+          .find(
+            (e) =>
+              machine.model.elements[e]!.link !== machine.model.frame && machine.model.elements[e]!.kind !== "round",
+          );
+        if (element !== undefined)
+          add(machine.model.elements[element]!.link, machine.at[2 * element]!, machine.at[2 * element + 1]!);
       });
       for (const point of machine.points) add(point.link, ...point.at);
       const most = Math.max(...places.map(([, , dx, dy]) => Math.hypot(dx, dy)).filter(Number.isFinite), 1e-12);
@@ -419,7 +511,8 @@ export class Stage {
 
   /** The canvas: grid, curves, centrodes. */
   private paint(): void {
-    const machine = this.machine!, pen = this.canvas.getContext("2d");
+    const machine = this.machine!,
+      pen = this.canvas.getContext("2d");
     if (!pen) return;
     const ratio = this.canvas.width / this.width;
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -439,7 +532,8 @@ export class Stage {
           continue;
         }
         // a step far beyond the picture leads through infinity, to the other end of an asymptote
-        if (on && Math.hypot(place[0] - last[0], place[1] - last[1]) < 2 * (this.width + this.height)) pen.lineTo(...place);
+        if (on && Math.hypot(place[0] - last[0], place[1] - last[1]) < 2 * (this.width + this.height))
+          pen.lineTo(...place);
         else pen.moveTo(...place);
         on = true;
         last = place;
@@ -469,7 +563,8 @@ export class Stage {
         if (!pole) return null;
         const [c, s] = machine.turn(rows, row, link);
         const [x, y] = machine.place(rows, row, link, 0, 0);
-        const dx = pole.x - x, dy = pole.y - y;
+        const dx = pole.x - x,
+          dy = pole.y - y;
         return this.screen(...machine.place(machine.pose, 0, link, c * dx + s * dy, c * dy - s * dx));
       });
       pen.setLineDash([]);
@@ -477,12 +572,20 @@ export class Stage {
   }
 
   /** The velocities of all named points, drawn from one place in the corner: their ends trace the hodographs. */
-  private paintHodographs(pen: CanvasRenderingContext2D, trace: (at: (row: number) => [number, number] | null) => void, colour: (name: string) => string): void {
-    const machine = this.machine!, { rows, values } = machine.cycle;
-    const velocity = (point: (typeof machine.points)[number], row: number) => machine.place(rows, row, point.link, ...point.at, 1);
+  private paintHodographs(
+    pen: CanvasRenderingContext2D,
+    trace: (at: (row: number) => [number, number] | null) => void,
+    colour: (name: string) => string,
+  ): void {
+    const machine = this.machine!,
+      { rows, values } = machine.cycle;
+    const velocity = (point: (typeof machine.points)[number], row: number) =>
+      machine.place(rows, row, point.link, ...point.at, 1);
     const reach = 0.16 * Math.min(this.width, this.height);
     const [x, y] = [reach + 16, this.height - reach - 16];
-    const fastest = machine.points.map((point) => Math.max(0, ...Array.from(values, (_, row) => Math.hypot(...velocity(point, row))).filter(Number.isFinite)));
+    const fastest = machine.points.map((point) =>
+      Math.max(0, ...Array.from(values, (_, row) => Math.hypot(...velocity(point, row))).filter(Number.isFinite)),
+    );
     const most = Math.max(...fastest, 1e-12 * machine.size);
     machine.points.forEach((point, number) => {
       const end = ([u, v]: [number, number]): [number, number] => [x + (reach * u) / most, y - (reach * v) / most];
@@ -507,7 +610,8 @@ export class Stage {
     pen.strokeStyle = colour;
     pen.lineWidth = 1;
     pen.beginPath();
-    const [left, top] = this.world(0, 0), [right, bottom] = this.world(this.width, this.height);
+    const [left, top] = this.world(0, 0),
+      [right, bottom] = this.world(this.width, this.height);
     for (let k = Math.ceil(left / step); k * step <= right; k++) {
       const x = Math.round(this.screen(k * step, 0)[0]) + 0.5;
       pen.moveTo(x, 0);
@@ -542,10 +646,14 @@ export class Stage {
       if (link === machine.model.frame) continue;
       const places = [
         ...machine.elementsOn(link).map((k) => this.screen(...machine.elementAt(k))),
-        ...machine.points.filter((p) => p.link === link).map((p) => this.screen(...machine.place(machine.pose, 0, link, ...p.at))),
+        ...machine.points
+          .filter((p) => p.link === link)
+          .map((p) => this.screen(...machine.place(machine.pose, 0, link, ...p.at))),
       ];
       const hull = convexHull(places);
-      const gap = inside(hull, x, y) ? 0 : Math.min(...hull.map((p, k) => toSegment(x, y, p, hull[(k + 1) % hull.length]!)));
+      const gap = inside(hull, x, y)
+        ? 0
+        : Math.min(...hull.map((p, k) => toSegment(x, y, p, hull[(k + 1) % hull.length]!)));
       if (gap < reach) [best, reach] = [link, Math.max(gap, 0.01)];
     }
     return best;
@@ -610,12 +718,17 @@ export class Stage {
   }
 
   private key(event: KeyboardEvent, joint: number): void {
-    const ways: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const ways: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+    };
     const way = ways[event.key];
     if (!way) return;
     event.preventDefault();
     event.stopPropagation();
-    const step = (this.machine!.size * (event.shiftKey ? 0.001 : 0.01));
+    const step = this.machine!.size * (event.shiftKey ? 0.001 : 0.01);
     this.events.moveJointBy(joint, step * way[0], step * way[1]);
   }
 
@@ -623,13 +736,26 @@ export class Stage {
   file(): string {
     const copy = this.root.cloneNode(true) as SVGSVGElement;
     const from = [...this.root.querySelectorAll<SVGElement>("*")];
-    const names = ["fill", "stroke", "stroke-width", "stroke-linecap", "stroke-linejoin", "stroke-dasharray", "opacity", "font-size", "font-family"];
-    [...copy.querySelectorAll<SVGElement>("*")].forEach((element, k) => {
+    const names = [
+      "fill",
+      "stroke",
+      "stroke-width",
+      "stroke-linecap",
+      "stroke-linejoin",
+      "stroke-dasharray",
+      "opacity",
+      "font-size",
+      "font-family",
+    ];
+    for (const [k, element] of [...copy.querySelectorAll<SVGElement>("*")].entries()) {
       const style = getComputedStyle(from[k]!);
-      if (style.display === "none") return element.remove();
+      if (style.display === "none") {
+        element.remove();
+        continue;
+      }
       for (const name of names) element.setAttribute(name, style.getPropertyValue(name));
       for (const name of ["class", "tabindex", "role", "style"]) element.removeAttribute(name);
-    });
+    }
     const machine = this.machine!;
     if (this.shown.curves) {
       const { rows, values } = machine.cycle;
@@ -638,11 +764,19 @@ export class Stage {
           const [x, y] = this.screen(...machine.place(rows, row, point.link, ...point.at));
           return `${row ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`;
         }).join("");
-        const stroke = getComputedStyle(this.element).getPropertyValue(PALETTE[number % PALETTE.length]!).trim();
+        const stroke = getComputedStyle(this.element)
+          .getPropertyValue(PALETTE[number % PALETTE.length]!)
+          .trim();
         copy.prepend(svg("path", { d, fill: "none", stroke, "stroke-width": 2 }));
       });
     }
-    copy.prepend(svg("rect", { width: this.width, height: this.height, fill: getComputedStyle(this.element).getPropertyValue("--paper").trim() }));
+    copy.prepend(
+      svg("rect", {
+        width: this.width,
+        height: this.height,
+        fill: getComputedStyle(this.element).getPropertyValue("--paper").trim(),
+      }),
+    );
     copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
     copy.setAttribute("width", String(this.width));
     copy.setAttribute("height", String(this.height));
@@ -653,13 +787,16 @@ export class Stage {
 
 /** The corners of the convex hull, in order. */
 export function convexHull(points: readonly (readonly [number, number])[]): [number, number][] {
-  const sorted = [...new Map(points.map(([x, y]) => [`${x},${y}`, [x, y] as [number, number]])).values()].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const sorted = [...new Map(points.map(([x, y]) => [`${x},${y}`, [x, y] as [number, number]])).values()].sort(
+    (a, b) => a[0] - b[0] || a[1] - b[1],
+  );
   if (sorted.length < 3) return sorted;
   const half = (list: [number, number][]) => {
     const out: [number, number][] = [];
     for (const p of list) {
       while (out.length > 1) {
-        const [ax, ay] = out[out.length - 2]!, [bx, by] = out[out.length - 1]!;
+        const [ax, ay] = out[out.length - 2]!,
+          [bx, by] = out[out.length - 1]!;
         if ((bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0) break;
         out.pop();
       }
@@ -671,14 +808,19 @@ export function convexHull(points: readonly (readonly [number, number])[]): [num
 }
 
 function inside(hull: [number, number][], x: number, y: number): boolean {
-  return hull.length > 2 && hull.every(([ax, ay], k) => {
-    const [bx, by] = hull[(k + 1) % hull.length]!;
-    return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
-  });
+  return (
+    hull.length > 2 &&
+    hull.every(([ax, ay], k) => {
+      const [bx, by] = hull[(k + 1) % hull.length]!;
+      return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
+    })
+  );
 }
 
 function toSegment(x: number, y: number, [ax, ay]: [number, number], [bx, by]: [number, number]): number {
-  const dx = bx - ax, dy = by - ay, d = dx * dx + dy * dy;
+  const dx = bx - ax,
+    dy = by - ay,
+    d = dx * dx + dy * dy;
   const part = d ? Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / d)) : 0;
   return Math.hypot(x - ax - part * dx, y - ay - part * dy);
 }

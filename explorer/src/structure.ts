@@ -1,10 +1,10 @@
-/** The view of the structure: a chain out of all, its frame and drive, its joint types, its mobility; then dimensions. */
+/** The view of the structure: a chain out of all, its frame, drive and joint types, its mobility; then dimensions. */
 
-import type { App, View } from "./app";
-import { h, picture, svg } from "./dom";
+import { h, picture, svg, thumbnail } from "./dom";
 import { Cancelled } from "./host";
 import { t } from "./language";
-import type { Model } from "./model";
+import { chainText, type Model } from "./model";
+import type { Page, View } from "./view";
 
 interface Choice {
   text: string;
@@ -17,8 +17,19 @@ interface Choice {
 interface Structure {
   text: string;
   picture: string;
-  joints: { name: string; pair: string; at: [number, number]; types: { symbol: string; name: string; text: string; chosen: boolean }[] }[];
-  links: { name: string; at: [number, number]; outline: [number, number][]; overconstrained: boolean; rigid: boolean }[];
+  joints: {
+    name: string;
+    pair: string;
+    at: [number, number];
+    types: { symbol: string; name: string; text: string; chosen: boolean }[];
+  }[];
+  links: {
+    name: string;
+    at: [number, number];
+    outline: [number, number][];
+    overconstrained: boolean;
+    rigid: boolean;
+  }[];
   frame: string;
   counted: number;
   generic: number;
@@ -53,7 +64,7 @@ export class StructureView implements View {
   private asked = 0;
   private stop: (() => void) | null = null;
 
-  constructor(private readonly app: App) {
+  constructor(private readonly page: Page) {
     this.field.addEventListener("input", () => {
       clearTimeout(this.typing);
       this.typing = window.setTimeout(() => void this.describe(this.field.value), 300);
@@ -62,36 +73,77 @@ export class StructureView implements View {
 
   appeared(): void {
     if (this.text) return;
-    const { model } = this.app.motion.machine;
-    void this.describe(`${String(model.document.joints)}; frame=${model.links[model.frame]}${model.drives.map((d) => `; drive=${d.name}`).join("")}`);
+    const model = this.page.shown;
+    void this.describe(chainText(model));
   }
 
   arrange(): void {
-    const links = h("input", { type: "number", min: 3, max: 12, value: this.links, "aria-label": t("Links"), onchange: () => (this.links = Number(links.value)) });
-    const mobility = h("input", { type: "number", min: 0, max: 6, value: this.mobility, "aria-label": t("Mobility"), onchange: () => (this.mobility = Number(mobility.value)) });
+    const links = h("input", {
+      type: "number",
+      min: 3,
+      max: 12,
+      value: this.links,
+      "aria-label": t("Links"),
+      onchange: () => (this.links = Number(links.value)),
+    });
+    const mobility = h("input", {
+      type: "number",
+      min: 0,
+      max: 6,
+      value: this.mobility,
+      "aria-label": t("Mobility"),
+      onchange: () => (this.mobility = Number(mobility.value)),
+    });
     this.field.setAttribute("aria-label", t("The chain as text"));
-    this.element.replaceChildren(h("div", { class: "page" },
-      h("h2", {}, t("Choose a chain")),
-      h("div", { class: "form" },
-        h("label", {}, t("Links"), links), h("label", {}, t("Mobility"), mobility),
-        h("button", { class: "key", "data-act": "chains", onclick: () => void this.listChains(0) }, t("Show all chains")), this.status),
-      this.list,
-      h("h2", {}, t("The chain as text")), this.field, this.error, this.detail));
+    this.element.replaceChildren(
+      h(
+        "div",
+        { class: "page" },
+        h("h2", {}, t("Choose a chain")),
+        h(
+          "div",
+          { class: "form" },
+          h("label", {}, t("Links"), links),
+          h("label", {}, t("Mobility"), mobility),
+          h(
+            "button",
+            { class: "key", "data-act": "chains", onclick: () => void this.listChains(0) },
+            t("Show all chains"),
+          ),
+          this.status,
+        ),
+        this.list,
+        h("h2", {}, t("The chain as text")),
+        this.field,
+        this.error,
+        this.detail,
+      ),
+    );
     this.showChains();
     if (this.text) void this.describe(this.text);
   }
 
   private async listChains(start: number): Promise<void> {
     const bar = h("span", {}, "…");
-    const request = this.app.ask<Chains>("chains", { links: this.links, mobility: this.mobility, start }, (text) => (bar.textContent = text));
+    const request = this.page.ask<Chains>(
+      "chains",
+      { links: this.links, mobility: this.mobility, start },
+      (text) => (bar.textContent = text),
+    );
     this.stop = () => request.cancel();
-    this.status.replaceChildren(h("progress", {}), bar, h("button", { class: "plain", onclick: () => this.stop?.() }, t("Cancel")));
+    this.status.replaceChildren(
+      h("progress", {}),
+      bar,
+      h("button", { class: "plain", onclick: () => this.stop?.() }, t("Cancel")),
+    );
     try {
       const found = await request;
       this.chains = start && this.chains ? { ...found, items: [...this.chains.items, ...found.items] } : found;
       this.status.replaceChildren();
     } catch (error) {
-      this.status.replaceChildren(h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message));
+      this.status.replaceChildren(
+        h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message),
+      );
     }
     this.showChains();
   }
@@ -99,20 +151,37 @@ export class StructureView implements View {
   private showChains(): void {
     const { chains } = this;
     if (!chains) return this.list.replaceChildren();
-    const more = chains.items.length < chains.total
-      ? h("button", { class: "plain", onclick: () => void this.listChains(chains.items.length) }, t("More")) : null;
+    const more =
+      chains.items.length < chains.total
+        ? h("button", { class: "plain", onclick: () => void this.listChains(chains.items.length) }, t("More"))
+        : null;
     this.list.replaceChildren(
       h("p", { class: "note" }, t("{shown} of {total} chains", { shown: chains.items.length, total: chains.total })),
-      h("div", { class: "cards", "data-list": "chains" }, ...chains.items.map(({ text, picture: drawn }, k) =>
-        h("button", { class: "card", "data-chain": text, onclick: () => void this.describe(text, true) }, thumbnail(drawn, text), h("span", {}, `${k + 1}`)))),
-      ...(more ? [more] : []));
+      h(
+        "div",
+        { class: "cards", "data-list": "chains" },
+        ...chains.items.map(({ text, picture: drawn }, k) =>
+          h(
+            "button",
+            { class: "card", "data-chain": text, onclick: () => void this.describe(text, true) },
+            thumbnail(drawn, text),
+            h("span", {}, `${k + 1}`),
+          ),
+        ),
+      ),
+      ...(more ? [more] : []),
+    );
   }
 
   async describe(text: string, scroll = false): Promise<void> {
     const number = ++this.asked;
     if (this.field.value !== text) this.field.value = text;
     try {
-      const found = await this.app.ask<Structure>("structure", { text, at_frame: this.atFrame, document: this.contacts(text) });
+      const found = await this.page.ask<Structure>("structure", {
+        text,
+        at_frame: this.atFrame,
+        document: this.contacts(text),
+      });
       if (number !== this.asked) return;
       this.text = text;
       this.structure = found;
@@ -129,14 +198,15 @@ export class StructureView implements View {
       this.error.replaceChildren(said);
       if (place) {
         const at = Number(place[1]);
-        this.error.append(h("span", { class: "place" }, `\n${text.slice(Math.max(0, at - 24), at - 1)}▸${text.slice(at - 1, at + 16)}`));
+        const before = text.slice(Math.max(0, at - 24), at - 1);
+        this.error.append(h("span", { class: "place" }, `\n${before}▸${text.slice(at - 1, at + 16)}`));
       }
     }
   }
 
   /** The linkage that is shown if it has higher pairs and the text is of its chain; else nothing. */
   private contacts(text: string): object {
-    const { model } = this.app.motion.machine;
+    const model = this.page.shown;
     const higher = model.joints.some((joint) => joint.pair === "roll_slide" || joint.pair === "rolling");
     return higher && text.split(";")[0]!.trim() === String(model.document.joints).trim() ? model.document : {};
   }
@@ -144,45 +214,158 @@ export class StructureView implements View {
   private showStructure(): void {
     const found = this.structure!;
     const drawn = picture(found.picture, found.text) as SVGSVGElement;
-    const marks: SVGElement[] = found.links.filter((link) => link.overconstrained || link.rigid).map((link) => svg("polyline", {
-      points: link.outline.map((p) => p.join(",")).join(" "), fill: "none", "stroke-width": 5, "stroke-linecap": "round", "stroke-linejoin": "round",
-      stroke: link.overconstrained ? "var(--accent)" : "var(--purple)", opacity: 0.85, "data-strained": link.name,
-    }));
-    const joints = found.joints.map((joint, k) => svg("circle", {
-      cx: joint.at[0], cy: joint.at[1], r: 13, fill: "transparent", stroke: k === this.joint ? "var(--key)" : "transparent", "stroke-width": 3, tabindex: 0, role: "button",
-      "aria-label": joint.name, "data-joint": joint.name, style: null, cursor: "pointer",
-      onclick: () => this.pick(k), onkeydown: (event: KeyboardEvent) => (event.key === "Enter" || event.key === " ") && (event.preventDefault(), this.pick(k)),
-    }, svg("title", {}, joint.name)));
+    const marks: SVGElement[] = found.links
+      .filter((link) => link.overconstrained || link.rigid)
+      .map((link) =>
+        svg("polyline", {
+          points: link.outline.map((p) => p.join(",")).join(" "),
+          fill: "none",
+          "stroke-width": 5,
+          "stroke-linecap": "round",
+          "stroke-linejoin": "round",
+          stroke: link.overconstrained ? "var(--accent)" : "var(--purple)",
+          opacity: 0.85,
+          "data-strained": link.name,
+        }),
+      );
+    const joints = found.joints.map((one, k) =>
+      svg(
+        "circle",
+        {
+          cx: one.at[0],
+          cy: one.at[1],
+          r: 13,
+          fill: "transparent",
+          stroke: k === this.joint ? "var(--key)" : "transparent",
+          "stroke-width": 3,
+          tabindex: 0,
+          role: "button",
+          "aria-label": one.name,
+          "data-joint": one.name,
+          style: null,
+          cursor: "pointer",
+          onclick: () => this.pick(k),
+          onkeydown: (event: KeyboardEvent) => {
+            if (event.key !== "Enter" && event.key !== " ") return;
+            event.preventDefault();
+            this.pick(k);
+          },
+        },
+        svg("title", {}, one.name),
+      ),
+    );
     drawn.append(...marks, ...joints);
     const joint = found.joints[this.joint];
-    const types = joint ? h("div", {}, h("p", { class: "note" }, t("Type of {joint}", { joint: joint.name })),
-      h("div", { class: "joint-types" }, ...joint.types.map((type) => h("button", {
-        class: type.chosen ? "key" : "plain", title: type.name, "data-type": type.symbol, onclick: () => void this.describe(type.text),
-      }, `${type.symbol} ${type.name}`)))) : h("p", { class: "note" }, t("Click on a joint to change its type."));
+    const types = joint
+      ? h(
+          "div",
+          {},
+          h("p", { class: "note" }, t("Type of {joint}", { joint: joint.name })),
+          h(
+            "div",
+            { class: "joint-types" },
+            ...joint.types.map((type) =>
+              h(
+                "button",
+                {
+                  class: type.chosen ? "key" : "plain",
+                  title: type.name,
+                  "data-type": type.symbol,
+                  onclick: () => void this.describe(type.text),
+                },
+                `${type.symbol} ${type.name}`,
+              ),
+            ),
+          ),
+        )
+      : h("p", { class: "note" }, t("Click on a joint to change its type."));
     const strained = found.links.some((link) => link.overconstrained);
-    const choices = (title: string, list: Choice[], label: (choice: Choice) => string, key: string) => list.length
-      ? [h("h2", {}, title), h("div", { class: "cards", "data-list": key }, ...list.map((choice) => h("button", {
-        class: "card", "data-text": choice.text, "aria-pressed": String(choice.text === found.text), onclick: () => void this.describe(choice.text, true),
-      }, thumbnail(choice.picture, choice.text), h("b", {}, label(choice)), choice.family ? h("span", {}, choice.family) : null)))] : [];
-    const elsewhere = h("input", { type: "checkbox", checked: !this.atFrame, "data-field": "elsewhere", onchange: () => {
-      this.atFrame = !elsewhere.checked;
-      void this.describe(this.text);
-    } });
+    const choices = (title: string, list: Choice[], label: (choice: Choice) => string, key: string) =>
+      list.length
+        ? [
+            h("h2", {}, title),
+            h(
+              "div",
+              { class: "cards", "data-list": key },
+              ...list.map((choice) =>
+                h(
+                  "button",
+                  {
+                    class: "card",
+                    "data-text": choice.text,
+                    "aria-pressed": String(choice.text === found.text),
+                    onclick: () => void this.describe(choice.text, true),
+                  },
+                  thumbnail(choice.picture, choice.text),
+                  h("b", {}, label(choice)),
+                  choice.family ? h("span", {}, choice.family) : null,
+                ),
+              ),
+            ),
+          ]
+        : [];
+    const elsewhere = h("input", {
+      type: "checkbox",
+      checked: !this.atFrame,
+      "data-field": "elsewhere",
+      onchange: () => {
+        this.atFrame = !elsewhere.checked;
+        void this.describe(this.text);
+      },
+    });
     this.detail.replaceChildren(
-      h("div", { class: "two" },
-        h("div", {}, h("div", { class: "chain-picture" }, drawn), types,
-          strained ? h("p", { class: "note" }, t("Orange: overconstrained links.")) : null),
-        h("div", {},
-          h("dl", { class: "facts" },
-            h("dt", {}, t("Counted")), h("dd", { "data-fact": "counted" }, `F = ${found.counted}`),
-            h("dt", {}, t("Generic")), h("dd", { "data-fact": "generic", class: found.generic === found.counted ? "good" : "bad" }, `F = ${found.generic}`)),
+      h(
+        "div",
+        { class: "two" },
+        h(
+          "div",
+          {},
+          h("div", { class: "chain-picture" }, drawn),
+          types,
+          strained ? h("p", { class: "note" }, t("Orange: overconstrained links.")) : null,
+        ),
+        h(
+          "div",
+          {},
+          h(
+            "dl",
+            { class: "facts" },
+            h("dt", {}, t("Counted")),
+            h("dd", { "data-fact": "counted" }, `F = ${found.counted}`),
+            h("dt", {}, t("Generic")),
+            h(
+              "dd",
+              { "data-fact": "generic", class: found.generic === found.counted ? "good" : "bad" },
+              `F = ${found.generic}`,
+            ),
+          ),
           h("pre", {}, found.lines.join("\n") + (found.drives ? `\n${found.drives}` : "")),
-          h("div", { class: "form" }, h("button", { class: "key", "data-act": "realise", onclick: () => void this.realise() }, t("Find dimensions and move it")))),
+          h(
+            "div",
+            { class: "form" },
+            h(
+              "button",
+              { class: "key", "data-act": "realise", onclick: () => void this.realise() },
+              t("Find dimensions and move it"),
+            ),
+          ),
+        ),
       ),
-      ...choices(t("Frames that make a difference"), found.inversions, (choice) => t("frame: {frame}", { frame: choice.frame }), "inversions"),
-      ...choices(this.atFrame ? t("Drives at the frame that make a difference") : t("Drives that make a difference"), found.driven,
-        (choice) => (this.atFrame ? "" : `${t("frame: {frame}", { frame: choice.frame })}, `) + choice.drives.join(", "), "driven"),
-      h("div", { class: "form" }, h("label", {}, elsewhere, t("also drives that are not at the frame"))));
+      ...choices(
+        t("Frames that make a difference"),
+        found.inversions,
+        (choice) => t("frame: {frame}", { frame: choice.frame }),
+        "inversions",
+      ),
+      ...choices(
+        this.atFrame ? t("Drives at the frame that make a difference") : t("Drives that make a difference"),
+        found.driven,
+        (choice) =>
+          (this.atFrame ? "" : `${t("frame: {frame}", { frame: choice.frame })}, `) + choice.drives.join(", "),
+        "driven",
+      ),
+      h("div", { class: "form" }, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
+    );
   }
 
   private pick(joint: number): void {
@@ -192,7 +375,11 @@ export class StructureView implements View {
 
   private async realise(): Promise<void> {
     const bar = h("span", {}, "…");
-    const request = this.app.ask<{ model: Model; message: string }>("realise", { text: this.field.value }, (text) => (bar.textContent = text)); // as it stands, described or not yet
+    const request = this.page.ask<{ model: Model; message: string }>(
+      "realise",
+      { text: this.field.value },
+      (text) => (bar.textContent = text),
+    ); // as it stands, described or not yet
     const cancel = h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel"));
     const place = this.detail.querySelector('[data-act="realise"]')!.parentElement!;
     const waiting = h("span", { class: "form" }, h("progress", {}), bar, cancel);
@@ -200,17 +387,12 @@ export class StructureView implements View {
     try {
       const { model, message } = await request;
       waiting.remove();
-      this.app.open({ ...model, name: t("A mechanism with found dimensions") });
-      this.app.say(message);
+      this.page.open({ ...model, name: t("A mechanism with found dimensions") });
+      this.page.say(message);
     } catch (error) {
-      waiting.replaceChildren(h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message));
+      waiting.replaceChildren(
+        h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message),
+      );
     }
   }
-}
-
-export function thumbnail(drawn: string, label: string): Element {
-  const made = picture(drawn, label);
-  made.setAttribute("height", "120");
-  made.removeAttribute("width");
-  return made;
 }

@@ -1,11 +1,10 @@
 /** The view of the synthesis: points that a coupler point is to pass, clicked into a plane; four-bars that do it. */
 
-import type { App, View } from "./app";
-import { h, svg } from "./dom";
+import { h, svg, thumbnail } from "./dom";
 import { Cancelled } from "./host";
 import { angle, number, parsed, t } from "./language";
 import type { LinkageDocument, Model } from "./model";
-import { thumbnail } from "./structure";
+import type { Page, View } from "./view";
 
 interface Item {
   document: LinkageDocument;
@@ -21,7 +20,8 @@ interface Designs {
   items: Item[];
 }
 
-const WIDE = 240, HIGH = 150; // the plane, in units of length
+const WIDE = 240,
+  HIGH = 150; // the plane, in units of length
 const FEWEST = 5; // fewer points leave infinitely many four-bars
 const STEP = 10; // between lines of its grid
 
@@ -34,13 +34,16 @@ export class SynthesisView implements View {
   private designs: Designs | null = null;
   private moving = -1;
   private readonly plane = svg("svg", {
-    class: "plane", viewBox: `${-WIDE / 2} ${-HIGH / 2} ${WIDE} ${HIGH}`, role: "application", tabindex: 0,
+    class: "plane",
+    viewBox: `${-WIDE / 2} ${-HIGH / 2} ${WIDE} ${HIGH}`,
+    role: "application",
+    tabindex: 0,
   });
   private readonly list = h("div", {});
   private readonly found = h("div", {});
   private readonly status = h("div", { class: "form" });
 
-  constructor(private readonly app: App) {
+  constructor(private readonly page: Page) {
     this.plane.addEventListener("pointerdown", (event) => this.down(event));
     this.plane.addEventListener("pointermove", (event) => this.moving >= 0 && this.put(this.moving, this.at(event)));
     this.plane.addEventListener("pointerup", () => (this.moving = -1));
@@ -52,23 +55,67 @@ export class SynthesisView implements View {
       const box = h("input", { type: "checkbox", checked, "data-field": key, onchange: () => set(box.checked) });
       return h("label", {}, box, text);
     };
-    const least = h("input", { type: "number", min: 0, max: 90, value: this.least, "data-field": "least", onchange: () => (this.least = Number(least.value)) });
+    const least = h("input", {
+      type: "number",
+      min: 0,
+      max: 90,
+      value: this.least,
+      "data-field": "least",
+      onchange: () => (this.least = Number(least.value)),
+    });
     this.plane.setAttribute("aria-label", t("Points that are to be passed"));
-    this.element.replaceChildren(h("div", { class: "page" },
-      h("h2", {}, t("A four-bar through points")),
-      h("p", { class: "note" }, t("Click points in the order in which a coupler point is to pass them; drag them to move them. Five to nine points are met exactly where that is possible, more as closely as possible.")),
-      h("div", { class: "two" },
-        h("div", { class: "chain-picture" }, this.plane),
-        h("div", {}, this.list,
-          h("div", { class: "form" },
-            option(t("closed curve"), this.closed, (on) => { this.closed = on; this.draw(); }, "closed"),
-            option(t("the crank turns fully"), this.crank, (on) => (this.crank = on), "crank"),
-            h("label", {}, t("transmission angle from"), least, "°")),
-          h("div", { class: "form" },
-            h("button", { class: "key", "data-act": "synthesise", onclick: () => void this.search() }, t("Find four-bars")),
-            h("button", { class: "plain", "data-act": "clear", onclick: () => this.clear() }, t("Remove all points"))),
-          this.status)),
-      this.found));
+    this.element.replaceChildren(
+      h(
+        "div",
+        { class: "page" },
+        h("h2", {}, t("A four-bar through points")),
+        h(
+          "p",
+          { class: "note" },
+          t(
+            "Click points in the order in which a coupler point is to pass them; drag them to move them. " +
+              "Five to nine points are met exactly where that is possible, more as closely as possible.",
+          ),
+        ),
+        h(
+          "div",
+          { class: "two" },
+          h("div", { class: "chain-picture" }, this.plane),
+          h(
+            "div",
+            {},
+            this.list,
+            h(
+              "div",
+              { class: "form" },
+              option(
+                t("closed curve"),
+                this.closed,
+                (on) => {
+                  this.closed = on;
+                  this.draw();
+                },
+                "closed",
+              ),
+              option(t("the crank turns fully"), this.crank, (on) => (this.crank = on), "crank"),
+              h("label", {}, t("transmission angle from"), least, "°"),
+            ),
+            h(
+              "div",
+              { class: "form" },
+              h(
+                "button",
+                { class: "key", "data-act": "synthesise", onclick: () => void this.search() },
+                t("Find four-bars"),
+              ),
+              h("button", { class: "plain", "data-act": "clear", onclick: () => this.clear() }, t("Remove all points")),
+            ),
+            this.status,
+          ),
+        ),
+        this.found,
+      ),
+    );
     this.draw();
     this.showDesigns();
   }
@@ -106,15 +153,27 @@ export class SynthesisView implements View {
 
   private draw(): void {
     const lines: SVGElement[] = [];
-    for (let x = -WIDE / 2; x <= WIDE / 2; x += STEP) lines.push(svg("path", { class: x === 0 ? "axis" : "mesh", d: `M${x} ${-HIGH / 2}V${HIGH / 2}` }));
-    for (let y = -HIGH / 2 + 5; y <= HIGH / 2; y += STEP) lines.push(svg("path", { class: y === 0 ? "axis" : "mesh", d: `M${-WIDE / 2} ${y}H${WIDE / 2}` }));
-    const d = this.points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${-y}`).join("") + (this.closed && this.points.length > 2 ? "Z" : "");
-    const marks = this.points.map(([x, y], k) => svg("g", { "data-point": String(k), transform: `translate(${x} ${-y})` },
-      svg("circle", { r: 2.6 }), svg("text", { x: 3.4, y: -3.4 }, String(k + 1))));
+    for (let x = -WIDE / 2; x <= WIDE / 2; x += STEP)
+      lines.push(svg("path", { class: x === 0 ? "axis" : "mesh", d: `M${x} ${-HIGH / 2}V${HIGH / 2}` }));
+    for (let y = -HIGH / 2 + 5; y <= HIGH / 2; y += STEP)
+      lines.push(svg("path", { class: y === 0 ? "axis" : "mesh", d: `M${-WIDE / 2} ${y}H${WIDE / 2}` }));
+    const d =
+      this.points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${-y}`).join("") +
+      (this.closed && this.points.length > 2 ? "Z" : "");
+    const marks = this.points.map(([x, y], k) =>
+      svg(
+        "g",
+        { "data-point": String(k), transform: `translate(${x} ${-y})` },
+        svg("circle", { r: 2.6 }),
+        svg("text", { x: 3.4, y: -3.4 }, String(k + 1)),
+      ),
+    );
     this.plane.replaceChildren(...lines, svg("path", { class: "polygon", d }), ...marks);
     const cell = (k: number, axis: 0 | 1) => {
       const input = h("input", {
-        value: number(this.points[k]![axis], 6), inputmode: "decimal", "aria-label": `${t("Point {number}", { number: k + 1 })} ${axis ? "y" : "x"}`,
+        value: number(this.points[k]![axis], 6),
+        inputmode: "decimal",
+        "aria-label": `${t("Point {number}", { number: k + 1 })} ${axis ? "y" : "x"}`,
         onchange: () => {
           const value = parsed(input.value);
           input.setAttribute("aria-invalid", String(!Number.isFinite(value)));
@@ -123,25 +182,73 @@ export class SynthesisView implements View {
       });
       return h("td", {}, input);
     };
-    this.list.replaceChildren(this.points.length
-      ? h("div", { class: "points" }, h("table", {}, h("tr", {}, h("th", {}, t("Point")), h("th", {}, "x"), h("th", {}, "y"), h("th", {}, "")),
-        ...this.points.map((_, k) => h("tr", {}, h("td", {}, String(k + 1)), cell(k, 0), cell(k, 1), h("td", {}, h("button", {
-          class: "quiet", "aria-label": t("Remove {name}", { name: t("Point {number}", { number: k + 1 }) }),
-          onclick: () => { this.points.splice(k, 1); this.draw(); },
-        }, "×"))))))
-      : h("p", { class: "note" }, t("No points yet.")));
+    this.list.replaceChildren(
+      this.points.length
+        ? h(
+            "div",
+            { class: "points" },
+            h(
+              "table",
+              {},
+              h("tr", {}, h("th", {}, t("Point")), h("th", {}, "x"), h("th", {}, "y"), h("th", {}, "")),
+              ...this.points.map((_, k) =>
+                h(
+                  "tr",
+                  {},
+                  h("td", {}, String(k + 1)),
+                  cell(k, 0),
+                  cell(k, 1),
+                  h(
+                    "td",
+                    {},
+                    h(
+                      "button",
+                      {
+                        class: "quiet",
+                        "aria-label": t("Remove {name}", { name: t("Point {number}", { number: k + 1 }) }),
+                        onclick: () => {
+                          this.points.splice(k, 1);
+                          this.draw();
+                        },
+                      },
+                      "×",
+                    ),
+                  ),
+                ),
+              ),
+            ),
+          )
+        : h("p", { class: "note" }, t("No points yet.")),
+    );
   }
 
   private async search(): Promise<void> {
-    if (this.points.length < FEWEST) return this.status.replaceChildren(h("span", { class: "error", role: "alert" }, t("Give at least {count} points.", { count: FEWEST })));
+    if (this.points.length < FEWEST)
+      return this.status.replaceChildren(
+        h("span", { class: "error", role: "alert" }, t("Give at least {count} points.", { count: FEWEST })),
+      );
     const bar = h("span", {}, "…");
-    const request = this.app.ask<Designs>("synthesise", { points: this.points, closed: this.closed, crank: this.crank, transmission: this.least }, (text) => (bar.textContent = text));
-    this.status.replaceChildren(h("progress", {}), bar, h("button", { class: "plain", "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel")));
+    const request = this.page.ask<Designs>(
+      "synthesise",
+      { points: this.points, closed: this.closed, crank: this.crank, transmission: this.least },
+      (text) => (bar.textContent = text),
+    );
+    this.status.replaceChildren(
+      h("progress", {}),
+      bar,
+      h("button", { class: "plain", "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel")),
+    );
     try {
       this.designs = await request;
       this.status.replaceChildren();
     } catch (error) {
-      this.status.replaceChildren(h("span", { class: "error", role: "alert" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message));
+      this.status.replaceChildren(
+        h(
+          "span",
+          { class: "error", role: "alert" },
+          error instanceof Cancelled ? t("Cancelled.") : (error as Error).message,
+        ),
+      );
       return;
     }
     this.showDesigns();
@@ -153,19 +260,47 @@ export class SynthesisView implements View {
     if (!designs) return this.found.replaceChildren();
     this.found.replaceChildren(
       h("h2", {}, t("{count} designs", { count: designs.total })),
-      h("p", { class: "note" }, designs.refused ? t("{count} others do not meet what is asked.", { count: designs.refused }) : ""),
-      h("div", { class: "cards", "data-list": "designs" }, ...designs.items.map((item) => h("button", {
-        class: "card", onclick: () => void this.open(item),
-      }, thumbnail(item.picture, item.form), h("b", {}, item.form),
-        h("span", {}, item.transmission === null ? "" : `μ ≥ ${angle((item.transmission * Math.PI) / 180, 3)}`),
-        h("span", {}, item.error === null ? "" : t("deviation {value} %", { value: number(100 * (Math.abs(item.error) < 1e-9 ? 0 : item.error), 2) }))))));
+      h(
+        "p",
+        { class: "note" },
+        designs.refused ? t("{count} others do not meet what is asked.", { count: designs.refused }) : "",
+      ),
+      h(
+        "div",
+        { class: "cards", "data-list": "designs" },
+        ...designs.items.map((item) =>
+          h(
+            "button",
+            {
+              class: "card",
+              onclick: () => void this.open(item),
+            },
+            thumbnail(item.picture, item.form),
+            h("b", {}, item.form),
+            h("span", {}, item.transmission === null ? "" : `μ ≥ ${angle((item.transmission * Math.PI) / 180, 3)}`),
+            h(
+              "span",
+              {},
+              item.error === null
+                ? ""
+                : t("deviation {value} %", { value: number(100 * (Math.abs(item.error) < 1e-9 ? 0 : item.error), 2) }),
+            ),
+          ),
+        ),
+      ),
+    );
   }
 
   private async open(item: Item): Promise<void> {
     try {
-      this.app.open(await this.app.ask<Model>("open_document", { document: item.document, name: t("A design for {count} points", { count: this.points.length }) }));
+      this.page.open(
+        await this.page.ask<Model>("open_document", {
+          document: item.document,
+          name: t("A design for {count} points", { count: this.points.length }),
+        }),
+      );
     } catch (error) {
-      this.app.say((error as Error).message);
+      this.page.say((error as Error).message);
     }
   }
 }

@@ -38,7 +38,14 @@ export class Track {
     return this.limits;
   }
 
-  show(cycle: Cycle, turning: boolean, between: [number, number] | null, dead: number[], least: number | null, unit: string): void {
+  show(
+    cycle: Cycle,
+    turning: boolean,
+    between: [number, number] | null,
+    dead: number[],
+    least: number | null,
+    unit: string,
+  ): void {
     this.cycle = cycle;
     this.unit = turning ? TURN / 360 : 1;
     const room = cycle.full ? 0 : 1e-7 * (cycle.high - cycle.low);
@@ -59,7 +66,8 @@ export class Track {
     else [this.from, this.to] = [low - 0.12 * (width || 1), high + 0.12 * (width || 1)];
     const parts: SVGElement[] = [];
     const x = (value: number) => `${((value - this.from) / (this.to - this.from)) * 100}%`;
-    const line = (a: number, b: number, style: string) => parts.push(svg("line", { class: style, x1: x(a), x2: x(b), y1: 17, y2: 17 }));
+    const line = (a: number, b: number, style: string) =>
+      parts.push(svg("line", { class: style, x1: x(a), x2: x(b), y1: 17, y2: 17 }));
     line(this.from, this.to, "barred");
     if (!cycle.full) {
       if (cycle.stops[0]) line(this.from, low, "hatched");
@@ -70,14 +78,29 @@ export class Track {
     const mark = (value: number, style: string, d: string, title: string) => {
       const here = wrap(value);
       if (here < this.from || here > this.to) return;
-      const group = svg("svg", { x: x(here), y: 0, overflow: "visible" }, svg("path", { class: style, d }, svg("title", {}, title)));
+      const group = svg(
+        "svg",
+        { x: x(here), y: 0, overflow: "visible" },
+        svg("path", { class: style, d }, svg("title", {}, title)),
+      );
       parts.push(group);
     };
     const shown = (value: number) => (turning ? angle(wrap(value), 5) : `${number(wrap(value), 5)} ${unit}`);
-    for (const value of dead) mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
-    if (least !== null) mark(least, "least", "M0 26 L-4.5 33 H4.5 Z", t("Smallest transmission angle at {value}", { value: shown(least) }));
+    for (const value of dead)
+      mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
+    if (least !== null)
+      mark(
+        least,
+        "least",
+        "M0 26 L-4.5 33 H4.5 Z",
+        t("Smallest transmission angle at {value}", { value: shown(least) }),
+      );
     const label = (value: number, anchor: string) => {
-      const text = svg("text", { x: x(value), y: 39, "text-anchor": anchor }, turning ? angle(value) : number(value, 4));
+      const text = svg(
+        "text",
+        { x: x(value), y: 39, "text-anchor": anchor },
+        turning ? angle(value) : number(value, 4),
+      );
       parts.push(text);
     };
     label(low, cycle.full ? "start" : "middle");

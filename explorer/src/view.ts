@@ -1,0 +1,31 @@
+/** What the page and its views know of one another. */
+
+import type { Request } from "./host";
+import type { Model } from "./model";
+
+export interface View {
+  readonly element: HTMLElement;
+  /** Lay the view out anew, in the language of the page. */
+  arrange(): void;
+  /** It has come to sight. */
+  appeared?(): void;
+}
+
+/** The page as its views see it. */
+export interface Page {
+  /** Whether there is a Python behind the page. */
+  readonly served: boolean;
+  /** The linkage that is shown. */
+  readonly shown: Model;
+  ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void): Request<Result>;
+  /** Show another linkage, in motion. */
+  open(model: Model): void;
+  /** Show the structure of a text. */
+  describe(text: string): void;
+  /** A sentence for the reader; nothing takes it away. */
+  say(text: string, action?: HTMLElement): void;
+  /** After a change: the link follows, a notebook is told. */
+  changed(): void;
+  /** Copy the address with the linkage in it. */
+  share(): Promise<void>;
+}
