@@ -13,10 +13,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 
-from gruebler.enumeration.request import Request, RequestCount
-from gruebler.enumeration.run_request import run_count
-from gruebler.enumeration.schedulers import DaskScheduler
-from gruebler.enumeration.worker_pool import ProcessPools
+from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.run_request import run_count
+from gruebler.structure.enumeration.schedulers import DaskScheduler
+from gruebler.structure.enumeration.worker_pool import ProcessPools
 
 REQUEST = Request(18)
 WORKERS = 2

@@ -10,11 +10,11 @@ import networkx as nx
 import numpy as np
 
 from gruebler import Chain, chains
-from gruebler.drawing.canvas import gallery_html
-from gruebler.drawing.canvas.gallery import Item, Section
-from gruebler.drawing.structure import draw_structure
-from gruebler.drawing.structure.bodies import LayoutBodies
-from gruebler.drawing.structure.layout import Layout, lay_out
+from gruebler.pictures.canvas import gallery_html
+from gruebler.pictures.canvas.gallery import Item, Section
+from gruebler.pictures.structure import draw_structure
+from gruebler.pictures.structure.bodies import LayoutBodies
+from gruebler.pictures.structure.layout import Layout, lay_out
 
 Drawing = tuple[np.ndarray, list[tuple[int, ...]]]
 

@@ -11,13 +11,13 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from gruebler.enumeration import count_chains, graph6_blocks
-from gruebler.enumeration.contracted import packed_graphs
-from gruebler.enumeration.pieces import count_piece, pieces
+from gruebler.structure.enumeration import count_chains, graph6_blocks
+from gruebler.structure.enumeration.contracted import packed_graphs
+from gruebler.structure.enumeration.pieces import count_piece, pieces
 
 LINKS = (12, 14, 16)
 GENG = shutil.which("nauty-geng") or shutil.which("geng")
-COUNT = "from gruebler.enumeration import count_chains; count_chains({})"
+COUNT = "from gruebler.structure.enumeration import count_chains; count_chains({})"
 
 
 def seconds(call: Callable[[], object], runs: int = 3) -> float:

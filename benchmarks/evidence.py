@@ -1,8 +1,8 @@
 """Second methods for what is counted: `python -m benchmarks.evidence [LOOPS]` compares the contracted graphs.
 
 Sums of 1/|Aut| over contracted graphs of the same degrees come from generating functions
-(`tests.enumeration.mass_oracle`), chains of a contracted graph from a pebble game on all distributions of its binary
-links (`tests.enumeration.pebble_oracle`).
+(`tests.structure.enumeration.mass_oracle`), chains of a contracted graph from a pebble game on all distributions of
+its binary links (`tests.structure.enumeration.pebble_oracle`).
 """
 
 import sys
@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import compiled
 from gruebler._numeric.counting.packed_graph import LabelMemory, label_packed, make_label_memory, order_of, survey_graph
-from gruebler.enumeration.contracted import packed_graphs, unpacked
-from gruebler.enumeration.pieces import WorkPiece, count_piece, work_of_graphs
+from gruebler.structure.enumeration.contracted import packed_graphs, unpacked
+from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, work_of_graphs
 
 Int64 = NDArray[np.int64]
 Degrees = tuple[int, ...]
@@ -55,7 +55,7 @@ def check_chains(links: int, most: int) -> Iterator[Checked]:
 
     Raises ValueError where the two counts differ. Cost: some 15 us for each chain.
     """
-    from tests.enumeration.pebble_oracle import count_by_pebbles
+    from tests.structure.enumeration.pebble_oracle import count_by_pebbles
 
     random = Random(links)
     numbers: defaultdict[Degrees, int] = defaultdict(int)
@@ -135,7 +135,7 @@ def sums_of_graphs(loops: int) -> tuple[int, dict[Degrees, Fraction]]:
 
 def main(most: int = 9) -> None:
     """Print for each number of loops whether all sums agree."""
-    from tests.enumeration.mass_oracle import contracted_masses
+    from tests.structure.enumeration.mass_oracle import contracted_masses
 
     expected = contracted_masses(most)
     for loops in range(2, most + 1):

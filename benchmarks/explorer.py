@@ -5,11 +5,11 @@ import statistics
 import tempfile
 from pathlib import Path
 
-from gruebler.explorer.model import model_of
-from gruebler.explorer.page import single_file
-from gruebler.fourbar import FourBar
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.linkages import Linkage
+from gruebler.page.model import model_of
+from gruebler.page.page import single_file
+from gruebler.structure.mechanism import Mechanism
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 

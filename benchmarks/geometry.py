@@ -8,10 +8,18 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.motion import LEG, leg
-from gruebler.forces import Loads, statics
-from gruebler.fourbar import FourBar
-from gruebler.geometry import CouplerCurve, centrodes, cognate_sizes, cognates, coupler_curve, poles, taylor_series
-from gruebler.kinematics import Motion, move
+from gruebler.mechanics.forces import Loads, statics
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.geometry import (
+    CouplerCurve,
+    centrodes,
+    cognate_sizes,
+    cognates,
+    coupler_curve,
+    poles,
+    taylor_series,
+)
+from gruebler.mechanics.kinematics import Motion, move
 
 ROWS = 10_000
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import networkx as nx
 
 from gruebler import Chain, mobility_report
-from gruebler.mobility import pebble_mobility
+from gruebler.structure.mobility import pebble_mobility
 
 SIZES = (10, 100, 1_000, 10_000, 100_000)
 _LARGEST_TANGLED = 10_000  # its dense core grows with the links, and the time with the core's cube

@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler import Mechanism
-from gruebler.fourbar import FourBar
-from gruebler.kinematics import move
-from gruebler.kinematics.batch import four_bars, move_many
-from gruebler.linkages import Linkage
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.kinematics import move
+from gruebler.mechanics.kinematics.batch import four_bars, move_many
+from gruebler.mechanics.linkages import Linkage
 
 ROWS = 10_000
 A0, B0 = (0.0, 0.0), (-38.0, -7.8)  # Jansen's leg: the crank's pivot and the other

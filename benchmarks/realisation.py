@@ -4,8 +4,8 @@ import time
 from collections.abc import Iterable
 
 from gruebler import Mechanism, Requirements, chains, driven_mechanisms, inversions, variants
-from gruebler.kinematics import move
-from gruebler.realisation import Realisation, realise, with_drives
+from gruebler.design.realisation import Realisation, realise, with_drives
+from gruebler.mechanics.kinematics import move
 
 HEADER = ("", "mechanisms", "move", "full turn", "least quality", "worst closure", "tries", "time")
 

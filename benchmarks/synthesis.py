@@ -7,17 +7,17 @@ from math import pi
 
 import numpy as np
 
-from gruebler.fourbar import FourBar
-from gruebler.kinematics import circuit, move
-from gruebler.mechanism import Mechanism
-from gruebler.realisation import realise
-from gruebler.synthesis import Demands, PathTask, PositionTask, synthesise_path, synthesise_structures
-from gruebler.synthesis.alt_burmester import PROBLEMS, load_generic_solutions, parameters, solutions
-from gruebler.synthesis.closure import DesignClosure
-from gruebler.synthesis.curve_matching import PLACES, best_matches, resampled
-from gruebler.synthesis.curves import fit_curve
-from gruebler.synthesis.dyads import Displacements, all_dyads
-from gruebler.synthesis.structure_atlas import dyad_structure, structure_atlas
+from gruebler.design.realisation import realise
+from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise_path, synthesise_structures
+from gruebler.design.synthesis.alt_burmester import PROBLEMS, load_generic_solutions, parameters, solutions
+from gruebler.design.synthesis.closure import DesignClosure
+from gruebler.design.synthesis.curve_matching import PLACES, best_matches, resampled
+from gruebler.design.synthesis.curves import fit_curve
+from gruebler.design.synthesis.dyads import Displacements, all_dyads
+from gruebler.design.synthesis.structure_atlas import dyad_structure, structure_atlas
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.kinematics import circuit, move
+from gruebler.structure.mechanism import Mechanism
 
 
 def seconds(run: Callable[[], object], repeat: int = 1) -> float:

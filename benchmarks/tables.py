@@ -17,13 +17,13 @@ from time import perf_counter
 
 import gruebler as gr
 from benchmarks.evidence import check_chains
-from gruebler.assur import count_assur_groups
-from gruebler.enumeration import Request
-from gruebler.enumeration.epicyclic import count_epicyclic_trains
-from gruebler.enumeration.request import RequestCount
-from gruebler.enumeration.run_request import run_count
-from gruebler.enumeration.worker_pool import ProcessPools
-from gruebler.type_synthesis import count_sliding_variants
+from gruebler.structure.assur import count_assur_groups
+from gruebler.structure.enumeration import Request
+from gruebler.structure.enumeration.epicyclic import count_epicyclic_trains
+from gruebler.structure.enumeration.request import RequestCount
+from gruebler.structure.enumeration.run_request import run_count
+from gruebler.structure.enumeration.worker_pool import ProcessPools
+from gruebler.structure.type_synthesis import count_sliding_variants
 
 FOLDER = Path(__file__).parents[1] / "docs" / "tables"
 Rows = Iterator[tuple[object, ...]]
@@ -109,7 +109,7 @@ def sliding(most: int | None = None) -> Rows:
 def driven_by_class(most: int | None = None) -> Rows:
     """Driven mechanisms with F = 1 and the drive at the frame, by the highest class of their Assur groups."""
     yield "links", "highest_class", "driven_mechanisms"
-    table = gr.atlas.open().query(
+    table = gr.structure.atlas.open().query(
         "select links, highest_class, count(*) from driven where mobility = 1 group by all order by all"
     )
     for row in table.to_pylist():

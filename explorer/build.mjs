@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const target = process.argv[2] ?? path.join(here, "../src/gruebler/explorer/static");
+const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
 
 await build({
   absWorkingDir: here,

@@ -19,7 +19,7 @@ from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
 SOURCES = Path(__file__).parents[1] / "src" / "gruebler"
-LOCALE = SOURCES / "locale"
+LOCALE = SOURCES / "base" / "locale"
 TEXTS = {"translate": 1, "message": 1, "plural": 2}
 """Functions whose first argument (first two) is a message."""
 HELP = frozenset({"help", "description", "epilog", "title"})

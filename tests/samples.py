@@ -2,8 +2,8 @@
 
 import math
 
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 
 _THREE_LEGS = "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"
 

@@ -8,9 +8,9 @@ import numpy as np
 from hypothesis import strategies as st
 
 from gruebler import Chain
-from gruebler.chain.pairs import PAIRS, Space
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.chain.pairs import PAIRS, Space
+from gruebler.structure.mechanism import Mechanism
 
 REVOLUTE = ("revolute",)
 PLANAR = ("revolute", "revolute", "prismatic", "rolling", "roll_slide", "double_slide")

@@ -13,56 +13,69 @@ import gruebler
 PACKAGE = Path(gruebler.__file__).parent
 ROOT = Path(__file__).parents[1]
 
-# From the ground up. A room may import rooms on lower floors and its own files; errors, then texts, lie beneath them.
-BENEATH = ["errors", "text"]
-FLOORS = [
-    {
-        "angles",
-        "arrays",
-        "convex_hull",
-        "disjoint_sets",
-        "doors",
-        "errors",
-        "events",
-        "text",
-        "atomic_files",
-        "documents",
-        "notebook",
-        "_numeric",
-    },
-    {"chain", "columns", "jets", "cams", "gears", "geneva", "drawing/canvas"},
-    {"mobility", "isomorphism", "drawing/machines"},
-    {"enumeration", "mechanism"},
-    {"assur", "linkages", "drawing/structure"},
-    {"fourbar", "transformations", "type_synthesis"},
-    {"atlas", "kinematics"},
-    {"analysis", "screws", "forces"},
-    {"geometry", "realisation", "formats", "drawing/linkage"},
-    {"synthesis", "catalog"},
-    {"constructions", "exercises", "file_formats", "sheets"},
-    {"files", "pictures", "teaching", "worksheets"},
-    {"explorer"},
-    {"cli"},
-]
+# From the ground up. A wing imports the wings before it; a room within it the rooms on lower floors and its own files.
+WINGS = {
+    "_numeric": [{"_numeric"}],
+    "base": [
+        {"errors"},
+        {"text"},
+        {
+            "angles",
+            "arrays",
+            "atomic_files",
+            "convex_hull",
+            "disjoint_sets",
+            "documents",
+            "doors",
+            "events",
+            "notebook",
+        },
+        {"columns", "jets"},
+    ],
+    "structure": [
+        {"chain"},
+        {"mobility", "isomorphism"},
+        {"enumeration", "mechanism"},
+        {"assur"},
+        {"transformations", "type_synthesis"},
+        {"atlas"},
+    ],
+    "machines": [{"cams", "gears", "geneva"}],
+    "mechanics": [
+        {"linkages"},
+        {"fourbar"},
+        {"kinematics"},
+        {"analysis", "screws", "forces"},
+        {"geometry"},
+    ],
+    "design": [{"realisation", "synthesis"}],
+    "files": [{"files"}],
+    "pictures": [{"canvas"}, {"machines", "structure", "linkage"}, {"designs", "values"}],
+    "teaching": [{"catalog"}, {"constructions", "exercises", "sheets"}, {"worksheets"}],
+    "page": [{"page"}],
+    "cli": [{"cli"}],
+}
+WHOLE = {"_numeric", "files", "page", "cli"}  # wings of one room: their files
+FLOORS = {
+    f"{wing}/{room}" if wing not in WHOLE else wing: (k, floor)
+    for k, (wing, floors) in enumerate(WINGS.items())
+    for floor, rooms in enumerate(floors)
+    for room in rooms
+}
 ENTRANCES = {"", "__main__"}  # the front door looks into every room, lazily; python -m opens the command line
-DIVIDED = {"drawing"}  # its folders are rooms of their own, on floors of their own
+DOORS = set(WINGS) - WHOLE  # a wing's own file opens its rooms, lazily
 HEAVY = {"numba", "networkx", "scipy", "rich", "msgspec"}  # never at the top of the modules behind `import gruebler`
 
 
 def room(module):
+    """Where a module stands: wing and room, as mechanics/kinematics; a wing of one room is that room."""
     parts = module.split(".")
-    return "/".join(parts[:2]) if parts[0] in DIVIDED else parts[0]
-
-
-def floor(module):
-    return next((k for k, rooms in enumerate(FLOORS) if room(module) in rooms), None)
+    return parts[0] if parts[0] in WHOLE else "/".join(parts[:2])
 
 
 def depth(module):
-    """How high a module stands: what lies beneath the floors below them, what has no floor above all."""
-    if module in BENEATH:
-        return BENEATH.index(module) - len(BENEATH)
-    return len(FLOORS) if floor(module) is None else floor(module)
+    """How high a module stands: its wing, then its floor; what has no floor above all."""
+    return FLOORS.get(room(module), (len(WINGS), 0))
 
 
 def modules():
@@ -119,7 +132,7 @@ EDGES = {name: sorted({edge for edge in imported(name) if edge[0]}) for name in 
 
 
 def test_every_module_has_a_floor():
-    without = [name for name in FILES if name not in ENTRANCES | DIVIDED and floor(name) is None]
+    without = [name for name in FILES if name not in ENTRANCES | DOORS and room(name) not in FLOORS]
     assert without == []
 
 
@@ -127,7 +140,7 @@ def test_imports_run_downward():
     wrong = [
         f"{name} imports {other}"
         for name, edges in EDGES.items()
-        if name not in ENTRANCES
+        if name not in ENTRANCES | DOORS
         for other, _ in edges
         if room(other) != room(name) and depth(other) >= depth(name)
     ]
@@ -156,14 +169,24 @@ def test_no_two_files_need_each_other():
 
 def test_architecture_has_the_same_floors():
     page = ROOT / "ARCHITECTURE.md"
-    rows = re.findall(r"^\| (\d+) \| ([^|]*) \|", page.read_text(encoding="utf-8"), re.MULTILINE)
-    written = {int(number) - 1: set(re.findall(r"`([a-z_/]+?)/?`", rooms)) for number, rooms in rows}
-    assert written == dict(enumerate(FLOORS))
+    rows = re.findall(r"^\| `(\w+)/?` \| ([^|]*) \|", page.read_text(encoding="utf-8"), re.MULTILINE)
+    written = {wing: [set(re.findall(r"`([a-z_]+?)/?`", floor)) for floor in rooms.split("→")] for wing, rooms in rows}
+    assert written == {wing: floors if wing not in WHOLE else [set()] for wing, floors in WINGS.items()}
+
+
+def test_the_package_has_few_entries():
+    entries = {path.name for path in PACKAGE.iterdir()} - {"__pycache__"}
+    assert entries == {*WINGS, "__init__.py", "__init__.pyi", "__main__.py", "py.typed"}
+
+
+def test_no_module_of_the_front_door_has_the_word_of_a_class_or_function():
+    words = [name for name in gruebler.__all__ if name not in WINGS]
+    assert not {word.lower() for word in words} & set(WINGS)
 
 
 def test_the_front_door_is_light():
     """What `import gruebler` and the parser load imports nothing heavy at its top."""
-    for name in ("", "errors", "chain.pairs", "chain.notation", "chain", "cli"):
+    for name in ("", "base.errors", "structure.chain.pairs", "structure.chain.notation", "structure.chain", "cli"):
         top = tree(name).body
         names = {alias.name.split(".")[0] for node in top if isinstance(node, ast.Import) for alias in node.names}
         names |= {(node.module or "").split(".")[0] for node in top if isinstance(node, ast.ImportFrom)}

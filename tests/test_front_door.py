@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import gruebler as gr
-from gruebler.catalog import entry
-from gruebler.sheets.layout import page
-from gruebler.synthesis import DeadCentreTask, PathTask
-from gruebler.text import error_in_language
+from gruebler.base.text import error_in_language
+from gruebler.design.synthesis import DeadCentreTask, PathTask
+from gruebler.teaching.catalog import entry
+from gruebler.teaching.sheets.layout import page
 
 CRANK_ROCKER = gr.FourBar(25, 70, 40, 70)
 SHORTHANDS = [CRANK_ROCKER, gr.SliderCrank(20, 70, 8), gr.InvertedSliderCrank(30, 50)]
@@ -41,7 +41,7 @@ def test_arguments_in_docstrings_exist():
 
 
 def test_options_of_other_functions_in_docstrings_exist():
-    """Such as: options of `gruebler.drawing.linkage.picture.draw_linkage` (``drive``, ``curves``, ...)."""
+    """Such as: options of `gruebler.pictures.linkage.picture.draw_linkage` (``drive``, ``curves``, ...)."""
     checked = 0
     for path, node, text in documented_functions():
         for dotted, options in re.findall(r"`(gruebler\.[\w.]+)`\s*\(((?:``\w+``[,.\s]*)+)", text):

@@ -1,4 +1,4 @@
-"""Three notebooks of docs (`tests/explorer` has the fourth): every cell runs, every value it ends with shows itself."""
+"""Three notebooks of docs (`tests/page` has the fourth): every cell runs, every value it ends with shows itself."""
 
 import ast
 import json

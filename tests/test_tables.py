@@ -7,7 +7,7 @@ from hashlib import sha256
 import pytest
 
 from benchmarks.tables import FOLDER, TABLES, text_of
-from gruebler.enumeration import count_simple_chains
+from gruebler.structure.enumeration import count_simple_chains
 
 
 def test_every_table_has_its_record():

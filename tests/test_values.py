@@ -20,16 +20,16 @@ import numpy as np
 import pytest
 
 import gruebler as gr
-from gruebler.analysis import motion_table
-from gruebler.analysis.drive_cycle import drive_cycle
-from gruebler.arrays import same
-from gruebler.cams import Roller, read_lift
-from gruebler.columns import Column
-from gruebler.errors import LinkageError
-from gruebler.gears import Mesh
-from gruebler.kinematics import four_bars
-from gruebler.linkages import Circle, Line
-from gruebler.synthesis import DeadCentreTask
+from gruebler.base.arrays import same
+from gruebler.base.columns import Column
+from gruebler.base.errors import LinkageError
+from gruebler.design.synthesis import DeadCentreTask
+from gruebler.machines.cams import Roller, read_lift
+from gruebler.machines.gears import Mesh
+from gruebler.mechanics.analysis import motion_table
+from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.kinematics import four_bars
+from gruebler.mechanics.linkages import Circle, Line
 
 SOURCE = Path(gr.__file__).parent
 

@@ -15,11 +15,11 @@ from typing import Any
 import msgspec
 
 from builder.names import documented_rooms, front_door_table, room_page
+from gruebler.base.text import translate
 from gruebler.cli.commands import GROUPS, Command
-from gruebler.files import FORMATS
-from gruebler.formats.catalog_records import Entry, Exercise
-from gruebler.formats.linkages import LinkageRecord
-from gruebler.text import translate
+from gruebler.files.catalog_records import Entry, Exercise
+from gruebler.files.linkages import LinkageRecord
+from gruebler.files.values import FORMATS
 
 _RECORDS = {"linkage": LinkageRecord, "entry": Entry, "exercise": Exercise}
 _PLACE = re.compile(r"^<!-- insert: ([a-z-]+) ?(.*) -->$", re.MULTILINE)

@@ -55,7 +55,7 @@ export function exportPanel(page: Page, motion: Exported): HTMLElement {
       )
     : [];
   const { model } = motion.machine;
-  const [reader, measured] = ["from gruebler.formats import read_linkage", "print(gr.measures(linkage).explain())"];
+  const [reader, measured] = ["from gruebler.files import read_linkage", "print(gr.measures(linkage).explain())"];
   const word = model.source || `${stem()}.toml`;
   return h(
     "div",
@@ -76,7 +76,7 @@ export function exportPanel(page: Page, motion: Exported): HTMLElement {
       "pre",
       {},
       model.source && !model.source.includes(":")
-        ? `import gruebler as gr\n\nlinkage = gr.catalog.entry("${model.source}").linkage()\n${measured}`
+        ? `import gruebler as gr\n\nlinkage = gr.teaching.catalog.entry("${model.source}").linkage()\n${measured}`
         : `${reader}\nimport gruebler as gr\n\nlinkage = read_linkage("${stem()}.toml")\n${measured}`,
     ),
   );

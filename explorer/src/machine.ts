@@ -866,7 +866,7 @@ export class Machine {
     poses.turns[2 * link + 1] = tx * s + ty * c;
   }
 
-  /** Drive values, signs and unknowns of a pose, as `gruebler.kinematics.reference_pose` reads them. */
+  /** Drive values, signs and unknowns of a pose, as `gruebler.mechanics.kinematics.reference_pose` reads them. */
   private readState(poses: Rows): void {
     const p = this.program,
       reference = this.model.reference;
@@ -1020,7 +1020,7 @@ export class Machine {
     this.points.push({ name, link, at: this.toLocal(link, x, y) });
   }
 
-  /** The linkage as `gruebler.formats` reads it; its reference pose is the one that is shown, or a row of others. */
+  /** The linkage as `gruebler.files` reads it; its reference pose is the one that is shown, or a row of others. */
   document(rows = this.pose, row = 0): LinkageDocument {
     const { model } = this;
     const out = structuredClone(model.document);

@@ -1,4 +1,4 @@
-/** What Python says of a linkage (`gruebler.explorer.model.model_of`). */
+/** What Python says of a linkage (`gruebler.page.model.model_of`). */
 
 import type { ProgramRecord } from "./program";
 

@@ -1,9 +1,9 @@
 """Structural synthesis of mechanisms. Grübler counted; we check the count.
 
 `__init__.pyi` lists the names of the front door; each is loaded when it is first used, so that importing the library
-is quick. What is not there is complete one level down: `gr.cams`, `gr.gears`, `gr.geometry`, `gr.screws`,
-`gr.synthesis`, `gr.teaching`, `gr.catalog`, ... Angles are in radians and lengths in the unit of the linkage, unless a
-name says otherwise.
+is quick. Everything else lies in the wings: `gr.base`, `gr.structure`, `gr.machines`, `gr.mechanics`, `gr.design`,
+`gr.files`, `gr.pictures`, `gr.teaching`, `gr.page`, each with its rooms, such as `gr.mechanics.geometry`. Angles are in
+radians and lengths in the unit of the linkage, unless a name says otherwise.
 
 >>> import gruebler as gr
 >>> four_bar = gr.Chain.parse("R(frame-crank) R(crank-coupler) R(coupler-rocker) R(rocker-frame)")
@@ -21,11 +21,11 @@ from typing import TYPE_CHECKING, Any
 
 from lazy_loader import attach_stub
 
-from gruebler import notebook
+from gruebler.base import notebook
 
 if TYPE_CHECKING:
-    from gruebler.columns import Table
-    from gruebler.kinematics.motion import Motion
+    from gruebler.base.columns import Table
+    from gruebler.mechanics.kinematics.motion import Motion
 
 __version__ = "0.2.0"
 __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
@@ -33,7 +33,7 @@ __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
 
 def _picture(value: object) -> str:
     """The SVG of a value for a notebook."""
-    from gruebler.pictures import picture_of
+    from gruebler.pictures.values import picture_of
 
     return picture_of(value)
 
@@ -43,7 +43,7 @@ notebook.svg_of = _picture
 
 def _table(motion: Motion, *options: Any, **named: Any) -> Table:
     """The table of a motion."""
-    from gruebler.analysis.table import motion_table
+    from gruebler.mechanics.analysis.table import motion_table
 
     return motion_table(motion, *options, **named)
 

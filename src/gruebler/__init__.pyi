@@ -1,64 +1,35 @@
 # The front door: every name that `import gruebler as gr` gives, and where it comes from. This list is the only one;
 # names are loaded when they are first used.
 
-from . import (
-    assur,
-    atlas,
-    cams,
-    catalog,
-    chain,
-    drawing,
-    enumeration,
-    errors,
-    explorer,
-    forces,
-    formats,
-    fourbar,
-    gears,
-    geneva,
-    geometry,
-    isomorphism,
-    kinematics,
-    linkages,
-    mechanism,
-    mobility,
-    notebook,
-    realisation,
-    screws,
-    synthesis,
-    teaching,
-    text,
-    transformations,
-    type_synthesis,
-)
-from .analysis import drive_range, motion_roles
-from .analysis.measures import Measures, measures
-from .analysis.rotatability import rotatability
-from .assur import assur_groups, decompose
-from .cams import Cam
-from .chain import Chain, Joint
-from .enumeration import chains, count_chains
-from .errors import GrueblerError, UnitWarning
-from .explorer.notebook import explore
-from .files import read, write
-from .forces import Loads, Statics, statics
-from .fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from .gears import Train
-from .geneva import Geneva
-from .geometry import coupler_curve
-from .isomorphism import code, decode, is_isomorphic, symmetry
-from .kinematics import Circuit, Motion, circuit, from_degrees, move, move_many
-from .kinematics.solve import assembly_modes
-from .linkages import Linkage
-from .mechanism import Mechanism
-from .mechanism.inversion import driven_mechanisms, inversions
-from .mobility import mobility_report
-from .pictures import animate, draw, plot
-from .realisation.realise import realise
-from .screws import SpatialLinkage, freedoms
-from .synthesis import synthesise
-from .transformations import derive, extend
-from .type_synthesis import Requirements, variants
+from . import base, design, files, machines, mechanics, page, pictures, structure, teaching
+from .base.errors import GrueblerError, UnitWarning
+from .design.realisation.realise import realise
+from .design.synthesis import synthesise
+from .files.values import read, write
+from .machines.cams import Cam
+from .machines.gears import Train
+from .machines.geneva import Geneva
+from .mechanics.analysis import drive_range, motion_roles
+from .mechanics.analysis.measures import Measures, measures
+from .mechanics.analysis.rotatability import rotatability
+from .mechanics.forces import Loads, Statics, statics
+from .mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from .mechanics.geometry import coupler_curve
+from .mechanics.kinematics import Circuit, Motion, circuit, from_degrees, move, move_many
+from .mechanics.kinematics.solve import assembly_modes
+from .mechanics.linkages import Linkage
+from .mechanics.screws import SpatialLinkage, freedoms
+from .page.notebook import explore
+from .pictures.values import animate, draw, plot
+from .structure.assur import assur_groups, decompose
+from .structure.chain import Chain, Joint
+from .structure.enumeration import chains, count_chains
+from .structure.isomorphism import code, decode, is_isomorphic, symmetry
+from .structure.mechanism import Mechanism
+from .structure.mechanism.inversion import driven_mechanisms, inversions
+from .structure.mobility import mobility_report
+from .structure.transformations import derive, extend
+from .structure.type_synthesis import Requirements, variants
 
 __version__: str
 
@@ -84,12 +55,8 @@ __all__ = [
     "UnitWarning",
     "animate",
     "assembly_modes",
-    "assur",
     "assur_groups",
-    "atlas",
-    "cams",
-    "catalog",
-    "chain",
+    "base",
     "chains",
     "circuit",
     "code",
@@ -98,50 +65,35 @@ __all__ = [
     "decode",
     "decompose",
     "derive",
+    "design",
     "draw",
-    "drawing",
     "drive_range",
     "driven_mechanisms",
-    "enumeration",
-    "errors",
     "explore",
-    "explorer",
     "extend",
-    "forces",
-    "formats",
-    "fourbar",
+    "files",
     "freedoms",
     "from_degrees",
-    "gears",
-    "geneva",
-    "geometry",
     "inversions",
     "is_isomorphic",
-    "isomorphism",
-    "kinematics",
-    "linkages",
+    "machines",
     "measures",
-    "mechanism",
-    "mobility",
+    "mechanics",
     "mobility_report",
     "motion_roles",
     "move",
     "move_many",
-    "notebook",
+    "page",
+    "pictures",
     "plot",
     "read",
-    "realisation",
     "realise",
     "rotatability",
-    "screws",
     "statics",
+    "structure",
     "symmetry",
-    "synthesis",
     "synthesise",
     "teaching",
-    "text",
-    "transformations",
-    "type_synthesis",
     "variants",
     "write",
 ]

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics import from_degrees, move
-from gruebler.kinematics.kernel_calls import run_rows
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.kinematics import from_degrees, move
+from gruebler.mechanics.kinematics.kernel_calls import run_rows
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 from tests.samples import class_iii, parallel_legs
 
 LINKAGES = {

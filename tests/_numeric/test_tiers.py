@@ -17,19 +17,19 @@ from gruebler import _numeric
 from gruebler._numeric import compiling
 from gruebler._numeric.labelling.canonical import canonical_bulk, canonical_form
 from gruebler._numeric.motion.tracing import TraceScratch
-from gruebler.analysis.rotatability import rotatability
-from gruebler.catalog import entry
-from gruebler.chain import Chain
-from gruebler.drawing.structure import draw_structure
-from gruebler.enumeration import chains, count_chains, graph6_blocks
-from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics.assembly_modes import conditions
-from gruebler.kinematics.batch import four_bars, move_many
-from gruebler.kinematics.circuits import circuit
-from gruebler.kinematics.triads import all_modes
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
-from gruebler.synthesis.alt_burmester import PROBLEMS, follow_from_generic, load_generic_solutions
+from gruebler.design.synthesis.alt_burmester import PROBLEMS, follow_from_generic, load_generic_solutions
+from gruebler.mechanics.analysis.rotatability import rotatability
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.kinematics.assembly_modes import conditions
+from gruebler.mechanics.kinematics.batch import four_bars, move_many
+from gruebler.mechanics.kinematics.circuits import circuit
+from gruebler.mechanics.kinematics.triads import all_modes
+from gruebler.mechanics.linkages import Linkage
+from gruebler.pictures.structure import draw_structure
+from gruebler.structure.chain import Chain
+from gruebler.structure.enumeration import chains, count_chains, graph6_blocks
+from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entry
 from tests.samples import CLASS_III, parallel_legs
 
 # Integers are equal, and so is every bit of a motion: which tier moves a linkage depends on how much work was done

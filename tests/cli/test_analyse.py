@@ -9,12 +9,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from gruebler.catalog import entries, entry
 from gruebler.cli import main
-from gruebler.formats.linkages import write_linkage
-from gruebler.formats.screws import screws_to_json
-from gruebler.fourbar import FourBar, SliderCrank
-from gruebler.kinematics import move
+from gruebler.files.linkages import write_linkage
+from gruebler.files.screws import screws_to_json
+from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.kinematics import move
+from gruebler.teaching.catalog import entries, entry
 
 CRANK_ROCKER = "four-bar:25,70,40,70"
 
@@ -238,8 +238,8 @@ def test_rounding_noise_is_shown_as_zero(capsys):
 
 def test_several_drives_with_speeds(capsys, tmp_path):
     """A parallelogram with a kink: equal cranks at one speed shift the kink without turning its links."""
-    from gruebler.linkages import Linkage
-    from gruebler.mechanism import Mechanism
+    from gruebler.mechanics.linkages import Linkage
+    from gruebler.structure.mechanism import Mechanism
 
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
     write_linkage(

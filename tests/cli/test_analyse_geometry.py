@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from gruebler.formats.linkages import write_linkage
-from gruebler.fourbar import FourBar
-from gruebler.geometry.columns import curvature_columns
-from gruebler.kinematics import move
-from gruebler.linkages import Linkage, LinkPoint
-from gruebler.mechanism import Mechanism
+from gruebler.files.linkages import write_linkage
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.geometry.columns import curvature_columns
+from gruebler.mechanics.kinematics import move
+from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.structure.mechanism import Mechanism
 from tests.cli.test_analyse import CRANK_ROCKER, run, table
 
 

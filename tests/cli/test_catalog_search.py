@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from gruebler.catalog import entries
+from gruebler.teaching.catalog import entries
 from tests.commands import run_command
 
 SHEET = ("--links", "4", "--drives", "1", "--drives-at-frame", "1", "--output-links-at-frame", "0")

@@ -5,8 +5,8 @@ import json
 import pytest
 
 from gruebler import GrueblerError
-from gruebler.catalog import check_entry, entry
-from gruebler.formats import read_entry
+from gruebler.files import read_entry
+from gruebler.teaching.catalog import check_entry, entry
 from tests.commands import run_command
 
 
@@ -103,7 +103,7 @@ def test_an_entry_without_dimensions(capsys, tmp_path):
 
 
 def entry_text(id):
-    from gruebler.catalog import catalog_folder
+    from gruebler.teaching.catalog import catalog_folder
 
     return (catalog_folder() / "machines" / f"{id}.toml").read_text(encoding="utf-8")
 

@@ -7,10 +7,10 @@ import sys
 
 import pytest
 
-from gruebler.catalog import entries
 from gruebler.cli import main
 from gruebler.cli.commands import command as command_named
 from gruebler.cli.commands import command_names
+from gruebler.teaching.catalog import entries
 
 FOUR_BAR = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
 KEYS = {
@@ -277,8 +277,8 @@ def test_a_mechanism_is_checked_as_its_chain(capsys):
 
 
 def test_the_file_of_a_linkage_is_taken_wherever_a_chain_is(capsys, tmp_path):
-    from gruebler.formats.linkages import write_linkage
-    from gruebler.fourbar import FourBar
+    from gruebler.files.linkages import write_linkage
+    from gruebler.mechanics.fourbar import FourBar
 
     for suffix in ("toml", "json"):
         path = tmp_path / f"rocker.{suffix}"

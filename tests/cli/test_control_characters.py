@@ -55,7 +55,7 @@ def test_written_files_are_named_without_their_control_characters(tmp_path, caps
 
 def test_a_refused_file_is_one_line(tmp_path, capsys):
     """What of it was left out is not said before it is refused."""
-    source = str(Path(__file__).parents[1] / "formats" / "files" / "six-bar-version-1.pmks")
+    source = str(Path(__file__).parents[1] / "files" / "samples" / "six-bar-version-1.pmks")
     assert main(["statics", source, "--load", "nowhere=1,0"]) == 2
     refused = capsys.readouterr().err
     assert refused.count("\n") == 1, refused

@@ -7,11 +7,11 @@ import pytest
 
 from gruebler.cli import main
 from gruebler.cli.linkage_inputs import linkage_of_word
-from gruebler.files import FORMATS, read, write
-from gruebler.fourbar import FourBar
-from gruebler.isomorphism import code
+from gruebler.files.values import FORMATS, read, write
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.structure.isomorphism import code
 
-FILES = Path(__file__).parents[1] / "formats" / "files"
+FILES = Path(__file__).parents[1] / "files" / "samples"
 
 
 def test_a_leg_goes_through_three_programs(tmp_path, capsys):

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from gruebler.catalog import entry
 from gruebler.cli import main
-from gruebler.kinematics import move
+from gruebler.mechanics.kinematics import move
+from gruebler.teaching.catalog import entry
 from tests.commands import run_command
 
 

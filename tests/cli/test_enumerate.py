@@ -9,7 +9,7 @@ import pytest
 
 from gruebler import Chain
 from gruebler.cli import main
-from gruebler.enumeration.listing import chains
+from gruebler.structure.enumeration.listing import chains
 
 
 def run(capfd, *arguments):

@@ -7,7 +7,7 @@ import pytest
 from gruebler.cli import main
 from gruebler.cli.exercise import _KINDS
 from gruebler.cli.table import _TABLES
-from gruebler.exercises import KINDS, TABLES
+from gruebler.teaching.exercises import KINDS, TABLES
 
 
 def run(capsys, *arguments):

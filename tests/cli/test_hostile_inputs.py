@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from gruebler.enumeration import count_chains
+from gruebler.structure.enumeration import count_chains
 
 resource = pytest.importorskip("resource", reason="limits of time and memory are those of POSIX systems")
 LIMITS = {resource.RLIMIT_CPU: 300} | ({resource.RLIMIT_AS: 3 * 10**9} if sys.platform == "linux" else {})

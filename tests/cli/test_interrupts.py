@@ -34,21 +34,23 @@ def interrupted(module, *words, **environment):
     return done.returncode, done.stdout, done.stderr
 
 
-MODULES = ["gruebler", "lazy_loader", "gruebler.errors", "gruebler.cli.commands", "gruebler.cli.check", "numpy"]
+MODULES = ["gruebler", "lazy_loader", "gruebler.base.errors", "gruebler.cli.commands", "gruebler.cli.check", "numpy"]
 
 
-@pytest.mark.parametrize("module", [*MODULES, "gruebler.mobility", "gruebler.mobility.placement"])
+@pytest.mark.parametrize("module", [*MODULES, "gruebler.structure.mobility", "gruebler.structure.mobility.placement"])
 def test_an_interrupt_while_a_module_is_loaded(module):
     assert interrupted(module, "check", "R(0-1) R(1-2) R(2-0)") == (130, "", "\ngruebler: stopped\n")
 
 
 def test_an_interrupt_in_german():
-    assert interrupted("gruebler.text", "check", "vcomp", "--lang", "de")[2] == "\ngruebler: abgebrochen\n"
-    assert interrupted("gruebler.text", "check", "vcomp", GRUEBLER_LANG="de")[2] == "\ngruebler: abgebrochen\n"
-    assert interrupted("gruebler.text", "check", "vcomp", "--lang=de")[2] == "\ngruebler: abgebrochen\n"
-    assert interrupted("gruebler.text", "check", "de")[2] == "\ngruebler: stopped\n"
-    assert interrupted("gruebler.text", "check", "--lang", "en", GRUEBLER_LANG="de")[2] == "\ngruebler: stopped\n"
-    assert interrupted("gruebler.mobility", "check", "vcomp", "--lang", "de")[2] == "\ngruebler: abgebrochen\n"
+    assert interrupted("gruebler.base.text", "check", "vcomp", "--lang", "de")[2] == "\ngruebler: abgebrochen\n"
+    assert interrupted("gruebler.base.text", "check", "vcomp", GRUEBLER_LANG="de")[2] == "\ngruebler: abgebrochen\n"
+    assert interrupted("gruebler.base.text", "check", "vcomp", "--lang=de")[2] == "\ngruebler: abgebrochen\n"
+    assert interrupted("gruebler.base.text", "check", "de")[2] == "\ngruebler: stopped\n"
+    assert interrupted("gruebler.base.text", "check", "--lang", "en", GRUEBLER_LANG="de")[2] == "\ngruebler: stopped\n"
+    assert (
+        interrupted("gruebler.structure.mobility", "check", "vcomp", "--lang", "de")[2] == "\ngruebler: abgebrochen\n"
+    )
 
 
 def test_other_programs_keep_their_own_interrupts():

@@ -5,12 +5,12 @@ import re
 
 import pytest
 
-from gruebler.catalog import entries, exercises
 from gruebler.cli import main
 from gruebler.cli.commands import command, command_names
-from gruebler.formats.catalog_records import source_text
-from gruebler.isomorphism import code
-from gruebler.mechanism import Mechanism
+from gruebler.files.catalog_records import source_text
+from gruebler.structure.isomorphism import code
+from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entries, exercises
 
 FOUR_BAR = "four-bar:25,70,40,70"
 QUAD = "R(0-1) R(1-2) R(2-3) R(3-0)"

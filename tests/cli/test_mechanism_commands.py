@@ -6,9 +6,9 @@ import json
 import pytest
 
 from gruebler.cli import main
-from gruebler.formats.linkages import read_linkage
-from gruebler.mechanism import Mechanism
-from gruebler.mechanism.inversion import DrivenMechanism
+from gruebler.files.linkages import read_linkage
+from gruebler.structure.mechanism import Mechanism
+from gruebler.structure.mechanism.inversion import DrivenMechanism
 
 
 def run(capsys, *arguments):

@@ -11,8 +11,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from gruebler.base.columns import Column, as_csv
 from gruebler.cli import main
-from gruebler.columns import Column, as_csv
 
 CHAIN = "R(Kürbel-b) R(b-c) R(c-d) R(d-Kürbel)"
 FOUR_BAR = "four-bar:25,70,40,70"

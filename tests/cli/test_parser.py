@@ -2,10 +2,10 @@
 
 import pytest
 
+from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.cli.commands import FORMER, command, command_names
 from gruebler.cli.parser import Parser
-from gruebler.errors import GrueblerError
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gruebler.drawing.linkage import animation_frames
+from gruebler.pictures.linkage import animation_frames
 from tests.commands import run_command
 
 FOUR_BAR = "four-bar:25,70,40,70"

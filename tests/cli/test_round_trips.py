@@ -6,10 +6,10 @@ import json
 import pytest
 
 from gruebler import Chain, mobility_report
-from gruebler.catalog import entries, exercises
 from gruebler.cli import main
-from gruebler.formats.screws import screws_to_json, spatial_from_json
-from gruebler.screws import SpatialLinkage
+from gruebler.files.screws import screws_to_json, spatial_from_json
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.teaching.catalog import entries, exercises
 
 
 def run(capsys, *arguments):

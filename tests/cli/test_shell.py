@@ -7,9 +7,9 @@ import subprocess
 
 import pytest
 
-from gruebler.catalog import entries
 from gruebler.cli.command_tree import command_tree
 from gruebler.cli.commands import FIRST_STEPS, command_names
+from gruebler.teaching.catalog import entries
 from tests.commands import run_command
 from tests.docs_session import Session
 

@@ -45,7 +45,7 @@ def test_a_press_over_a_turn(capsys):
 
 
 def test_self_locking(capsys):
-    """As in tests/forces/test_friction.py: with a coefficient of 1 it locks from 238 to 302 degrees."""
+    """As in tests/mechanics/forces/test_friction.py: with a coefficient of 1 it locks from 238 to 302 degrees."""
     arguments = (
         "slider-crank:30,50,10",
         "--load",

@@ -6,9 +6,9 @@ from argparse import Namespace
 import pytest
 
 from gruebler import Chain, GrueblerError, code
-from gruebler.assur import AssurGroup
 from gruebler.cli import assur, extend
-from gruebler.transformations import Derivation
+from gruebler.structure.assur import AssurGroup
+from gruebler.structure.transformations import Derivation
 
 WATT = "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"
 FOUR_BAR = "R(0-1) R(1-2) R(2-3) R(3-0)"

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from gruebler.cli import main
-from gruebler.formats import linkage_from_json, read_linkage
-from gruebler.kinematics import move
-from gruebler.synthesis import task_from_json
-from gruebler.synthesis.positions import guiding_dyads
+from gruebler.design.synthesis import task_from_json
+from gruebler.design.synthesis.positions import guiding_dyads
+from gruebler.files import linkage_from_json, read_linkage
+from gruebler.mechanics.kinematics import move
 
 FIVE = """x,y,angle
 1.167361074190,1.604268422500,49.038042711511

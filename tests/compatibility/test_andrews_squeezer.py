@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import gruebler as gr
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 
 A, B = -0.06934 - 0.00227j, -0.03635 + 0.03273j
 D, E, RR, SS, U, ZF, ZT = 0.028, 0.02, 0.007, 0.035, 0.04, 0.02, 0.04

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import gruebler as gr
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 
 MACHINES = {each["id"]: each for each in json.loads(Path(__file__).with_name("pmks_verification.json").read_text())}
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import gruebler as gr
-from gruebler.linkages import LinkPoint
+from gruebler.mechanics.linkages import LinkPoint
 
 EXAMPLES = {each["name"]: each for each in json.loads(Path(__file__).with_name("pyslvs_examples.json").read_text())}
 TO_A_LIMIT = {"Arm": 1, "Ten Fold's levers": -1}

@@ -6,11 +6,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from unittest.mock import patch
 
-from gruebler.catalog import catalog_folder, entries, exercises
-from gruebler.exercises import all_exercises, solving
-from gruebler.sheets import sheets
+from gruebler.teaching.catalog import catalog_folder, entries, exercises
+from gruebler.teaching.exercises import all_exercises, solving
+from gruebler.teaching.sheets import sheets
 
-_LOADERS = ("gruebler.catalog.loader", "gruebler.exercises.loader", "gruebler.sheets.loader")
+_LOADERS = ("gruebler.teaching.catalog.loader", "gruebler.teaching.exercises.loader", "gruebler.teaching.sheets.loader")
 _CACHES = (entries, exercises, all_exercises, sheets, solving._solve)
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from gruebler.exercises import compare, exercise, solve
-from gruebler.sheets import sheet
-from gruebler.text import Readable
+from gruebler.base.text import Readable
+from gruebler.teaching.exercises import compare, exercise, solve
+from gruebler.teaching.sheets import sheet
 
 EXACT = 1e-9  # relative to the larger of 1 and the number: two ways to the same number in double precision
 ROUNDING = 1e-9  # of half a unit of the last printed digit

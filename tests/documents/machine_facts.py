@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.analysis import drive_range, measures
-from gruebler.catalog import check_entry, entry
-from gruebler.formats import Entry
-from gruebler.kinematics import Motion, move
-from gruebler.mobility import count_freedoms
-from tests.documents import independent as own
-from tests.documents.fact import Fact
+from gruebler.files import Entry
+from gruebler.mechanics.analysis import drive_range, measures
+from gruebler.mechanics.kinematics import Motion, move
+from gruebler.structure.mobility import count_freedoms
+from gruebler.teaching.catalog import check_entry, entry
+from tests.base.documents import independent as own
+from tests.base.documents.fact import Fact
 
 
 class Structure(NamedTuple):

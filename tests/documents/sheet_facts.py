@@ -7,13 +7,13 @@ from math import acos, degrees, sqrt
 
 import numpy as np
 
-from gruebler.catalog import entry
-from gruebler.geometry import cognate_sizes
-from gruebler.geometry.meyer_zur_capellen import lambdas_for, symmetric_rocker
-from gruebler.kinematics import move
-from gruebler.sheets import sheet
-from tests.documents import independent as own
-from tests.documents.fact import Fact, on_sheet
+from gruebler.mechanics.geometry import cognate_sizes
+from gruebler.mechanics.geometry.meyer_zur_capellen import lambdas_for, symmetric_rocker
+from gruebler.mechanics.kinematics import move
+from gruebler.teaching.catalog import entry
+from gruebler.teaching.sheets import sheet
+from tests.base.documents import independent as own
+from tests.base.documents.fact import Fact, on_sheet
 
 KAPPA = degrees(acos(5 * sqrt(3) / 9))
 LEVER = own.lever(5 / 6)

@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from gruebler.chain import Chain
-from gruebler.chain.pairs import PAIRS, Alphabet, Space, pair
-from gruebler.errors import GrueblerError
-from gruebler.exercises import teaching_table
-from gruebler.fourbar import FourBar
-from gruebler.mobility import count_freedoms, counted, mobility_report
-from gruebler.text import Readable
-from tests.documents import independent as own
-from tests.documents.fact import Fact
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Readable
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.structure.chain import Chain
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Space, pair
+from gruebler.structure.mobility import count_freedoms, counted, mobility_report
+from gruebler.teaching.exercises import teaching_table
+from tests.base.documents import independent as own
+from tests.base.documents.fact import Fact
 
 # Table 2.2: name, symbol, f; names and symbols as in docs/misprints.md where the text came through garbled.
 TABLE_2_2 = (

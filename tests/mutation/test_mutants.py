@@ -40,5 +40,5 @@ def test_the_mutants_of_a_room_are_other_programs():
         whole = ast.dump(ast.parse(text))
         for each in mutants(text)[::7]:
             assert ast.dump(ast.parse(each.text)) != whole
-    assert len(mutants((ROOT / "src/gruebler/mobility/circuits.py").read_text("utf-8"))) > 20
-    assert to_run("mobility") == ["tests/mobility", "src/gruebler/mobility"]
+    assert len(mutants((ROOT / "src/gruebler/structure/mobility/circuits.py").read_text("utf-8"))) > 20
+    assert to_run("mobility") == ["tests/structure/mobility", "src/gruebler/structure/mobility"]

@@ -17,11 +17,11 @@ from itertools import combinations, cycle
 from pathlib import Path
 
 from gruebler import Chain, FourBar
-from gruebler.catalog import entries
 from gruebler.cli.commands import command as command_named
-from gruebler.formats.chain_files import LINES, graph_text
-from gruebler.formats.linkages import linkage_to_json, linkage_to_toml
-from gruebler.isomorphism import code
+from gruebler.files.chain_files import LINES, graph_text
+from gruebler.files.linkages import linkage_to_json, linkage_to_toml
+from gruebler.structure.isomorphism import code
+from gruebler.teaching.catalog import entries
 from tests.torture.processes import Outcome, partial_files, run, warm
 
 
@@ -247,7 +247,7 @@ def _words() -> list[Case]:
     ]
 
 
-_FILES_OF_OTHERS = Path(__file__).parents[1] / "formats" / "files"
+_FILES_OF_OTHERS = Path(__file__).parents[1] / "files" / "samples"
 
 
 def _of_other_programs() -> list[Case]:

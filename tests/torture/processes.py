@@ -13,9 +13,9 @@ from contextlib import redirect_stderr, redirect_stdout, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from gruebler.atomic_files import PARTIAL
+from gruebler.base.atomic_files import PARTIAL
+from gruebler.base.errors import LONGEST
 from gruebler.cli import main
-from gruebler.errors import LONGEST
 
 SECONDS = 10  # of the processor, for one input
 MEMORY = 10**9  # bytes that one input may take beyond what the loaded program has

@@ -15,11 +15,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from gruebler.base.errors import GrueblerError, shortened
+from gruebler.base.text import LANGUAGES, error_in_language, reason_of, translate
 from gruebler.cli.commands import command, command_names, overview, welcome
 from gruebler.cli.left_out import print_left_out
 from gruebler.cli.parser import argparse_in_language, wanted_language
-from gruebler.errors import GrueblerError, shortened
-from gruebler.text import LANGUAGES, error_in_language, reason_of, translate
 
 __all__ = ["main"]
 

@@ -11,12 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gruebler.analysis import motion_roles, rotatability
-from gruebler.analysis.outputs import Output, find_output
-from gruebler.analysis.rotatability import slide_directions
-from gruebler.analysis.table import motion_table
-from gruebler.arrays import Reals
-from gruebler.chain.pairs import Alphabet
+from gruebler.base.arrays import Reals
+from gruebler.base.columns import Column, shown
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.text import Message, error_in_language, joined, message, translate
 from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word, with_points
@@ -24,20 +22,22 @@ from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
-from gruebler.columns import Column, shown
-from gruebler.errors import GrueblerError, LinkageError
-from gruebler.formats.linkages import linkage_to_json
-from gruebler.kinematics import Motion
-from gruebler.kinematics.branches import read_branch
-from gruebler.kinematics.solve import all_branches, cached_plan, move_in_radians
-from gruebler.linkages import Linkage
-from gruebler.text import Message, error_in_language, joined, message, translate
+from gruebler.files.linkages import linkage_to_json
+from gruebler.mechanics.analysis import motion_roles, rotatability
+from gruebler.mechanics.analysis.outputs import Output, find_output
+from gruebler.mechanics.analysis.rotatability import slide_directions
+from gruebler.mechanics.analysis.table import motion_table
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.kinematics.branches import read_branch
+from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_in_radians
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.chain.pairs import Alphabet
 
 if TYPE_CHECKING:
-    from gruebler.analysis.link_planes import LinkPlanes
-    from gruebler.analysis.measures import Measures
-    from gruebler.analysis.rotatability import Rotatability
-    from gruebler.kinematics.circuits import Circuit
+    from gruebler.mechanics.analysis.link_planes import LinkPlanes
+    from gruebler.mechanics.analysis.measures import Measures
+    from gruebler.mechanics.analysis.rotatability import Rotatability
+    from gruebler.mechanics.kinematics.circuits import Circuit
 
 __all__ = ["add", "run"]
 
@@ -225,7 +225,7 @@ def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> lis
 
 
 def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argparse.Namespace) -> Measures:
-    from gruebler.analysis.measures import measures
+    from gruebler.mechanics.analysis.measures import measures
 
     rpm = (arguments.speed[0] or None) if turning and arguments.speed else None
     return measures(linkage, rpm, branch=arguments.branch, output=output.name)
@@ -246,7 +246,7 @@ def _moved(linkage: Linkage, measures: Measures, rows: Reals, branch: str | None
 
 def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Namespace) -> list[Column]:
     """The columns of --poles and --curvature."""
-    from gruebler.geometry.columns import curvature_columns, pole_columns
+    from gruebler.mechanics.geometry.columns import curvature_columns, pole_columns
 
     columns = pole_columns(motion, language_of_names(arguments)) if arguments.poles and not _listed(arguments) else []
     if arguments.curvature:
@@ -258,7 +258,7 @@ def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Nam
 
 def _planes(linkage: Linkage, arguments: argparse.Namespace) -> LinkPlanes:
     """The planes over the rows of --range, else over the whole motion."""
-    from gruebler.analysis.link_planes import link_planes
+    from gruebler.mechanics.analysis.link_planes import link_planes
 
     rows = given_rows(arguments.range, [], turning_drives(linkage))
     between = None if rows is None else (float(np.min(rows)), float(np.max(rows)))
@@ -308,7 +308,7 @@ def _report(
             rows = shown(columns, arguments.lang)
             print_table([column.header for column in columns], rows, numbers=range(len(columns)))
         if columns and _listed(arguments):
-            from gruebler.geometry.columns import pole_list
+            from gruebler.mechanics.geometry.columns import pole_list
 
             headers, rows = pole_list(motion, len(motion) - 1, arguments.lang)
             print()
@@ -348,7 +348,7 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
 
 def _circuit(linkage: Linkage, measures: Measures) -> Circuit | LinkageError:
     """The circuit of the measures' branch, or why it cannot be followed."""
-    from gruebler.kinematics.circuits import circuit
+    from gruebler.mechanics.kinematics.circuits import circuit
 
     try:
         return circuit(linkage, branch=measures.branch)

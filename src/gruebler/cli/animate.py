@@ -9,9 +9,9 @@ from gruebler.cli.drive_rows import add_range, driven_path
 from gruebler.cli.linkage_inputs import add_branch, add_curves, add_linkage, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
-from gruebler.drawing.linkage.animation import AnimationOptions, animated_svg
-from gruebler.drawing.linkage.animation_page import animated_page
-from gruebler.linkages import Linkage
+from gruebler.mechanics.linkages import Linkage
+from gruebler.pictures.linkage.animation import AnimationOptions, animated_svg
+from gruebler.pictures.linkage.animation_page import animated_page
 
 __all__ = ["add", "run"]
 
@@ -65,6 +65,6 @@ def _content(linkage: Linkage, suffix: str, options: AnimationOptions, dark: boo
     if suffix in ("svg", "html"):
         text = animated_svg(linkage, **options) if suffix == "svg" else animated_page(linkage, **options)
         return text.encode("utf-8")
-    from gruebler.drawing.linkage.animation_frames import animated_frames
+    from gruebler.pictures.linkage.animation_frames import animated_frames
 
     return animated_frames(linkage, suffix, dark=dark, **options)

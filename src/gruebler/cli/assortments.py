@@ -7,16 +7,16 @@ import json
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import arity, message, translate
 from gruebler.cli.tables import print_long_table, print_table
-from gruebler.enumeration import (
+from gruebler.structure.enumeration import (
     assortment_number,
     each_assortment,
     each_joint_assortment,
     joint_assortment_number,
     largest_degree,
 )
-from gruebler.errors import GrueblerError
-from gruebler.text import arity, message, translate
 
 __all__ = ["print_assortments"]
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from gruebler.assur import AssurGroup, Decomposition, SolvedGroup, decompose, drive_choices
-from gruebler.assur.forms import roman
-from gruebler.assur.listing import GroupRow, count_assur_groups, expected_seconds_of_groups, group_rows
-from gruebler.chain.pairs import Alphabet, pair
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, translate
 from gruebler.cli.inputs import mechanism_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.errors import GrueblerError
-from gruebler.mechanism import Mechanism
-from gruebler.text import message, translate
+from gruebler.structure.assur import AssurGroup, Decomposition, SolvedGroup, decompose, drive_choices
+from gruebler.structure.assur.forms import roman
+from gruebler.structure.assur.listing import GroupRow, count_assur_groups, expected_seconds_of_groups, group_rows
+from gruebler.structure.chain.pairs import Alphabet, pair
+from gruebler.structure.mechanism import Mechanism
 
 __all__ = ["add", "run"]
 

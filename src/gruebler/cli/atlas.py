@@ -11,14 +11,14 @@ from dataclasses import asdict, astuple, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gruebler.base.columns import FORMULA, harmless_cell
+from gruebler.base.errors import GrueblerError, visible
+from gruebler.base.text import plural
 from gruebler.cli.executors import add_executor, executor_of
 from gruebler.cli.long_work import ask_before, run_progress
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
-from gruebler.columns import FORMULA, harmless_cell
-from gruebler.errors import GrueblerError, visible
-from gruebler.text import plural
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _build(arguments: argparse.Namespace) -> int:
-    from gruebler.atlas import AtlasTask, build
+    from gruebler.structure.atlas import AtlasTask, build
 
     task = AtlasTask(
         arguments.links,
@@ -131,9 +131,9 @@ def _build(arguments: argparse.Namespace) -> int:
 
 def _expected(task: Any) -> tuple[int, float]:
     """About how many chains a task has, and how many seconds it takes."""
-    from gruebler.enumeration.assortment import joint_count
-    from gruebler.enumeration.estimates import expected_chains
-    from gruebler.enumeration.pieces import refuse_too_large
+    from gruebler.structure.enumeration.assortment import joint_count
+    from gruebler.structure.enumeration.estimates import expected_chains
+    from gruebler.structure.enumeration.pieces import refuse_too_large
 
     chains, seconds = 0, 0.0
     for request in task.requests():
@@ -155,7 +155,7 @@ def _expected(task: Any) -> tuple[int, float]:
 
 
 def _query(arguments: argparse.Namespace) -> int:
-    from gruebler.atlas import open as open_atlas
+    from gruebler.structure.atlas import open as open_atlas
 
     *folder, sql = arguments.words
     if len(folder) > 1:
@@ -163,7 +163,7 @@ def _query(arguments: argparse.Namespace) -> int:
     atlas = open_atlas(*folder)
     if arguments.structures:
         texts = [str(each) for each in atlas.structures(sql)]
-        from gruebler.atlas.schema import arrow_library
+        from gruebler.structure.atlas.schema import arrow_library
 
         _answer(arrow_library().table({"structure": texts}), arguments)
     else:
@@ -172,8 +172,8 @@ def _query(arguments: argparse.Namespace) -> int:
 
 
 def _columns(arguments: argparse.Namespace) -> int:
-    from gruebler.atlas import columns_of
-    from gruebler.atlas.schema import TABLES, arrow_library
+    from gruebler.structure.atlas import columns_of
+    from gruebler.structure.atlas.schema import TABLES, arrow_library
 
     rows = [column for table in TABLES for column in columns_of(table)]
     if arguments.out is None and not arguments.json:
@@ -185,7 +185,7 @@ def _columns(arguments: argparse.Namespace) -> int:
 
 def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
     """Print a table, or write it into the file of `-o`."""
-    from gruebler.atomic_files import atomic_file
+    from gruebler.base.atomic_files import atomic_file
 
     if arguments.out is None:
         if arguments.json:
@@ -196,7 +196,7 @@ def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:
     with atomic_file(arguments.out, durable=False) as file:
         match arguments.out.suffix.lower():
             case ".parquet":
-                from gruebler.atlas.schema import arrow_library
+                from gruebler.structure.atlas.schema import arrow_library
 
                 arrow_library().parquet.write_table(table, file, compression="zstd")
             case ".json":
@@ -220,7 +220,7 @@ def _print(table: pa.Table) -> None:
     if table.num_columns == 1:
         sys.stdout.writelines(visible(lines, keep="\n") for lines in _lines(table, quoted=False))
         return
-    from gruebler.atlas.schema import arrow_library
+    from gruebler.structure.atlas.schema import arrow_library
 
     types = arrow_library().types
     numbers = [
@@ -234,7 +234,7 @@ def _lines(table: pa.Table, *, quoted: bool, sheet: bool = False) -> Iterator[st
 
     For a sheet, texts that it would take for formulas are made harmless; numbers are not changed.
     """
-    from gruebler.atlas.schema import arrow_library
+    from gruebler.structure.atlas.schema import arrow_library
 
     pa = arrow_library()
     special = '[",\r\n]' if table.num_columns > 1 else '^$|[",\r\n]'
@@ -267,7 +267,7 @@ def _cells(table: pa.Table) -> list[list[str]]:
 
 def _texts(column: pa.Array) -> pa.Array:
     """The values of a column as text, nothing for null; without Python objects for the types of an atlas."""
-    from gruebler.atlas.schema import arrow_library
+    from gruebler.structure.atlas.schema import arrow_library
 
     pa = arrow_library()
     types, kind = pa.types, column.type

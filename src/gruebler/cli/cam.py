@@ -10,7 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.cams import (
+from gruebler.base.errors import GrueblerError
+from gruebler.base.events import Extremum
+from gruebler.base.text import Message, message, number, reason_of
+from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_machine_picture
+from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
+from gruebler.cli.tables import print_table
+from gruebler.cli.turn_table import print_turn, records, turn_degrees
+from gruebler.machines.cams import (
     LAWS,
     Cam,
     CamReport,
@@ -23,14 +31,6 @@ from gruebler.cams import (
     motion_law,
     read_lift,
 )
-from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_machine_picture
-from gruebler.cli.output import print_json
-from gruebler.cli.parser import Parser
-from gruebler.cli.tables import print_table
-from gruebler.cli.turn_table import print_turn, records, turn_degrees
-from gruebler.errors import GrueblerError
-from gruebler.events import Extremum
-from gruebler.text import Message, message, number, reason_of
 
 __all__ = ["add", "run"]
 
@@ -119,7 +119,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _picture(arguments: argparse.Namespace, cam: Cam) -> None:
-    from gruebler.drawing.machines.cam_picture import animate_cam, draw_cam
+    from gruebler.pictures.machines.cam_picture import animate_cam, draw_cam
 
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
     write_machine_picture(

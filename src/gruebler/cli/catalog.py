@@ -7,18 +7,18 @@ from typing import Any
 
 import msgspec
 
-from gruebler.catalog import entries, entry, exercises
-from gruebler.chain.pairs import Alphabet
+from gruebler.base.documents import infinities_as_words
+from gruebler.base.text import translate
 from gruebler.cli import search
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.documents import infinities_as_words
-from gruebler.formats import Entry, Exercise
-from gruebler.formats.catalog_records import source_text
-from gruebler.mechanism import Mechanism
-from gruebler.mobility import counted
-from gruebler.text import translate
+from gruebler.files import Entry, Exercise
+from gruebler.files.catalog_records import source_text
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.mechanism import Mechanism
+from gruebler.structure.mobility import counted
+from gruebler.teaching.catalog import entries, entry, exercises
 
 __all__ = ["add", "run"]
 
@@ -68,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _plain(record: Entry | Exercise, full: bool) -> Any:
     if full and isinstance(record, Entry):
-        from gruebler.catalog.machine_report import machine_report
+        from gruebler.teaching.catalog.machine_report import machine_report
 
         return machine_report(record).to_json()
     return infinities_as_words(msgspec.to_builtins(record))
@@ -77,7 +77,7 @@ def _plain(record: Entry | Exercise, full: bool) -> Any:
 def _described(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
     text = _shown(record, arguments.lang)
     if arguments.full and isinstance(record, Entry):
-        from gruebler.catalog.machine_report import machine_report
+        from gruebler.teaching.catalog.machine_report import machine_report
 
         text += "\n\n" + machine_report(record.in_language(arguments.lang)).explain(arguments.lang)
     return text

@@ -9,17 +9,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
-from gruebler.chain import Chain
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import translate
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word, value_of_another_program
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.errors import GrueblerError
-from gruebler.formats import Claims, Entry
-from gruebler.formats.structures import (
+from gruebler.files import Claims, Entry
+from gruebler.files.structures import (
     STRUCTURE_ENDINGS,
     Structure,
     chain_of_text,
@@ -28,11 +27,12 @@ from gruebler.formats.structures import (
     structures_of_json,
     structures_of_lines,
 )
-from gruebler.linkages import Linkage
-from gruebler.mobility import mobility_report
-from gruebler.mobility.report import verdict_word
-from gruebler.screws import SpatialLinkage, freedoms, has_only_lower_pairs
-from gruebler.text import translate
+from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage, freedoms, has_only_lower_pairs
+from gruebler.structure.chain import Chain
+from gruebler.structure.mobility import mobility_report
+from gruebler.structure.mobility.report import verdict_word
+from gruebler.teaching.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
 
 __all__ = ["add", "explanation", "print_checked", "run"]
 
@@ -181,7 +181,7 @@ def explanation(checked: CheckedEntry, lang: str) -> str:
             )
         )
     if claims.says_motion:
-        from gruebler.catalog.motion_claims import motion_lines  # moves linkages: loaded where it is needed
+        from gruebler.teaching.catalog.motion_claims import motion_lines  # moves linkages: loaded where it is needed
 
         lines += motion_lines(claims, lang)
     if checked.freedoms is not None:

@@ -6,9 +6,9 @@ import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from gruebler.base.text import translate
 from gruebler.cli.commands import GROUPS
 from gruebler.cli.parser import Parser
-from gruebler.text import translate
 
 __all__ = ["Argument", "CommandNode", "command_tree"]
 

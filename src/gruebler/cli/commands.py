@@ -10,9 +10,9 @@ from importlib import import_module
 from shutil import get_terminal_size
 from typing import Any
 
+from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.text import Message, message, translate
 from gruebler.cli.parser import Parser
-from gruebler.errors import GrueblerError, nearest
-from gruebler.text import Message, message, translate
 
 __all__ = ["GROUPS", "Command", "command", "command_names", "overview", "welcome"]
 

@@ -7,8 +7,8 @@ import sys
 from typing import TYPE_CHECKING
 
 from gruebler._numeric.compiling import on_compiling, wanted_tier
-from gruebler.errors import GrueblerError
-from gruebler.text import translate
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import translate
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID

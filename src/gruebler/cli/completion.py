@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _entries() -> str:
-    from gruebler.catalog import entries
+    from gruebler.teaching.catalog import entries
 
     return " ".join(sorted(entries()))
 

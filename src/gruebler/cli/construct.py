@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, number
 from gruebler.cli.linkage_inputs import is_lengths, size_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
-from gruebler.constructions import CONSTRUCTIONS, construction, construction_forms
-from gruebler.drawing.canvas.construction_files import CONSTRUCTION_SUFFIXES, construction_bytes
-from gruebler.errors import GrueblerError
-from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.text import message, number
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.pictures.canvas.construction_files import CONSTRUCTION_SUFFIXES, construction_bytes
+from gruebler.teaching.constructions import CONSTRUCTIONS, construction, construction_forms
 
 __all__ = ["add", "run"]
 

@@ -6,18 +6,18 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.left_out import say_left_out
 from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word
 from gruebler.cli.output import say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
-from gruebler.errors import GrueblerError
-from gruebler.text import message
 
 if TYPE_CHECKING:
-    from gruebler.chain import Chain
-    from gruebler.linkages import Linkage
+    from gruebler.mechanics.linkages import Linkage
+    from gruebler.structure.chain import Chain
 
 __all__ = ["add", "run"]
 
@@ -55,8 +55,8 @@ def _is_file(word: str) -> bool:
 
 def _value_of(word: str, lang: str) -> Linkage | Chain:
     """The linkage of lengths or of a catalog entry with dimensions, else the chain of a text or an entry."""
-    from gruebler.catalog import entry
-    from gruebler.formats.structures import is_structure_text
+    from gruebler.files.structures import is_structure_text
+    from gruebler.teaching.catalog import entry
 
     lengths = is_lengths(word) or (":" in word and "(" not in word)
     if is_structure_text(word) or not (lengths or entry(word).dimensions is not None):
@@ -66,7 +66,7 @@ def _value_of(word: str, lang: str) -> Linkage | Chain:
 
 def run(arguments: argparse.Namespace) -> int:
     """The file written, and what was left out; or the table of formats."""
-    from gruebler.files import FORMATS, convert, write
+    from gruebler.files.values import FORMATS, convert, write
 
     lang = arguments.lang
     if arguments.formats:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.text import LANGUAGES, translate
 from gruebler.cli.linkage_inputs import linkage_of_lengths
 from gruebler.cli.point_inputs import point_of
-from gruebler.errors import GrueblerError, LinkageError
-from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.text import LANGUAGES, translate
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 
 __all__ = ["branch_sign", "coupler_point"]
 

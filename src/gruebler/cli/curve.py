@@ -10,8 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from gruebler.analysis.drive_cycle import PathCycle
-from gruebler.arrays import Reals
+from gruebler.base.arrays import Reals
+from gruebler.base.columns import Column
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, joined_by_or, message, number, translate
 from gruebler.cli import curve_cognates, curve_guidance, curve_straight
 from gruebler.cli.drive_rows import add_range, driven_path
 from gruebler.cli.link_names import language_of_names
@@ -21,10 +23,8 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import Cell, print_table
-from gruebler.columns import Column
-from gruebler.errors import GrueblerError
-from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
-from gruebler.text import Message, joined_by_or, message, number, translate
+from gruebler.mechanics.analysis.drive_cycle import PathCycle
+from gruebler.mechanics.geometry import CouplerCurve, TangentContact, coupler_curve
 
 __all__ = ["add", "run"]
 

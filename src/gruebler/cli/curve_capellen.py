@@ -7,11 +7,11 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message, number, translate
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
-from gruebler.errors import GrueblerError
-from gruebler.geometry.meyer_zur_capellen import CouplerLever, SymmetricRocker, lambdas_for, symmetric_rocker
-from gruebler.text import Message, message, number, translate
+from gruebler.mechanics.geometry.meyer_zur_capellen import CouplerLever, SymmetricRocker, lambdas_for, symmetric_rocker
 
 __all__ = ["run"]
 

@@ -6,17 +6,17 @@ import argparse
 import math
 from collections.abc import Sequence
 
-from gruebler.analysis.drive_cycle import drive_cycle
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import joined, message, number, translate
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word, size_of, with_points
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
-from gruebler.errors import GrueblerError
-from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.geometry.lever_contact import lever_pose
-from gruebler.geometry.roberts import Cognate, cognates, slider_cognates
-from gruebler.text import joined, message, number, translate
+from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.geometry.lever_contact import lever_pose
+from gruebler.mechanics.geometry.roberts import Cognate, cognates, slider_cognates
 
 __all__ = ["run"]
 

@@ -7,14 +7,14 @@ import math
 import re
 from collections.abc import Sequence
 
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.text import LANGUAGES, error_in_language, message, number, translate
 from gruebler.cli import curve_capellen
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
-from gruebler.errors import GrueblerError, LinkageError
-from gruebler.formats.measured_lengths import length_of, same_unit
-from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
-from gruebler.geometry.sizing import Sizing
-from gruebler.text import LANGUAGES, error_in_language, message, number, translate
+from gruebler.files.measured_lengths import length_of, same_unit
+from gruebler.mechanics.geometry.guidance import GUIDANCES, Guidance, guidance
+from gruebler.mechanics.geometry.sizing import Sizing
 
 __all__ = ["run"]
 

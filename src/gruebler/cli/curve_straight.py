@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 import math
 
-from gruebler.analysis.drive_cycle import drive_cycle
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import translate
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word, size_of
 from gruebler.cli.output import print_json
 from gruebler.cli.point_inputs import point_of
-from gruebler.errors import GrueblerError
-from gruebler.formats.measured_lengths import length_of, same_unit
-from gruebler.geometry.straight import (
+from gruebler.files.measured_lengths import length_of, same_unit
+from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.geometry.straight import (
     Path,
     PathPiece,
     coupler_path,
@@ -22,7 +23,6 @@ from gruebler.geometry.straight import (
     path_piece,
     piece_of_ratio,
 )
-from gruebler.text import translate
 
 __all__ = ["run"]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from gruebler.catalog import check_all, check_entry, entry
 from gruebler.cli.check import explanation, print_checked
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_text
+from gruebler.teaching.catalog import check_all, check_entry, entry
 
 __all__ = ["add", "run"]
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from math import degrees, isnan
 
+from gruebler.base.text import joined, message, number, number_separator, numbers, plural, translate
 from gruebler.cli.tables import Cell, print_table
-from gruebler.linkages import Linkage, Pin
-from gruebler.linkages.elements import Line
-from gruebler.synthesis import Design, PathTask, PositionTask, SynthesisResult, pareto
-from gruebler.synthesis.coordination import Minimax
-from gruebler.synthesis.results import EXACT, FITTED
-from gruebler.text import joined, message, number, number_separator, numbers, plural, translate
+from gruebler.design.synthesis import Design, PathTask, PositionTask, SynthesisResult, pareto
+from gruebler.design.synthesis.coordination import Minimax
+from gruebler.design.synthesis.results import EXACT, FITTED
+from gruebler.mechanics.linkages import Linkage, Pin
+from gruebler.mechanics.linkages.elements import Line
 
 __all__ = ["print_designs", "print_optimum"]
 

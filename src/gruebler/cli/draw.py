@@ -14,16 +14,19 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import entries
-from gruebler.chain import Chain
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import joined, translate
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
 from gruebler.cli.linkage_inputs import add_branch, add_curves, linkage_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
-from gruebler.drawing.canvas import Figure
-from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.drawing.structure import (
+from gruebler.files import Entry
+from gruebler.files.structures import is_structure_text
+from gruebler.mechanics.linkages import Linkage
+from gruebler.pictures.canvas import Figure
+from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
+from gruebler.pictures.structure import (
     draw_block,
     draw_contracted,
     draw_graph,
@@ -31,12 +34,9 @@ from gruebler.drawing.structure import (
     draw_side_view,
     draw_structure,
 )
-from gruebler.errors import GrueblerError
-from gruebler.formats import Entry
-from gruebler.formats.structures import is_structure_text
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
-from gruebler.text import joined, translate
+from gruebler.structure.chain import Chain
+from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entries
 
 __all__ = [
     "add",
@@ -227,13 +227,13 @@ def contacts_of(record: Entry | None) -> Mapping[tuple[int, str], str] | None:
     """What the bodies of the higher pairs of a catalog entry are; None without dimensions."""
     if record is None or record.dimensions is None:
         return None
-    from gruebler.drawing.linkage.contact_shapes import contact_shapes
+    from gruebler.pictures.linkage.contact_shapes import contact_shapes
 
     return contact_shapes(record.linkage())
 
 
 def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figure:
-    from gruebler.drawing.linkage.picture import draw_linkage
+    from gruebler.pictures.linkage.picture import draw_linkage
 
     for option in ("space", "frame", "drive"):
         if getattr(arguments, option):

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gruebler.analysis.table import default_rows
-from gruebler.arrays import Reals
+from gruebler.base.arrays import Reals
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message
 from gruebler.cli.parser import Parser
-from gruebler.errors import GrueblerError
-from gruebler.kinematics import from_degrees
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
-from gruebler.text import Message, message
+from gruebler.mechanics.analysis.table import default_rows
+from gruebler.mechanics.kinematics import from_degrees
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 
 __all__ = ["add_range", "default_rows", "driven_path", "given_rows", "pose_of", "turning_drives"]
 

@@ -11,7 +11,9 @@ from contextlib import closing
 from pathlib import Path
 from typing import BinaryIO
 
-from gruebler.atomic_files import atomic_file
+from gruebler.base.atomic_files import atomic_file
+from gruebler.base.errors import GrueblerError, RunError
+from gruebler.base.text import joined, message, plural, translate
 from gruebler.cli.assortments import print_assortments
 from gruebler.cli.executors import add_executor, executor_of
 from gruebler.cli.inputs import assortment_of
@@ -21,12 +23,10 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import printed_to_file
 from gruebler.cli.tables import print_table
 from gruebler.cli.trains import trains
-from gruebler.enumeration.estimates import Estimate, estimate
-from gruebler.enumeration.request import Request, RequestCount
-from gruebler.enumeration.run_request import run_count, run_list
-from gruebler.enumeration.work_units import PieceListing
-from gruebler.errors import GrueblerError, RunError
-from gruebler.text import joined, message, plural, translate
+from gruebler.structure.enumeration.estimates import Estimate, estimate
+from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.run_request import run_count, run_list
+from gruebler.structure.enumeration.work_units import PieceListing
 
 __all__ = ["add", "run"]
 

@@ -8,8 +8,8 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import Executor
 
+from gruebler.base.errors import GrueblerError
 from gruebler.cli.parser import Parser
-from gruebler.errors import GrueblerError
 
 __all__ = ["add_executor", "executor_of"]
 
@@ -25,7 +25,7 @@ def add_executor(parser: Parser) -> None:
 def executor_of(arguments: argparse.Namespace) -> Callable[[], Executor] | None:
     """What creates executors for `enumeration.worker_pool.run_work`; None for this process alone."""
     if arguments.scheduler is not None:
-        from gruebler.enumeration.schedulers import DaskScheduler
+        from gruebler.structure.enumeration.schedulers import DaskScheduler
 
         if arguments.jobs != 1:
             raise GrueblerError("--jobs is for processes of this machine; with --scheduler its workers do the work")
@@ -35,6 +35,6 @@ def executor_of(arguments: argparse.Namespace) -> Callable[[], Executor] | None:
         )
     if arguments.jobs == 1:
         return None
-    from gruebler.enumeration.worker_pool import ProcessPools
+    from gruebler.structure.enumeration.worker_pool import ProcessPools
 
     return ProcessPools(min(arguments.jobs, 4 * (os.cpu_count() or 1)))

@@ -6,11 +6,14 @@ import argparse
 import sys
 from collections.abc import Sequence
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message, translate
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
-from gruebler.errors import GrueblerError
-from gruebler.exercises import (
+from gruebler.files import Exercise
+from gruebler.files.catalog_records import source_text
+from gruebler.teaching.exercises import (
     Grade,
     Mark,
     all_exercises,
@@ -28,9 +31,6 @@ from gruebler.exercises import (
     value_text,
     with_values,
 )
-from gruebler.formats import Exercise
-from gruebler.formats.catalog_records import source_text
-from gruebler.text import Message, message, translate
 
 __all__ = ["add", "run"]
 
@@ -154,7 +154,7 @@ def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> int:
     """Print the solutions, or write them with figures; 1 and a sentence for each answer that is not right."""
     suffix = "" if arguments.out is None else arguments.out.suffix.lower()
     if suffix in _DOCUMENTS:
-        from gruebler.worksheets import document_bytes, solution_document
+        from gruebler.teaching.worksheets import document_bytes, solution_document
 
         content = document_bytes(solution_document(tasks, lang=arguments.lang), suffix.removeprefix("."))
         write_file(arguments.out, content, arguments.lang)
@@ -168,7 +168,7 @@ def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> int:
 
 def _sheet(arguments: argparse.Namespace) -> None:
     """Write the sheet and its solutions."""
-    from gruebler.worksheets import document_bytes, task_sheet
+    from gruebler.teaching.worksheets import document_bytes, task_sheet
 
     kinds = [word.strip() for word in arguments.kind.split(",") if word.strip()]
     sheet = task_sheet(kinds, arguments.count, level=arguments.level, seed=arguments.seed, lang=arguments.lang)

@@ -7,12 +7,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import LANGUAGES, translate
 from gruebler.cli.draw import entry_of, linkage_and_range
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
-from gruebler.errors import GrueblerError
-from gruebler.explorer.model import model_of
-from gruebler.text import LANGUAGES, translate
+from gruebler.page.model import model_of
 
 __all__ = ["add", "run"]
 
@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError("--port: expected a number from 0 to 65535, but found {port}", port=arguments.port)
     model = _model(arguments.linkage, arguments.lang)
     if arguments.out is not None:
-        from gruebler.explorer.page import single_file
+        from gruebler.page.page import single_file
 
         write_file(arguments.out, single_file(model, _page_language(arguments.lang)).encode("utf-8"), arguments.lang)
         return 0
@@ -63,14 +63,14 @@ def run(arguments: argparse.Namespace) -> int:
 def _model(word: str, lang: str) -> dict[str, Any]:
     """The model of a word; a chain gets dimensions."""
     if "#" in word or word.startswith("1."):
-        from gruebler.explorer.links import read_link
-        from gruebler.formats import linkage_from_json
+        from gruebler.files import linkage_from_json
+        from gruebler.page.links import read_link
 
         shared = read_link(word)
         return model_of(linkage_from_json(shared.document), name=shared.name, source=shared.source)
     if "(" in word and not Path(word).is_file():
-        from gruebler.explorer.structures import mechanism_of_text
-        from gruebler.realisation.realise import realise
+        from gruebler.design.realisation.realise import realise
+        from gruebler.page.structures import mechanism_of_text
 
         realisation = realise(mechanism_of_text(word))
         if realisation.linkage is None:
@@ -88,7 +88,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
 
 def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
     try:
-        from gruebler.explorer import server
+        from gruebler.page import server
     except ImportError:
         raise GrueblerError(
             "the server of the page needs starlette and uvicorn: pip install 'gruebler[web]', or write one file with -o"

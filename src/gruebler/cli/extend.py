@@ -5,17 +5,17 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from gruebler.chain import Chain
-from gruebler.chain.pairs import Alphabet
+from gruebler.base.text import translate
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.isomorphism import code
-from gruebler.mobility import mobility_report
-from gruebler.text import translate
-from gruebler.transformations import Attachment, Extension, derive, extend
+from gruebler.structure.chain import Chain
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.isomorphism import code
+from gruebler.structure.mobility import mobility_report
+from gruebler.structure.transformations import Attachment, Extension, derive, extend
 
 __all__ = ["add", "run"]
 

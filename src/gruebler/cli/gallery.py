@@ -9,24 +9,24 @@ from itertools import groupby, islice
 from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import entries, entry
-from gruebler.chain import Chain
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message, plural, reason_of, translate
 from gruebler.cli.draw import contacts_of, german, subject
 from gruebler.cli.inputs import assortment_of, outputs_of
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
-from gruebler.drawing.canvas import Item, Section, gallery_html
-from gruebler.drawing.canvas.files import suffix_of
-from gruebler.drawing.structure import draw_side_view, draw_structure
-from gruebler.drawing.structure.messages import chain_name
-from gruebler.enumeration import Request, chains
-from gruebler.enumeration.estimates import estimate
-from gruebler.errors import GrueblerError
-from gruebler.formats.structures import is_structure_text
-from gruebler.isomorphism import code
-from gruebler.mechanism import Mechanism
-from gruebler.mechanism.inversion import family, inversions
-from gruebler.text import Message, message, plural, reason_of, translate
+from gruebler.files.structures import is_structure_text
+from gruebler.pictures.canvas import Item, Section, gallery_html
+from gruebler.pictures.canvas.files import suffix_of
+from gruebler.pictures.structure import draw_side_view, draw_structure
+from gruebler.pictures.structure.messages import chain_name
+from gruebler.structure.chain import Chain
+from gruebler.structure.enumeration import Request, chains
+from gruebler.structure.enumeration.estimates import estimate
+from gruebler.structure.isomorphism import code
+from gruebler.structure.mechanism import Mechanism
+from gruebler.structure.mechanism.inversion import family, inversions
+from gruebler.teaching.catalog import entries, entry
 
 __all__ = ["add", "run"]
 
@@ -90,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
     if suffix == "html":
         content = gallery_html(title, sections, lang=lang, note=note).encode("utf-8")
     else:
-        from gruebler.drawing.canvas.matplotlib_files import gallery_pdf
+        from gruebler.pictures.canvas.matplotlib_files import gallery_pdf
 
         content = gallery_pdf(title, sections, note=note)
     write_file(arguments.out, content, lang)
@@ -98,7 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _poster(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
-    from gruebler.worksheets import poster
+    from gruebler.teaching.worksheets import poster
 
     if arguments.ids:
         raise GrueblerError("--poster takes no chains, mechanisms or entries")

@@ -7,12 +7,13 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, reason_of, translate
 from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table, print_text
-from gruebler.errors import GrueblerError
-from gruebler.gears import (
+from gruebler.machines.gears import (
     Balance,
     Speeds,
     TrainReading,
@@ -25,10 +26,9 @@ from gruebler.gears import (
     search_ratio,
     speeds,
 )
-from gruebler.gears.assembly import axes
-from gruebler.gears.messages import fraction_text, writable
-from gruebler.gears.train import exact_number
-from gruebler.text import message, reason_of, translate
+from gruebler.machines.gears.assembly import axes
+from gruebler.machines.gears.messages import fraction_text, writable
+from gruebler.machines.gears.train import exact_number
 
 __all__ = ["add", "run"]
 
@@ -141,7 +141,7 @@ _FEW = 6  # turns of the fastest link in a file of pictures
 
 
 def _picture(arguments: argparse.Namespace, reading: TrainReading) -> None:
-    from gruebler.drawing.machines.train_picture import TrainPictureOptions, animate_train, draw_train
+    from gruebler.pictures.machines.train_picture import TrainPictureOptions, animate_train, draw_train
 
     options = TrainPictureOptions(planets=reading.planets, teeth=arguments.teeth == _DRAWN, lang=arguments.lang)
     most = {"most": _FEW} if is_few(arguments) else {}
@@ -167,12 +167,12 @@ def _read(word: str) -> TrainReading:
 
 def _of_the_catalog(word: str) -> TrainReading | None:
     """The train of a machine of the catalog, named in place of its wheels; None where the word begins otherwise."""
-    from gruebler.catalog import entries, entry
+    from gruebler.teaching.catalog import entries, entry
 
     first, _, others = word.partition(";")
     if first.strip() not in entries():
         return None
-    from gruebler.linkages import train_of
+    from gruebler.mechanics.linkages import train_of
 
     meshes = "; ".join(str(mesh) for mesh in train_of(entry(first.strip()).linkage()).meshes)
     return read_train(f"{meshes}; {others}" if others.strip() else meshes)

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message, number
 from gruebler.cli.machine_pictures import add_picture_options, angle_of, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
-from gruebler.errors import GrueblerError
-from gruebler.geneva import Geneva
-from gruebler.text import Message, message, number
+from gruebler.machines.geneva import Geneva
 
 __all__ = ["add", "run"]
 
@@ -102,7 +102,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _picture(arguments: argparse.Namespace, drive: Geneva) -> None:
-    from gruebler.drawing.machines.geneva_picture import animate_geneva, draw_geneva
+    from gruebler.pictures.machines.geneva_picture import animate_geneva, draw_geneva
 
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
     write_machine_picture(

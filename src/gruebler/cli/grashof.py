@@ -6,15 +6,15 @@ import argparse
 import math
 from collections.abc import Sequence
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, joined, joined_by_or, message, number, translate
 from gruebler.cli.linkage_inputs import size_of
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.errors import GrueblerError
-from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.fourbar.extremes import CrankRange
-from gruebler.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
-from gruebler.text import Message, joined, joined_by_or, message, number, translate
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.fourbar.extremes import CrankRange
+from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
 
 __all__ = ["add", "run"]
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from gruebler.catalog import entry
-from gruebler.chain import Chain
+from gruebler.base.errors import GrueblerError
 from gruebler.cli.linkage_inputs import value_of_another_program
-from gruebler.errors import GrueblerError
-from gruebler.files import is_of_another_program
-from gruebler.formats.structures import chain_of_text, is_code, is_structure_text
-from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
-from gruebler.screws import SpatialLinkage
+from gruebler.files.structures import chain_of_text, is_code, is_structure_text
+from gruebler.files.values import is_of_another_program
+from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.structure.chain import Chain
+from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entry
 
 __all__ = ["assortment_of", "chain_from_word", "mechanism_of", "outputs_of"]
 
@@ -34,7 +34,7 @@ def _of_file(word: str, lang: str = "en") -> Linkage | SpatialLinkage | Chain | 
         raise GrueblerError(
             "{path}: expected a .toml or .json file of a linkage, not {suffix}", path=path, suffix=path.suffix
         )
-    from gruebler.formats.screws import read_any_linkage
+    from gruebler.files.screws import read_any_linkage
 
     return read_any_linkage(path)
 

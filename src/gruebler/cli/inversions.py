@@ -6,17 +6,17 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from gruebler.chain.pairs import Alphabet
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, translate
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import is_lengths, size_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
-from gruebler.errors import GrueblerError
-from gruebler.fourbar import SizedInversion, double_slide_inversions, sized_inversions
-from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
-from gruebler.text import message, translate
+from gruebler.mechanics.fourbar import SizedInversion, double_slide_inversions, sized_inversions
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
 
 __all__ = ["add", "item", "run"]
 
@@ -146,9 +146,9 @@ def _one_length(text: str) -> tuple[float]:
 
 def _page(word: str, sized: Sequence[SizedInversion], path: Path, lang: str) -> bytes:
     """The mechanisms to scale, one picture for each frame, drives that give the same mechanism together."""
-    from gruebler.drawing.canvas import gallery_html
-    from gruebler.drawing.canvas.gallery import Item, Section
-    from gruebler.drawing.linkage.picture import draw_linkage
+    from gruebler.pictures.canvas import gallery_html
+    from gruebler.pictures.canvas.gallery import Item, Section
+    from gruebler.pictures.linkage.picture import draw_linkage
 
     items = []
     for each in sized:
@@ -159,7 +159,7 @@ def _page(word: str, sized: Sequence[SizedInversion], path: Path, lang: str) -> 
     sections = [Section("", tuple(items), wide=True)]
     if path.suffix.lower() == ".html":
         return gallery_html(title, sections, lang=lang).encode("utf-8")
-    from gruebler.drawing.canvas.matplotlib_files import gallery_pdf
+    from gruebler.pictures.canvas.matplotlib_files import gallery_pdf
 
     return gallery_pdf(title, sections)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 
-from gruebler.errors import shortened
-from gruebler.text import Message, translate
+from gruebler.base.errors import shortened
+from gruebler.base.text import Message, translate
 
 __all__ = ["print_left_out", "say_left_out"]
 

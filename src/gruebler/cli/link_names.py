@@ -11,9 +11,9 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from gruebler.chain.notation import renamed_links
+from gruebler.base.text import LANGUAGES
 from gruebler.cli.parser import Parser
-from gruebler.text import LANGUAGES
+from gruebler.structure.chain.notation import renamed_links
 
 __all__ = ["language_of_names", "spell_links_alike"]
 
@@ -42,8 +42,8 @@ def spell_links_alike(parser: Parser, arguments: argparse.Namespace) -> None:
 
 def _names(words: Iterable[Any], lang: str) -> dict[str, str]:
     """For each link of the catalog entries and lengths among the words, the name of each language: that in this one."""
-    from gruebler.catalog import entries
     from gruebler.cli.linkage_inputs import linkage_of_lengths, size_of
+    from gruebler.teaching.catalog import entries
 
     names: dict[str, str] = {}
     for word in (each for value in words for each in (value if isinstance(value, list) else [value])):

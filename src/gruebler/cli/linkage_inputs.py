@@ -6,14 +6,14 @@ import re
 from collections.abc import Callable, Collection
 from pathlib import Path
 
-from gruebler.chain import Chain
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, translate
 from gruebler.cli.left_out import say_left_out
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
-from gruebler.errors import GrueblerError
-from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.linkages import Linkage, LinkPoint
-from gruebler.text import Message, translate
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.structure.chain import Chain
 
 __all__ = [
     "add_branch",
@@ -117,7 +117,7 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
     if foreign is not None:
         raise GrueblerError("{path}: has chains without dimensions; expected a linkage", path=path)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
-        from gruebler.formats.linkages import read_linkage
+        from gruebler.files.linkages import read_linkage
 
         return read_linkage(path), None
     if "(" in word:
@@ -126,8 +126,8 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
             word=word[:40],
             forms=_forms(),
         )
-    from gruebler.catalog import entries, entry
-    from gruebler.errors import nearest
+    from gruebler.base.errors import nearest
+    from gruebler.teaching.catalog import entries, entry
 
     if word not in entries() and colon:
         raise GrueblerError(
@@ -154,7 +154,7 @@ def value_of_another_program(word: str, lang: str = "en") -> Linkage | Chain | l
 
     What is not read of it is said on standard error.
     """
-    from gruebler.files import is_of_another_program, read
+    from gruebler.files.values import is_of_another_program, read
 
     path = Path(word)
     if "(" in word or not is_of_another_program(path):

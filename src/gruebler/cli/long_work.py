@@ -8,11 +8,11 @@ from contextlib import contextmanager
 from time import monotonic
 from typing import TYPE_CHECKING, TypeVar
 
-from gruebler.errors import GrueblerError
-from gruebler.text import Message, message, translate
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message, translate
 
 if TYPE_CHECKING:
-    from gruebler.enumeration.worker_pool import Progress
+    from gruebler.structure.enumeration.worker_pool import Progress
 
 __all__ = ["ask_before", "progress", "run_progress", "time_text"]
 

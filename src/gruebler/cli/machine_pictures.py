@@ -7,14 +7,14 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
-from gruebler.drawing.canvas import Figure
-from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.drawing.canvas.moving_files import MOVING, moving_bytes
-from gruebler.drawing.canvas.moving_picture import MovingPicture
-from gruebler.errors import GrueblerError
-from gruebler.text import Message, message
+from gruebler.pictures.canvas import Figure
+from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
+from gruebler.pictures.canvas.moving_files import MOVING, moving_bytes
+from gruebler.pictures.canvas.moving_picture import MovingPicture
 
 __all__ = ["add_picture_options", "angle_of", "is_few", "is_printed", "refuse_picture", "write_machine_picture"]
 

@@ -6,9 +6,9 @@ import argparse
 import re
 from collections.abc import Iterator
 
+from gruebler.base.text import translate
 from gruebler.cli.command_tree import CommandNode, command_tree
 from gruebler.cli.parser import Parser
-from gruebler.text import translate
 
 __all__ = ["add", "run"]
 

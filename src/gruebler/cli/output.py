@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from gruebler.atomic_files import atomic_file
-from gruebler.columns import Column, Table, as_csv
-from gruebler.errors import visible
-from gruebler.text import translate
+from gruebler.base.atomic_files import atomic_file
+from gruebler.base.columns import Column, Table, as_csv
+from gruebler.base.errors import visible
+from gruebler.base.text import translate
 
 __all__ = ["print_json", "print_svg", "say_written", "write_file", "write_table"]
 

@@ -14,9 +14,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NoReturn
 
+from gruebler.base.errors import GrueblerError, nearest, shortened
+from gruebler.base.text import LANGUAGES, LOCALE, joined_by_or, message, translate
 from gruebler.cli.printed_file import TABLES
-from gruebler.errors import GrueblerError, nearest, shortened
-from gruebler.text import LANGUAGES, LOCALE, joined_by_or, message, translate
 
 __all__ = ["Parser", "argparse_in_language", "wanted_language"]
 

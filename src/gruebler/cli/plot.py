@@ -8,16 +8,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import joined_by_or, translate
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, write_picture
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, with_points
 from gruebler.cli.parser import Parser
-from gruebler.drawing.canvas import Figure
-from gruebler.drawing.canvas.panels import ratio_diagram
-from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
-from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
-from gruebler.errors import GrueblerError
-from gruebler.linkages import Linkage
-from gruebler.text import joined_by_or, translate
+from gruebler.mechanics.linkages import Linkage
+from gruebler.pictures.canvas import Figure
+from gruebler.pictures.canvas.panels import ratio_diagram
+from gruebler.pictures.linkage.curve_plots import coupler_plot, family_plot, hodograph
+from gruebler.pictures.linkage.motion_plots import transfer_plot, transmission_plot
 
 __all__ = ["add", "run"]
 
@@ -179,9 +179,9 @@ def _place(key: str, text: str | None) -> complex | None:
 
 def _ratio(asked: _Asked) -> Figure:
     """Q_G and L/l1 of windows about a crank angle, against the tangent there."""
-    from gruebler.drawing.structure.messages import title
-    from gruebler.geometry.sizing import crank_length, tangent_windows
-    from gruebler.geometry.straight import linkage_path, piece_of_ratio
+    from gruebler.mechanics.geometry.sizing import crank_length, tangent_windows
+    from gruebler.mechanics.geometry.straight import linkage_path, piece_of_ratio
+    from gruebler.pictures.structure.messages import title
 
     given, linkage, point = asked.arguments, asked.linkage, asked.points[0]
     crank, centre = crank_length(linkage), math.radians(given.centre)

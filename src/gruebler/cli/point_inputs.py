@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 
-from gruebler.errors import GrueblerError
-from gruebler.linkages import LinkPoint
+from gruebler.base.errors import GrueblerError
+from gruebler.mechanics.linkages import LinkPoint
 
 __all__ = ["point_of"]
 

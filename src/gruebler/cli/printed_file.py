@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
-from gruebler.errors import GrueblerError
-from gruebler.text import joined_by_or
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import joined_by_or
 
 __all__ = ["TABLES", "is_table", "printed_to_file"]
 
@@ -45,7 +45,7 @@ def printed_to_file(arguments: argparse.Namespace) -> Iterator[None]:
             "-o {path}: expected a name that ends with {endings}", path=path, endings=joined_by_or(known)
         )
     arguments.json = ending == ".json"
-    from gruebler.atomic_files import atomic_file
+    from gruebler.base.atomic_files import atomic_file
     from gruebler.cli.output import say_written
 
     with atomic_file(path, durable=False) as file:

@@ -6,13 +6,13 @@ import argparse
 import math
 from dataclasses import replace
 
+from gruebler.base.errors import GrueblerError
 from gruebler.cli.inputs import mechanism_of, outputs_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
-from gruebler.errors import GrueblerError
-from gruebler.formats.linkages import linkage_to_json, linkage_to_toml, write_linkage
-from gruebler.realisation import Realisation, realise
+from gruebler.design.realisation import Realisation, realise
+from gruebler.files.linkages import linkage_to_json, linkage_to_toml, write_linkage
 
 __all__ = ["add", "run"]
 

@@ -10,8 +10,19 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from gruebler.catalog import Query, search
-from gruebler.catalog.feature_query import (
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, translate
+from gruebler.cli.inversions import item
+from gruebler.cli.long_work import ask_before, progress
+from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
+from gruebler.cli.tables import print_table
+from gruebler.files import Entry
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.mechanism.inversion import DrivenMechanism, family
+from gruebler.structure.mobility import counted, mobility_report
+from gruebler.teaching.catalog import Query, search
+from gruebler.teaching.catalog.feature_query import (
     FeatureQuery,
     entry_features,
     entry_mechanism,
@@ -20,21 +31,10 @@ from gruebler.catalog.feature_query import (
     structures,
     structures_time,
 )
-from gruebler.catalog.features import AccessFeatures
-from gruebler.chain.pairs import Alphabet
-from gruebler.cli.inversions import item
-from gruebler.cli.long_work import ask_before, progress
-from gruebler.cli.output import print_json
-from gruebler.cli.parser import Parser
-from gruebler.cli.tables import print_table
-from gruebler.errors import GrueblerError
-from gruebler.formats import Entry
-from gruebler.mechanism.inversion import DrivenMechanism, family
-from gruebler.mobility import counted, mobility_report
-from gruebler.text import message, translate
+from gruebler.teaching.catalog.features import AccessFeatures
 
 if TYPE_CHECKING:
-    from gruebler.atlas import Atlas
+    from gruebler.structure.atlas import Atlas
 
 __all__ = ["add", "run"]
 
@@ -256,7 +256,7 @@ def _atlas(arguments: argparse.Namespace) -> Atlas | None:
     """The atlas to search in: the one named, else for a condition the one that comes with the library."""
     if arguments.atlas is None and not arguments.where:
         return None
-    from gruebler.atlas import open as open_atlas
+    from gruebler.structure.atlas import open as open_atlas
 
     return open_atlas(arguments.atlas or None)
 

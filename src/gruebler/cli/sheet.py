@@ -6,19 +6,19 @@ import argparse
 import math
 from typing import TYPE_CHECKING, Any
 
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.text import error_in_language, joined, message, number, translate
 from gruebler.cli.linkage_inputs import linkage_of_word, size_of
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
-from gruebler.errors import GrueblerError, LinkageError
-from gruebler.formats.measured_lengths import length_of, same_unit
-from gruebler.mechanism import Mechanism
-from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
-from gruebler.sheets.messages import explanation_paragraphs, typeset_number
-from gruebler.text import error_in_language, joined, message, number, translate
+from gruebler.files.measured_lengths import length_of, same_unit
+from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
+from gruebler.teaching.sheets.messages import explanation_paragraphs, typeset_number
 
 if TYPE_CHECKING:
-    from gruebler.worksheets import Document
+    from gruebler.teaching.worksheets import Document
 
 __all__ = ["add", "run"]
 
@@ -104,7 +104,7 @@ def _list(arguments: argparse.Namespace) -> None:
 
 
 def _draw(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> None:
-    from gruebler.sheets.layout import page
+    from gruebler.teaching.sheets.layout import page
 
     sheet_page = page(mechanism_sheet, arguments.lang)
     if arguments.out is not None and arguments.out.suffix.lower() in (".tex", ".md"):
@@ -118,8 +118,8 @@ def _draw(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> None:
 
 def _draw_machine(arguments: argparse.Namespace) -> None:
     """The sheet of any machine."""
-    from gruebler.catalog import entries
-    from gruebler.worksheets import machine_document
+    from gruebler.teaching.catalog import entries
+    from gruebler.teaching.worksheets import machine_document
 
     word, lang = arguments.id, arguments.lang
     if word in entries():
@@ -135,8 +135,8 @@ def _draw_machine(arguments: argparse.Namespace) -> None:
 
 
 def _book(arguments: argparse.Namespace) -> None:
-    from gruebler.catalog import entry
-    from gruebler.worksheets import catalog_book
+    from gruebler.teaching.catalog import entry
+    from gruebler.teaching.worksheets import catalog_book
 
     for id in arguments.ids:
         entry(id)
@@ -144,7 +144,7 @@ def _book(arguments: argparse.Namespace) -> None:
 
 
 def _write(document: Document, arguments: argparse.Namespace) -> None:
-    from gruebler.worksheets import document_bytes
+    from gruebler.teaching.worksheets import document_bytes
 
     if arguments.out is None:
         print_svg(document_bytes(document, "md").decode("utf-8"))

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.analysis.drive_cycle import drive_cycle
+from gruebler.base.columns import Column, shown
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word
@@ -20,13 +22,11 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table
-from gruebler.columns import Column, shown
-from gruebler.errors import GrueblerError
-from gruebler.forces import Friction, Loads, Statics, component_table, statics, statics_table
-from gruebler.kinematics import Motion
-from gruebler.kinematics.solve import move_in_radians
-from gruebler.linkages import Linkage
-from gruebler.text import message, number, translate
+from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.forces import Friction, Loads, Statics, component_table, statics, statics_table
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.linkages import Linkage
 
 __all__ = ["add", "run"]
 

@@ -12,14 +12,13 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
+from gruebler.base.errors import SynthesisError
+from gruebler.base.text import Message, joined_by_and, translate
 from gruebler.cli.design_tables import print_designs, print_optimum
 from gruebler.cli.executors import executor_of
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
-from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.errors import SynthesisError
-from gruebler.formats.linkages import write_linkage
-from gruebler.synthesis import (
+from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
     Design,
@@ -29,15 +28,17 @@ from gruebler.synthesis import (
     PositionTask,
     SynthesisResult,
     Task,
-    read_task,
     synthesise_dead_centres,
     synthesise_function,
     synthesise_path,
     synthesise_positions,
     synthesise_structures,
 )
-from gruebler.synthesis.results import in_order_of
-from gruebler.text import Message, joined_by_and, translate
+from gruebler.design.synthesis.results import in_order_of
+from gruebler.files.designs import result_to_json
+from gruebler.files.linkages import write_linkage
+from gruebler.files.tasks import read_task
+from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 
 __all__ = ["add", "run"]
 
@@ -257,7 +258,7 @@ def run(arguments: argparse.Namespace) -> int:
     if drawn:
         _draw(arguments.draw, result, len(shown.designs), arguments.lang)
     if arguments.json:
-        print_json(shown.to_json())
+        print_json(result_to_json(shown))
     else:
         print_designs(result, shown, arguments.rejected, arguments.lang)
         if result.designs and result.designs[0].optimum is not None:
@@ -369,7 +370,7 @@ def _radians(value: float | None) -> float | None:
 
 
 def _function_task(arguments: argparse.Namespace) -> FunctionTask:
-    from gruebler.synthesis import function_task
+    from gruebler.design.synthesis import function_task
 
     points = arguments.points if arguments.points is not None else 5 if arguments.starts is None else 3
     return function_task(_law(arguments), points, output="travel" if arguments.travel else "angle")
@@ -413,7 +414,7 @@ def _fitted(
 ) -> SynthesisResult:
     """Mechanisms of any structure, each from several starts."""
     from gruebler.cli.inputs import mechanism_of
-    from gruebler.realisation.realise import with_drives
+    from gruebler.design.realisation.realise import with_drives
 
     if arguments.action == "function" and arguments.minimax:
         raise SynthesisError("--minimax improves four-bars and slider-cranks; --structure fits other mechanisms")
@@ -450,7 +451,7 @@ def _check_picture(path: Path) -> None:
 
 def _draw(path: Path, result: SynthesisResult, number: int, lang: str) -> None:
     """The best designs side by side, or all on a page; so many at most, if there are any."""
-    from gruebler.synthesis.pictures import designs_figure, designs_page
+    from gruebler.pictures.designs.picture import designs_figure, designs_page
 
     suffix = suffix_of(path, (*SUFFIXES, "html"))
     if suffix == "html":

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from shutil import get_terminal_size
 from textwrap import fill
 
-from gruebler.errors import visible
-from gruebler.text import LANGUAGES, Message
+from gruebler.base.errors import visible
+from gruebler.base.text import LANGUAGES, Message
 
 __all__ = ["Cell", "print_long_table", "print_table", "print_text", "terminal_width"]
 

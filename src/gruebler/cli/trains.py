@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import translate
 from gruebler.cli.output import print_json
 from gruebler.cli.printed_file import printed_to_file
 from gruebler.cli.tables import print_text
-from gruebler.enumeration import count_epicyclic_trains, epicyclic_trains
-from gruebler.enumeration.epicyclic import MOST_LINKS
-from gruebler.errors import GrueblerError
-from gruebler.text import translate
+from gruebler.structure.enumeration import count_epicyclic_trains, epicyclic_trains
+from gruebler.structure.enumeration.epicyclic import MOST_LINKS
 
 __all__ = ["trains"]
 

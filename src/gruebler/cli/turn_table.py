@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, number
 from gruebler.cli.tables import Cell, print_table
-from gruebler.errors import GrueblerError
-from gruebler.text import Message, number
 
 __all__ = ["print_turn", "records", "turn_degrees"]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import sys
 
-from gruebler.chain import Chain
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, translate
 from gruebler.cli.executors import add_executor, executor_of
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
@@ -13,19 +14,18 @@ from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
-from gruebler.enumeration import Request
-from gruebler.errors import GrueblerError
-from gruebler.isomorphism import code
-from gruebler.mechanism.inversion import DrivenMechanism
-from gruebler.text import message, translate
-from gruebler.type_synthesis import (
+from gruebler.structure.chain import Chain
+from gruebler.structure.enumeration import Request
+from gruebler.structure.isomorphism import code
+from gruebler.structure.mechanism.inversion import DrivenMechanism
+from gruebler.structure.type_synthesis import (
     JointRequirement,
     Requirements,
     count_sliding_variants,
     expected_seconds_of_variants,
     variants,
 )
-from gruebler.type_synthesis.estimates import expected_seconds_of_sliding
+from gruebler.structure.type_synthesis.estimates import expected_seconds_of_sliding
 
 __all__ = ["add", "run"]
 

@@ -1,0 +1,31 @@
+from . import (
+    angles,
+    arrays,
+    atomic_files,
+    columns,
+    convex_hull,
+    disjoint_sets,
+    documents,
+    doors,
+    errors,
+    events,
+    jets,
+    notebook,
+    text,
+)
+
+__all__ = [
+    "angles",
+    "arrays",
+    "atomic_files",
+    "columns",
+    "convex_hull",
+    "disjoint_sets",
+    "documents",
+    "doors",
+    "errors",
+    "events",
+    "jets",
+    "notebook",
+    "text",
+]

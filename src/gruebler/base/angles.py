@@ -1,0 +1,60 @@
+"""Angles in radians that look as if they were degrees: the law, and the warning.
+
+docs/theory/kinematics.md, "Degrees by mistake".
+"""
+
+from __future__ import annotations
+
+import warnings
+from math import pi
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gruebler.base.errors import UnitWarning, level_of_user
+from gruebler.base.text import Message, message
+
+__all__ = ["doubt_of_angles", "warn_of_degrees"]
+
+_TURN = 2 * pi * (1 + 1e-9)
+_RIGHT = 90.0  # degrees: few ranges in radians are a whole number of these
+
+
+def doubt_of_angles(values: ArrayLike, *, path: bool = False, once: bool = False) -> Message | None:
+    """Why angles given in radians are probably degrees; None if they are probably not.
+
+    Args:
+        values: of any shape.
+        path: they are taken one after the other, so that a step beyond half a turn leaves the way between open.
+        once: they are directions of a body or angles of a function, which a turn exhausts.
+
+    >>> print(doubt_of_angles(np.arange(0, 361)))
+    all are whole numbers, up to 360
+    >>> print(doubt_of_angles(np.linspace(0, 360, 50), path=True))
+    neighbouring values differ by up to 7.347 rad, more than half a turn
+    >>> doubt_of_angles(np.linspace(0, 20 * pi, 2000), path=True)
+    """
+    angles = np.asarray(values, np.float64).ravel()
+    largest = float(np.abs(angles).max(initial=0.0))
+    step = float(np.abs(np.diff(angles)).max(initial=0.0)) if path and largest > pi / 2 else 0.0
+    doubt = None
+    if step > _TURN / 2:
+        doubt = message("neighbouring values differ by up to {step:.4g} rad, more than half a turn", step=step)
+    elif largest > _TURN:
+        first, last = float(angles[0]), float(angles[-1])
+        if once:
+            doubt = message("{value:g} is beyond a turn", value=largest)
+        elif (angles == np.rint(angles)).all():
+            doubt = message("all are whole numbers, up to {value:g}", value=largest)
+        elif first == round(first) and first != last and (last - first) % _RIGHT == 0:
+            doubt = message("they go from {first:g} to {last:g}", first=first, last=last)
+    return doubt
+
+
+def warn_of_degrees(name: str, values: ArrayLike, *, path: bool = False, once: bool = False) -> None:
+    """`UnitWarning` at the line of the user if angles in radians look like degrees; see `doubt_of_angles`."""
+    doubt = doubt_of_angles(values, path=path, once=once)
+    if doubt is None:
+        return
+    text = message("{name}: angles are in radians, but {doubt}; from_degrees() converts", name=name, doubt=doubt)
+    warnings.warn(str(text), UnitWarning, stacklevel=level_of_user())

@@ -1,0 +1,9 @@
+from . import (
+    realisation,
+    synthesis,
+)
+
+__all__ = [
+    "realisation",
+    "synthesis",
+]

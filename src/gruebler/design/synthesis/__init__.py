@@ -1,0 +1,43 @@
+"""Dimensional synthesis: linkages for a wanted motion.
+
+Tasks are positions of a body, points of a path, a function, dead centres; every answer is a `SynthesisResult`: all
+designs with their verdicts, and how many solutions there are by theorem, found and real. docs/theory/synthesis.md has
+the definitions, theorems and methods.
+"""
+
+from gruebler.design.synthesis.dead_centres import synthesise_dead_centres
+from gruebler.design.synthesis.formulas import FunctionLaw
+from gruebler.design.synthesis.functions import synthesise_function
+from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.minimax_search import minimax
+from gruebler.design.synthesis.paths import synthesise_path
+from gruebler.design.synthesis.positions import synthesise_positions
+from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
+from gruebler.design.synthesis.structural_error import structural_error
+from gruebler.design.synthesis.structures import synthesise_structures
+from gruebler.design.synthesis.synthesise import synthesise
+from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
+
+__all__ = [
+    "DeadCentreTask",
+    "Demands",
+    "Design",
+    "DesignVerdict",
+    "FunctionLaw",
+    "FunctionTask",
+    "PathTask",
+    "PositionTask",
+    "SolutionCount",
+    "SynthesisResult",
+    "Task",
+    "function_task",
+    "minimax",
+    "pareto",
+    "structural_error",
+    "synthesise",
+    "synthesise_dead_centres",
+    "synthesise_function",
+    "synthesise_path",
+    "synthesise_positions",
+    "synthesise_structures",
+]

@@ -1,0 +1,282 @@
+"""Linkages that coordinate pairs exactly: linear conditions in numbers of the linkage, after Freudenstein.
+
+docs/theory/synthesis-functions.md: each kind is linear in as many numbers of its own; one start that is free adds one
+pair and makes the condition quadratic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.base.text import Message
+from gruebler.design.synthesis.tasks import FunctionTask
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.linkages import Linkage
+
+__all__ = [
+    "KINDS",
+    "Coordination",
+    "CoordinationKind",
+    "Coordinations",
+    "Minimax",
+    "MinimaxCertificate",
+    "as_coordination",
+    "coordinations_with_fixed_starts",
+    "coordinations_with_one_free_start",
+    "pair_arrays",
+]
+
+_SMALL = 1e-9  # a length smaller than this part of the frame (or of the travel) is none
+
+
+@dataclass(frozen=True, slots=True)
+class Coordination:
+    """A linkage by its lengths, and where its input and output begin."""
+
+    kind: str
+    """``four-bar``, ``slider-crank`` or ``inverted-slider-crank``."""
+    lengths: tuple[float, ...]
+    """a, b, c, d; a, b, e; a, d, e. Lengths of links are positive."""
+    input_start: float
+    """The crank angle of the first pair."""
+    output_start: float
+    """The angle or travel of the output in the first pair."""
+    branch: int
+    """The assembly branch of the first pair."""
+
+    def linkage(self) -> FourBar | SliderCrank | InvertedSliderCrank:
+        """The linkage by its usual lengths."""
+        shapes = {"four-bar": FourBar, "slider-crank": SliderCrank, "inverted-slider-crank": InvertedSliderCrank}
+        return shapes[self.kind](*self.lengths)  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MinimaxCertificate:
+    """Whether the largest structural error of a linkage is a strict local minimum, and by what this is seen.
+
+    docs/theory/synthesis-functions.md has the theorem and the meaning of each number.
+    """
+
+    x: tuple[float, ...]
+    """Where the error has its largest size, to one part in a million."""
+    signs: tuple[int, ...]
+    """The signs of the error there."""
+    multipliers: tuple[float, ...]
+    """Weights of these places, not negative, with the sum 1: with them the gradients of the sizes cancel."""
+    parameters: int
+    """How many numbers of the linkage are free."""
+    residual: float
+    """How far the weighted gradients are from cancelling, as a part of the error for a change of the numbers by 1."""
+    decrease: float
+    """By how much the largest error may still fall, to first order, within a tenth of the numbers, in its unit; NaN
+    in a dead centre, where no linear model holds."""
+    curvature: float | None
+    """The least curvature of the weighted errors along changes that keep the sizes equal, as a part of the error; None
+    where there is no such change."""
+    reason: Message | None = None
+    """Why the linkage is not shown to be an optimum; None if it is one."""
+
+    @property
+    def optimum(self) -> bool:
+        """Whether no linkage nearby has a smaller largest error."""
+        return self.reason is None
+
+    @property
+    def alternations(self) -> int:
+        """How many of the largest errors follow each other with alternating signs."""
+        return sum(1 for k, sign in enumerate(self.signs) if k == 0 or sign != self.signs[k - 1])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Minimax:
+    """What the search for the least largest structural error found near a linkage, with its certificate."""
+
+    solution: Coordination
+    error: float
+    """The largest structural error, in radians or the unit of the travel."""
+    start_error: float
+    """The same of the linkage from which the search began."""
+    certificate: MinimaxCertificate
+
+    def linkage(self, unit: str = "mm") -> Linkage:
+        """The linkage in the position where the interval begins, on its branch."""
+        solution = self.solution
+        own = solution.linkage().linkage(unit=unit)
+        start = move_in_radians(own, [solution.input_start], branch="+" if solution.branch > 0 else "-")
+        return own.with_reference_pose(start.pose(0))
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data: lengths, starts, errors and the certificate; angles in degrees."""
+        solution, shown = self.solution, self.certificate
+        unit = 180 / np.pi if solution.kind == "four-bar" else 1.0
+        return {
+            "kind": solution.kind,
+            "lengths": list(solution.lengths),
+            "input_start": float(np.degrees(solution.input_start)),
+            "output_start": solution.output_start * unit,
+            "branch": solution.branch,
+            "error": self.error * unit,
+            "start_error": self.start_error * unit,
+            "optimum": shown.optimum,
+            "reason": None if shown.reason is None else str(shown.reason),
+            "possible_decrease": None if np.isnan(shown.decrease) else shown.decrease * unit,
+            "equal_extremes": list(shown.x),
+            "signs": list(shown.signs),
+            "alternations": shown.alternations,
+            "multipliers": list(shown.multipliers),
+            "parameters": shown.parameters,
+            "residual": None if np.isnan(shown.residual) else shown.residual,
+            "curvature": shown.curvature,
+        }
+
+
+@dataclass(frozen=True)
+class CoordinationKind:
+    """A kind of linkage: linear conditions in some numbers of its own."""
+
+    name: str
+    output: str
+    unknowns: int
+    columns: Callable[[Reals, Reals], Reals]
+    """(pairs, unknowns + 1): the conditions say that a combination of the first columns is the last one."""
+    lengths: Callable[[Reals], tuple[float, ...] | None]
+    """From the factors of that combination to signed lengths."""
+    input_degree: int = 2
+    """In how many columns the input enters: the degree of the condition for a free input start."""
+
+
+def _four_bar_columns(phi: Reals, psi: Reals) -> Reals:
+    return np.stack([np.cos(psi), -np.cos(phi), np.ones_like(phi), np.cos(phi - psi)], axis=1)
+
+
+def _four_bar_lengths(k: Reals) -> tuple[float, ...] | None:
+    if min(abs(k[0]), abs(k[1])) < _SMALL or max(abs(k[0]), abs(k[1])) > 1 / _SMALL:
+        return None
+    a, c = 1 / k[0], 1 / k[1]
+    square = a * a + c * c + 1 - 2 * a * c * k[2]
+    return (a, float(np.sqrt(square)), c, 1.0) if square > _SMALL**2 else None
+
+
+def _slider_columns(phi: Reals, s: Reals) -> Reals:
+    return np.stack([s * np.cos(phi), np.sin(phi), np.ones_like(phi), s * s], axis=1)
+
+
+def _slider_lengths(k: Reals) -> tuple[float, ...] | None:
+    if abs(k[0]) < _SMALL:
+        return None
+    a = k[0] / 2
+    e = k[1] / k[0]
+    square = k[2] + a * a + e * e
+    return (a, float(np.sqrt(square)), e) if square > 0 else None
+
+
+def _inverted_columns(phi: Reals, psi: Reals) -> Reals:
+    return np.stack([np.sin(phi - psi), np.ones_like(phi), -np.sin(psi)], axis=1)
+
+
+def _inverted_lengths(k: Reals) -> tuple[float, ...] | None:
+    return (k[0], 1.0, k[1]) if abs(k[0]) > _SMALL else None
+
+
+KINDS = (
+    CoordinationKind("four-bar", "angle", 3, _four_bar_columns, _four_bar_lengths),
+    CoordinationKind("slider-crank", "travel", 3, _slider_columns, _slider_lengths),
+    CoordinationKind("inverted-slider-crank", "angle", 2, _inverted_columns, _inverted_lengths, 1),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Coordinations:
+    """The linkages of one kind for a task."""
+
+    real: tuple[Coordination, ...]
+    complex: int
+    """How many complex solutions there are."""
+
+
+def pair_arrays(task: FunctionTask) -> tuple[Reals, Reals]:
+    """(pairs,) inputs and outputs."""
+    return np.array(task.inputs), np.array(task.outputs)
+
+
+def coordinations_with_fixed_starts(kind: CoordinationKind, task: FunctionTask) -> Coordinations:
+    """As many pairs as the kind has unknowns: one solution, if its lengths are real."""
+    phi, output = pair_arrays(task)
+    return Coordinations(tuple(_solved(kind, phi, output)), 1)
+
+
+def coordinations_with_one_free_start(kind: CoordinationKind, task: FunctionTask) -> Coordinations:
+    """One start is free: the determinant of the conditions is a quadratic in its tangent, or in the travel itself."""
+    phi, output = pair_arrays(task)
+    travel = kind.output == "travel" and not task.start_output
+
+    def shifted(start: float) -> tuple[Reals, Reals]:
+        return (phi, output + start) if task.start_input else (phi + start, output)
+
+    if travel:
+        size = float(np.ptp(output)) or 1.0
+        at = size * np.array([-1.0, 0.0, 1.0])
+
+        def plain(start: float) -> float:
+            return float(np.linalg.det(kind.columns(*shifted(start)) / np.array([size, 1, 1, size**2])))
+
+        starts = np.roots(np.polyfit(at, [plain(v) for v in at], 2))
+    elif not task.start_input and kind.input_degree == 1:
+        first, second = (np.linalg.det(kind.columns(*shifted(v))) for v in (0.0, np.pi / 2))
+        starts = np.array([np.arctan2(-first, second)])
+    else:
+        # A quadratic form in cosine and sine of the start: constant, cos 2t, sin 2t, from three values.
+        angles = np.pi * np.arange(3) / 3
+        values = np.array([np.linalg.det(kind.columns(*shifted(v))) for v in angles])
+        mean, c, s = np.linalg.solve(np.stack([np.ones(3), np.cos(2 * angles), np.sin(2 * angles)], axis=1), values)
+        reach = np.hypot(c, s)
+        if reach < 1e-14 * abs(mean):
+            return Coordinations((), 0)
+        if abs(mean) > reach * (1 + 1e-10):  # less is a double root with rounding
+            return Coordinations((), 2)
+        middle, half = np.arctan2(s, c), np.arccos(np.clip(-mean / reach, -1, 1))
+        starts = np.array([(middle + half) / 2, (middle - half) / 2])
+    real = []
+    for start in starts:
+        if abs(start.imag) < 1e-9 * (1 + abs(start)):
+            real += _solved(kind, *shifted(float(start.real)))
+    return Coordinations(tuple(real), len(starts))
+
+
+def _solved(kind: CoordinationKind, phi: Reals, output: Reals) -> list[Coordination]:
+    """The linkage of these pairs, negative lengths turned round; none if a length is zero or not real."""
+    columns = kind.columns(phi, output)
+    scale = np.abs(columns).max(axis=0).clip(1e-300)
+    factors, *_ = np.linalg.lstsq(columns[:, :-1] / scale[:-1], columns[:, -1], rcond=1e-14)
+    if np.abs(columns[:, :-1] / scale[:-1] @ factors - columns[:, -1]).max() > 1e-8 * scale[-1]:
+        return []
+    signed = kind.lengths(factors / scale[:-1])
+    if signed is None:
+        return []
+    return [as_coordination(kind.name, signed, float(phi[0]), float(output[0]))]
+
+
+def as_coordination(kind: str, signed: tuple[float, ...], phi: float, output: float) -> Coordination:
+    """The linkage of signed lengths in a position: a negative length stands for the link turned by 180 degrees."""
+    a = signed[0]
+    crank = phi + (np.pi if a < 0 else 0.0)
+    point = a * np.exp(1j * phi)
+    if kind == "four-bar":
+        b, c, d = signed[1:]
+        rocker = output + (np.pi if c < 0 else 0.0)
+        gap = d + c * np.exp(1j * output) - point
+        branch = 1 if np.imag(np.conj(d - point) * gap) >= 0 else -1
+        return Coordination(kind, (abs(a), b, abs(c), d), crank, rocker, branch)
+    if kind == "slider-crank":
+        branch = 1 if output - point.real >= 0 else -1
+        return Coordination(kind, (abs(a), signed[1], signed[2]), crank, output, branch)
+    # The guide has the direction psi; B0 lies on it towards the block for branch +1.
+    d, e = signed[1:]
+    displacement = float(np.real((d - point) * np.exp(-1j * output)))
+    return Coordination(kind, (abs(a), d, e), crank, output, 1 if displacement >= 0 else -1)

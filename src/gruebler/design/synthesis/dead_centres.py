@@ -1,0 +1,257 @@
+"""Crank-rockers and slider-cranks with given dead centres (Alt's construction), and the best transmission angle.
+
+docs/theory/synthesis-dead-centres.md derives the one-parameter family and its limits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, degrees, pi, sin, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.text import message
+from gruebler.design.synthesis.judging import Demands, faults_of_size, pivots_inside, size_ratio, transmission_fault
+from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.tasks import DeadCentreTask
+from gruebler.mechanics.fourbar import FourBar, SliderCrank
+
+__all__ = [
+    "DeadCentreFamily",
+    "DeadCentrePlaces",
+    "FamilyMember",
+    "dead_centre_family",
+    "member_places",
+    "synthesise_dead_centres",
+]
+
+
+_SAMPLES = 720
+_SAME = 1e-9  # dead centres of a member agree with the task to this
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyMember:
+    """A linkage of the family."""
+
+    parameter: float
+    """The crank length, or the coupler length where the dead centres are half a turn apart; rocker (or stroke) is 1."""
+    linkage: FourBar | SliderCrank
+    transmission: float
+    """Its minimum transmission angle, in radians."""
+
+
+@dataclass(frozen=True)
+class DeadCentreFamily:
+    """All linkages with given dead centres: a one-parameter family."""
+
+    task: DeadCentreTask
+    members: tuple[FamilyMember, ...]
+    """Evenly spread over the parameter, in its order."""
+    best: FamilyMember
+    """The one with the largest minimum transmission angle (VDI 2130)."""
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """From where to where the parameter goes, as far as it was sampled."""
+        values = [member.parameter for member in self.members]
+        return min(values), max(values)
+
+
+def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
+    """The family, and its member with the best transmission angle.
+
+    Raises `SynthesisError` with the range of what is possible if there is none. Cost: about 30 ms.
+
+    >>> family = dead_centre_family(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(160)))
+    >>> round(degrees(family.best.transmission), 2), str(family.best.linkage.type)
+    (25.01, 'crank-rocker')
+    """
+    from scipy.optimize import minimize_scalar
+
+    if task.swing is not None:
+        low, high = pi / 2 + task.swing / 2, 3 * pi / 2 + task.swing / 2
+        if not low < task.angle < high:
+            raise SynthesisError(
+                "no crank-rocker swings by {swing:g} degrees with the dead centres {angle:g} degrees apart: the "
+                "crank angle is more than {low:g} and less than {high:g} degrees",
+                swing=degrees(task.swing),
+                angle=degrees(task.angle),
+                low=degrees(low),
+                high=degrees(high),
+            )
+    elif not pi / 2 < task.angle < 3 * pi / 2:
+        raise SynthesisError(
+            "no slider-crank has its dead centres {angle:g} degrees apart: the crank angle is more "
+            "than 90 and less than 270 degrees",
+            angle=degrees(task.angle),
+        )
+    grid = _parameters(task)
+    members = tuple(member for value in grid if (member := _member(task, float(value))) is not None)
+    if not members:
+        raise SynthesisError("no linkage with these dead centres was found")
+    best = max(members, key=lambda member: member.transmission)
+    k = int(np.argmin(np.abs(grid - best.parameter)))
+    bounds = (float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)]))
+
+    def cost(value: float) -> float:
+        member = _member(task, float(value))
+        return 0.0 if member is None else -member.transmission
+
+    answer = minimize_scalar(cost, bounds=bounds, method="bounded", options={"xatol": 1e-12})
+    refined = _member(task, float(answer.x))
+    if refined is not None and refined.transmission > best.transmission:
+        best = refined
+    return DeadCentreFamily(task, members, best)
+
+
+def _parameters(task: DeadCentreTask) -> Reals:
+    """Values of the parameter, denser at the ends; the chord of the dead centres is that of a rocker or stroke of 1."""
+    share = (1 - np.cos(np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES)) / 2
+    chord = _chord(task)
+    half = (task.angle - pi) / 2
+    if abs(half) < 1e-12:
+        return np.asarray(chord * (0.5 + 20 * share**2))  # the coupler, up to twenty times the chord
+    return np.asarray(chord / (2 * cos(half)) * share)
+
+
+def _chord(task: DeadCentreTask) -> float:
+    return 1.0 if task.swing is None else 2 * sin(task.swing / 2)
+
+
+def _lengths(task: DeadCentreTask, parameter: float) -> tuple[float, float] | None:
+    """Crank and coupler: chord^2 = 4 a^2 cos^2(h) + 4 b^2 sin^2(h), with h half of what exceeds half a turn."""
+    chord, half = _chord(task), (task.angle - pi) / 2
+    if abs(half) < 1e-12:
+        return chord / 2, parameter
+    square = chord**2 / 4 - (parameter * cos(half)) ** 2
+    return (parameter, sqrt(square) / abs(sin(half))) if square > 0 else None
+
+
+def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
+    """The linkage of a parameter, checked by its closed form; None if it has other dead centres."""
+    sizes = _lengths(task, parameter)
+    if sizes is None or not 0 < sizes[0] < sizes[1]:
+        return None
+    a, b = sizes
+    outer, inner, pivot = _places(task, a, b)
+    chord = inner - outer
+    try:
+        linkage: FourBar | SliderCrank
+        if pivot is None:
+            linkage = SliderCrank(a, b, float((np.conj(chord) * outer).imag / abs(chord)))
+        else:
+            linkage = FourBar(a, b, 1.0, abs(pivot))
+        centres = linkage.dead_centres
+        if centres is None:
+            return None
+        if task.swing is None:
+            target, reached = (1.0, min(task.angle, 2 * pi - task.angle)), (centres.travel, centres.phi_min)
+        else:
+            target, reached = (task.swing, task.angle), (centres.travel, centres.phi_back)
+        if max(abs(x - y) for x, y in zip(target, reached, strict=True)) > _SAME:
+            return None
+        if pivot is not None and not _same_sense(pivot, outer, inner):
+            return None
+        return FamilyMember(parameter, linkage, float(linkage.transmission_angle.smallest.mu))
+    except LinkageError:
+        return None
+
+
+class DeadCentrePlaces(NamedTuple):
+    """Where the pin B of rocker or slider lies in the dead centres, and the rocker's pivot; the crank's is 0."""
+
+    outer: complex
+    inner: complex
+    rocker_pivot: complex | None
+
+
+def member_places(task: DeadCentreTask, member: FamilyMember) -> DeadCentrePlaces:
+    """The dead centres of a member; rocker or stroke have the length 1."""
+    return _places(task, member.linkage.a, member.linkage.b)
+
+
+def _places(task: DeadCentreTask, a: float, b: float) -> DeadCentrePlaces:
+    delta = task.angle - pi
+    outer, inner = complex(b + a), (b - a) * complex(cos(delta), sin(delta))
+    if task.swing is None:
+        return DeadCentrePlaces(outer, inner, None)
+    # From the outer to the inner dead centre the rocker turns by the swing in the sense of the crank.
+    turn = complex(cos(task.swing), sin(task.swing))
+    return DeadCentrePlaces(outer, inner, (inner - turn * outer) / (1 - turn))
+
+
+def _same_sense(centre: complex, outer: complex, inner: complex) -> bool:
+    """Whether the pin lies on one side of the frame line in both dead centres, so that they are of one branch."""
+    first, second = ((np.conj(centre) * pin).imag for pin in (outer, inner))
+    return bool(first * second > 0)
+
+
+def synthesise_dead_centres(
+    task: DeadCentreTask, demands: Demands | None = None, *, number: int = 12
+) -> SynthesisResult:
+    """The best linkage with given dead centres and others spread over the family, so many in all.
+
+    A rocker has the length 1, a slider the stroke of the task. Raises `SynthesisError` as `dead_centre_family`.
+
+    >>> found = synthesise_dead_centres(DeadCentreTask(stroke=50, time_ratio=1.2))
+    >>> round(found.designs[0].linkage.length("crank", 0, 1), 4)
+    23.5237
+    """
+    wanted = demands or Demands()
+    family = dead_centre_family(task)
+    # The best stands for its part of the family, the middle for each other part: at the limits nothing moves well.
+    parts = np.array_split(np.arange(len(family.members)), max(number, 1))
+    nearest = min(range(len(family.members)), key=lambda k: abs(family.members[k].parameter - family.best.parameter))
+    others = [part[len(part) // 2] for part in parts if len(part) and nearest not in part]
+    chosen = [family.best, *(family.members[k] for k in others)]
+    designs = [_design(task, member, wanted) for member in chosen]
+    accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: -d.verdict.transmission))
+    rejected = tuple(d for d in designs if not d.verdict.accepted)
+    low, high = family.range
+    scale = task.stroke or 1.0
+    note = _NOTES[abs(task.angle - pi) < 1e-12, task.swing is not None].filled(
+        low=low * scale, high=high * scale, angle=degrees(family.best.transmission)
+    )
+    count = SolutionCount(message("linkages"), None, len(designs), len(designs))
+    return SynthesisResult(task, accepted, rejected, count, (note,))
+
+
+_NOTES = {
+    (False, False): message(
+        "There are infinitely many solutions, one for each crank length from {low:.4g} to {high:.4g}; the best minimum "
+        "transmission angle is {angle:.2f} degrees."
+    ),
+    (False, True): message(
+        "There are infinitely many solutions, one for each crank length from {low:.4g} to {high:.4g} (rocker 1); the "
+        "best minimum transmission angle is {angle:.2f} degrees."
+    ),
+    (True, False): message(
+        "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g}; the best "
+        "minimum transmission angle is {angle:.2f} degrees."
+    ),
+    (True, True): message(
+        "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g} (rocker "
+        "1); the best minimum transmission angle is {angle:.2f} degrees."
+    ),
+}
+"""By whether the dead centres are half a turn apart, and whether the output is a rocker."""
+
+
+def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Design:
+    linkage = member.linkage.linkage(unit=task.unit)
+    if task.stroke is not None:
+        linkage = linkage.scaled(task.stroke)
+    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    reasons = faults_of_size(ratio, inside, demands)
+    if member.transmission < demands.transmission:
+        reasons.append(transmission_fault(member.transmission))
+    centres = member.linkage.dead_centres
+    assert centres is not None
+    error = abs(centres.travel - (task.swing if task.swing is not None else 1.0))
+    verdict = DesignVerdict(True, True, True, True, True, member.transmission, ratio, inside, error, tuple(reasons))
+    kind = "four-bar" if task.swing is not None else "slider-crank"
+    return Design(linkage, verdict, kind, (centres.outer.drive, centres.inner.drive))

@@ -1,0 +1,297 @@
+"""Function generation: four-bars, slider-cranks and inverted slider-cranks that coordinate input and output.
+
+docs/theory/synthesis-functions.md: each kind of linkage is linear in as many numbers of its own; every start angle that
+is free adds one pair and makes the condition quadratic; with both free the problem is that of guiding the output link
+as seen from the crank.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.coordination import (
+    KINDS,
+    Coordination,
+    Minimax,
+    coordinations_with_fixed_starts,
+    coordinations_with_one_free_start,
+    pair_arrays,
+)
+from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
+from gruebler.design.synthesis.judging import Demands, Probe, Targets, judge_design
+from gruebler.design.synthesis.minimax_search import minimax as minimax_near
+from gruebler.design.synthesis.positions import NEAR, guiding_dyads, ranked
+from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.structural_error import coordination_of
+from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = ["synthesise_function"]
+
+_FAMILIES = {
+    2: message("There are infinitely many solutions, a family of dimension 3; {count} were taken."),
+    3: message("There are infinitely many solutions, one for each point of the plane; {count} were taken."),
+    4: message("There are infinitely many solutions, one for each point of a curve; {count} were taken."),
+}
+"""By how many pairs, with both starts free: what a dyad between crank and output can be."""
+_FORMS = {("angle", "RR"): "four-bar", ("travel", "RR"): "slider-crank"}
+"""What crank, dyad and output form together; other dyads between crank and output name themselves."""
+
+
+def synthesise_function(
+    task: FunctionTask, demands: Demands | None = None, *, number: int = 16, minimax: bool = False
+) -> SynthesisResult:
+    """All linkages that coordinate the pairs; the frame of four-bars has the length 1.
+
+    Args:
+        task: two to five pairs; with both starts free more of them, by least squares.
+        demands: besides one branch and the order.
+        number: of dyads taken where there are infinitely many.
+        minimax: the linkages near these whose largest structural error is as small as possible, the best first.
+
+    Raises `SynthesisError` for more pairs than can be met exactly, and for the minimax optimum of a table of pairs.
+    Cost: below 1 ms and 10 ms for each verdict; a minimax optimum 0.3 s.
+
+    >>> task = FunctionTask([0.8, 1.2, 1.7], [0.9, 1.1, 1.5])
+    >>> found = synthesise_function(task)
+    >>> found.count.found, found.count.theorem
+    (1, 1)
+    """
+    wanted = demands or Demands()
+    if minimax and task.law is None:
+        raise SynthesisError("the minimax optimum needs the function as an expression, not a table of pairs")
+    free = (not task.start_input) + (not task.start_output)
+    fitted = free == 2 and len(task) > 5
+    if fitted and wanted.tolerance <= EXACT:
+        wanted = replace(wanted, tolerance=NEAR)
+    met = _by_free_starts(task, wanted, number) if free == 2 else _by_given_starts(task, wanted, free)
+    designs, rejected = ranked(met.candidates)
+    notes = met.notes
+    if not designs and task.law is None and free < 2:
+        notes = (
+            *notes,
+            message(
+                "The angles of the table count from the line of the frame; with free starts only their differences "
+                "count."
+            ),
+        )
+    if fitted:
+        designs = in_order_of(designs, ["error"])
+    result = SynthesisResult(task, designs, rejected, met.solutions, notes)
+    return _optima(result, task.law, wanted) if minimax and task.law is not None else result
+
+
+class _Candidates(NamedTuple):
+    """Designs that meet the pairs, in any order."""
+
+    candidates: list[Design]
+    solutions: SolutionCount
+    notes: tuple[Message, ...] = ()
+
+
+def _by_given_starts(task: FunctionTask, wanted: Demands, free: int) -> _Candidates:
+    """In closed form, with both starts given or one of them free."""
+    candidates: list[Design] = []
+    theorem = complex_count = real = 0
+    for kind in KINDS:
+        if kind.output == task.output and len(task) == kind.unknowns + free:
+            solve = coordinations_with_one_free_start if free else coordinations_with_fixed_starts
+            solutions = solve(kind, task)
+            theorem += solutions.complex if free else 1
+            complex_count, real = complex_count + solutions.complex, real + len(solutions.real)
+            candidates += [_design(task, wanted, solution) for solution in solutions.real]
+    most = 3 + free
+    if candidates or theorem:
+        count = SolutionCount(message("linkages"), theorem, complex_count, real)
+        if task.output != "angle" or len(task) >= most:
+            return _Candidates(candidates, count)
+        note = message(
+            "There are infinitely many four-bars besides, a family of dimension 1: {count} pairs determine them.",
+            count=most,
+        )
+        return _Candidates(candidates, replace(count, what=message("inverted slider-cranks")), (note,))
+    if len(task) > most:
+        raise SynthesisError(
+            "{count} pairs cannot be met exactly, at most {most} with this many free starts ({free}): give fewer "
+            "pairs, leave a start free, or fit a structure to them",
+            count=len(task),
+            free=free,
+            most=most,
+        )
+    note = message(
+        "There are infinitely many solutions, a family of dimension {dimension}: give more pairs.",
+        dimension=most - len(task),
+    )
+    return _Candidates([], SolutionCount(message("linkages"), None, 0, 0), (note,))
+
+
+def _by_free_starts(task: FunctionTask, wanted: Demands, number: int) -> _Candidates:
+    """By the dyads between crank and output, with both starts free."""
+    dyads = _connecting(task, number)
+    candidates = [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
+    notes: tuple[Message, ...] = ()
+    theorem: int | None = None
+    complex_count = len(dyads)
+    if len(task) > 5:
+        theorem = 0
+        notes = (
+            message(
+                "More than five pairs are met by least squares; designs that come nearer than {tolerance:g} are "
+                "accepted.",
+                tolerance=wanted.tolerance,
+            ),
+        )
+    elif len(task) == 5:
+        theorem = complex_count = 3  # four dyads less the frame
+    else:
+        notes = (_FAMILIES[len(task)].filled(count=len(dyads)),)
+    return _Candidates(candidates, SolutionCount(message("linkages"), theorem, complex_count, len(dyads)), notes)
+
+
+def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:
+    """The minimax optimum near each design of a result; designs without one are rejected."""
+    task = exact.task
+    assert isinstance(task, FunctionTask)
+    optima, candidates = list[Minimax](), list[Design]()
+    for design in (*exact.designs, *exact.rejected):
+        start = coordination_of(design, task, law)
+        try:
+            if start is None:
+                raise SynthesisError("the minimax optimum is sought of four-bars and slider-cranks")
+            optimum = minimax_near(start, law)
+        except SynthesisError:
+            reason = message("it does not follow the function over the whole interval: no minimax optimum is near")
+            reasons = (*design.verdict.reasons, reason)
+            candidates.append(replace(design, verdict=replace(design.verdict, reasons=reasons)))
+            continue
+        if not any(_same_optimum(optimum, other) for other in optima):
+            optima.append(optimum)
+            candidates.append(_judged_optimum(task, law, demands, optimum))
+    accepted, rejected = ranked(candidates)
+    return replace(exact, designs=in_order_of(accepted, ["error"]), rejected=rejected)
+
+
+_SAME_OPTIMUM = 1e-4  # relative: optima are flat, so that two searches for one end near each other, not in one place
+
+
+def _same_optimum(first: Minimax, second: Minimax) -> bool:
+    own, other = first.solution, second.solution
+    if (own.kind, own.branch) != (other.kind, other.branch):
+        return False
+    turn = np.exp(1j * own.input_start) - np.exp(1j * other.input_start)
+    gaps = np.abs(np.subtract(own.lengths, other.lengths))
+    return bool(abs(turn) < _SAME_OPTIMUM and (gaps < _SAME_OPTIMUM * max(map(abs, own.lengths))).all())
+
+
+def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, optimum: Minimax) -> Design:
+    """A minimax optimum as a design, carried from one end of the interval to the other through the pairs."""
+    linkage, solution = optimum.linkage(task.unit), optimum.solution
+    x = np.array([law.interval[0], *chebyshev_spacing(*law.interval, len(task)), law.interval[1]])
+    free_law = replace(law, input_start=0.0, output_start=0.0)
+    phi, output = solution.input_start + free_law.inputs(x), solution.output_start + free_law.outputs(x)
+    if task.output == "angle":
+        size = 1.0
+        probes, values = (Probe(link="crank"), Probe(link="rocker")), [np.exp(1j * phi), np.exp(1j * output)]
+    else:
+        size = abs(law.output_swing)
+        probes, values = (Probe(link="crank", length=size), Probe(joint=3)), [size * np.exp(1j * phi), output + 0j]
+    met = replace(demands, tolerance=max(demands.tolerance, 1.1 * optimum.error / size))  # 1.1: the error is rounded
+    design = judge_design(linkage, Targets(probes, np.stack(values, axis=1), size), met, solution.kind)
+    verdict = replace(design.verdict, error=optimum.error / size)
+    return replace(design, verdict=verdict, drives=tuple(map(float, phi[1:-1])), optimum=optimum)
+
+
+def _design(task: FunctionTask, demands: Demands, solution: Coordination) -> Design:
+    dyads = _own_dyads(solution)
+    return _judged_function(task, demands, *dyads, solution.kind)
+
+
+def _own_dyads(solution: Coordination) -> tuple[complex, complex, GuidingDyad]:
+    """Crank pivot A and, for the output, its pivot (or a point of the slide), and the dyad between crank and output."""
+    start = complex(np.exp(1j * solution.input_start))
+    point = solution.lengths[0] * start
+    if solution.kind == "four-bar":
+        _, _, c, d = solution.lengths
+        far = d + c * complex(np.exp(1j * solution.output_start))
+        return 0j, complex(d), GuidingDyad("RR", far, point)
+    if solution.kind == "slider-crank":
+        far = complex(solution.output_start, solution.lengths[2])
+        return 0j, far, GuidingDyad("RR", far, point)
+    direction = complex(np.exp(1j * solution.output_start))
+    return 0j, complex(solution.lengths[1]), GuidingDyad("RP", point, point, direction)
+
+
+def _seen_from_crank(task: FunctionTask) -> PositionTask:
+    """The positions of the output link as seen from the crank, in its first position; frame 0 and 1, or the travel."""
+    phi, output = pair_arrays(task)
+    turned, moved = np.exp(-1j * (phi - phi[0])), output - output[0]
+    if task.output == "angle":
+        q, t = turned * np.exp(1j * moved), turned * (1 - np.exp(1j * moved))
+    else:
+        q, t = turned, turned * moved
+    return PositionTask(tuple((z.real, z.imag, a) for z, a in zip(t, np.angle(q), strict=True)))
+
+
+def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
+    """The dyads between crank and output, without the frame, which connects them too."""
+    seen = _seen_from_crank(task)
+    size = 1.0 if task.output == "angle" else seen.size
+    connecting = []
+    for dyad in guiding_dyads(seen, number):
+        if task.output == "angle" and dyad.form == "RR":
+            frame = abs(dyad.moving - 1) + abs(dyad.fixed) < 1e-6
+        else:
+            frame = task.output == "travel" and dyad.form == "RP" and abs(dyad.fixed) < 1e-6 * size
+        if not frame:
+            connecting.append(dyad)
+    return connecting
+
+
+def _connected(task: FunctionTask, demands: Demands, dyad: GuidingDyad) -> Design | None:
+    far = 1 + 0j if task.output == "angle" else dyad.moving
+    try:
+        return _judged_function(task, demands, 0j, far, dyad, _FORMS.get((task.output, dyad.form), dyad.form))
+    except LinkageError:
+        return None
+
+
+def _judged_function(
+    task: FunctionTask, demands: Demands, near: complex, far: complex, dyad: GuidingDyad, form: str
+) -> Design:
+    """The linkage of crank, coupling dyad and output in its first position, judged."""
+    side = "rocker" if task.output == "angle" else "slider"
+    parts: list[str] = []
+    places: dict[str | int, object] = {}
+
+    def joint(kind: str, a: str, b: str, at: complex, direction: complex = 1 + 0j) -> None:
+        name = f"{kind}({a}-{b})"
+        parts.append(name)
+        angle = (float(np.angle(direction)),) if kind == "P" else ()
+        places[name] = (at.real, at.imag, *angle)
+
+    joint("R", "frame", "crank", near)
+    joint(dyad.form[0], "crank", "coupler", dyad.moving if dyad.form == "PR" else dyad.fixed, dyad.direction)
+    joint(dyad.form[1], "coupler", side, dyad.fixed if dyad.form == "RP" else dyad.moving, dyad.direction)
+    joint("R" if side == "rocker" else "P", "frame", side, far)
+    mechanism = Mechanism.parse(f"{' '.join(parts)}; frame=frame; drive={parts[0]}")
+    linkage = Linkage.from_drawing(mechanism, places, unit=task.unit, outputs=[side])
+    return judge_design(linkage, _function_targets(task, linkage, side), demands, form)
+
+
+def _function_targets(task: FunctionTask, linkage: Linkage, side: str) -> Targets:
+    phi, output = pair_arrays(task)
+    phi, output = phi - phi[0], output - output[0]
+    crank = np.exp(1j * (linkage.required_pose["crank"].angle + phi))
+    if side == "rocker":
+        rocker = np.exp(1j * (linkage.required_pose["rocker"].angle + output))
+        return Targets((Probe(link="crank"), Probe(link="rocker")), np.stack([crank, rocker], axis=1), 1.0)
+    size = float(np.ptp(output)) or 1.0
+    probes = (Probe(link="crank", length=size), Probe(joint=3))
+    return Targets(probes, np.stack([size * crank, output.astype(np.complex128)], axis=1), size)

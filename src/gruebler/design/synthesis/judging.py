@@ -1,0 +1,609 @@
+"""Whether a design does what was wanted: one judgement for every kind of task, by following the whole circuit.
+
+docs/theory/synthesis.md defines the criteria. What a synthesis computed is not believed: the circuit is followed from
+the linkage's reference pose without regard to the drive, the places where it meets each target are sought on it, and
+`move` carries the linkage through them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.text import Message, joined, message
+from gruebler.design.synthesis.ordered_matching import OrderedMatch, Places, SmoothCurve, TargetDistances, preferred
+from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict
+from gruebler.mechanics.analysis import transmission_angle
+from gruebler.mechanics.kinematics import Circuit, Poses, circuit
+from gruebler.mechanics.kinematics.motion import Motion
+from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.linkages import Linkage, Pin
+from gruebler.mechanics.linkages.elements import Line
+
+__all__ = [
+    "Demands",
+    "Probe",
+    "Targets",
+    "best_of",
+    "faults_of_size",
+    "judge_design",
+    "judge_with_drives",
+    "missing_alike",
+    "point_targets",
+    "position_targets",
+    "transmission_fault",
+]
+
+
+_ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
+_REFINEMENTS = 8
+_SHARPENINGS = 3
+_INSIDE = 1e-6  # of the length: `move` cannot be led to a limit of the drive itself
+_ROWS = 16  # poses from one target to the next, with several drives
+
+
+EXACT_AT_MOST = 1e-6
+"""With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
+Piece = tuple[float, float] | None
+"""From which arc of a circuit to which; None for a whole closed circuit, from any start."""
+
+
+@dataclass(frozen=True)
+class Demands:
+    """What an accepted design has to do besides meeting its targets on one branch and in order.
+
+    Raises `SynthesisError` for what no design could be held to: angles beyond a right one, a ratio below 1, a negative
+    tolerance, a rectangle whose corners are exchanged.
+
+    >>> Demands(transmission=0.7).crank
+    False
+    """
+
+    crank: bool = False
+    """The drive turns fully."""
+    transmission: float = 0.0
+    """The transmission angle does not fall below, in radians."""
+    size_ratio: float = 1e4
+    """The longest length of a link is at most so many times the shortest."""
+    region: tuple[float, float, float, float] | None = None
+    """The fixed pivots lie in this rectangle: least x, least y, greatest x, greatest y."""
+    tolerance: float = EXACT
+    """How far a target may be missed, relative to the size of the task."""
+    one_branch: bool = True
+    """The drive never turns back on the way."""
+    in_order: bool = True
+    """The targets are met in the order of the task."""
+
+    def __post_init__(self) -> None:
+        """Refuse what no design could be held to; comparisons with it would fail, or hold, without a word."""
+        for name in ("crank", "one_branch", "in_order"):
+            if not isinstance(value := getattr(self, name), bool | np.bool_):
+                raise SynthesisError("{name}: expected True or False, but found {value!r}", name=name, value=value)
+        for name in ("transmission", "size_ratio", "tolerance"):
+            if not _is_number(value := getattr(self, name)):
+                raise SynthesisError("{name}: expected a number, but found {value!r}", name=name, value=value)
+        if not 0 <= self.transmission <= np.pi / 2:
+            raise SynthesisError(
+                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
+                key="transmission",
+                low=0,
+                high=90,
+                angle=np.degrees(self.transmission),
+            )
+        if self.size_ratio < 1:
+            raise SynthesisError(
+                "{name}: expected at least 1, but found {value:g}", name="size_ratio", value=self.size_ratio
+            )
+        if not 0 <= self.tolerance < np.inf:
+            raise SynthesisError(
+                "{name}: expected a part of the size, at least 0, but found {value:g}",
+                name="tolerance",
+                value=self.tolerance,
+            )
+        if self.region is not None and not _is_rectangle(self.region):
+            raise SynthesisError(
+                "{name}: expected least x, least y, greatest x, greatest y, but found {value!r}",
+                name="region",
+                value=self.region,
+            )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and not np.isnan(value)
+
+
+def _is_rectangle(value: object) -> bool:
+    if not isinstance(value, Sequence | np.ndarray) or len(value) != 4 or not all(map(_is_number, value)):
+        return False
+    return bool(value[0] <= value[2] and value[1] <= value[3])
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """A complex quantity of a pose: a point, or the direction of a link times a length."""
+
+    point: str = ""
+    """The named point; empty for a direction."""
+    link: str = ""
+    joint: int = -1
+    """A sliding joint whose travel is looked at."""
+    length: float = 1.0
+
+    def value(self, poses: Poses, order: int) -> Complexes:
+        """It or its derivative by the arc; (rows,)."""
+        if self.point:
+            return poses.complex_point(self.point, order)
+        if self.joint >= 0:
+            return poses.displacement(self.joint, order).astype(np.complex128)
+        value: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
+        return value
+
+    def of_motion(self, motion: Motion) -> Complexes:
+        """Its value in each row of a motion."""
+        if self.point:
+            return motion.complex_point(self.point)
+        if self.joint >= 0:
+            return motion.displacement(self.joint).astype(np.complex128)
+        value: Complexes = self.length * np.exp(1j * motion.angle(self.link))
+        return value
+
+
+class Targets(NamedTuple):
+    """What is to be met: for each probe its value at each target; NaN where it is free."""
+
+    probes: tuple[Probe, ...]
+    values: Complexes
+    """(targets, probes)"""
+    size: float
+    """The size of the task: errors are relative to it."""
+
+    def gaps(self, poses: Poses, which: NDArray[np.int64]) -> tuple[Complexes, Complexes]:
+        """How far each row is from its target, and the derivatives by the arc; (rows, probes)."""
+        values = np.stack([probe.value(poses, 0) for probe in self.probes], axis=1) - self.values[which]
+        rates = np.stack([probe.value(poses, 1) for probe in self.probes], axis=1)
+        free = np.isnan(values)
+        return np.where(free, 0, values), np.where(free, 0, rates)
+
+
+def position_targets(point: str, link: str, origins: Complexes, angles: Iterable[float | None], size: float) -> Targets:
+    """Positions of a link: the places of one of its points, and its angles where they are given."""
+    turned = np.array([np.nan if a is None else size * np.exp(1j * a) for a in angles], np.complex128)
+    return Targets((Probe(point), Probe(link=link, length=size)), np.stack([origins, turned], axis=1), size)
+
+
+def point_targets(point: str, z: Complexes, size: float) -> Targets:
+    """Places of a point."""
+    return Targets((Probe(point),), z[:, None], size)
+
+
+def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
+    """The first accepted one of linkages that differ in their drive, else the one with the fewest faults.
+
+    Their circuits are the same: where the first misses a target, so do all.
+    """
+    best: Design | None = None
+    for linkage in linkages:
+        design = judge_design(linkage, targets(linkage), demands, form)
+        if design.verdict.accepted or design.verdict.misses:
+            return design
+        if best is None or len(design.verdict.reasons) < len(best.verdict.reasons):
+            best = design
+    assert best is not None
+    return best
+
+
+def missing_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, form: str) -> Design:
+    """The design of a linkage whose point has the path of another one that misses its targets, a cognate of it."""
+    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    reasons = (*faults_of_size(ratio, inside, demands), verdict.reasons[-1])
+    return Design(linkage, replace(verdict, size_ratio=ratio, inside=inside, reasons=reasons), form)
+
+
+def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
+    """The design of a linkage with a reference pose, and its verdict. Cost: 3 to 30 ms, most for the circuit.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> from gruebler.mechanics.kinematics import move
+    >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
+    >>> motion = move(bar, np.radians([10.0, 35.0, 60.0]))
+    >>> bar = bar.with_reference_pose(motion.pose(0))
+    >>> judge_design(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
+    True
+    """
+    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    reasons = faults_of_size(ratio, inside, demands)
+    try:
+        course = circuit(linkage, step=0.05)
+        limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
+        met = (_met if demands.tolerance <= EXACT_AT_MOST else _approached)(course, targets, limit)
+        if met.places.empty:
+            reasons.append(_missed([k + 1 for k in met.places.empty], met.error))
+            verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
+            return Design(linkage, verdict, form)
+        path, full = _path(course, met, limit), _turns_fully(course)
+        drives: tuple[float, ...] = ()
+        missed_by, transmission = met.error if path.in_order else path.error, np.nan
+        if path.one_branch:
+            if _limit_before(course, float(path.arcs[0])):
+                linkage = linkage.with_reference_pose(course.at(path.arcs[:1]).pose(0))
+            drives, missed_by, transmission = _carried(linkage, course, path, targets)
+    except LinkageError as error:
+        reasons.append(message("it cannot be followed from its first position: {error}", error=error))
+        return Design(linkage, DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
+    if not path.in_order and demands.in_order:
+        reasons.append(_in_another_order(path.error))
+        missed_by = max(missed_by, path.error)
+    if not path.one_branch and demands.one_branch:
+        reasons.append(message("the drive has to turn back between the targets (two branches)"))
+    if path.one_branch and not np.isfinite(missed_by):
+        reasons.append(message("`move` does not lead through all targets"))
+    elif path.one_branch and not missed_by <= limit:
+        reasons.append(message("a target is missed by {error:.3g} of the size", error=missed_by))
+    if demands.crank and not full:
+        reasons.append(message("the drive does not turn fully"))
+    if demands.transmission > 0 and not transmission >= demands.transmission:
+        reasons.append(transmission_fault(float(transmission)))
+    verdict = DesignVerdict(
+        True,
+        True,
+        path.one_branch,
+        path.in_order,
+        full,
+        float(transmission),
+        ratio,
+        inside,
+        float(missed_by),
+        tuple(reasons),
+    )
+    return Design(linkage, verdict, form, drives)
+
+
+def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form: str, drives: Reals) -> Design:
+    """The verdict on a linkage with several drives, which `move` carries from target to target.
+
+    Args:
+        linkage: in the position of the first target.
+        targets: as for `judge_design`.
+        demands: of order and branch nothing is left, since the drives choose the way; a full turn is refused.
+        form: of the design.
+        drives: (targets, drives) their values at the targets; between two targets they go evenly.
+    """
+    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    reasons = faults_of_size(ratio, inside, demands)
+    between = np.linspace(0, len(drives) - 1, _ROWS * (len(drives) - 1) + 1)
+    rows = np.stack([np.interp(between, np.arange(len(drives)), column) for column in drives.T], axis=1)
+    error = np.inf
+    try:
+        motion = move_in_radians(linkage, rows)
+        if motion.complete:
+            values = np.stack([probe.of_motion(motion)[::_ROWS] for probe in targets.probes], axis=1)
+            error = float(np.sqrt(np.nansum(np.abs(values - targets.values) ** 2, axis=1)).max() / targets.size)
+    except LinkageError as fault:
+        reasons.append(message("it cannot be followed from its first position: {error}", error=fault))
+    if not np.isfinite(error):
+        reasons.append(message("`move` does not lead through all targets"))
+    elif error > demands.tolerance + _ROUNDING * linkage.size / targets.size:
+        reasons.append(message("a target is missed by {error:.3g} of the size", error=error))
+    if demands.crank:
+        reasons.append(message("with several drives none has to turn fully"))
+    if demands.transmission > 0:
+        reasons.append(message("with several drives there is no transmission angle"))
+    moved = bool(np.isfinite(error))
+    verdict = DesignVerdict(
+        moved, moved, moved, moved, False, np.nan, ratio, inside, error if moved else np.nan, tuple(reasons)
+    )
+    return Design(linkage, verdict, form, drive_rows=tuple(tuple(map(float, row)) for row in drives))
+
+
+def faults_of_size(ratio: float, inside: bool, demands: Demands) -> list[Message]:
+    """What speaks against a linkage before it moves: the place of its pivots, the ratio of its lengths."""
+    faults = []
+    if not inside:
+        faults.append(message("a fixed pivot lies outside the region"))
+    if ratio > demands.size_ratio:
+        faults.append(message("its lengths differ too much (ratio {ratio:.3g})", ratio=ratio))
+    return faults
+
+
+def transmission_fault(transmission: float) -> Message:
+    """That a transmission angle, in radians, is too small."""
+    return message("the transmission angle falls to {angle:.1f} degrees", angle=np.degrees(transmission))
+
+
+def _missed(targets: list[int], error: float) -> Message:
+    """Which targets the circuit misses, at most nine by their numbers, and how near it comes to the worst."""
+    if len(targets) == 1:
+        return message(
+            "target {target} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
+            "{error:.3g} of the size",
+            target=targets[0],
+            error=error,
+        )
+    return message(
+        "targets {targets} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
+        "{error:.3g} of the size",
+        targets=joined([*targets[:9], *(["..."] if len(targets) > 9 else [])]),
+        error=error,
+    )
+
+
+def _in_another_order(error: float) -> Message:
+    """That the circuit passes the targets in another order; by how much one is missed in theirs, if that is known."""
+    if np.isnan(error):
+        return message("the targets are met in another order")
+    return message(
+        "the targets are met in another order; in that of the task one is missed by {error:.3g} of the size",
+        error=error,
+    )
+
+
+def size_ratio(linkage: Linkage) -> float:
+    """The longest distance of two pins of a link by the shortest; points on slides do not count."""
+    lengths = []
+    for link in linkage.mechanism.chain.links:
+        pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and isinstance(e, Pin)]
+        lengths += [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
+    return max(lengths) / min(lengths) if lengths else 1.0
+
+
+def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | None) -> bool:
+    """Whether all pins of the frame lie in a rectangle; the boundary belongs to it."""
+    if region is None:
+        return True
+    frame = linkage.mechanism.frame
+    pins = [e for (_, owner), e in linkage.elements.items() if owner == frame and not isinstance(e, Line)]
+    return all(region[0] <= e.x <= region[2] and region[1] <= e.y <= region[3] for e in pins)
+
+
+class _Met(NamedTuple):
+    """Where a circuit meets the targets."""
+
+    places: Places
+    error: float
+    """The largest over the targets of the smallest deviation, relative to the size."""
+    in_order: Callable[[Piece], OrderedMatch | None]
+    """The best match in order on a piece of the circuit, its error relative to the size."""
+
+
+def _met(course: Circuit, targets: Targets, limit: float) -> _Met:
+    """Where the circuit meets each target exactly: zeros of the derivative of the squared distance, refined."""
+    samples, count = course.samples, len(targets.values)
+    gaps, rates = _against_all(samples, targets)
+    square = np.sum(np.abs(gaps) ** 2, axis=2)
+    slope = np.sum(np.real(np.conj(gaps) * rates), axis=2)
+    target, segment = np.nonzero((slope[:, :-1] <= 0) & (slope[:, 1:] >= 0))
+    arcs = course.arcs
+    low, high = arcs[segment], arcs[segment + 1]
+    falls, rises = -slope[target, segment], slope[target, segment + 1]
+    speed = np.sqrt(np.sum(np.abs(rates[target, segment]) ** 2, axis=1))
+    near = np.sqrt(np.minimum(square[target, segment], square[target, segment + 1]))
+    nearest = np.full(count, np.inf)
+    np.minimum.at(nearest, target, near)
+    # Of a target that is missed the nearest place is refined all the same: the verdict says how near it is.
+    keep = near <= np.maximum(2 * (high - low) * speed + 2e-3 * targets.size, nearest[target])
+    target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)
+    for _ in range(_REFINEMENTS):
+        if not len(at):
+            break
+        gap, rate = targets.gaps(course.at(at), target)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
+        at = np.clip(at - np.nan_to_num(step), low, high)
+    ends = np.full(len(at), np.inf)
+    if len(at):
+        gap, _ = targets.gaps(course.at(at), target)
+        ends = np.sqrt(np.sum(np.abs(gap) ** 2, axis=1)) / targets.size
+    found_at, error = [], 0.0
+    for k in range(count):
+        of_target = target == k
+        # Where an open or closed circuit begins exactly at a target, both ends of it are looked at too.
+        border = np.sqrt(square[k, [0, -1]]) / targets.size
+        all_arcs = np.concatenate([at[of_target], arcs[[0, -1]]])
+        misses = np.concatenate([ends[of_target], border])
+        error = max(error, min(float(misses.min()), float(np.sqrt(square[k].min())) / targets.size))
+        found_at.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
+    places = Places.of_points(found_at, course.length, closed=course.closed)
+
+    def in_order(piece: Piece) -> OrderedMatch | None:
+        matches = [OrderedMatch(0.0, 0.0, arcs) for arcs in places.matches(piece)]
+        return preferred(matches, 1.0) if matches else None
+
+    return _Met(places, error, in_order)
+
+
+def _approached(course: Circuit, targets: Targets, limit: float) -> _Met:
+    """Where the circuit comes near the targets; in order, so that the farthest of them is as near as possible."""
+    size = targets.size
+    arcs = np.insert(course.arcs, slice(1, None), (course.arcs[:-1] + course.arcs[1:]) / 2)
+    poses = course.at(arcs)
+    values, rates = (np.stack([probe.value(poses, n) for probe in targets.probes], axis=1) for n in (0, 1))
+    distances = TargetDistances(SmoothCurve(arcs, values, rates, course.closed), targets.values, size)
+
+    def in_order(piece: Piece) -> OrderedMatch:
+        match = distances.best_in_order(piece)
+        arcs = _sharpened(course, targets, distances, match.arcs, piece)
+        return OrderedMatch(match.error / size, match.mean / size, arcs)
+
+    return _Met(distances.places(limit * size), float(distances.nearest.max()) / size, in_order)
+
+
+def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, arcs: Reals, piece: Piece) -> Reals:
+    """Places put right by the circuit itself, between their neighbours: a target that is met is met exactly."""
+    sense = 1.0 if arcs[-1] >= arcs[0] else -1.0
+    low, high = (-np.inf, np.inf) if piece is None else piece
+    if piece is not None and not course.closed:
+        low, high = max(low, 0.0), min(high, course.length)
+    inside = _INSIDE * course.length if course.drive_limits else 0.0
+    arcs = np.clip(arcs, low + inside, high - inside)
+    which = np.arange(len(arcs))
+    for _ in range(_SHARPENINGS):
+        gap, rate = targets.gaps(course.at(arcs), which)
+        slope = np.sum(np.real(np.conj(gap) * rate), axis=1)
+        bend = distances.bend(arcs)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = np.where(bend > 0, -slope / bend, 0.0)
+        rising, lap = sense * arcs, course.length if piece is None else np.inf
+        before, after = np.append(rising[-1] - lap, rising[:-1]), np.append(rising[1:], rising[0] + lap)
+        rising = np.maximum.accumulate(np.clip(rising + sense * np.nan_to_num(step), before, after))
+        rising = np.minimum(rising, rising[0] + lap)
+        arcs = np.clip(sense * rising, low + inside, high - inside)
+    return arcs
+
+
+def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes]:
+    """(targets, samples, probes): the distance of every sample from every target, and the derivatives by the arc."""
+    values = np.stack([probe.value(samples, 0) for probe in targets.probes], axis=1)
+    rates = np.stack([probe.value(samples, 1) for probe in targets.probes], axis=1)
+    gaps = values[None] - targets.values[:, None, :]
+    free = np.isnan(gaps)
+    return np.where(free, 0, gaps), np.where(free, 0, np.broadcast_to(rates, gaps.shape))
+
+
+def _distinct(arcs: Reals, course: Circuit) -> Reals:
+    """Arcs without those that stand for one place: neighbours by rounding, and both ends of a closed circuit."""
+    distinct: list[float] = []
+    for arc in arcs % course.length if course.closed else arcs:
+        gaps = [abs(arc - other) for other in distinct]
+        if course.closed:
+            gaps += [course.length - gap for gap in gaps]
+        if not gaps or min(gaps) > 1e-6 * course.length:
+            distinct.append(float(arc))
+    return np.sort(np.array(distinct))
+
+
+class _TargetPath(NamedTuple):
+    """A way along the circuit through all targets."""
+
+    arcs: Reals
+    """The arc of each target, monotonic if ``in_order``."""
+    in_order: bool
+    one_branch: bool
+    error: float = np.nan
+    """How far the farthest target is missed in order, relative to the size; NaN if no way in order is known."""
+
+
+def _path(course: Circuit, met: _Met, limit: float) -> _TargetPath:
+    """The best way through the targets: in order and without a limit of the drive if there is one within a limit."""
+    branches, whole = _branches(course), None if course.closed else (0.0, course.length)
+    ways = [match for branch in branches if (match := met.in_order(branch)) is not None]
+    if ways and (best := preferred(ways, 1.0)).error <= limit:
+        return _TargetPath(best.arcs, True, True, best.error)
+    match = met.in_order(whole) if branches != [whole] else ways[0] if ways else None
+    if match is not None and match.error <= limit:
+        return _TargetPath(match.arcs, True, False, match.error)
+    return _unordered(course, met.places, np.nan if match is None else match.error)
+
+
+def _limit_before(course: Circuit, arc: float) -> bool:
+    """Whether a limit of the drive lies between the position that a circuit was followed from and a place of it."""
+    inside = [
+        piece.start <= start <= piece.end
+        for piece in course.monotone_pieces
+        if any(piece.start <= arc + lap <= piece.end for lap in _laps(course))
+        for start in (course.start + lap for lap in _laps(course))
+    ]
+    return bool(course.drive_limits) and not any(inside)
+
+
+def _laps(course: Circuit) -> tuple[float, ...]:
+    return (-course.length, 0.0, course.length) if course.closed else (0.0,)
+
+
+def _branches(course: Circuit) -> list[Piece]:
+    """The pieces of the circuit between limits of the drive; None for all of a closed one."""
+    if course.closed and not course.drive_limits:
+        return [None]
+    return [(piece.start, piece.end) for piece in course.monotone_pieces]
+
+
+def _unordered(course: Circuit, places: Places, error: float) -> _TargetPath:
+    """The shortest way through the targets in any order, without a limit of the drive if there is one."""
+    limits = np.array([extreme.at for extreme in course.drive_limits])
+    laps = (-1, 0, 1) if course.closed else (0,)
+    met = places.best_of_each
+    ways = []
+    for start in met[0]:
+        arcs = _nearest(course, met, float(start), limits)
+        low, high = arcs.min(), arcs.max()
+        free = all(not ((limits + k * course.length > low) & (limits + k * course.length < high)).any() for k in laps)
+        ways.append((not free, float(high - low), arcs))
+    crosses, _, arcs = min(ways, key=lambda each: each[:2])
+    return _TargetPath(arcs, False, not crosses, error)
+
+
+def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> Reals:
+    """An arc of each target without order: on the branch of the start if possible."""
+    low, high = -np.inf, np.inf
+    shifted = np.concatenate([limits + k * course.length for k in ((-1, 0, 1) if course.closed else (0,))])
+    if len(shifted):
+        low = max([v for v in shifted if v <= start], default=-np.inf)
+        high = min([v for v in shifted if v > start], default=np.inf)
+    chosen_arcs = [start]
+    for arcs in met[1:]:
+        laps = (-1, 0, 1) if course.closed else (0,)
+        all_arcs = np.concatenate([arcs + k * course.length for k in laps])
+        within = all_arcs[(all_arcs >= low) & (all_arcs <= high)]
+        chosen = within if len(within) else all_arcs
+        chosen_arcs.append(float(chosen[np.argmin(np.abs(chosen - start))]))
+    return np.array(chosen_arcs)
+
+
+def _turns_fully(course: Circuit) -> bool:
+    drives = course.linkage.mechanism.drives
+    if not drives or not drives[0].turning or course.drive_limits or not course.closed:
+        return False
+    ends = course.drive[[0, -1]]
+    return round(float(ends[1] - ends[0]) / (2 * np.pi)) != 0
+
+
+def _carried(
+    linkage: Linkage, course: Circuit, path: _TargetPath, targets: Targets
+) -> tuple[tuple[float, ...], float, float]:
+    """`move` through the targets: drive values, the largest error, the smallest transmission angle."""
+    order = np.argsort(path.arcs, kind="stable")
+    low, high = path.arcs[order[0]], path.arcs[order[-1]]
+    laps = (-1, 0, 1) if course.closed else (0,)
+    between = np.concatenate([course.arcs + k * course.length for k in laps])
+    between = between[(between > low) & (between < high)]
+    arcs = np.concatenate([path.arcs, between])
+    ranks = np.argsort(arcs, kind="stable")
+    drive = course.at(arcs[ranks]).drive()
+    rows = np.empty(len(arcs), np.int64)
+    rows[ranks] = np.arange(len(arcs))
+    begin = int(rows[0])
+    worst, least = 0.0, np.inf
+    values = tuple(float(drive[rows[k]]) for k in range(len(path.arcs)))
+    # From target 1, where the reference pose is, to both ends.
+    for part, forward in ((drive[begin:], True), (drive[: begin + 1][::-1], False)):
+        motion = move_in_radians(linkage, part, order=2)
+        if not motion.complete:
+            return values, float("inf"), float("nan")
+        least = min(least, _least_transmission(motion))
+        worst = max(worst, _error(motion, targets, rows, begin, forward=forward))
+    return values, worst, least
+
+
+def _error(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: int, *, forward: bool) -> float:
+    """The largest deviation of the targets that lie on this part of the way, relative to the size."""
+    reached = [k for k in range(len(targets.values)) if (rows[k] >= begin if forward else rows[k] <= begin)]
+    at = [int(rows[k]) - begin if forward else begin - int(rows[k]) for k in reached]
+    if not reached:
+        return 0.0
+    misses = np.stack([probe.of_motion(motion)[at] for probe in targets.probes], axis=1) - targets.values[reached]
+    return float(np.sqrt(np.nansum(np.abs(misses) ** 2, axis=1)).max() / targets.size)
+
+
+def _least_transmission(motion: Motion) -> float:
+    try:
+        mu = transmission_angle(motion)
+    except LinkageError:
+        return float("nan")
+    return float(np.nanmin(mu)) if np.isfinite(mu).any() else float("nan")

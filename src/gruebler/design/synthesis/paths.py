@@ -1,0 +1,428 @@
+"""Path generation: four-bars whose coupler point passes through points, with all solutions where they are finite.
+
+docs/theory/synthesis-points.md has the equations and the counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes
+from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
+from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.judging import (
+    Demands,
+    Probe,
+    Targets,
+    best_of,
+    judge_design,
+    missing_alike,
+    point_targets,
+    position_targets,
+)
+from gruebler.design.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
+from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.tasks import MOST_POINTS, SAME, PathTask, PositionTask
+from gruebler.mechanics.linkages import Linkage
+
+__all__ = ["four_bars_through", "synthesise_path"]
+
+MOST_ON_CIRCLE = 6
+MOST_TIMED = 5
+"""Points that are met with any crank angles."""
+_TURNS = (90, 150, 210, 270)
+"""Degrees by which the crank turns from the first point to the last, in one sense and the other, where it is free."""
+_SHARES = {5: 2, 4: 3}
+"""By the number of points: how many dyads are taken, in halves of the number asked for; of four few are accepted."""
+
+
+def synthesise_path(
+    task: PathTask,
+    demands: Demands | None = None,
+    *,
+    number: int = 6,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> SynthesisResult:
+    """All four-bars whose coupler point passes through the points of a task.
+
+    Nine points, five points and two fixed pivots, five points with crank angles, and the finite mixed tasks have
+    finitely many solutions, all of which are found. Fewer points have infinitely many: up to five are met with several
+    choices of the crank angles, six to eight by linkages whose curves are similar; where pivots or coupler angles are
+    given, points on a smooth curve through them are added until the number is finite. For more points, and for a closed
+    curve, the four-bars that come nearest are sought; of a closed curve with nine points those that pass through all of
+    them come first.
+
+    Args:
+        task: points, perhaps with coupler angles, crank angles or fixed pivots.
+        demands: what a design has to do besides.
+        number: of dyads taken from an infinite family (crank angles), or of designs for a whole curve.
+        threads: how many follow paths; as many as there are processors if None.
+        progress: called with the paths done and their number, then with the verdicts.
+
+    Raises `SynthesisError` for combinations that no method serves. Cost: nine points about 3 s on one core, the others
+    below 1 s, and 10 ms for each verdict.
+
+    >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
+    >>> count = synthesise_path(task).count
+    >>> str(count.what), count.theorem, count.found, count.real
+    ('four-bars', 36, 36, 14)
+    """
+    wanted = demands or Demands()
+    oriented = [k for k, angle in enumerate(task.angles) if angle is not None]
+    if task.crank_angles:
+        if oriented or task.fixed_pivots:
+            raise SynthesisError("crank angles go with points alone, without coupler angles and fixed pivots")
+        return _timed(task, wanted, number)
+    if task.fixed_pivots and len(oriented) > 1:
+        raise SynthesisError("fixed pivots go with points alone, without coupler angles")
+    if len(oriented) == len(task) and len(task) > 1 and not task.closed:
+        return _as_positions(task, wanted, progress)
+    points_alone = not oriented and not task.fixed_pivots and not task.closed
+    if points_alone and len(task) <= MOST_TIMED:
+        return _sampled(task, wanted, number, progress)
+    if points_alone and len(task) < MOST_POINTS:
+        from gruebler.design.synthesis.curves import fit_open_points
+
+        _check_general(task)
+        return fit_open_points(task, wanted, number=number, progress=progress)
+    poses = max(0, len(oriented) - 1)
+    needed = 4 if task.fixed_pivots else 8 - 2 * poses
+    free = len(task) - 1 - poses
+    if task.closed or needed < free or poses > 3:
+        from gruebler.design.synthesis.curves import fit_path
+
+        if oriented or task.fixed_pivots:
+            raise SynthesisError(
+                "this number of points is met by least squares, without coupler angles and fixed pivots"
+            )
+        if len(task) == MOST_POINTS and not _crowded(task):
+            through = _exact(replace(task, closed=False), wanted, PROBLEMS[0], [], threads, progress).designs
+        else:
+            through = ()
+        return _with_exact(fit_path(task, wanted, number=number, progress=progress), through, number)
+    problem = next(p for p in PROBLEMS if p.poses == poses and p.given_pivots == bool(task.fixed_pivots))
+    return _exact(task, wanted, problem, oriented, threads, progress)
+
+
+def _with_exact(fitted: SynthesisResult, through: Sequence[Design], number: int) -> SynthesisResult:
+    """Designs for nine points of a closed curve: first four-bars through all of them, whose cranks turn fully.
+
+    Least squares from similar curves find only some of these: nine points do not tell the curve between them.
+    """
+    exact = [replace(design, form="four-bar") for design in through if design.verdict.turns_fully]
+    if not exact:
+        return fitted
+    near = [design for design in fitted.designs if design.form != "four-bar" or design.verdict.error >= EXACT]
+    note = message(
+        "Four-bars through all points whose cranks turn fully: {count}, the first of the list.", count=len(exact)
+    )
+    designs = (*exact, *near)[: max(number, len(exact))]
+    return replace(fitted, designs=designs, notes=(*fitted.notes, note))
+
+
+def _as_positions(task: PathTask, demands: Demands, progress: Progress | None) -> SynthesisResult:
+    """Every point has its coupler angle: positions."""
+    rows = [(*p, a) for p, a in zip(task.points, task.angles, strict=True) if a is not None]
+    result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), demands, progress=progress)
+    return SynthesisResult(task, result.designs, result.rejected, result.count, result.notes)
+
+
+class _Reduced(NamedTuple):
+    """A task in its own units: the first position (or point) at the origin, the size 1."""
+
+    parameters: Complexes
+    origin: complex
+    size: float
+    added: int
+    """How many points were added to make the problem finite."""
+    first: int
+    """The number of the point that is the origin."""
+
+
+def _exact(
+    task: PathTask,
+    demands: Demands,
+    problem: Problem,
+    oriented: list[int],
+    threads: int | None,
+    progress: Progress | None,
+) -> SynthesisResult:
+    _check_general(task)
+    reduced, complete = _best_reference(task, problem, oriented, threads, progress)
+    designs: list[Design] = []
+    for done, alike in enumerate(classes := list(_classes(problem, complete)), 1):
+        if progress is not None:
+            progress(done, len(classes))
+        pairs = [[dyad.moved(reduced.size, reduced.origin) for dyad in pair] for pair in alike]
+        designs += _judged(task, demands, pairs, reduced.first)
+    cognate = problem.poses == 0 and not problem.given_pivots
+    what = message("cognate triples") if cognate else message("four-bars")
+    accepted, rejected = ranked(designs)
+    theorem = None if reduced.added else problem.classes
+    resolved = problem.classes - complete.missing
+    count = SolutionCount(what, theorem, resolved, len(complete.real), complete.infinite)
+    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, complete, reduced.added)))
+
+
+class _Crowd(NamedTuple):
+    points: int
+    on_line: bool
+
+
+def _crowded(task: PathTask) -> _Crowd | None:
+    """More points on a line or circle than a coupler curve has there, if there are so many.
+
+    A coupler curve is of degree six and passes three times through each circular point: it meets a line in six points,
+    a circle in 12 - 2 * 3 = 6.
+    """
+    z = (task.z - task.z.mean()) / task.size
+    rows = np.stack([np.abs(z) ** 2, z.real, z.imag, np.ones(len(z))], axis=1)
+    for three in combinations(range(len(z)), 3):
+        circle = np.linalg.svd(rows[list(three)])[2][-1]
+        # The distance from the circle a |z|^2 + ... = 0 (a line where a = 0), by its gradient.
+        slope = np.abs(2 * circle[0] * z + circle[1] + 1j * circle[2])
+        count = int(np.count_nonzero(np.abs(rows @ circle) <= SAME * np.maximum(slope, 1e-3)))
+        if count > MOST_ON_CIRCLE:
+            return _Crowd(count, bool(abs(circle[0]) < SAME))
+    return None
+
+
+def _check_general(task: PathTask) -> None:
+    """Raise `SynthesisError` for more points on a line or circle than a coupler curve has there."""
+    crowd = _crowded(task)
+    if crowd is None:
+        return
+    if crowd.on_line:
+        raise SynthesisError(
+            "{count} of the points lie on one line, which a coupler curve meets in at most {most} points "
+            "unless it contains it: give closed = true for the curves that come nearest",
+            count=crowd.points,
+            most=MOST_ON_CIRCLE,
+        )
+    raise SynthesisError(
+        "{count} of the points lie on one circle, which a coupler curve meets in at most {most} points unless "
+        "it contains it: give closed = true for the curves that come nearest",
+        count=crowd.points,
+        most=MOST_ON_CIRCLE,
+    )
+
+
+def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Message]:
+    if added:
+        yield message(
+            "There are infinitely many solutions: {count} points on a smooth curve through the given ones were added; "
+            "with them there are {theorem} solutions.",
+            count=added,
+            theorem=problem.classes,
+        )
+    if complete.infinite:
+        yield message("{count} solutions lie at infinity: the task is a special one.", count=complete.infinite)
+    if complete.singular:
+        yield message(
+            "{count} solutions are singular, since some coincide or have coinciding pivots: the task is a special one.",
+            count=complete.singular,
+        )
+    if complete.missing:
+        yield message(
+            "{count} solutions are not resolved: where their paths end could not be decided.", count=complete.missing
+        )
+    doubtful = int(np.count_nonzero(~complete.certified))
+    if doubtful:
+        yield message("{count} solutions are not certified: they are singular or nearly so.", count=doubtful)
+
+
+def _best_reference(
+    task: PathTask, problem: Problem, oriented: list[int], threads: int | None, progress: Progress | None
+) -> tuple[_Reduced, Solutions]:
+    """The solutions with the most central point as origin, where the equations cancel least; else with the next."""
+    candidates = list(oriented) or list(range(len(task)))
+    z = task.z
+    candidates.sort(key=lambda k: float(np.abs(z - z[k]).mean()))
+    best: tuple[_Reduced, Solutions] | None = None
+    for first in candidates[:2]:
+        reduced = _reduced(task, problem, oriented, first)
+        complete = solutions(problem, reduced.parameters, threads=threads, progress=progress)
+        if best is None or complete.missing < best[1].missing:
+            best = reduced, complete
+        if not complete.missing:
+            break
+    assert best is not None
+    return best
+
+
+def _reduced(task: PathTask, problem: Problem, oriented: list[int], first: int) -> _Reduced:
+    z = task.z
+    others = [k for k in oriented if k != first]
+    free = [k for k in range(len(z)) if k != first and k not in others]
+    size = float(np.abs(z - z[first]).mean())
+    extra = problem.points - len(free)
+    places = np.concatenate([z[others], z[free], _between(z, extra)])
+    angles = np.array([task.angles[k] for k in [first, *others]] if oriented else [0.0], float)
+    rotations = np.exp(1j * (angles[1:] - angles[0]))
+    pivots = None
+    if task.fixed_pivots:
+        a0, b0 = ((complex(*p) - z[first]) / size for p in task.fixed_pivots)
+        pivots = complex(a0), complex(b0)
+    p = parameters((places - z[first]) / size, rotations, pivots)
+    return _Reduced(p, complex(z[first]), size, extra, first)
+
+
+def _between(z: Complexes, count: int) -> Complexes:
+    """Points on a smooth curve through the given ones, between those furthest apart; a little off, to be general."""
+    if count == 0:
+        return np.zeros(0, np.complex128)
+    if len(z) < 3:
+        t = np.arange(1, count + 1) / (count + 1)
+        gap = z[-1] - z[0]
+        return np.asarray(z[0] + gap * t + 0.3j * gap * t * (1 - t) * (1 + 0.1 * np.cos(7 * t)))
+    from scipy.interpolate import PchipInterpolator
+
+    arc = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
+    curve = PchipInterpolator(arc, np.stack([z.real, z.imag], axis=1))
+    knots = list(arc)
+    points = []
+    for k in range(count):
+        gaps = np.diff(knots)
+        widest = int(np.argmax(gaps))
+        at = knots[widest] + gaps[widest] * (0.5 + 0.03 * np.cos(3.0 * k))
+        knots.insert(widest + 1, at)
+        x, y = curve(at)
+        points.append(complex(x, y))
+    return np.array(points)
+
+
+def _classes(problem: Problem, complete: Solutions) -> Iterator[list[tuple[GuidingDyad, GuidingDyad]]]:
+    """The real linkages of each real class: with Roberts' cognates where only points are given."""
+    for row in complete.real:
+        x, y, a, b = (complex(row[k] + np.conj(row[k + 1])) / 2 for k in (0, 2, 4, 6))
+        alike = [(GuidingDyad("RR", x, a), GuidingDyad("RR", y, b))]
+        if not (problem.poses or problem.given_pivots or abs(y - x) < 1e-12):
+            # The coupler triangle: the point, at the origin, lies at the part k of the way from x to y.
+            k = -x / (y - x)
+            c = a + k * (b - a)
+            alike.append((GuidingDyad("RR", a - x, a), GuidingDyad("RR", (a - x) * (1 - k), c)))
+            alike.append((GuidingDyad("RR", b - y, b), GuidingDyad("RR", k * (b - y), c)))
+        yield alike
+
+
+def _judged(task: PathTask, demands: Demands, pairs: Iterable[Sequence[GuidingDyad]], first: int) -> Iterator[Design]:
+    """The designs of a class: cognates have the same path, so that where one misses a point, so do the others."""
+    missed: DesignVerdict | None = None
+    for own, other in pairs:
+        try:
+            linkages = four_bar_linkages(own, other, complex(task.z[first]), unit=task.unit)
+        except LinkageError:
+            continue
+        if missed is not None:
+            yield missing_alike(linkages[0], missed, demands, "RR-RR")
+            continue
+        design = best_of(linkages, partial(_targets, task, first), demands, "RR-RR")
+        missed = design.verdict if design.verdict.misses else None
+        yield design
+
+
+def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
+    if not any(angle is not None for angle in task.angles):
+        return point_targets("P", task.z, task.size)
+    start = task.angles[first]
+    assert start is not None
+    start_angle = linkage.required_pose["coupler"].angle
+    angles = [None if a is None else start_angle + a - start for a in task.angles]
+    return position_targets("P", "coupler", task.z, angles, task.size)
+
+
+def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
+    """The real pairs of dyads through nine points, or five points with given pivots, without a verdict."""
+    problem = PROBLEMS[4 if task.fixed_pivots else 0]
+    reduced, complete = _best_reference(task, problem, [], None, None)
+    size, origin = reduced.size, reduced.origin
+    every = [pair for alike in _classes(problem, complete) for pair in alike]
+    return [(own.moved(size, origin), other.moved(size, origin)) for own, other in every]
+
+
+def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
+    """Points with crank angles: twice the problem of guiding a body, first seen from the crank, then the coupler."""
+    if len(task) > 5:
+        from gruebler.design.synthesis.curves import fit_path
+
+        return fit_path(task, demands, number=number)
+    if len(task) < 3:
+        raise SynthesisError("crank angles need at least three points: two are met by any crank")
+    timing = np.array(task.crank_angles)
+    # The body of the crank seen with the coupler point at rest: its point A - A0 goes to exp(i angle) (A - A0) - P.
+    within = np.angle(np.exp(1j * timing))  # a body looks the same after a whole turn
+    seen = PositionTask(tuple((-z.real, -z.imag, a) for z, a in zip(task.z, within, strict=True)))
+    designs: list[Design] = []
+    cranks = [d for d in guiding_dyads(seen, number) if d.form == "RR"]
+    real = 0
+    for crank in cranks:
+        # Placed in the first position: fixed = -A0, moving = (A - A0) - P1 as the place of the body's point.
+        pivot, pin = -crank.fixed, crank.moving + task.z[0] - crank.fixed
+        turned = np.exp(1j * (timing - timing[0]))
+        pins = pivot + (pin - pivot) * turned
+        coupler = np.angle((task.z - pins) / (task.z[0] - pin))
+        carried = PositionTask(tuple((z.real, z.imag, a) for z, a in zip(task.z, coupler, strict=True)))
+        own = GuidingDyad("RR", complex(pin), complex(pivot))
+        for other in guiding_dyads(carried, number):
+            same = abs(other.moving - own.moving) + abs(other.fixed - own.fixed)
+            if other.form == "RR" and same < 1e-6 * (task.size + abs(own.moving) + abs(own.fixed)):
+                continue
+            real += 1
+            designs += _judged_timed(task, demands, own, other)
+    accepted, rejected = ranked(designs)
+    theorem = 12 if len(task) == 5 else None
+    family = message("There are infinitely many solutions; some dyads of each family were taken.")
+    count = SolutionCount(message("linkages"), theorem, theorem or real, real)
+    return SynthesisResult(task, accepted, rejected, count, () if theorem else (family,))
+
+
+def _sampled(task: PathTask, demands: Demands, number: int, progress: Progress | None) -> SynthesisResult:
+    """At most five points: with every choice of crank angles there are solutions, some of which are taken.
+
+    The crank turns evenly with the way between the points, so that their order and its sense come by themselves.
+    """
+    z = task.z if len(task) > 2 else np.insert(task.z, 1, _between(task.z, 1))
+    points = tuple((float(w.real), float(w.imag)) for w in z)
+    lengths = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
+    turns = [sign * np.radians(turn) for turn in _TURNS for sign in (1, -1)]
+    designs: list[Design] = []
+    real = 0
+    for done, turn in enumerate(turns, 1):
+        timing = tuple(float(angle) for angle in turn * lengths / lengths[-1])
+        few = max(2, number * _SHARES.get(len(task), 1) // 2)
+        result = _timed(PathTask(points, crank_angles=timing, unit=task.unit), demands, few)
+        designs += [*result.designs, *result.rejected]
+        real += result.count.real
+        if progress is not None:
+            progress(done, len(turns))
+    note = message(
+        "There are infinitely many solutions, a family of {parameters} parameters: for all crank angles at the points "
+        "there are linkages. Those for {count} choices were taken; fixed_pivots or crank_angles choose others.",
+        parameters=MOST_POINTS - len(task),
+        count=len(turns),
+    )
+    accepted, rejected = ranked(designs)
+    return SynthesisResult(task, accepted, rejected, SolutionCount(message("linkages"), None, real, real), (note,))
+
+
+def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:
+    from gruebler.design.synthesis.positions import linkage_of_dyads
+
+    try:
+        linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
+    except LinkageError:
+        return []
+    timing = np.array(task.crank_angles)
+    crank = task.size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
+    probes = (Probe("P"), Probe(link="crank", length=task.size))
+    targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
+    return [judge_design(linkage, targets, demands, f"RR-{other.form}")]

@@ -1,0 +1,330 @@
+"""A body carried through positions: all four-bars, slider-cranks and inverted slider-cranks that do it.
+
+docs/theory/synthesis-positions.md has the counts: two and three positions leave pivots to be chosen, four leave curves,
+five leave four dyads, and more are met by least squares.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+from math import atan2, comb
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.burmester import burmester_curves
+from gruebler.design.synthesis.dyads import (
+    Displacements,
+    GuidingDyad,
+    all_dyads,
+    dyad_of_fixed_pivot,
+    dyad_of_moving_pivot,
+    misfit,
+    sliding_dyads,
+)
+from gruebler.design.synthesis.judging import Demands, Targets, best_of, position_targets
+from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.tasks import PositionTask
+from gruebler.mechanics.fourbar import grashof
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of_dyads", "ranked", "synthesise_positions"]
+
+
+_SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
+"""What the link between frame and coupler is called: the first of its kind, the second."""
+NEAR = 0.05
+"""More than five positions are met if they are missed by less than this part of the size."""
+_FARTHEST = 1e3
+"""Sizes. A circle about a pivot farther away is a line within some 1e-4 sizes; the search for it creeps to infinity and
+stops anywhere, while the sliding dyad that is meant is fitted as such."""
+
+DYADS = message("dyads")
+_FAMILIES = {
+    2: message(
+        "There are infinitely many solutions: every point of the body and every point of the frame is a pivot of "
+        "infinitely many dyads; {count} dyads were taken."
+    ),
+    3: message(
+        "There are infinitely many solutions: every point of the body is the pivot of one dyad, likewise every point "
+        "of the frame; {count} dyads were taken."
+    ),
+    4: message(
+        "There are infinitely many solutions: the pivots lie on Burmester's cubics, one dyad for each point of them; "
+        "{count} dyads were taken."
+    ),
+}
+
+_PAIRS = message(
+    "{dyads} complex dyads are {pairs} solutions as ordered pairs, each dyad also with itself, and {linkages} linkages."
+)
+
+THEOREM = {2: None, 3: None, 4: None, 5: 4}
+"""How many complex dyads a general task has, by the number of positions."""
+
+
+def guiding_dyads(
+    task: PositionTask, number: int = 24, region: tuple[float, float, float, float] | None = None
+) -> tuple[GuidingDyad, ...]:
+    """The dyads that guide the body: all four of five positions, else those chosen or so many of infinitely many.
+
+    Of infinitely many only those are taken whose fixed pivots lie in the region, where one is given; of four positions
+    all, if the curve does not pass through it.
+
+    Raises `SynthesisError` where a chosen pivot serves no dyad or any.
+    """
+    displacements, origin, size = Displacements.of(task.origins, task.turns)
+    count = len(task)
+    if count == 5:
+        return tuple(dyad.moved(size, origin) for dyad in all_dyads(displacements).real)
+    if count == 4:
+        curves = burmester_curves(task)
+        if not curves.pieces:
+            return curves.sliding
+        picked = [curves.nearest(complex(*p)) for p in task.moving_pivots]
+        picked += [curves.nearest(complex(*p), fixed=True) for p in task.fixed_pivots]
+        picked += [curves.at(place) for place in task.curve_parameters]
+        return tuple(picked) or curves.dyads(number, region)
+    if count > 5:
+        return tuple(dyad.moved(size, origin) for dyad in _fitted_dyads(displacements))
+    chosen: list[tuple[Callable[[Displacements, complex], GuidingDyad], complex]]
+    chosen = [(dyad_of_moving_pivot, complex(*p)) for p in task.moving_pivots]
+    chosen += [(dyad_of_fixed_pivot, complex(*p)) for p in task.fixed_pivots]
+    if not chosen:
+        side = max(2, round(number**0.5))
+        if region is None:
+            centre, reach = task.origins.mean(), 1.5 * size
+            steps = np.linspace(-1, 1, side)
+            chosen = [(dyad_of_moving_pivot, complex(centre + reach * complex(a, b))) for a in steps for b in steps]
+        else:  # the middles of its fields: a pivot on the edge could fall outside by the last bit
+            x, y = (low + (high - low) * (np.arange(side) + 0.5) / side for low, high in (region[::2], region[1::2]))
+            chosen = [(dyad_of_fixed_pivot, complex(a, b)) for a in x for b in y]
+    dyads = []
+    if count == 2:
+        displacements = Displacements(
+            np.append(displacements.q, _halfway(displacements.q[0])), np.append(displacements.t, _halved(displacements))
+        )
+    for construct, pivot in chosen:
+        try:
+            dyads.append(construct(displacements, (pivot - origin) / size).moved(size, origin))
+        except SynthesisError:
+            if task.moving_pivots or task.fixed_pivots:
+                raise
+    return tuple(dyads)
+
+
+def _halfway(q: complex) -> complex:
+    """Half the rotation: with it two positions become three of the rotation about their pole, or of the shift."""
+    return complex(np.exp(0.5j * np.angle(q)))
+
+
+def _halved(given: Displacements) -> complex:
+    """The shift of a third position that bulges a little, so that the centres lie at hand."""
+    q, t = complex(given.q[0]), complex(given.t[0])
+    return t * 0.5 + 0.25j * t if abs(t) > 0 else 0.25 + 0j * q
+
+
+def synthesise_positions(
+    task: PositionTask, demands: Demands | None = None, *, number: int = 16, progress: Progress | None = None
+) -> SynthesisResult:
+    """All linkages of two dyads that carry a body through positions.
+
+    Args:
+        task: the positions.
+        demands: what a design has to do besides; by default one branch and the order of the task.
+        number: of dyads that are taken from each infinite family (two to four positions).
+        progress: called with the pairs of dyads that are judged, and their number.
+
+    Raises `SynthesisError` for positions that infinitely many dyads of no known family serve. Cost: 1 ms for the dyads
+    of five positions and about 10 ms for the verdict on each design.
+
+    >>> task = PositionTask([(0, 0, 0), (-2, 3.8, np.radians(81)), (-0.1, 3.4, np.radians(-16)),
+    ...                      (1.5, 0.8, np.radians(-32)), (-1.8, 2.2, np.radians(55))])
+    >>> found = synthesise_positions(task)
+    >>> found.count.found, found.count.real, len(found.designs) + len(found.rejected)
+    (4, 4, 6)
+    """
+    wanted = demands or Demands()
+    dyads = guiding_dyads(task, number, wanted.region)
+    if len(task) > 5:
+        return _approximate(task, wanted, dyads, progress)
+    candidates = _judged_pairs(task, wanted, dyads, progress)
+    notes: list[Message] = []
+    complex_dyads = len(dyads)
+    if len(task) == 5:
+        displacements, *_ = Displacements.of(task.origins, task.turns)
+        complex_dyads = all_dyads(displacements).found
+        notes.append(_PAIRS.filled(dyads=complex_dyads, pairs=complex_dyads**2, linkages=comb(complex_dyads, 2)))
+    else:
+        notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
+    if len(task) == 4 and (task.moving_pivots or task.fixed_pivots):
+        notes.append(message("For each pivot that was chosen the nearest point of its curve was taken."))
+    if len(dyads) < 2:
+        notes.append(message("A linkage needs two dyads."))
+    designs, rejected = ranked(candidates)
+    return SynthesisResult(
+        task, designs, rejected, SolutionCount(DYADS, THEOREM[len(task)], complex_dyads, len(dyads)), tuple(notes)
+    )
+
+
+def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
+    """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
+    usual = in_order_of(candidates, ("full-turn", "transmission", "size-ratio"))
+    accepted = [design for design in usual if design.verdict.accepted]
+    rejected = sorted((d for d in usual if not d.verdict.accepted), key=lambda design: len(design.verdict.reasons))
+    return tuple(accepted), tuple(rejected)
+
+
+def _judged_pairs(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], progress: Progress | None
+) -> list[Design]:
+    designs = []
+    pairs = list(combinations(dyads, 2))
+    for done, (guiding_dyad, two) in enumerate(pairs, 1):
+        if progress is not None:
+            progress(done, len(pairs))
+        form = f"{guiding_dyad.form}-{two.form}"
+        try:
+            linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
+        except LinkageError:
+            continue  # two dyads with a common pivot are no linkage
+        designs.append(best_of(linkages, partial(_targets, task), demands, form))
+    return designs
+
+
+def _targets(task: PositionTask, linkage: Linkage) -> Targets:
+    first = linkage.required_pose["coupler"].angle
+    return position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
+
+
+def four_bar_linkages(
+    first_dyad: GuidingDyad, second_dyad: GuidingDyad, point: complex, *, unit: str = "mm"
+) -> list[Linkage]:
+    """The linkage of two dyads in its first position with a coupler point P, driven at each side: the better first.
+
+    The side that turns fully drives; of two that do not, each is tried. Raises `LinkageError` if pivots coincide.
+    """
+    orders = [(first_dyad, second_dyad), (second_dyad, first_dyad)]
+    if first_dyad.form == second_dyad.form == "RR":
+        turning = grashof(
+            first_dyad.length,
+            abs(first_dyad.moving - second_dyad.moving),
+            second_dyad.length,
+            abs(first_dyad.fixed - second_dyad.fixed),
+        ).turning
+        if "c" in turning and "a" not in turning:
+            orders.reverse()
+        if turning and "b" not in turning:
+            orders = orders[:1]
+    elif first_dyad.form == "PR" and second_dyad.form != "PR":
+        orders.reverse()
+    return [linkage_of_dyads(first, second, point, unit) for first, second in orders]
+
+
+def linkage_of_dyads(first_dyad: GuidingDyad, other_dyad: GuidingDyad, point: complex, unit: str) -> Linkage:
+    """The linkage of two dyads in its first position, driven at the first; P lies on the coupler.
+
+    Raises `LinkageError` if pivots of a link coincide.
+    """
+    first = _SIDES[first_dyad.form][0]
+    second = _SIDES[other_dyad.form][1 if first_dyad.form == other_dyad.form else int(other_dyad.form == "RR")]
+    if first_dyad.form == other_dyad.form and first_dyad.form != "RR":
+        second = second.replace(" ", "_")
+    parts: list[str] = []
+    places: dict[str | int, object] = {}
+    for side, dyad in ((first, first_dyad), (second, other_dyad)):
+        for kind, a, b, at in (
+            (dyad.form[0], "frame", side, dyad.moving if dyad.form == "PR" else dyad.fixed),
+            (dyad.form[1], side, "coupler", dyad.fixed if dyad.form == "RP" else dyad.moving),
+        ):
+            name = f"{kind}({a}-{b})"
+            parts.append(name)
+            angle = (atan2(dyad.direction.imag, dyad.direction.real),) if kind == "P" else ()
+            places[name] = (at.real, at.imag, *angle)
+    mechanism = Mechanism.parse(f"{parts[0]} {parts[1]} {parts[3]} {parts[2]}; frame=frame; drive={parts[0]}")
+    points = {"P": ("coupler", point.real, point.imag)}
+    return Linkage.from_drawing(mechanism, places, points, unit=unit, outputs=[second])
+
+
+def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
+    """Dyads of more than four displacements by least squares, the best first: RR, PR, RP."""
+    from scipy.optimize import least_squares
+
+    count = len(given.q)
+    starts: list[GuidingDyad] = []
+    for chosen in list(combinations(range(count), 4))[:35]:
+        part = Displacements(given.q[list(chosen)], given.t[list(chosen)])
+        try:
+            starts += all_dyads(part).real
+            starts += sliding_dyads(Displacements(part.q[:3], part.t[:3]))
+        except SynthesisError:
+            continue
+    steps = np.linspace(-2, 2, 4)
+    starts += [
+        GuidingDyad("RR", complex(a, b), complex(c, d))
+        for a in steps
+        for b in steps
+        for c in steps[1:3]
+        for d in steps[1:3]
+    ]
+    best: list[tuple[float, GuidingDyad]] = []
+    for dyad in starts:
+        if dyad.form == "RR":
+            if max(abs(dyad.moving), abs(dyad.fixed)) > 50:
+                continue
+
+            def gaps(p: NDArray[np.float64]) -> NDArray[np.float64]:
+                lengths = np.abs(given.images(complex(p[0], p[1])) - complex(p[2], p[3]))
+                return np.asarray(lengths - lengths.mean())
+
+            start = [dyad.moving.real, dyad.moving.imag, dyad.fixed.real, dyad.fixed.imag]
+            p = least_squares(gaps, start, method="lm", xtol=1e-15, ftol=1e-15, max_nfev=200).x
+            fitted = GuidingDyad("RR", complex(p[0], p[1]), complex(p[2], p[3]))
+            if fitted.length < 1e-6 or max(abs(fitted.moving), abs(fitted.fixed)) > _FARTHEST:
+                continue
+        else:
+            seen = given if dyad.form == "PR" else given.inverse
+
+            def offsets(p: NDArray[np.float64], seen: Displacements = seen) -> NDArray[np.float64]:
+                across = np.imag(np.exp(-1j * p[2]) * seen.images(complex(p[0], p[1])))
+                return np.asarray(across - across.mean())
+
+            start = [dyad.moving.real, dyad.moving.imag, float(np.angle(dyad.direction))]
+            p = least_squares(offsets, start, method="lm", xtol=1e-15, ftol=1e-15, max_nfev=200).x
+            point = complex(p[0], p[1])
+            fitted = GuidingDyad(dyad.form, point, point, complex(np.exp(1j * p[2])))
+        best.append((misfit(given, fitted), fitted))
+    best.sort(key=lambda row: row[0])
+    distinct: list[GuidingDyad] = []
+    for _, dyad in best:
+        if all(_apart(dyad, other) for other in distinct):
+            distinct.append(dyad)
+        if len(distinct) == 8:
+            break
+    return distinct
+
+
+def _apart(first: GuidingDyad, second: GuidingDyad) -> bool:
+    gap = abs(first.moving - second.moving) + abs(first.fixed - second.fixed)
+    return first.form != second.form or gap > 1e-3 * (1 + abs(first.moving) + abs(first.fixed))
+
+
+def _approximate(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], progress: Progress | None
+) -> SynthesisResult:
+    """More than five positions: the pairs of fitted dyads, judged by how near they come to each position."""
+    tolerance = demands.tolerance if demands.tolerance > 1e-6 else NEAR
+    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads, progress)
+    accepted, rejected = ranked(designs)
+    accepted = in_order_of(accepted, ["error"])
+    note = message(
+        "More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted.",
+        tolerance=tolerance,
+    )
+    return SynthesisResult(task, accepted, rejected, SolutionCount(DYADS, 0, len(dyads), len(dyads)), (note,))

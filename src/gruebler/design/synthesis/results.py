@@ -1,0 +1,283 @@
+"""What a synthesis returns: designs with their verdicts, and how complete the list is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import degrees, isnan
+
+from gruebler.base.arrays import compared_by_value
+from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.notebook import html_table
+from gruebler.base.text import Message, message, plural
+from gruebler.design.synthesis.coordination import Minimax
+from gruebler.design.synthesis.tasks import Task
+from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.outputs import find_output
+from gruebler.mechanics.analysis.transmission import measure_transmission
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.chain.pairs import Alphabet, in_alphabets, pair
+
+__all__ = [
+    "ORDERS",
+    "Design",
+    "DesignVerdict",
+    "ParetoRow",
+    "SolutionCount",
+    "SynthesisResult",
+    "in_order_of",
+    "pareto",
+]
+
+
+@compared_by_value
+@dataclass(frozen=True, eq=False)
+class DesignVerdict:
+    """What a design does when it moves. ``reasons`` is empty for an accepted design."""
+
+    assembles: bool = False
+    """Whether it reaches every target of the task on some circuit of its own."""
+    one_circuit: bool = False
+    """Whether it reaches all targets without being taken apart."""
+    one_branch: bool = False
+    """Whether the drive carries it through all targets without turning back."""
+    in_order: bool = False
+    """Whether it meets the targets in the order of the task."""
+    turns_fully: bool = False
+    """Whether the drive turns fully."""
+    transmission: float = float("nan")
+    """The minimum transmission angle on the way through the targets, in radians; NaN where there is none."""
+    size_ratio: float = float("nan")
+    """The longest length of a link by the shortest."""
+    inside: bool = True
+    """Whether the fixed pivots lie in the region."""
+    error: float = float("nan")
+    """The largest deviation from a target, relative to the size of the task."""
+    reasons: tuple[Message, ...] = ()
+
+    @property
+    def accepted(self) -> bool:
+        """Whether nothing speaks against it."""
+        return not self.reasons
+
+    @property
+    def misses(self) -> bool:
+        """Whether its circuit was followed and misses a target."""
+        return self.assembles and not self.one_circuit
+
+
+Progress = Callable[[int, int], None]
+"""Called with how much is done, and of how much."""
+FITTED = "fitted structure"
+"""The form of a design whose structure is neither that of a four-bar nor of a slider-crank."""
+_FORMS = {
+    "four-bar": message("four-bar"),
+    "slider-crank": message("slider-crank"),
+    "inverted-slider-crank": message("inverted slider-crank"),
+}
+
+
+_PAIRS = {"R": pair("revolute"), "P": pair("prismatic")}
+
+
+def _symbol(letter: str, alphabet: Alphabet) -> str:
+    """A letter of a form such as ``RR-PR`` in an alphabet."""
+    return _PAIRS[letter].symbol(alphabet) if letter in _PAIRS else letter
+
+
+@dataclass(frozen=True)
+class Design:
+    """A linkage made for a task, with what it really does."""
+
+    linkage: Linkage
+    verdict: DesignVerdict
+    form: str
+    """The two connections of coupler and frame, such as ``RR-RR``, or the kind of linkage, such as ``four-bar``."""
+    drives: tuple[float, ...] = ()
+    """The drive value at each target; empty with several drives."""
+    drive_rows: tuple[tuple[float, ...], ...] = ()
+    """With several drives their values at each target."""
+    optimum: Minimax | None = None
+    """Of a function that is followed as well as possible: lengths, starts and largest error."""
+
+    def _repr_svg_(self) -> str | None:
+        """The linkage to scale, for notebooks."""
+        return self.linkage._repr_svg_()
+
+    @property
+    def links(self) -> int:
+        """The number of links, the frame included."""
+        return len(self.linkage.mechanism.chain.links)
+
+    @cached_property
+    def transmission_over_range(self) -> float:
+        """The minimum transmission angle over the whole range of the drive, in radians; NaN where there is none.
+
+        It is what `analyse` prints, and at most the one on the way through the targets. Cost: 70 ms, once.
+        """
+        try:
+            return float(measure_transmission(drive_cycle(self.linkage), find_output(self.linkage, None)).smallest.mu)
+        except LinkageError:
+            return float("nan")
+
+    def form_in_language(self, lang: str = "en") -> str:
+        """The form in words, that of a fitted structure by its number of links."""
+        if self.form == FITTED:
+            return plural("{count} link", "{count} links", self.links, lang)
+        if self.form in _FORMS:
+            return _FORMS[self.form].in_language(lang)
+        symbols = in_alphabets(lambda alphabet: "".join(_symbol(letter, alphabet) for letter in self.form))
+        return symbols.in_language(lang)
+
+
+EXACT = 1e-9
+"""A target is met if it is missed by less than this part of the task's size."""
+
+
+def _error(design: Design) -> float:
+    """Errors of exact designs are rounding, which orders nothing."""
+    error = design.verdict.error
+    return 0.0 if error < EXACT else error
+
+
+ORDERS: Mapping[str, Callable[[Design], float]] = {
+    "error": _error,
+    "transmission": lambda design: -design.verdict.transmission,
+    "range-transmission": lambda design: -design.transmission_over_range,
+    "size": lambda design: design.linkage.size,
+    "size-ratio": lambda design: design.verdict.size_ratio,
+    "links": lambda design: float(design.links),
+    "full-turn": lambda design: float(not design.verdict.turns_fully),
+}
+"""What designs can be sorted by, the better first: the smaller value."""
+
+
+def in_order_of(designs: Iterable[Design], orders: Iterable[str]) -> tuple[Design, ...]:
+    """Designs sorted by the first order, equal ones by the next; what has no value comes last.
+
+    Values that agree to nine digits are equal, since rounding tells such designs apart.
+
+    Raises `SynthesisError` for an order that there is not.
+    """
+    orders = tuple(orders)
+    for name in orders:
+        if name not in ORDERS:
+            raise SynthesisError(
+                "designs are sorted by {orders}, not by {name!r}", orders=", ".join(ORDERS), name=str(name)[:40]
+            )
+
+    def place(design: Design) -> list[tuple[bool, float]]:
+        values = [ORDERS[name](design) for name in orders]
+        return [(isnan(value), 0.0 if isnan(value) else float(f"{value:.9g}")) for value in values]
+
+    return tuple(sorted(designs, key=place))
+
+
+@dataclass(frozen=True)
+class SolutionCount:
+    """How many solutions there are."""
+
+    what: Message
+    """What is counted, such as dyads or cognate triples."""
+    theorem: int | None
+    """How many complex solutions a general task has; None where there are infinitely many, 0 where none is exact."""
+    found: int
+    """How many of them were found, those at infinity among them."""
+    real: int
+    """How many of those are real."""
+    infinite: int = 0
+    """How many of those found lie at infinity: they are no linkages."""
+
+    @property
+    def finite(self) -> int:
+        """How many of those found are linkages, real or complex."""
+        return self.found - self.infinite
+
+    @property
+    def complete(self) -> bool:
+        """Whether none is missing."""
+        return self.theorem is not None and self.found >= self.theorem
+
+
+@dataclass(frozen=True)
+class SynthesisResult:
+    """All designs for a task: accepted ones, best first, and rejected ones with their reasons."""
+
+    task: Task
+    designs: tuple[Design, ...]
+    rejected: tuple[Design, ...]
+    count: SolutionCount
+    notes: tuple[Message, ...] = field(default=())
+    """What else has to be known: solutions at infinity, missing ones, families of infinitely many."""
+
+    def __len__(self) -> int:
+        return len(self.designs)
+
+    def __getitem__(self, number: int) -> Design:
+        return self.designs[number]
+
+    def sorted_by(self, *orders: str) -> SynthesisResult:
+        """The same result with its designs, accepted and rejected, in another order: the names of `ORDERS`.
+
+        >>> from gruebler.design.synthesis import DeadCentreTask, synthesise
+        >>> found = synthesise(DeadCentreTask(stroke=50, time_ratio=1.2), number=4)
+        >>> [round(design.linkage.size, 1) for design in found.sorted_by("size").designs][:3]
+        [64.0, 113.0, 151.1]
+        """
+        return replace(self, designs=in_order_of(self.designs, orders), rejected=in_order_of(self.rejected, orders))
+
+    def _repr_html_(self) -> str:
+        """The accepted designs, for notebooks."""
+        rows = (
+            [
+                str(number),
+                each.form_in_language(),
+                "yes" if each.verdict.turns_fully else "no",
+                "–" if isnan(each.verdict.transmission) else f"{degrees(each.verdict.transmission):.1f}°",
+                f"{each.verdict.error:.2g}",
+            ]
+            for number, each in enumerate(self.designs)
+        )
+        headers = ["", "design", "full turn", "transmission angle through the targets", "error"]
+        return html_table(headers, rows, len(self)) + f"<p>{len(self)} accepted, {len(self.rejected)} rejected</p>"
+
+
+@dataclass(frozen=True)
+class ParetoRow:
+    """A design by what counts: the smaller error, size and number of links, the larger transmission angle."""
+
+    structure: str
+    error: float
+    transmission: float
+    size: float
+    links: int
+    design: Design
+
+    def dominates(self, other: ParetoRow) -> bool:
+        """Whether it is nowhere worse and somewhere better."""
+        own, its = self._costs, other._costs
+        return all(a <= b for a, b in zip(own, its, strict=True)) and own != its
+
+    @property
+    def _costs(self) -> tuple[float, ...]:
+        mu = 0.0 if isnan(self.transmission) else self.transmission
+        error = 0.0 if self.error < EXACT else self.error
+        return error, -mu, self.size, float(self.links)
+
+
+def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
+    """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
+    rows = [
+        ParetoRow(
+            design.linkage.mechanism.text(),
+            design.verdict.error,
+            design.verdict.transmission,
+            design.linkage.size,
+            design.links,
+            design,
+        )
+        for design in found.designs
+    ]
+    best = [row for row in rows if not any(other.dominates(row) for other in rows)]
+    return tuple(sorted(best, key=lambda row: row.error))

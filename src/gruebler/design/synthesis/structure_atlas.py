@@ -1,0 +1,211 @@
+"""An atlas of coupler curves of one structure: a crank and dyads of turning joints, moved in closed form.
+
+A linkage is drawn in one position: every joint is a place in the plane. All linkages of the atlas move at once;
+docs/theory/synthesis-any.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Complexes, Reals
+from gruebler.design.synthesis.curve_matching import PLACES, evenly_along
+from gruebler.structure.assur import AssurError, decompose
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = ["DyadStructure", "StructureAtlas", "dyad_structure", "link_motions", "structure_atlas"]
+
+
+_TRIALS = 60_000
+_LARGEST = 6.0  # places of joints, in crank lengths
+_SAFE = 0.15  # the least sine of an angle between two links of a dyad, so that small changes do not stop the motion
+_CURVES = 12_000
+
+
+class _Dyad(NamedTuple):
+    """Two links, the numbers of their outer joints and of the joint between them, and what the outer joints hang on."""
+
+    links: tuple[str, str]
+    outer: tuple[int, int]
+    inner: int
+    base: tuple[str, str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DyadStructure:
+    """The solving order of a mechanism of a crank and RRR dyads."""
+
+    mechanism: Mechanism
+    written_form: tuple[object, ...]
+    """Of the mechanism: the numbers of joints hold for it only."""
+    pivot: int
+    """The driven joint."""
+    crank: str
+    dyads: tuple[_Dyad, ...]
+    joints: int
+
+    @property
+    def coupler_links(self) -> tuple[str, ...]:
+        """The links whose points do not move on circles: those without a joint at the frame."""
+        chain, frame = self.mechanism.chain, self.mechanism.frame
+        held = {link for joint in chain.joints if frame in joint.links for link in joint.links}
+        return tuple(link for link in chain.links if link not in held)
+
+
+def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
+    """The solving order, if the mechanism is a crank at the frame and dyads of simple turning joints; None else."""
+    chain, frame = mechanism.chain, mechanism.frame
+    if len(mechanism.drives) != 1 or frame not in chain.joints[mechanism.drives[0].joint].links:
+        return None
+    if any(not joint.pair.is_revolute or len(joint.links) != 2 for joint in chain.joints):
+        return None
+    try:
+        order = decompose(mechanism)
+    except AssurError:
+        return None
+    pivot = mechanism.drives[0].joint
+    crank = next(link for link in chain.joints[pivot].links if link != frame)
+    dyads = []
+    for group in order.groups:
+        if group.form() != "RRR" or len(group.links) > 2:
+            return None
+        links = group.bodies[0][0], group.bodies[1][0]
+        outer, base = [], []
+        for link in links:
+            joint = next(n for n in group.outer if link in chain.joints[n].links)
+            outer.append(joint)
+            base.append(next(other for other in chain.joints[joint].links if other != link))
+        dyads.append(_Dyad(links, (outer[0], outer[1]), group.inner[0], (base[0], base[1])))
+    return DyadStructure(
+        mechanism=mechanism,
+        written_form=mechanism.written_form,
+        pivot=pivot,
+        crank=crank,
+        dyads=tuple(dyads),
+        joints=len(chain.joints),
+    )
+
+
+def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> dict[str, tuple[Complexes, Complexes]]:
+    """How each link moves away from the drawing: a point w of it goes to rotation w + shift.
+
+    Args:
+        structure: the solving order.
+        drawn: (joints, ...) places of the joints in the drawing.
+        turned: (..., angles) how far the crank has turned from the drawing.
+
+    Returns (..., angles) each; NaN where a dyad cannot be assembled. Cost: 0.1 us for each dyad and angle.
+    """
+    places = drawn[..., None]
+    ones = np.ones(np.broadcast_shapes(places.shape[1:], turned.shape), np.complex128)
+    spin = np.exp(1j * turned) * ones
+    motions = {
+        structure.mechanism.frame: (ones, 0 * ones),
+        structure.crank: (spin, places[structure.pivot] * (1 - spin)),
+    }
+    for dyad in structure.dyads:
+        ends = [
+            rotation * places[joint] + shift
+            for joint, (rotation, shift) in zip(dyad.outer, (motions[base] for base in dyad.base), strict=True)
+        ]
+        arms = [places[dyad.inner] - places[joint] for joint in dyad.outer]
+        side = np.sign(np.imag(np.conj(places[dyad.outer[1]] - places[dyad.outer[0]]) * arms[0]))
+        gap = ends[1] - ends[0]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            distance = np.abs(gap)
+            along = (np.abs(arms[0]) ** 2 - np.abs(arms[1]) ** 2 + distance**2) / (2 * distance)
+            across = side * np.sqrt(np.abs(arms[0]) ** 2 - along**2)
+            inner = ends[0] + gap / distance * (along + 1j * across)
+            for link, end, joint, arm in zip(dyad.links, ends, dyad.outer, arms, strict=True):
+                rotation = (inner - end) / arm
+                motions[link] = rotation, end - rotation * places[joint]
+    return motions
+
+
+@dataclass(frozen=True, slots=True)
+class StructureAtlas:
+    """Curves of points of links that no joint holds at the frame; the crank turns fully and has the length 1."""
+
+    structure: DyadStructure
+    drawn: Complexes
+    """(curves, joints) where the joints lie in the drawing."""
+    link: NDArray[np.int64]
+    """(curves,) which of the coupler links carries the point."""
+    point: Complexes
+    """(curves,) where the point lies in the drawing."""
+    turned: Reals
+    """(curves, places) how far the crank has turned at places evenly along the curve."""
+    z: Complexes
+    """(curves, places)"""
+
+
+@cache
+def structure_atlas(structure: DyadStructure) -> StructureAtlas:
+    """The atlas of a structure, made at its first use from evenly spread drawings. Cost: 1 s for six links."""
+    joints = structure.joints
+    unit = _evenly_spread(_TRIALS, 2 * joints + 3)
+    drawn = np.exp(np.log(_LARGEST) * unit[0::2][:joints]) * np.exp(2j * np.pi * unit[1::2][:joints])
+    drawn[structure.pivot] = 0
+    chain = structure.mechanism.chain
+    own = [n for n, joint in enumerate(chain.joints) if structure.crank in joint.links and n != structure.pivot]
+    drawn[own] /= np.abs(drawn[own[0]])
+    coarse = np.linspace(0, 2 * np.pi, 25)[:-1]
+    safe = _safe(structure, drawn, coarse)
+    drawn, unit = drawn[:, safe], unit[:, safe]
+    phi = np.linspace(0, 2 * np.pi, 2 * PLACES + 1)
+    safe = _safe(structure, drawn, phi[:-1])
+    drawn, unit = drawn[:, safe], unit[:, safe]
+    links = structure.coupler_links
+    each = max(1, _CURVES // max(1, len(links) * drawn.shape[1]))
+    rows, owners, points = [], [], []
+    for k in range(each):
+        reach, angle = (unit[-3] + 0.618034 * k) % 1.0, (unit[-2] + 0.754878 * k) % 1.0
+        for number, link in enumerate(links):
+            near = [n for n, joint in enumerate(chain.joints) if link in joint.links]
+            spread = np.abs(drawn[near[0]] - drawn[near[1]])
+            points.append(drawn[near].mean(axis=0) + 1.5 * spread * np.sqrt(reach) * np.exp(2j * np.pi * angle))
+            rows.append(np.arange(drawn.shape[1]))
+            owners.append(np.full(drawn.shape[1], number))
+    row, owner, point = np.concatenate(rows), np.concatenate(owners), np.concatenate(points)
+    kept = np.arange(len(row))[:_CURVES]
+    row, owner, point = row[kept], owner[kept], point[kept]
+    drawn = drawn[:, row]
+    turned = evenly_along(_curves(structure, drawn, owner, point, np.broadcast_to(phi, (len(row), len(phi)))), phi)
+    return StructureAtlas(structure, drawn.T, owner, point, turned, _curves(structure, drawn, owner, point, turned))
+
+
+def _evenly_spread(count: int, dimensions: int) -> Reals:
+    """(dimensions, count) numbers of the unit cube: multiples of the powers of a root of x^(n + 1) = x + 1, less 1."""
+    root = 2.0
+    for _ in range(60):
+        root = (1 + root) ** (1 / (dimensions + 1))
+    steps = root ** -np.arange(1.0, dimensions + 1)
+    return np.asarray((0.5 + steps[:, None] * np.arange(1, count + 1)) % 1.0)
+
+
+def _safe(structure: DyadStructure, drawn: Complexes, phi: Reals) -> NDArray[np.bool_]:
+    """Which linkages the crank turns fully, with no dyad near its limit."""
+    motions = link_motions(structure, drawn, phi[None, :])
+    safe = np.ones(drawn.shape[1], bool)
+    for dyad in structure.dyads:
+        arms = [drawn[dyad.inner] - drawn[joint] for joint in dyad.outer]
+        turned = [motions[link][0] * (arm / np.abs(arm))[:, None] for link, arm in zip(dyad.links, arms, strict=True)]
+        with np.errstate(invalid="ignore"):
+            safe &= (np.abs(np.imag(np.conj(turned[0]) * turned[1])) > _SAFE).all(axis=1)
+    return safe
+
+
+def _curves(
+    structure: DyadStructure, drawn: Complexes, owner: NDArray[np.int64], point: Complexes, turned: Reals
+) -> Complexes:
+    curves = np.empty(turned.shape, np.complex128)
+    for number, link in enumerate(structure.coupler_links):
+        of_structure = owner == number
+        rotation, shift = link_motions(structure, drawn[:, of_structure], turned[of_structure])[link]
+        curves[of_structure] = rotation * point[of_structure, None] + shift
+    return curves

@@ -1,0 +1,387 @@
+"""What a designer asks for: positions of a body, points of a path, a function, dead centres.
+
+Every task is a value, checked when it is constructed; lengths are in the task's unit, angles in radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import isfinite, pi
+from typing import Any
+
+import numpy as np
+
+from gruebler.base.angles import warn_of_degrees
+from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.errors import SynthesisError
+from gruebler.base.text import Message, joined_by_and, message
+from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
+
+__all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task", "function_task"]
+
+Pair = tuple[float, float]
+_Pairs = tuple[tuple[float, ...], tuple[float, ...], bool, bool]  # inputs, outputs, whether their starts are given
+
+SAME = 1e-9
+"""Two points nearer than this part of the task's size are one: designs are held to the same bound."""
+LARGEST = 1e100
+MOST_PAIRS = 5
+"""Precision pairs that a linkage coordinates exactly, with both starts free."""
+MOST_POINTS = 9
+"""A coupler curve of a four-bar passes through nine general points; more are met as well as possible."""
+
+
+def _number(value: object, where: Message | str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+        raise SynthesisError("{where}: expected a number, but found {value!r}", where=where, value=str(value)[:40])
+    number = float(value)
+    if not (isfinite(number) and abs(number) < LARGEST):
+        raise SynthesisError("{where}: expected a number below 1e100, but found {value!r}", where=where, value=value)
+    return number
+
+
+def _row(row: object, where: Message, count: int) -> tuple[float, ...]:
+    if isinstance(row, str) or not isinstance(row, Sequence | np.ndarray) or len(row) != count:
+        raise SynthesisError(
+            "{where}: expected {count} numbers, but found {row!r}", where=where, count=count, row=str(row)[:40]
+        )
+    return tuple(_number(value, where) for value in row)
+
+
+_ENTRIES = {"points": message("point {number}"), "positions": message("position {number}")}
+
+
+def _numbered(key: str, k: int) -> Message:
+    """An entry of a key of a task file."""
+    return _ENTRIES.get(key, message("{key} {number}", key=key)).filled(number=k + 1)
+
+
+def _entries(task: object, key: str) -> tuple[object, ...]:
+    """The entries of a field that is a list; None stands for an empty one."""
+    values: Any = getattr(task, key)
+    if values is None:
+        return ()
+    if isinstance(values, str) or not isinstance(values, Iterable) or getattr(values, "ndim", 1) == 0:
+        raise SynthesisError("{key}: expected a list, but found {found!r}", key=key, found=str(values)[:40])
+    return tuple(values)
+
+
+def _numbers(task: object, key: str) -> tuple[float, ...]:
+    return tuple(_number(value, _numbered(key, k)) for k, value in enumerate(_entries(task, key)))
+
+
+def _rows(task: object, key: str, count: int) -> tuple[tuple[float, ...], ...]:
+    return tuple(_row(row, _numbered(key, k), count) for k, row in enumerate(_entries(task, key)))
+
+
+def _size(z: Complexes) -> float:
+    """The largest distance from the first point."""
+    return float(np.abs(z - z[0]).max(initial=0.0))
+
+
+@dataclass(frozen=True)
+class PositionTask:
+    """A body that is to be carried through positions: each ``(x, y, angle)``, the angle in radians.
+
+    With two to four positions pivots may be chosen: ``moving_pivots`` where they lie on the body in its first position,
+    ``fixed_pivots`` on the frame. With four the nearest points of Burmester's curves are taken; ``curve_parameters``
+    are places along the circle-point curve, from 0 to 1.
+
+    Raises `SynthesisError` for fewer than two positions and for two equal ones, naming them.
+
+    >>> task = PositionTask([(0, 0, 0), (2, 1, 0.4), (3, 1, 0.9)])
+    >>> len(task), task.size
+    (3, 3.1622776601683795)
+    """
+
+    positions: tuple[tuple[float, float, float], ...]
+    moving_pivots: tuple[Pair, ...] = ()
+    fixed_pivots: tuple[Pair, ...] = ()
+    unit: str = "mm"
+    curve_parameters: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        rows = _rows(self, "positions", 3)
+        object.__setattr__(self, "positions", rows)
+        for name in ("moving_pivots", "fixed_pivots"):
+            object.__setattr__(self, name, _rows(self, name, 2))
+        if len(rows) < 2:
+            raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
+        if (self.moving_pivots or self.fixed_pivots) and len(rows) > 4:
+            raise SynthesisError("pivots can be chosen for two to four positions, not for {count}", count=len(rows))
+        places = _numbers(self, "curve_parameters")
+        object.__setattr__(self, "curve_parameters", places)
+        if places and len(rows) != 4:
+            raise SynthesisError(
+                "{key}: Burmester's curves belong to four positions, not to {count}",
+                key="curve_parameters",
+                count=len(rows),
+            )
+        for k, place in enumerate(places):
+            if not 0 <= place <= 1:
+                raise SynthesisError(
+                    "{where}: expected 0 to 1, but found {value:g}",
+                    where=_numbered("curve_parameters", k),
+                    value=place,
+                )
+        warn_of_degrees("positions", self.angles, once=True)
+        size = self.size
+        for k, (z, turn) in enumerate(zip(self.origins, self.turns, strict=True)):
+            for m in range(k):
+                if abs(z - self.origins[m]) <= SAME * size and abs(turn - self.turns[m]) <= SAME:
+                    raise SynthesisError("positions {m} and {k} are equal", m=m + 1, k=k + 1)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    @property
+    def origins(self) -> Complexes:
+        """(positions,) the body's origin as x + iy."""
+        return np.array([complex(x, y) for x, y, _ in self.positions])
+
+    @property
+    def angles(self) -> Reals:
+        """(positions,) the body's angle."""
+        return np.array([angle for *_, angle in self.positions])
+
+    @property
+    def turns(self) -> Complexes:
+        """(positions,) cosine + i sine of the angle."""
+        return np.asarray(np.exp(1j * self.angles))
+
+    @property
+    def size(self) -> float:
+        """The largest distance of an origin from the first; 1 if they all coincide."""
+        return _size(self.origins) or 1.0
+
+
+@dataclass(frozen=True)
+class PathTask:
+    """Points through which a point of the coupler is to pass, in this order.
+
+    Args of the constructor, all but the first optional: ``angles`` of the coupler, one for each point or None where it
+    is free (mixed tasks); ``crank_angles`` for prescribed timing, one for each point, only their differences count;
+    ``fixed_pivots``, two of them; ``closed`` for a whole curve of many points.
+
+    Raises `SynthesisError` for two equal points and for angles or pivots that do not fit.
+
+    >>> len(PathTask([(0, 0), (1, 2), (3, 3)]))
+    3
+    """
+
+    points: tuple[Pair, ...]
+    angles: tuple[float | None, ...] = ()
+    crank_angles: tuple[float, ...] = ()
+    fixed_pivots: tuple[Pair, ...] = ()
+    closed: bool = False
+    unit: str = "mm"
+
+    def __post_init__(self) -> None:
+        rows = _rows(self, "points", 2)
+        object.__setattr__(self, "points", rows)
+        pivots = _rows(self, "fixed_pivots", 2)
+        object.__setattr__(self, "fixed_pivots", pivots)
+        free = enumerate(_entries(self, "angles"))
+        angles = tuple(None if a is None else _number(a, _numbered("angles", k)) for k, a in free)
+        object.__setattr__(self, "angles", angles)
+        timing = _numbers(self, "crank_angles")
+        object.__setattr__(self, "crank_angles", timing)
+        if len(rows) < 2:
+            raise SynthesisError("points: expected at least two, but found {count}", count=len(rows))
+        for name, values in (("angles", angles), ("crank_angles", timing)):
+            if values and len(values) != len(rows):
+                raise SynthesisError(
+                    "{name}: expected one for each of the {points} points, but found {count}",
+                    name=name,
+                    points=len(rows),
+                    count=len(values),
+                )
+        if len(pivots) not in (0, 2):
+            raise SynthesisError("fixed_pivots: expected two, but found {count}", count=len(pivots))
+        if pivots and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
+            raise SynthesisError("fixed_pivots: the two pivots coincide")
+        self._check_distinct()
+        self._check_timing()
+        warn_of_degrees("angles", [angle for angle in angles if angle is not None], once=True)
+
+    def _check_distinct(self) -> None:
+        z = self.z
+        limit = SAME * self.size
+        curve = self.closed or len(z) > MOST_POINTS  # a whole curve may cross itself
+        for k in range(len(z)):
+            others = ([k - 1] if k or self.closed else []) if curve else range(k)
+            for m in others:
+                if abs(z[m] - z[k]) <= limit and not self._turned(m, k):
+                    first, second = sorted((m % len(z), k))
+                    raise SynthesisError("points {first} and {second} are equal", first=first + 1, second=second + 1)
+
+    def _turned(self, m: int, k: int) -> bool:
+        """Whether the coupler has different angles at two points, so that these may coincide."""
+        if not self.angles:
+            return False
+        first, second = self.angles[m], self.angles[k]
+        return first is not None and second is not None and abs(np.exp(1j * first) - np.exp(1j * second)) > SAME
+
+    def _check_timing(self) -> None:
+        steps = np.diff(self.crank_angles)
+        if len(steps) and not ((steps > 0).all() or (steps < 0).all()):
+            raise SynthesisError("crank_angles: the timing is contradictory, the crank has to turn one way throughout")
+        if len(steps) and abs(self.crank_angles[-1] - self.crank_angles[0]) >= 2 * pi:
+            raise SynthesisError("crank_angles: the timing is contradictory, all points lie within one turn of 2 pi")
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def z(self) -> Complexes:
+        """(points,) as x + iy."""
+        return np.array([complex(*point) for point in self.points])
+
+    @property
+    def size(self) -> float:
+        """The largest distance of a point from the first."""
+        return _size(self.z) or 1.0
+
+
+@dataclass(frozen=True)
+class FunctionTask:
+    """Two quantities to be coordinated: pairs of an input (crank angle) and an output (angle, or travel of a slider).
+
+    ``inputs`` and ``outputs`` are precision pairs. ``start_input`` and ``start_output`` say whether the values are
+    absolute (True) or counted from a start that is free (False). ``output`` is ``angle`` or ``travel``.
+
+    Raises `SynthesisError` for fewer than two pairs, for equal inputs, and for more than the four-bar can answer.
+
+    >>> FunctionTask([0.1, 0.5, 0.9], [0.2, 0.4, 1.0]).output
+    'angle'
+    """
+
+    inputs: tuple[float, ...]
+    outputs: tuple[float, ...]
+    output: str = "angle"
+    start_input: bool = True
+    start_output: bool = True
+    unit: str = "mm"
+    law: FunctionLaw | None = None
+    """The function whose values at Chebyshev's spacing the pairs are; `function_task` makes such a task."""
+
+    def __post_init__(self) -> None:
+        for name in ("inputs", "outputs"):
+            object.__setattr__(self, name, _numbers(self, name))
+        if len(self.inputs) != len(self.outputs):
+            raise SynthesisError(
+                "a function task needs as many inputs as outputs, but found {inputs} inputs and {outputs} outputs",
+                inputs=len(self.inputs),
+                outputs=len(self.outputs),
+            )
+        if len(self.inputs) < 2:
+            raise SynthesisError("inputs: expected at least two, but found {count}", count=len(self.inputs))
+        if self.output not in ("angle", "travel"):
+            raise SynthesisError("output: expected 'angle' or 'travel', but found {output!r}", output=self.output)
+        for k, value in enumerate(self.inputs):
+            for m in range(k):
+                if abs(value - self.inputs[m]) <= SAME:
+                    raise SynthesisError("inputs {m} and {k} are equal", m=m + 1, k=k + 1)
+        warn_of_degrees("inputs", self.inputs, path=True)
+        if self.output == "angle":
+            warn_of_degrees("outputs", self.outputs, once=True)
+        if self.law is not None and _pairs_of(self.law, len(self)) != self._pairs:
+            raise SynthesisError("the pairs are not those of the function at Chebyshev's spacing")
+
+    @property
+    def _pairs(self) -> _Pairs:
+        return self.inputs, self.outputs, self.start_input, self.start_output
+
+    def __len__(self) -> int:
+        return len(self.inputs)
+
+
+def _pairs_of(law: FunctionLaw, count: int) -> _Pairs:
+    x = chebyshev_spacing(*law.interval, count)
+    starts = law.input_start is not None, law.output_start is not None
+    return (tuple(law.inputs(x).tolist()), tuple(law.outputs(x).tolist()), *starts)
+
+
+def function_task(law: FunctionLaw, count: int = 5, *, output: str = "angle", unit: str = "mm") -> FunctionTask:
+    """The precision pairs of a function at Chebyshev's spacing.
+
+    >>> function_task(FunctionLaw("log10(x)", (1, 2), 1.0, 1.0, 0.8, 0.9), 3).inputs
+    (0.866987..., 1.3, 1.733012...)
+    """
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_PAIRS:
+        raise SynthesisError(
+            "{key}: expected 2 to {most} precision points, but found {count!r}",
+            key="precision_points",
+            most=MOST_PAIRS,
+            count=count,
+        )
+    inputs, outputs, start_input, start_output = _pairs_of(law, count)
+    return FunctionTask(inputs, outputs, output, start_input, start_output, unit, law)
+
+
+@dataclass(frozen=True)
+class DeadCentreTask:
+    """A crank that drives a rocker or slider to and fro: its swing or stroke, and the crank angle between dead centres.
+
+    Exactly one of ``swing`` (of a rocker) and ``stroke`` (of a slider), exactly one of ``crank_angle`` and
+    ``time_ratio`` (slow to quick travel, at least 1). The crank angle of a rocker is that in which rocker and crank
+    turn the same way; with a time ratio this is the slower travel.
+
+    >>> DeadCentreTask(swing=1.0, time_ratio=1.2).angle
+    3.4271...
+    """
+
+    swing: float | None = None
+    stroke: float | None = None
+    crank_angle: float | None = None
+    time_ratio: float | None = None
+    unit: str = "mm"
+
+    def __post_init__(self) -> None:
+        for names in (("swing", "stroke"), ("crank_angle", "time_ratio")):
+            present = [name for name in names if getattr(self, name) is not None]
+            if len(present) != 1:
+                raise SynthesisError(
+                    "expected exactly one of {names}, but found {present}",
+                    names=joined_by_and(names),
+                    present=joined_by_and(present) if present else message("none"),
+                )
+            object.__setattr__(self, present[0], _number(getattr(self, present[0]), present[0]))
+        if self.swing is not None and not 0 < self.swing < pi:
+            raise SynthesisError(
+                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
+                key="swing",
+                low=0,
+                high=180,
+                angle=np.degrees(self.swing),
+            )
+        if self.stroke is not None and not self.stroke > 0:
+            raise SynthesisError(
+                "{key}: expected a positive length, but found {stroke:g}", key="stroke", stroke=self.stroke
+            )
+        if self.time_ratio is not None and not self.time_ratio >= 1:
+            raise SynthesisError(
+                "{key}: expected slow to quick, at least 1, but found {time_ratio:g}",
+                key="time_ratio",
+                time_ratio=self.time_ratio,
+            )
+        if self.crank_angle is not None and not 0 < self.crank_angle < 2 * pi:
+            raise SynthesisError(
+                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
+                key="crank_angle",
+                low=0,
+                high=360,
+                angle=np.degrees(self.crank_angle),
+            )
+
+    @property
+    def angle(self) -> float:
+        """The crank angle between the dead centres, in radians."""
+        if self.crank_angle is not None:
+            return self.crank_angle
+        assert self.time_ratio is not None
+        return 2 * pi * self.time_ratio / (1 + self.time_ratio)
+
+
+Task = PositionTask | PathTask | FunctionTask | DeadCentreTask

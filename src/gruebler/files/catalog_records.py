@@ -1,0 +1,411 @@
+"""What stands in a catalog file: the records, their reading and their checking.
+
+msgspec knows the shape of a record and refuses what does not fit it; a key that no record has is refused with the
+nearest one that it has. What the shape cannot say (the chain is sound, the frame is one of its links) is checked
+here, so that an entry is sound or does not exist.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal, TypeVar
+
+import msgspec
+
+from gruebler.base.documents import convert_document, load_document
+from gruebler.base.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
+from gruebler.base.text import LANGUAGES, Message, Text, message, translate
+from gruebler.files.linkage_records import Dimensions, linkage_from_record
+from gruebler.files.screws import ScrewsRecord, spatial_linkage_from_record
+from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage, has_only_lower_pairs
+from gruebler.structure.chain import Chain
+from gruebler.structure.chain.notation import renamed_links
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = [
+    "MOTION_NUMBERS",
+    "Case",
+    "ClaimedGroup",
+    "Claims",
+    "Entry",
+    "Exercise",
+    "MotionKind",
+    "MotionQuantity",
+    "Question",
+    "Sizes",
+    "entry_of_data",
+    "read_entry",
+    "read_exercise",
+    "source_text",
+]
+
+_SOURCE_WORDS = (
+    message("sections"),
+    message("section"),
+    message("the first of two with this number"),
+    message("first exercise"),
+    message("second exercise"),
+    message("exercise"),
+    message("figure"),
+    message("chapter"),
+    message("variant of"),
+    message("variant"),
+    message("classification"),
+    message("common machine, not in"),
+    message("numeric checks, bevel differential"),
+    message("and"),
+)
+
+
+def source_text(source: str | Text, lang: str) -> str:
+    """Where something stands in the teaching documents.
+
+    >>> source_text("000/003, sections 2.3 and 2.6", "de"), source_text("000, figure 6.12, variant", "de")
+    ('000/003, Abschnitte 2.3 und 2.6', '000, Bild 6.12, Variante')
+    """
+    if isinstance(source, Text):
+        return source.in_language(lang)
+    for term in _SOURCE_WORDS:
+        source = re.sub(rf"\b{term}\b", term.in_language(lang), source)
+    return source
+
+
+class ClaimedGroup(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A smaller group of motions in which the count is right: its b, the count with it, and why."""
+
+    b: int
+    counted: int
+    reason: Text
+
+
+MotionKind = Literal["turns", "swings", "slides", "parallel"]
+"""It turns fully, swings, slides on the frame, or moves without turning."""
+
+
+class Claims(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What the entry says of itself; everything but the reasons is derived again by `gruebler check`."""
+
+    n: int | None = None
+    g1: int | None = None
+    g2: int | None = None
+    g3: int | None = None
+    g4: int | None = None
+    g5: int | None = None
+    counted: int | None = None
+    mobility: int | None = None
+    """What the machine really does where its special dimensions make it differ from the generic mobility."""
+    reason: Text | None = None
+    group: ClaimedGroup | None = None
+    idle: tuple[str, ...] = ()
+    motion: dict[str, MotionKind] = {}
+    """How links move against the frame, in a machine with dimensions and one drive."""
+    travel: dict[str, float] = {}
+    """How far links swing, in degrees, or slide, in the unit."""
+    dead_centres: dict[str, tuple[float, ...]] = {}
+    """The drive values at which links turn back, in degrees or the unit."""
+
+    @property
+    def says_motion(self) -> bool:
+        """Whether it says anything of how the machine moves."""
+        return bool(self.motion or self.travel or self.dead_centres)
+
+
+MOTION_NUMBERS: Mapping[str, tuple[str, ...]] = {
+    "straight": ("length", "band"),
+    "swing": ("degrees",),
+    "stroke": ("length",),
+    "dwell": ("degrees",),
+    "ratio": ("least", "greatest"),
+    "turns": ("turns",),
+}
+"""The numbers that a claim of each kind states (`gruebler.teaching.catalog.motion_quantities` derives them)."""
+
+
+class MotionQuantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """What the entry says of its motion, with the numbers that `gruebler check` derives again from its dimensions."""
+
+    kind: Literal["straight", "swing", "stroke", "dwell", "ratio", "turns"]
+    of: str
+    """A point or joint that runs straight; a link, or the joint of a slide, otherwise."""
+    range: tuple[float, float] | None = None
+    """Drive values in degrees or the unit; without them those of the dimensions, else a full turn."""
+    drive: str | None = None
+    """The drive that moves, where there are several; the others stand still in the reference pose."""
+    direction: float | None = None
+    """``straight``: of the line, ``stroke`` of a point: of the way, in degrees; 0 is level."""
+    length: float | None = None
+    """The way along the line, or along the slide."""
+    band: float | None = None
+    """How far the path leaves the line, from side to side: across ``direction``, else the narrowest."""
+    degrees: float | None = None
+    """``swing``: from one extreme of the link's angle to the other; ``dwell``: of the drive."""
+    least: float | None = None
+    greatest: float | None = None
+    """Of the speed of a link in that of the drive (angles in radians)."""
+    turns: float | None = None
+    """How often the link turns, with its sign, while the drive runs through the range."""
+
+    @property
+    def numbers(self) -> dict[str, float | None]:
+        """The numbers that it states."""
+        return {key: getattr(self, key) for key in MOTION_NUMBERS[self.kind]}
+
+
+class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Dimensions of an entry, as in the file of a linkage (`gruebler.files.linkages`), and where they come from."""
+
+    assumed: bool = False
+    """Whether the seeds print none, so that the dimensions are chosen here."""
+    source: str | Text = ""
+    """Where they are printed."""
+    drive: str | tuple[str, ...] | None = None
+    """The driven joint of the example, or several, where the machine itself names none."""
+    range: tuple[float, float] | None = None
+    """Drive values between which it moves, in degrees or in the unit."""
+
+    @property
+    def shown_drives(self) -> tuple[str, ...]:
+        """The driven joints of the example; empty where the machine names its own."""
+        return (self.drive,) if isinstance(self.drive, str) else self.drive or ()
+
+
+class ReferenceScrews(ScrewsRecord, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The joints of an entry in one position (`gruebler.files.screws`), and where their places come from."""
+
+    assumed: bool = False
+    source: str = ""
+
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One machine of the catalog."""
+
+    id: str
+    name: Text
+    source: str
+    joints: str
+    links: dict[str, str]
+    """Every link, the frame first, with its German name."""
+    space: Literal["planar", "spherical", "spatial"] = "planar"
+    figure_lost: bool = False
+    """Whether the seeds' figure is lost, so that the structure is an assumption."""
+    frame: str | None = None
+    drives: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
+    remark: Text | None = None
+    claims: Claims = Claims()
+    quantities: tuple[MotionQuantity, ...] = ()
+    """What name and remark say of the motion, in numbers."""
+    dimensions: Sizes | None = None
+    screws: ReferenceScrews | None = None
+    """Where the joints lie in one position, for machines in space and for contacts: enough for their mobility."""
+
+    def chain(self) -> Chain:
+        """The chain of the entry, its links in the order of the file."""
+        written = Chain.parse(self.joints, self.space)
+        return Chain(written.joints, links=self.links, space=self.space)
+
+    def linkage(self) -> Linkage:
+        """The machine with its dimensions; `CatalogError` if the entry has none."""
+        if self.dimensions is None:
+            raise CatalogError("the catalog entry {id!r} has no dimensions", id=self.id)
+        chain = self.chain()
+        mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
+        return linkage_from_record(self.dimensions, mechanism, self.outputs)
+
+    def in_language(self, lang: str) -> Entry:
+        """The same entry, its links by their names in a language; the German ones are cut short where that is clear.
+
+        >>> from gruebler.teaching.catalog import entry
+        >>> entry("lambda").in_language("de").drives
+        ('R(Gestell-Kurbel)',)
+        """
+        return self if lang == LANGUAGES[0] else _with_link_names(self, _short_names(self.links, lang))
+
+    def placed(self) -> Linkage | SpatialLinkage | None:
+        """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
+        if self.screws is not None:
+            chain = self.chain()
+            return spatial_linkage_from_record(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
+        linkage = None if self.dimensions is None else self.linkage()
+        return linkage if linkage is not None and has_only_lower_pairs(linkage) else None
+
+
+def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
+    """Without "link" before a number, brackets, and what follows "with", if the names stay different."""
+    left_out = rf"^{translate('link', lang)} (?=\d)| \(.*| {translate('with', lang)} .*"
+    short = {link: re.sub(left_out, "", name) for link, name in full.items()}
+    return short if len(set(short.values())) == len(short) else dict(full)
+
+
+_NO_NUMBER = message("none")
+_NAME_LINKS: Mapping[str, tuple[str, ...]] = {
+    "dimensions": ("elements", "reference_pose", "home", "places", "points", "drive"),
+    "screws": ("joints",),
+    "claims": ("idle", "motion", "travel", "dead_centres"),
+}
+
+
+def _with_link_names(entry: Entry, names: Mapping[str, str]) -> Entry:
+    """The record with these names of its links wherever they stand in it."""
+
+    def renamed(value: Any) -> Any:
+        if isinstance(value, str):
+            return renamed_links(value, names)
+        if isinstance(value, Mapping) and "at" in value:  # a wheel, cam or point with keys of its own
+            return {key: renamed(item) if key == "link" else item for key, item in value.items()}
+        if isinstance(value, Mapping):
+            return {renamed(key): renamed(item) for key, item in value.items()}
+        return [renamed(item) for item in value] if isinstance(value, list | tuple) else value
+
+    plain = msgspec.to_builtins(entry)
+    for key in ("joints", "frame", "drives", "outputs"):
+        plain[key] = renamed(plain[key])
+    for part, keys in _NAME_LINKS.items():
+        if plain[part] is not None:
+            plain[part] |= {key: renamed(plain[part][key]) for key in keys if key in plain[part]}
+    for claim in plain["quantities"]:
+        claim |= {key: renamed(claim[key]) for key in ("of", "drive")}
+    plain["links"] = {names[link]: name for link, name in entry.links.items()}
+    return msgspec.convert(plain, Entry)
+
+
+class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One chain of an exercise: a machine of the catalog, with what the exercise says of it."""
+
+    id: str
+    name: Text
+    machine: str
+    claims: Claims = Claims()
+
+
+class Question(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One thing that an exercise asks, and what is printed for it."""
+
+    key: str
+    """The key of the result in the solution."""
+    printed: str | None = None
+    """The printed answer digit for digit, such as ``66.4``; its last digit tells how exact it is. Or a word."""
+    unit: str = ""
+    """The unit of the printed number, where it is not that of the result."""
+    reason: Text | None = None
+    """Why the printed answer differs from the computed one, where it does."""
+
+
+class Exercise(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One exercise or worked example, the task in our own words; the answer is computed when it is asked for."""
+
+    id: str
+    name: Text
+    source: str
+    task: Text
+    cases: tuple[Case, ...] = ()
+    method: str | None = None
+    """What solves it, such as ``dead_centres.slider_crank`` (in the exercises); None: the cases are all."""
+    given: dict[str, float | str] = {}
+    """The given quantities, as the method names them; angles in degrees."""
+    asked: tuple[Question, ...] = ()
+    remark: Text | None = None
+
+
+Record = TypeVar("Record", Entry, Exercise)
+
+
+def read_entry(path: Path) -> Entry:
+    """The machine in a TOML file; `CatalogError` names file and key of the first thing that does not fit."""
+    entry = _read(path, Entry)
+    _check(entry, path)
+    return entry
+
+
+def entry_of_data(data: object, where: str) -> Entry:
+    """The machine of plain data, as ``gruebler catalog show --json`` prints it; ``where`` begins a `CatalogError`."""
+
+    def fail(problem: Message) -> CatalogError:
+        return CatalogError("{where}: {problem}", where=where, problem=problem)
+
+    entry = convert_document(data, Entry, fail)
+    _check(entry, where)
+    return entry
+
+
+def read_exercise(path: Path) -> Exercise:
+    """The exercise in a TOML file; `CatalogError` as for `read_entry`."""
+    return _read(path, Exercise)
+
+
+def _read(path: Path, kind: type[Record]) -> Record:
+    def fail(problem: Message) -> CatalogError:
+        return CatalogError("{path}: {problem}", path=path, problem=problem)
+
+    return convert_document(load_document(path, fail), kind, fail)
+
+
+def _check(entry: Entry, path: Path | str) -> None:
+    """What the shape of a record cannot say."""
+    try:
+        chain = entry.chain()
+    except (ChainError, NotationError, PairError) as error:
+        raise CatalogError("{path}: joints: {error}", path=path, error=error) from None
+    for key, names, number_of in (
+        ("frame", (entry.frame,) if entry.frame is not None else (), chain.index),
+        ("outputs", entry.outputs, chain.index),
+        ("claims.idle", entry.claims.idle, chain.index),
+        ("claims.motion", entry.claims.motion, chain.index),
+        ("claims.travel", entry.claims.travel, chain.index),
+        ("claims.dead_centres", entry.claims.dead_centres, chain.index),
+        ("drives", entry.drives, chain.joint_number),
+    ):
+        for name in names:
+            try:
+                number_of(name)
+            except ChainError as error:
+                raise CatalogError("{path}: {key}: {error}", path=path, key=key, error=error) from None
+    if entry.screws is not None:
+        if entry.screws.assumed == bool(entry.screws.source):
+            raise CatalogError("{path}: screws: either assumed = true, or a source that prints them", path=path)
+        try:
+            entry.placed()
+        except GrueblerError as error:
+            raise CatalogError("{path}: {error}", path=path, error=error) from None
+    if entry.dimensions is not None:
+        _check_dimensions(entry, entry.dimensions, chain, path)
+    sizes = entry.dimensions
+    if entry.claims.says_motion and (sizes is None or len(sizes.shown_drives or entry.drives) != 1):
+        raise CatalogError("{path}: claims.motion: needs dimensions and one drive", path=path)
+    for number, claim in enumerate(entry.quantities, 1):
+        _check_quantity(entry, claim, f"{path}: quantities {number}")
+
+
+_ALL_NUMBERS = tuple(dict.fromkeys(key for keys in MOTION_NUMBERS.values() for key in keys))
+
+
+def _check_quantity(entry: Entry, claim: MotionQuantity, where: str) -> None:
+    if entry.dimensions is None:
+        raise CatalogError("{where}: an entry without dimensions has no motion to state", where=where)
+    given = tuple(key for key in _ALL_NUMBERS if getattr(claim, key) is not None)
+    if given != tuple(claim.numbers):
+        raise CatalogError(
+            "{where}: {kind} states {numbers}, but found {given}",
+            where=where,
+            kind=claim.kind,
+            numbers=", ".join(claim.numbers),
+            given=", ".join(given) or _NO_NUMBER,
+        )
+    if claim.range is not None and not -1e9 < claim.range[0] < claim.range[1] < 1e9:
+        raise CatalogError("{where}: range: expected two numbers, the smaller first", where=where)
+
+
+def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path | str) -> None:
+    if sizes.assumed == bool(sizes.source):
+        raise CatalogError("{path}: dimensions: either assumed = true, or a source that prints them", path=path)
+    if sizes.shown_drives and (entry.drives or any(chain.find_joint(drive) is None for drive in sizes.shown_drives)):
+        raise CatalogError("{path}: dimensions.drive: for an entry without drives, one of its joints", path=path)
+    if sizes.range is not None and not -1e9 < sizes.range[0] < sizes.range[1] < 1e9:
+        raise CatalogError("{path}: dimensions.range: expected two numbers, the smaller first", path=path)
+    try:
+        entry.linkage()
+    except GrueblerError as error:
+        raise CatalogError("{path}: dimensions: {error}", path=path, error=error) from None

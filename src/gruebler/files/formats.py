@@ -1,0 +1,545 @@
+"""The table of file formats: names, endings of files, what they carry, how they are read and written.
+
+`files` looks a format up here; another format is another row of `FORMATS`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from math import atan2
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gruebler.base.atomic_files import atomic_file
+from gruebler.base.documents import load_document
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, message, reason_of
+
+if TYPE_CHECKING:
+    from typing import TypeAlias
+
+    from gruebler.base.columns import Table
+    from gruebler.design.synthesis import Task
+    from gruebler.files.pin_drawings import PinDrawing
+    from gruebler.machines.gears import TrainReading
+    from gruebler.mechanics.linkages import Linkage
+    from gruebler.mechanics.screws import SpatialLinkage
+    from gruebler.structure.chain import Chain
+
+    Value: TypeAlias = Chain | list[Chain] | Linkage | SpatialLinkage | TrainReading | Task
+
+__all__ = ["FORMATS", "Format", "Value", "json_of_another_program"]
+
+_TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
+_LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
+_LARGEST_TABLE = 1_000_000  # bytes
+_POSE = 4  # numbers: a place and a direction
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A row of the table of formats."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    """Endings of file names; without one the format is named."""
+    title: Message
+    """Whose format it is."""
+    carries: Message
+    """What it can carry."""
+    read: Callable[[Path, list[Message]], Any] | None
+    """The value in a file; the list gets a message for each thing that the value does not have."""
+    write: Callable[[Any, Path, list[Message]], None] | None
+    """Write a value; the list gets a message for each thing that the file does not have."""
+    lengths: Message | None = None
+    """What the numbers of lengths are; None if there are none."""
+
+
+_WITH_UNIT = message("with their unit")
+_AS_MILLIMETRES = message("mm (the format has no unit)")
+_HEADER = message("the unit of the linkage, in the header")
+
+
+# --- readers and writers of the table ----------------------------------------------------------------
+
+
+def _own_document(path: Path, left_out: list[Message]) -> Value:
+    """A TOML or JSON document: of this library, or JSON of another program that shows by its keys."""
+    data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
+    if isinstance(data, list):
+        return [_chain(path, item) for item in data]
+    if not isinstance(data, Mapping):
+        raise GrueblerError("{path}: expected a table of keys", path=path)
+    for form in _JSON_OF_OTHERS.values():
+        if form.shows(data):
+            return _linkage(path, partial(form.read, data, left_out), left_out)
+    if not _TASKS.isdisjoint(data) and _LINKAGES.isdisjoint(data):
+        from gruebler.files.tasks import read_task
+
+        return read_task(path)
+    if "train" in data:
+        from gruebler.machines.gears import read_toml
+
+        return read_toml(path.read_text(encoding="utf-8-sig"), str(path))
+    if "pair" in str(data.get("joints", ""))[:200] and not isinstance(data.get("joints"), str):
+        return _chain(path, data)
+    from gruebler.files.screws import read_any_linkage
+
+    return read_any_linkage(path)
+
+
+def _chain(path: Path, document: Any) -> Chain:
+    from gruebler.structure.chain import Chain
+
+    try:
+        return Chain.from_json(document)
+    except GrueblerError as error:
+        raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+
+def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.design.synthesis import Task
+    from gruebler.mechanics.linkages import Linkage
+    from gruebler.structure.chain import Chain
+
+    del left_out
+    suffix = path.suffix.lower()
+    if isinstance(value, Linkage):
+        from gruebler.files import write_linkage
+
+        write_linkage(path, value)
+    elif isinstance(value, Task):
+        from gruebler.files.tasks import write_task
+
+        write_task(path, value)
+    elif suffix == ".json":
+        document = value.to_json() if isinstance(value, Chain) else [chain.to_json() for chain in value]
+        _write_text(path, json.dumps(document, ensure_ascii=False, indent=1) + "\n")
+    else:
+        raise GrueblerError("{path}: chains go to .json, .txt or .g6, not {suffix!r}", path=path, suffix=suffix)
+
+
+def _write_csv(value: Any, path: Path, left_out: list[Message]) -> None:
+    table = _as_table(value)
+    if table is None:
+        _write_task(value, path, left_out)
+    else:
+        _write_text(path, table.csv())
+
+
+def _write_spreadsheet(value: Any, path: Path, left_out: list[Message]) -> None:
+    """With a byte order mark: without it spreadsheets take ° and ′ for other signs."""
+    del left_out
+    _write_text(path, "\ufeff" + _required_table(value, path).csv(decimal_comma=True))
+
+
+def _write_parquet(value: Any, path: Path, left_out: list[Message]) -> None:
+    del left_out
+    _write_bytes(path, _required_table(value, path).parquet())
+
+
+def _as_table(value: Any) -> Table | None:
+    """The table of a motion, or the table itself; None for other values."""
+    from gruebler.base.columns import Table
+    from gruebler.mechanics.kinematics.motion import Motion
+
+    if isinstance(value, Motion):
+        return value.table()
+    return value if isinstance(value, Table) else None
+
+
+def _required_table(value: Any, path: Path) -> Table:
+    table = _as_table(value)
+    if table is None:
+        kind = type(value).__name__
+        raise GrueblerError("{path}: the format holds motions and tables, not a {kind}", path=path, kind=kind)
+    return table
+
+
+def _task(path: Path, left_out: list[Message]) -> Task:
+    """A task in CSV, or without a header a curve of four-bar-rs, closed if its name has ``.closed.``."""
+    from gruebler.design.synthesis import PathTask, PositionTask
+    from gruebler.files.four_bar_rs import curve_from_csv
+    from gruebler.files.tasks import read_task
+    from gruebler.files.text_files import read_text
+
+    del left_out
+    text = read_text(path, _LARGEST_TABLE)
+    try:
+        rows = curve_from_csv(text)
+        if rows is None:
+            return read_task(path)
+        if len(rows[0]) == _POSE:
+            return PositionTask(tuple((x, y, atan2(dy, dx)) for x, y, dx, dy in rows))
+        return PathTask(tuple((x, y) for x, y in rows), closed=".closed." in path.name.lower())
+    except GrueblerError as error:
+        if str(path) in str(error):
+            raise
+        raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+
+def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.design.synthesis import Task
+    from gruebler.files.tasks import write_task
+
+    del left_out
+    if not isinstance(value, Task):
+        raise GrueblerError("{path}: expected a synthesis task", path=path)
+    write_task(path, value)
+
+
+def _write_text(path: Path, text: str) -> None:
+    _write_bytes(path, text.encode("utf-8"))
+
+
+def _write_bytes(path: Path, content: bytes) -> None:
+    with atomic_file(path, durable=False) as file:
+        file.write(content)
+
+
+def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
+    """The linkage of a drawing; errors name the file, also where numbers near the largest have no square."""
+    from gruebler.files.pin_drawings import linkage_of_drawing
+
+    try:
+        return linkage_of_drawing(drawing(), left_out)
+    except OverflowError:
+        raise GrueblerError("{path}: it has numbers that are too large to be lengths", path=path) from None
+    except GrueblerError as error:
+        raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+
+def _as_linkage(value: Any) -> Linkage:
+    """The linkage to write; `GrueblerError` for a value without dimensions."""
+    from gruebler.mechanics.linkages.conversion import as_linkage
+
+    return as_linkage(value)
+
+
+def _drawn(
+    name: str,
+    suffixes: tuple[str, ...],
+    title: Message,
+    carries: Message,
+    lengths: Message,
+    module: str,
+    reader: str,
+    writer: str,
+) -> Format:
+    """A row for a text of pins and slots: the functions of a module in `formats` read and write it."""
+
+    def function(name: str) -> Callable[..., Any]:
+        value: Callable[..., Any] = getattr(import_module(f"gruebler.files.{module}"), name)
+        return value
+
+    def read(path: Path, left_out: list[Message]) -> Linkage:
+        from gruebler.files.text_files import read_text
+
+        text = read_text(path)
+        return _linkage(path, lambda: function(reader)(text, left_out), left_out)
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.files.pin_drawings import drawing_of
+
+        _write_text(path, function(writer)(drawing_of(_as_linkage(value), left_out), left_out))
+
+    return Format(name, suffixes, title, carries, read, write, lengths)
+
+
+class _JsonForm(NamedTuple):
+    """A JSON document of another program."""
+
+    module: str
+    shown_by: str
+    reader: str
+    writer: str
+
+    def function(self, name: str) -> Any:
+        return getattr(import_module(f"gruebler.files.{self.module}"), name)
+
+    def shows(self, document: Any) -> bool:
+        return bool(self.function(self.shown_by)(document))
+
+    def read(self, document: Any, left_out: list[Message]) -> PinDrawing:
+        drawing: PinDrawing = self.function(self.reader)(document, left_out)
+        return drawing
+
+    def write(self, drawing: PinDrawing, left_out: list[Message]) -> Any:
+        return self.function(self.writer)(drawing, left_out)
+
+
+_JSON_OF_OTHERS = {
+    "motiongen": _JsonForm("motiongen", "is_motiongen", "drawing_from_motiongen", "motiongen_from_drawing"),
+    "pylinkage": _JsonForm("pylinkage", "is_pylinkage", "drawing_from_pylinkage", "pylinkage_from_drawing"),
+}
+
+
+def json_of_another_program(path: Path) -> bool:
+    """Whether a JSON file is one of another program, by its keys; False for a file that is no JSON."""
+    try:
+        data = load_document(path, GrueblerError)
+    except GrueblerError:
+        return False
+    return any(form.shows(data) for form in _JSON_OF_OTHERS.values())
+
+
+def _json_of_others(name: str, title: Message, carries: Message) -> Format:
+    form = _JSON_OF_OTHERS[name]
+
+    def read(path: Path, left_out: list[Message]) -> Linkage:
+        data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
+        if not form.shows(data):
+            raise GrueblerError("{path}: is not a document of {program}", path=path, program=title)
+        return _linkage(path, lambda: form.read(data, left_out), left_out)
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.files.pin_drawings import drawing_of
+
+        document = form.write(drawing_of(_as_linkage(value), left_out), left_out)
+        _write_text(path, json.dumps(document, indent=1) + "\n")
+
+    return Format(name, (), title, carries, read, write, _AS_MILLIMETRES)
+
+
+def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.files.mjcf import mjcf_from_linkage
+
+    _write_text(path, mjcf_from_linkage(_as_linkage(value), left_out))
+
+
+def _write_urdf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.files.urdf import urdf_from_linkage
+
+    _write_text(path, urdf_from_linkage(_as_linkage(value), left_out))
+
+
+def _write_dxf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.files.dxf import dxf_from_linkage
+
+    _write_text(path, dxf_from_linkage(_as_linkage(value), left_out))
+
+
+def _write_dxf_of_links(value: Any, path: Path, left_out: list[Message]) -> None:
+    """One file a link, in a folder."""
+    from gruebler.files.dxf import dxf_of_links
+
+    texts = dxf_of_links(_as_linkage(value), left_out)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise GrueblerError(
+            "{path}: the folder cannot be made ({reason})", path=path, reason=reason_of(error)
+        ) from None
+    for name, text in texts.items():
+        _write_text(path / f"{name}.dxf", text)
+
+
+def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
+    def read(path: Path, left_out: list[Message]) -> list[Chain]:
+        from gruebler.files.chain_files import read_lines
+
+        del left_out
+        return list(read_lines(path, name))
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.files.chain_files import write_lines
+
+        write_lines(_chains_of(value, left_out), path, name)
+
+    return Format(name, (suffix, f"{suffix}.gz"), title, carries, read, write)
+
+
+def _graph(name: str, suffixes: tuple[str, ...], title: Message, carries: Message) -> Format:
+    def read(path: Path, left_out: list[Message]) -> Chain:
+        from gruebler.files.chain_files import chain_from_graph_text
+        from gruebler.files.text_files import read_text
+
+        del left_out
+        text = read_text(path)
+        try:
+            return chain_from_graph_text(text, name)
+        except GrueblerError as error:
+            raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.files.chain_files import graph_text
+
+        chains = list(_chains_of(value, left_out))
+        if len(chains) != 1:
+            raise GrueblerError("{path}: the format holds one chain, not {count}", path=path, count=len(chains))
+        _write_text(path, graph_text(chains[0], name, left_out))
+
+    return Format(name, suffixes, title, carries, read, write)
+
+
+def _chains_of(value: Any, left_out: list[Message]) -> Iterable[Chain]:
+    """The chains to write: those given, or the chain of a linkage."""
+    from gruebler.mechanics.linkages.conversion import makes_linkage
+    from gruebler.structure.chain import Chain
+    from gruebler.structure.mechanism import Mechanism
+
+    if isinstance(value, Chain):
+        return [value]
+    mechanism = getattr(value.linkage() if makes_linkage(value) else value, "mechanism", None)
+    if isinstance(mechanism, Mechanism):
+        left_out.append(message("dimensions, frame and drives"))
+        return [mechanism.chain]
+    if isinstance(value, Sequence) and all(isinstance(each, Chain) for each in value):
+        return value
+    raise GrueblerError("a {kind} is not a chain", kind=type(value).__name__)
+
+
+_PINS = message("one position of a linkage of pins, slides and slots, points, drives of pins on the frame; no wheels")
+_ANY_CHAIN = message("one chain with any joints")
+
+FORMATS: tuple[Format, ...] = (
+    Format(
+        "toml",
+        (".toml",),
+        message("gruebler, TOML"),
+        message("linkages, tasks, joint screws, gear trains (read), completely"),
+        _own_document,
+        _write_own_document,
+        _WITH_UNIT,
+    ),
+    Format(
+        "json",
+        (".json",),
+        message("gruebler, JSON; JSON of other programs is recognised"),
+        message("linkages, tasks, chains, joint screws (read), completely"),
+        _own_document,
+        _write_own_document,
+        _WITH_UNIT,
+    ),
+    Format(
+        "csv",
+        (".csv",),
+        message("gruebler, CSV; curves of four-bar-rs are recognised"),
+        message("synthesis tasks, completely; tables of motions with units in their headers (written)"),
+        _task,
+        _write_csv,
+        message("of tables with their unit, of tasks as they are"),
+    ),
+    _lines("text", ".txt", message("gruebler, texts of chains"), message("chains, one per line, with any joints")),
+    _lines(
+        "graph6",
+        ".g6",
+        message("nauty, House of Graphs"),
+        message("chains, one per line: revolute joints, at most one between two links"),
+    ),
+    _lines("sparse6", ".s6", message("nauty"), message("chains, one per line: simple revolute joints")),
+    _graph("graphml", (".graphml",), message("GraphML"), _ANY_CHAIN),
+    _graph("gml", (".gml",), message("GML"), _ANY_CHAIN),
+    _graph("dot", (".dot", ".gv"), message("Graphviz"), _ANY_CHAIN),
+    _graph("edge-list", (".edgelist", ".edges"), message("edge list"), message("one chain with simple joints")),
+    _graph("matrix", (".adj",), message("adjacency matrix"), message("one chain with simple revolute joints")),
+    _drawn(
+        "linkage2",
+        (".linkage2",),
+        message("Linkage by D. Rector"),
+        message("one position of a linkage of pins and slots, points, driven cranks, driven lengths of links"),
+        message("1/96 inch, shown as mm or in"),
+        "linkage2",
+        "drawing_from_linkage2",
+        "linkage2_from_drawing",
+    ),
+    _drawn(
+        "pyslvs",
+        (".pyslvs",),
+        message("Pyslvs"),
+        message("one position of a linkage of pins, slides and slots, points; drives in comments"),
+        _AS_MILLIMETRES,
+        "pyslvs",
+        "drawing_from_pyslvs",
+        "pyslvs_from_drawing",
+    ),
+    _drawn(
+        "pmks",
+        (".pmks",),
+        message("PMKS+"),
+        _PINS,
+        message("cm, in or m, which the address says"),
+        "pmks",
+        "drawing_from_pmks",
+        "pmks_from_drawing",
+    ),
+    _drawn(
+        "four-bar-rs",
+        (".ron",),
+        message("four-bar-rs"),
+        message("a four-bar with a driven crank and one coupler point"),
+        _AS_MILLIMETRES,
+        "four_bar_rs",
+        "drawing_from_ron",
+        "ron_from_drawing",
+    ),
+    _json_of_others(
+        "motiongen",
+        message("MotionGen"),
+        message("one position of a linkage of pins, slides and slots, points, drives"),
+    ),
+    _json_of_others(
+        "pylinkage",
+        message("pylinkage"),
+        message("one position of a linkage of pins, pins in slots of the frame, points, driven cranks on the frame"),
+    ),
+    Format(
+        "dxf",
+        (".dxf",),
+        message("CAD, laser cutters (DXF)"),
+        message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
+        None,
+        _write_dxf,
+        _HEADER,
+    ),
+    Format(
+        "dxf-links",
+        (),
+        message("CAD, laser cutters (DXF), a file for each link"),
+        message("a folder of plates with holes and slots, one file per link, with its plane in the name"),
+        None,
+        _write_dxf_of_links,
+        _HEADER,
+    ),
+    Format(
+        "mjcf",
+        (".mjcf",),
+        message("MuJoCo"),
+        message("a linkage of pins, slides and slots as a model that runs, points, drives"),
+        None,
+        _write_mjcf,
+        message("m"),
+    ),
+    Format(
+        "urdf",
+        (".urdf",),
+        message("robots (URDF)"),
+        message("a linkage of pins, slides and slots as a tree: its loops are cut"),
+        None,
+        _write_urdf,
+        message("m"),
+    ),
+    Format(
+        "spreadsheet",
+        (),
+        message("CSV for spreadsheets with decimal commas"),
+        message("tables of motions with units in their headers, semicolons between cells"),
+        None,
+        _write_spreadsheet,
+        _WITH_UNIT,
+    ),
+    Format(
+        "parquet",
+        (".parquet",),
+        message("Parquet"),
+        message("tables of motions with units in their headers"),
+        None,
+        _write_parquet,
+        _WITH_UNIT,
+    ),
+)
+"""Every format, those of this library first."""

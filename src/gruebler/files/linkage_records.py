@@ -1,0 +1,378 @@
+"""What stands in a file of a linkage: the keys, and what they make of a mechanism.
+
+Lengths are in the unit that the file names, angles in degrees; docs/theory/linkage-files.md has every key.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from gruebler.base.documents import convert_document
+from gruebler.base.errors import LinkageError, UnitWarning, nearest
+from gruebler.base.text import Message, joined, joined_by_and, joined_by_or, message
+from gruebler.files.angles import in_degrees, in_radians
+from gruebler.mechanics.fourbar.four_bar import FourBar
+from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
+from gruebler.mechanics.fourbar.length_forms import ClosedForm, linkage_on_mechanism
+from gruebler.mechanics.fourbar.slider_crank import SliderCrank
+from gruebler.mechanics.linkages.elements import (
+    CamDisc,
+    Circle,
+    Element,
+    GenevaDriver,
+    GenevaWheel,
+    NonCircular,
+    Pose2D,
+    Wheel,
+)
+from gruebler.mechanics.linkages.model import Linkage
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = ["Dimensions", "linkage_from_record"]
+
+
+class FourBarLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, coupler b, rocker c, frame d."""
+
+    a: float
+    b: float
+    c: float
+    d: float
+    branch: int = 1
+
+
+class SliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, connecting rod b, eccentricity e."""
+
+    a: float
+    b: float
+    e: float = 0.0
+    branch: int = 1
+
+
+class InvertedSliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, frame d, eccentricity e."""
+
+    a: float
+    d: float
+    e: float = 0.0
+    branch: int = 1
+
+
+class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A named point: its link, and where it lies."""
+
+    link: str
+    at: list[float]
+
+
+class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A wheel, or a smooth circle: its centre and its size."""
+
+    at: list[float]
+    radius: float | None = None
+    teeth: int = 0
+    module: float | None = None
+    belt: str = ""
+    circle: float | None = None
+    angle: Any = 0
+    """Degrees, of a cam, pins or slots."""
+    cam: str | None = None
+    base: float | None = None
+    roller: float = 0.0
+    offset: float = 0.0
+    flat: bool = False
+    scale: float = 1.0
+    arm: float = 0.0
+    distance: float = 0.0
+    face: float = 0.0
+    pins: int | None = None
+    slots: int | None = None
+    internal: bool = False
+    transfer: str | None = None
+
+
+_KINDS = {
+    "circle": {"circle"},
+    "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale", "arm", "distance", "face"},
+    "pins": {"pins", "angle"},
+    "slots": {"slots", "angle", "internal"},
+    "transfer": {"transfer", "angle", "teeth"},
+}
+"""What makes an element something else than a wheel, and its keys."""
+
+
+class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The sizes of a mechanism, given in one of several ways."""
+
+    unit: str
+    elements: dict[str, Any] | None = None
+    reference_pose: dict[str, Any] | None = None
+    home: dict[str, Any] | None = None
+    """The former name of `reference_pose`; still read."""
+    places: dict[str, Any] | None = None
+    four_bar: FourBarLengths | None = None
+    slider_crank: SliderCrankLengths | None = None
+    inverted_slider_crank: InvertedSliderCrankLengths | None = None
+    points: dict[str, Any] = {}
+
+
+_DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
+_WAYS = ("elements", "places", *_DOORS)
+_POSES = ("reference_pose", "home")
+
+
+def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
+    """The linkage of these sizes; without a mechanism the one that four_bar, slider_crank, ... bring along.
+
+    Raises `LinkageError` with the key of the first thing that does not fit.
+    """
+    given = [form for form in _WAYS if getattr(sizes, form) is not None]
+    if len(given) != 1:
+        raise LinkageError(
+            "expected one of {ways}, but found {found}",
+            ways=", ".join(_WAYS),
+            found=joined_by_and(given) if given else message("none"),
+        )
+    form = given[0]
+    poses = {key: pose for key in _POSES if (pose := getattr(sizes, key)) is not None}
+    if len(poses) > 1:
+        raise LinkageError("home is the former name of reference_pose: give one of them")
+    if poses and form != "elements":
+        raise LinkageError(
+            "{key} is allowed with elements only; {form} itself decides how the linkage is assembled",
+            key=next(iter(poses)),
+            form=form,
+        )
+    if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
+        raise LinkageError(
+            "unit: expected the name of a unit of length such as 'mm', but found {unit!r}", unit=sizes.unit[:20]
+        )
+    if mechanism is None and form not in _DOORS:
+        raise LinkageError("joints: missing; {way} needs them, such as R(frame-crank) R(crank-coupler) ...", way=form)
+    if form in _DOORS:
+        return _door(form, getattr(sizes, form), sizes, mechanism, outputs)
+    assert mechanism is not None
+    points = _points(sizes.points, mechanism.chain.links)
+    chosen = outputs or ()
+    if form == "places":
+        assert sizes.places is not None
+        places = _by_joint(mechanism, _aimed(mechanism, sizes.places), "places", slots=True)
+        _refuse_rounded_axes(mechanism, places)
+        return Linkage.from_drawing(mechanism, places, points, unit=sizes.unit, outputs=chosen)
+    assert sizes.elements is not None
+    elements: dict[str, Mapping[str | int, object]] = {}
+    for link, values in sizes.elements.items():
+        _check_link(link, mechanism.chain.links, "elements")
+        if not isinstance(values, Mapping):
+            raise LinkageError(
+                "elements.{link}: expected a table of joints, but found {found}", link=link, found=_short(values)
+            )
+        elements[link] = _by_joint(mechanism, values, f"elements.{link}")
+    pose = next((_reference_pose(key, raw, mechanism.chain.links) for key, raw in poses.items()), None)
+    with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these were degrees
+        return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
+
+
+def _door(
+    form: str, lengths: Any, sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None
+) -> Linkage:
+    given = msgspec.structs.asdict(lengths)
+    branch = given.pop("branch")
+    if branch not in (1, -1):
+        raise LinkageError("{way}.branch: expected 1 or -1, but found {branch}", way=form, branch=branch)
+    try:
+        door: ClosedForm = _DOORS[form](**given)
+    except LinkageError as error:
+        raise LinkageError("{way}: {error}", way=form, error=error) from None
+    linkage = linkage_on_mechanism(form, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
+    points = _points(sizes.points, linkage.mechanism.chain.links)
+    return linkage.with_points(points) if points else linkage
+
+
+def _by_joint(
+    mechanism: Mechanism, values: Mapping[str, Any], where: str, *, slots: bool = False
+) -> dict[str | int, object]:
+    elements: dict[str | int, object] = {}
+    for joint, raw in values.items():
+        try:
+            number = mechanism.chain.joint_number(joint, LinkageError)
+        except LinkageError as error:
+            raise LinkageError("{where}: {error}", where=where, error=error) from None
+        if number in elements:
+            raise LinkageError("{where}.{joint}: this joint is given twice", where=where, joint=joint)
+        elements[number] = _element(raw, f"{where}.{joint}", slots)
+    return elements
+
+
+def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
+    """The places with degrees instead of the joint through which a slide passes: ``[x, y, "R(piston-boom)"]``."""
+    chain = mechanism.chain
+    by_number = {chain.find_joint(joint): raw for joint, raw in places.items()}
+    aimed = dict(places)
+    for joint, raw in places.items():
+        if not (isinstance(raw, list) and len(raw) == 3 and isinstance(raw[2], str) and "(" in raw[2]):
+            continue
+        where, target = f"places.{joint}", by_number.get(chain.find_joint(raw[2]))
+        if not isinstance(target, list):
+            raise LinkageError(
+                "{where}: {joint!r} has no place through which the slide could pass", where=where, joint=raw[2][:60]
+            )
+        (x, y), (u, v) = _numbers(raw[:2], where, (2,)), _numbers(target[:2], f"places.{raw[2]}", (2,))
+        if (x, y) == (u, v):
+            raise LinkageError(
+                "{where}: {joint} is at the slide's own point; give another point of its line",
+                where=where,
+                joint=raw[2],
+            )
+        aimed[joint] = [raw[0], raw[1], in_degrees(math.atan2(v - y, u - x))]
+    return aimed
+
+
+_ROUNDED, _MEANT = 1e-9, 1e-3  # of the distance of two pins: what rounding to all digits and to three leaves open
+
+
+def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object]) -> None:
+    """Refuse a slide between moving links that all but passes through a pin of each: its angle has too few digits.
+
+    A cylinder drawn so would have an offset that nobody meant.
+    """
+    chain, names = mechanism.chain, mechanism.chain.joint_names()
+    pins = {k: raw for k, raw in places.items() if isinstance(raw, tuple) and len(raw) == 2}
+    for number, joint in enumerate(chain.joints):
+        raw = places.get(number)
+        if not joint.pair.is_prismatic or mechanism.frame in joint.links or not isinstance(raw, tuple):
+            continue
+        angle = raw[2] if len(raw) == 3 else 0.0
+        on = [[k for k in pins if isinstance(k, int) and link in chain.joints[k].links] for link in joint.links]
+        for pin, other in itertools.product(*on[:2]):
+            across = (pins[other][0] - pins[pin][0], pins[other][1] - pins[pin][1])
+            far, miss = math.hypot(*across), abs(math.cos(angle) * across[1] - math.sin(angle) * across[0])
+            if _ROUNDED * far < miss < _MEANT * far:
+                raise LinkageError(
+                    'places.{slide}: the slide through {pin} misses {other} by {miss:.2g}; write "{other}" '
+                    "instead of the angle, or the angle with all its digits",
+                    slide=names[number],
+                    pin=names[pin],
+                    other=names[other],
+                    miss=miss,
+                )
+
+
+def _element(raw: Any, where: str, slots: bool) -> object:
+    if slots and isinstance(raw, Mapping):
+        return {link: _element(value, f"{where}.{link}", False) for link, value in raw.items()}
+    if isinstance(raw, Mapping):
+        return _round(convert_document(raw, RoundRecord, LinkageError, where), raw, where)
+    if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
+        return (*_numbers(raw[:3], where, (3,)), raw[3])
+    return _numbers(raw, where, (2, 3))
+
+
+def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Element:
+    kind = next((key for key in _KINDS if key in given), "")
+    allowed = _KINDS.get(kind, {"radius", "teeth", "module", "belt"})
+    wrong = next((key for key in given if key not in {"at", *allowed}), None)
+    if wrong is not None:
+        raise LinkageError(
+            "{where}.{wrong}: does not go with {kind}", where=where, wrong=wrong, kind=kind or message("a wheel")
+        )
+    if kind in ("", "circle"):
+        x, y = _numbers(record.at, f"{where}.at", (2,))
+        return Circle(x, y, record.circle) if record.circle is not None else _wheel(record, x, y, where)
+    x, y, angle = _numbers([*record.at, record.angle], f"{where}.at", (3,))
+    if record.cam is not None:
+        if record.base is None:
+            raise LinkageError("{where}.base: the radius of the base circle is missing", where=where)
+        sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
+        return CamDisc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
+    if record.pins is not None:
+        return GenevaDriver(x, y, angle, record.pins)
+    if record.transfer is not None:
+        return NonCircular(x, y, angle, record.transfer, record.teeth)
+    assert record.slots is not None
+    return GenevaWheel(x, y, angle, record.slots, record.internal)
+
+
+def _wheel(record: RoundRecord, x: float, y: float, where: str) -> Wheel:
+    radius = record.radius
+    if record.module is not None:
+        if radius is not None or not record.teeth or not record.module > 0:
+            raise LinkageError(
+                "{where}.module: a positive number that goes with teeth, and without a radius", where=where
+            )
+        radius = record.module * record.teeth / 2
+    if radius is None and not record.teeth:
+        raise LinkageError("{where}: expected a radius, teeth or a circle", where=where)
+    return Wheel(x, y, radius or 0.0, record.teeth, record.belt)
+
+
+def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
+    """x, y and perhaps an angle, which comes in degrees and goes in radians."""
+    if not isinstance(raw, list) or len(raw) not in counts:
+        wanted = joined_by_or([message("[x, y]" if count == 2 else "[x, y, degrees]") for count in counts])
+        raise LinkageError(
+            "{where}: expected {wanted}, but found {found}", where=where, wanted=wanted, found=_short(raw)
+        )
+    for value in raw[:2]:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not -1e100 < value < 1e100:
+            raise LinkageError(
+                "{where}: expected numbers below 1e100, but found {found}", where=where, found=_short(value)
+            )
+    try:
+        return (float(raw[0]), float(raw[1]), *(in_radians(angle) for angle in raw[2:]))
+    except ValueError:
+        raise LinkageError(
+            "{where}: expected an angle in degrees, but found {found}", where=where, found=_short(raw[2])
+        ) from None
+
+
+def _reference_pose(key: str, pose: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
+    for link in pose:
+        _check_link(link, links, key)
+    return {link: Pose2D(*_numbers(raw, f"{key}.{link}", (3,))) for link, raw in pose.items()}
+
+
+def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
+    places = {}
+    for name, raw in points.items():
+        where = f"points.{name}"
+        if not name.strip() or not name.isprintable():
+            raise LinkageError("points: {name!r} cannot name a point", name=name)
+        point = convert_document(raw, PointRecord, LinkageError, where)
+        _check_link(point.link, links, where)
+        x, y = _numbers(point.at, f"{where}.at", (2,))
+        places[name] = (point.link, x, y)
+    return places
+
+
+def _check_link(link: str, links: tuple[str, ...], where: str) -> None:
+    if link not in links:
+        known = ", ".join(links[:12]) + (", ..." if len(links) > 12 else "")
+        raise LinkageError(
+            "{where}: there is no link {link!r}{suggestion}; links are {known}",
+            where=where,
+            link=link,
+            suggestion=nearest(link, links),
+            known=known,
+        )
+
+
+def _short(value: object) -> Message:
+    match value:
+        case list() if len(value) > 4:
+            return message("a list of {count}", count=len(value))
+        case list():
+            return message("[{items}]", items=joined(map(_short, value)))
+        case Mapping():
+            return message("a table")
+        case int() if not -(10**20) < value < 10**20:
+            return message("a number of many digits")
+    shown = repr(value)
+    return message("{value}", value=shown if len(shown) < 40 else shown[:37] + "...")

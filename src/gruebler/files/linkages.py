@@ -1,0 +1,232 @@
+"""Linkages in files and as plain data: TOML and JSON, read and written without losing a bit.
+
+Lengths are in the unit that the file names, angles in degrees; docs/theory/linkage-files.md has every key.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from gruebler.base.atomic_files import atomic_file
+from gruebler.base.documents import convert_document, load_document
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.files.angles import in_degrees
+from gruebler.files.linkage_records import Dimensions, linkage_from_record
+from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
+from gruebler.mechanics.linkages.elements import (
+    CamDisc,
+    Circle,
+    Element,
+    GenevaDriver,
+    GenevaWheel,
+    Line,
+    NonCircular,
+    Pin,
+    Wheel,
+)
+from gruebler.mechanics.linkages.model import Linkage
+from gruebler.structure.chain import Chain
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = [
+    "check_linkage_path",
+    "linkage_from_json",
+    "linkage_to_json",
+    "linkage_to_toml",
+    "read_linkage",
+    "write_linkage",
+]
+
+_LONGEST = 50_000  # characters of the joints; a linkage of a thousand links fits
+
+
+class LinkageRecord(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A file: the mechanism and its sizes."""
+
+    joints: str | None = None
+    links: tuple[str, ...] | None = None
+    frame: str | None = None
+    drives: tuple[str, ...] | None = None
+    outputs: tuple[str, ...] | None = None
+
+
+def read_linkage(path: Path | str) -> Linkage:
+    """The linkage in a ``.toml`` or ``.json`` file.
+
+    Raises `LinkageError` with file and key of the first thing that does not fit, and the nearest key that would.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
+    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    if isinstance(data, Mapping) and "screws" in data:
+        raise LinkageError(
+            "{path}: has the screws of its joints in one position, not the dimensions of its links: `gruebler check "
+            "{path} --explain` shows how it moves",
+            path=path,
+        )
+    try:
+        return linkage_from_json(data)
+    except LinkageError as error:
+        raise LinkageError("{path}: {error}", path=path, error=error) from None
+
+
+def linkage_from_json(document: Mapping[str, Any]) -> Linkage:
+    """The linkage of plain data, such as `linkage_to_json` makes.
+
+    >>> linkage_from_json({"unit": "mm", "four_bar": {"a": 25, "b": 70, "c": 40, "d": 70}})
+    <linkage R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)>
+    """
+    record = convert_document(document, LinkageRecord, LinkageError)
+    mechanism = _mechanism(record)
+    linkage = linkage_from_record(record, mechanism, record.outputs)
+    if record.joints is None and record.drives is not None:
+        linkage = linkage.with_mechanism(_driven(linkage.mechanism.chain, linkage.mechanism.frame, record.drives))
+    return linkage
+
+
+def _mechanism(record: LinkageRecord) -> Mechanism | None:
+    if record.joints is None:
+        for key in ("links", "frame"):
+            if getattr(record, key) is not None:
+                raise LinkageError("{key}: goes with joints, which are missing", key=key)
+        return None
+    if len(record.joints) > _LONGEST:
+        raise LinkageError(
+            "joints: {count:,} characters are more than {longest:,}", count=len(record.joints), longest=_LONGEST
+        )
+    try:
+        chain = Chain.parse(record.joints)
+    except GrueblerError as error:
+        raise LinkageError("joints: {error}", error=error) from None
+    if record.links is not None:
+        try:
+            chain = Chain(chain.joints, links=record.links, space=chain.space)
+        except GrueblerError as error:
+            raise LinkageError("links: {error}", error=error) from None
+    frame = chain.links[0] if record.frame is None else record.frame
+    try:
+        chain.index(frame)
+    except GrueblerError as error:
+        raise LinkageError("frame: {error}", error=error) from None
+    return _driven(chain, frame, record.drives or ())
+
+
+def _driven(chain: Chain, frame: str, drives: tuple[str, ...]) -> Mechanism:
+    try:
+        return Mechanism(chain, frame, drives)
+    except GrueblerError as error:
+        raise LinkageError("drives: {error}", error=error) from None
+
+
+def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
+    """Plain data for `json.dumps`; `linkage_from_json` takes it back exactly."""
+    mechanism = linkage.mechanism
+    chain, names = mechanism.chain, mechanism.chain.joint_names()
+    document: dict[str, Any] = {"unit": linkage.unit, "joints": chain.text()}
+    if Chain.parse(chain.text()).links != chain.links:
+        document["links"] = list(chain.links)
+    document |= {
+        "frame": mechanism.frame,
+        "drives": list(mechanism.drive_names()),
+        "outputs": list(linkage.outputs),
+        "points": {
+            name: {"link": point.link, "at": [point.x + 0.0, point.y + 0.0]} for name, point in linkage.points.items()
+        },
+        "elements": {
+            link: {names[n]: _plain(e) for (n, owner), e in sorted(linkage.elements.items()) if owner == link}
+            for link in chain.links
+        },
+    }
+    if linkage.reference_pose is not None:
+        document["reference_pose"] = {
+            link: _plain(Line(place.x, place.y, place.angle)) for link, place in linkage.reference_pose.items()
+        }
+    return document
+
+
+def _plain(element: Element) -> Any:
+    at = [element.x + 0.0, element.y + 0.0]  # -0.0 + 0.0 is 0.0
+    if isinstance(element, Circle):
+        return {"at": at, "circle": element.radius}
+    if isinstance(element, Wheel):
+        more = {"teeth": element.teeth, "belt": element.belt}
+        return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
+    if isinstance(element, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
+        table = {"at": at, **asdict(element), "angle": in_degrees(element.angle)}
+        renamed = {{"lift": "cam"}.get(key, key): value for key, value in table.items() if key not in "xy"}
+        return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
+    return at if isinstance(element, Pin) else [*at, in_degrees(element.angle + 0.0)]
+
+
+def linkage_to_toml(linkage: Linkage) -> str:
+    """The text of a TOML file; `read_linkage` takes it back exactly.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> print(linkage_to_toml(FourBar(a=25, b=70, c=40, d=70).linkage()).partition("[elements.frame]")[2])
+    <BLANKLINE>
+    "R(frame-crank)" = [0.0, 0.0]
+    "R(frame-rocker)" = [70.0, 0.0]
+    <BLANKLINE>
+    [elements.crank]
+    "R(frame-crank)" = [0.0, 0.0]
+    "R(crank-coupler)" = [25.0, 0.0]
+    <BLANKLINE>
+    [elements.coupler]
+    "R(crank-coupler)" = [0.0, 0.0]
+    "R(coupler-rocker)" = [70.0, 0.0]
+    <BLANKLINE>
+    [elements.rocker]
+    "R(coupler-rocker)" = [40.0, 0.0]
+    "R(frame-rocker)" = [0.0, 0.0]
+    <BLANKLINE>
+    """
+    document = linkage_to_json(linkage)
+    tables = {
+        "points": document.pop("points"),
+        **{f"elements.{_key(link)}": elements for link, elements in document.pop("elements").items()},
+        "reference_pose": document.pop("reference_pose", {}),
+    }
+    lines = [f"{key} = {_value(value)}" for key, value in document.items()]
+    for name, table in tables.items():
+        if table:
+            lines += ["", f"[{name}]", *(f"{_key(key)} = {_value(value)}" for key, value in table.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _key(key: str) -> str:
+    bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
+    return key if bare else _value(key)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def check_linkage_path(path: Path) -> None:
+    """`LinkageError` if no linkage can be written there: to be asked before a long search."""
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise LinkageError("{path}: end the name with .toml or .json", path=path)
+    if not path.parent.is_dir():
+        raise LinkageError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
+
+
+def write_linkage(path: Path | str, linkage: LinkageLike) -> None:
+    """Write a ``.toml`` or ``.json`` file; it appears whole or not at all."""
+    path = Path(path)
+    check_linkage_path(path)
+    linkage = as_linkage(linkage)
+    if path.suffix.lower() == ".toml":
+        text = linkage_to_toml(linkage)
+    else:
+        text = json.dumps(linkage_to_json(linkage), ensure_ascii=False, indent=2) + "\n"
+    with atomic_file(path, durable=False) as file:
+        file.write(text.encode("utf-8"))

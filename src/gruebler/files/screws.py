@@ -1,0 +1,137 @@
+"""Linkages given by the screws of their joints, in files and as plain data.
+
+Angles are in degrees, the advance of a screw for a whole turn; docs/theory/freedoms.md has every key.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+import msgspec
+
+from gruebler.base.documents import convert_document, infinities_as_words, load_document
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.files.linkages import linkage_from_json
+from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import JointPlace, SpatialLinkage
+from gruebler.structure.chain import Chain
+from gruebler.structure.chain.pairs import Space
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = ["ScrewsRecord", "read_any_linkage", "screws_to_json", "spatial_from_json", "spatial_linkage_from_record"]
+
+
+class JointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A joint in the reference pose."""
+
+    at: list[float] | None = None
+    x: list[float] | None = None
+    y: list[float] | None = None
+    z: list[float] | None = None
+    lead: float | None = None
+    """Of a screw, the way along z for a whole turn."""
+    radii: list[float | Literal["inf", "-inf"]] | None = None
+    """A flat contour has ``inf``, in JSON the text ``"inf"``."""
+    pressure: float | None = None
+
+
+class ScrewsRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The joints of a mechanism in one position."""
+
+    unit: str
+    joints: dict[str, Any]
+
+
+class SpatialRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A file: the mechanism and the screws of its joints."""
+
+    joints: str
+    screws: ScrewsRecord
+    space: str | None = None
+    frame: str | None = None
+    drives: tuple[str, ...] = ()
+
+
+def spatial_linkage_from_record(screws: ScrewsRecord, mechanism: Mechanism) -> SpatialLinkage:
+    """The linkage of a mechanism with these screws; `LinkageError` names the first key that does not fit."""
+    spherical = mechanism.chain.space is Space.SPHERICAL
+    places: dict[str | int, object] = {}
+    for name, raw in screws.joints.items():
+        record = convert_document(raw, JointRecord, LinkageError, f"screws.joints.{name}")
+        given = {key: value for key, value in msgspec.structs.asdict(record).items() if value is not None}
+        if "lead" in given:
+            given["pitch"] = given.pop("lead") / (2 * math.pi)
+        if "radii" in given:
+            given["radii"] = [float(radius) for radius in given["radii"]]
+        if "pressure" in given:
+            given["pressure"] = math.radians(given["pressure"])
+        if spherical and "radii" in given:
+            given["radii"] = [math.radians(r) for r in given["radii"]]
+        places[name] = given
+    return SpatialLinkage(mechanism, places, screws.unit)
+
+
+def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
+    """The linkage of plain data, such as `screws_to_json` makes.
+
+    >>> z = [0, 0, 1]
+    >>> spatial_from_json({"joints": "spatial: R(0-1) H(1-2) P(0-2)", "screws": {"unit": "mm", "joints": {
+    ...     "R(0-1)": {"z": z}, "H(1-2)": {"z": z, "lead": 5}, "P(0-2)": {"x": z, "at": [0, 50, 0]}}}})
+    <spatial linkage spatial: R(0-1) H(1-2) P(0-2); frame=0>
+    """
+    record = convert_document(document, SpatialRecord, LinkageError)
+    try:
+        chain = Chain.parse(record.joints, record.space)
+        mechanism = Mechanism(chain, chain.links[0] if record.frame is None else record.frame, record.drives)
+    except GrueblerError as error:
+        raise LinkageError("joints, frame or drives: {error}", error=error) from None
+    return spatial_linkage_from_record(record.screws, mechanism)
+
+
+def screws_to_json(linkage: SpatialLinkage) -> dict[str, Any]:
+    """Plain data for `json.dumps`; `spatial_from_json` takes it back, angles to rounding."""
+    mechanism = linkage.mechanism
+    names = mechanism.chain.joint_names()
+    angles = mechanism.chain.space is Space.SPHERICAL
+    return {
+        "joints": mechanism.chain.text(),
+        "space": str(mechanism.chain.space),
+        "frame": mechanism.frame,
+        "drives": list(mechanism.drive_names()),
+        "screws": {
+            "unit": linkage.unit,
+            "joints": {name: _plain(place, angles) for name, place in zip(names, linkage.places, strict=True)},
+        },
+    }
+
+
+def _plain(place: JointPlace, angles: bool) -> dict[str, Any]:
+    table: dict[str, Any] = {"at": list(place.at)}
+    table |= {axis: list(v) for axis in "xyz" if (v := getattr(place, axis)) is not None}
+    if place.pitch:
+        table["lead"] = place.pitch * 2 * math.pi
+    if place.radii is not None:
+        table["radii"] = infinities_as_words([math.degrees(r) if angles else r for r in place.radii])
+    if place.pressure is not None:
+        table["pressure"] = math.degrees(place.pressure)
+    return table
+
+
+def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
+    """The linkage in a ``.toml`` or ``.json`` file, with sizes of its links or with the screws of its joints.
+
+    Raises `LinkageError` with file and key of the first thing that does not fit.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
+    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    try:
+        if isinstance(data, Mapping) and "screws" in data:
+            return spatial_from_json(data)
+        return linkage_from_json(data)
+    except LinkageError as error:
+        raise LinkageError("{path}: {error}", path=path, error=error) from None

@@ -1,0 +1,410 @@
+"""Tasks in files and as plain data: TOML, JSON and CSV, read and written without losing a bit.
+
+Lengths are in the unit that the file names, angles in degrees; docs/theory/synthesis.md has every key.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import warnings
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from gruebler.base.atomic_files import atomic_file
+from gruebler.base.documents import convert_document, load_document
+from gruebler.base.errors import SynthesisError, UnitWarning
+from gruebler.design.synthesis.formulas import FunctionLaw
+from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
+from gruebler.files.angles import in_degrees, in_radians
+
+__all__ = ["read_task", "task_from_json", "task_to_json", "write_task"]
+
+
+class _Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    unit: str = "mm"
+
+
+class _Positions(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    positions: list[list[Any]]
+    moving_pivots: list[list[float]] = []
+    fixed_pivots: list[list[float]] = []
+    curve_parameters: list[float] = []
+
+
+class _Path(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    points: list[list[float]]
+    angles: list[Any] = []
+    crank_angles: list[Any] = []
+    fixed_pivots: list[list[float]] = []
+    closed: bool = False
+
+
+class _Function(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    inputs: list[Any]
+    outputs: list[Any]
+    output: str = "angle"
+    start_input: bool = True
+    start_output: bool = True
+
+
+class _Law(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    function: str
+    interval: tuple[float, float]
+    input_swing: Any
+    output_swing: Any
+    input_start: Any = None
+    output_start: Any = None
+    precision_points: int = 5
+    output: str = "angle"
+
+
+class _DeadCentres(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    swing: Any = None
+    stroke: float | None = None
+    crank_angle: Any = None
+    time_ratio: float | None = None
+
+
+_KINDS: dict[str, type[_Record]] = {
+    "function": _Law,
+    "positions": _Positions,
+    "points": _Path,
+    "inputs": _Function,
+    "swing": _DeadCentres,
+    "stroke": _DeadCentres,
+}
+"""The key that every task of a kind has."""
+
+
+def _radians(value: Any, where: str) -> float:
+    try:
+        return in_radians(value)
+    except ValueError:
+        raise SynthesisError(
+            "{where}: expected an angle in degrees, but found {value!r}", where=where, value=str(value)[:40]
+        ) from None
+
+
+def task_from_json(document: Mapping[str, Any]) -> Task:
+    """The task of plain data, such as `task_to_json` makes.
+
+    Raises `SynthesisError` with the key of the first thing that does not fit.
+
+    >>> task_from_json({"positions": [[0, 0, 0], [3, 4, 90]]}).angles
+    array([0.        , 1.57079633])
+    """
+    if not isinstance(document, Mapping):
+        raise SynthesisError("expected a table of keys")
+    kind = next((record for key, record in _KINDS.items() if key in document), None)
+    if kind is None:
+        raise SynthesisError(
+            "a task has positions, points, inputs and outputs, a function, or a swing or stroke; found none of them"
+        )
+    given = dict(document)
+    for key, short in (("angles", None), ("crank_angles", None)):  # null stands for a free angle in JSON, "" in TOML
+        if isinstance(given.get(key), list):
+            given[key] = [short if value == "" else value for value in given[key]]
+    record = convert_document(given, kind, SynthesisError)
+    with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these are degrees
+        return _task(record)
+
+
+def _task(record: Any) -> Task:
+    """The task of a record."""
+    data: dict[str, Any] = msgspec.structs.asdict(record)
+    match record:
+        case _Positions():
+            for k, row in enumerate(record.positions):
+                if len(row) != 3:
+                    raise SynthesisError(
+                        "positions {number}: expected [x, y, degrees], but found {count} values",
+                        number=k + 1,
+                        count=len(row),
+                    )
+            rows = [(row[0], row[1], _radians(row[2], f"positions {k + 1}")) for k, row in enumerate(record.positions)]
+            return PositionTask(**{**data, "positions": rows})
+        case _Path():
+            angles = [None if a is None else _radians(a, f"angles {k + 1}") for k, a in enumerate(record.angles)]
+            timing = [_radians(a, f"crank_angles {k + 1}") for k, a in enumerate(record.crank_angles)]
+            return PathTask(**{**data, "angles": tuple(angles), "crank_angles": tuple(timing)})
+        case _Function():
+            inputs = [_radians(a, f"inputs {k + 1}") for k, a in enumerate(record.inputs)]
+            turning = record.output == "angle"
+            outputs = [_radians(a, f"outputs {k + 1}") if turning else a for k, a in enumerate(record.outputs)]
+            return FunctionTask(**{**data, "inputs": tuple(inputs), "outputs": tuple(outputs)})
+        case _Law():
+            return _function_task(record)
+        case _:
+            for key in ("swing", "crank_angle"):
+                data[key] = None if data[key] is None else _radians(data[key], key)
+            return DeadCentreTask(**data)
+
+
+def _function_task(record: _Law) -> FunctionTask:
+    def output(value: Any, where: str) -> float:
+        return _radians(value, where) if record.output == "angle" else _length(value, where)
+
+    law = FunctionLaw(
+        record.function,
+        record.interval,
+        _radians(record.input_swing, "input_swing"),
+        output(record.output_swing, "output_swing"),
+        None if record.input_start is None else _radians(record.input_start, "input_start"),
+        None if record.output_start is None else output(record.output_start, "output_start"),
+    )
+    return function_task(law, record.precision_points, output=record.output, unit=record.unit)
+
+
+def _length(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise SynthesisError("{where}: expected a number, but found {value!r}", where=where, value=str(value)[:40])
+    return float(value)
+
+
+def task_to_json(task: Task) -> dict[str, Any]:
+    """Plain data for `json.dumps`; `task_from_json` takes it back exactly."""
+    document: dict[str, Any] = {"unit": task.unit}
+    match task:
+        case PositionTask():
+            document["positions"] = [[x, y, in_degrees(angle)] for x, y, angle in task.positions]
+            more: dict[str, Any] = {name: [list(p) for p in getattr(task, name)] for name in _PIVOTS}
+            more["curve_parameters"] = list(task.curve_parameters)
+        case PathTask():
+            document["points"] = [list(point) for point in task.points]
+            more = {
+                "angles": [None if a is None else in_degrees(a) for a in task.angles],
+                "crank_angles": [in_degrees(a) for a in task.crank_angles],
+                "fixed_pivots": [list(p) for p in task.fixed_pivots],
+                "closed": task.closed,
+            }
+        case FunctionTask(law=FunctionLaw() as law):
+
+            def output(value: float) -> float | str:
+                return in_degrees(value) if task.output == "angle" else value
+
+            more = {
+                "function": law.function,
+                "interval": list(law.interval),
+                "input_swing": in_degrees(law.input_swing),
+                "output_swing": output(law.output_swing),
+                "input_start": None if law.input_start is None else in_degrees(law.input_start),
+                "output_start": None if law.output_start is None else output(law.output_start),
+                "precision_points": len(task),
+                "output": task.output,
+            }
+        case FunctionTask():
+            turning = task.output == "angle"
+            document["inputs"] = [in_degrees(a) for a in task.inputs]
+            document["outputs"] = [in_degrees(a) if turning else a for a in task.outputs]
+            document |= {"output": task.output, "start_input": task.start_input, "start_output": task.start_output}
+            more = {}
+        case DeadCentreTask():
+            more = {
+                "swing": None if task.swing is None else in_degrees(task.swing),
+                "stroke": task.stroke,
+                "crank_angle": None if task.crank_angle is None else in_degrees(task.crank_angle),
+                "time_ratio": task.time_ratio,
+            }
+    return document | {
+        key: value for key, value in more.items() if value is not None and value is not False and value != []
+    }
+
+
+_PIVOTS = ("moving_pivots", "fixed_pivots")
+
+
+def read_task(path: Path | str) -> Task:
+    """The task in a ``.toml``, ``.json`` or ``.csv`` file.
+
+    The columns of a CSV file say what it is: ``x,y,angle`` positions (an empty angle is free: a mixed task), ``x,y``
+    points, ``x,y,crank`` points with crank angles, ``input,output`` or ``input,travel`` a function, ``swing`` or
+    ``stroke`` with ``crank_angle`` or ``time_ratio`` dead centres. Without a header two columns are points, three
+    positions. With semicolons between the columns a comma is the decimal sign.
+
+    Raises `SynthesisError` with file and key or line of the first thing that does not fit.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in (".toml", ".json", ".csv"):
+        raise SynthesisError("{path}: a task is in a .toml, .json or .csv file", path=path)
+    try:
+        if path.suffix.lower() == ".csv":
+            return _from_csv(_text(path))
+        data = load_document(path, SynthesisError)
+        return task_from_json(data)
+    except SynthesisError as error:
+        raise SynthesisError("{path}: {error}", path=path, error=error) from None
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_bytes()[:1_000_001].decode("utf-8-sig")
+    except OSError as error:
+        raise SynthesisError("cannot be read ({reason})", reason=error.strerror or error) from None
+    except UnicodeDecodeError:
+        raise SynthesisError("is not UTF-8 text") from None
+
+
+def _from_csv(text: str) -> Task:
+    rows: Iterable[list[str]] = csv.reader(io.StringIO(text))
+    if ";" in text.partition("\n")[0]:  # as spreadsheets write where the comma is the decimal sign
+        rows = ([cell.replace(",", ".") for cell in row] for row in csv.reader(io.StringIO(text), delimiter=";"))
+    try:
+        lines = [row for row in rows if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        raise SynthesisError("is not a table: {reason}", reason=error) from None
+    if not lines:
+        raise SynthesisError("is empty")
+    header = [cell.strip().lower() for cell in lines[0]]
+    first = 2  # the line of the first row of numbers
+    if all(map(_is_number, header)):
+        header, first, lines = _columns(len(header)), 1, [header, *lines]
+    for k, row in enumerate(lines[1:]):
+        if len(row) != len(header):
+            raise SynthesisError(
+                "line {line}: expected {expected} columns, but found {count}",
+                line=k + first,
+                expected=len(header),
+                count=len(row),
+            )
+    columns = {name: [row[c].strip() for row in lines[1:]] for c, name in enumerate(header)}
+
+    def numbers(name: str) -> list[float]:
+        values = []
+        for k, cell in enumerate(columns[name]):
+            try:
+                values.append(float(cell))
+            except ValueError:
+                raise SynthesisError(
+                    "line {line}, {name}: expected a number, but found {cell!r}",
+                    line=k + first,
+                    name=name,
+                    cell=cell[:40],
+                ) from None
+        return values
+
+    def angles(name: str) -> list[Any]:
+        return [_angle(cell) for cell in columns[name]]
+
+    match frozenset(header):
+        case names if names == {"x", "y", "angle"}:
+            x, y, turned = numbers("x"), numbers("y"), angles("angle")
+            if None in turned:
+                return task_from_json({"points": [list(p) for p in zip(x, y, strict=True)], "angles": turned})
+            return task_from_json({"positions": [list(p) for p in zip(x, y, turned, strict=True)]})
+        case names if names in ({"x", "y"}, {"x", "y", "crank"}):
+            points = [list(p) for p in zip(numbers("x"), numbers("y"), strict=True)]
+            timing = {"crank_angles": angles("crank")} if "crank" in names else {}
+            return task_from_json({"points": points, **timing})
+        case names if names == {"input", "output"}:
+            return task_from_json({"inputs": angles("input"), "outputs": angles("output")})
+        case names if names == {"input", "travel"}:
+            return task_from_json({"inputs": angles("input"), "outputs": numbers("travel"), "output": "travel"})
+        case names if names and names <= {"swing", "stroke", "crank_angle", "time_ratio"} and len(lines) == 2:
+            return task_from_json(
+                {name: angles(name)[0] if name in ("swing", "crank_angle") else numbers(name)[0] for name in header}
+            )
+    raise SynthesisError(
+        "line 1: expected the columns x,y,angle or x,y or x,y,crank or input,output or input,travel, but "
+        "found {header}",
+        header=",".join(header)[:60],
+    )
+
+
+def _is_number(cell: str) -> bool:
+    """Whether the cell is one of a row of numbers, not of a header; an empty one is a free angle."""
+    try:
+        float(cell.removesuffix("°") or "0")
+    except ValueError:
+        return False
+    return True
+
+
+def _columns(count: int) -> list[str]:
+    """The columns of a file without a header: two numbers are a point, three a position."""
+    if count not in (2, 3):
+        raise SynthesisError(
+            "line 1: expected the names of the columns, or rows x,y (points) or x,y,angle (positions) without them, "
+            "but found {count} numbers",
+            count=count,
+        )
+    return ["x", "y", "angle"][:count]
+
+
+def _angle(cell: str) -> float | str | None:
+    """An angle of a CSV file; one with more digits than a double has ends with a degree sign."""
+    if not cell or cell.endswith("°"):
+        return cell[:-1] or None
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
+
+
+def write_task(path: Path | str, task: Task) -> None:
+    """Write a ``.toml``, ``.json`` or ``.csv`` file; `read_task` takes it back exactly.
+
+    Raises `SynthesisError` for a task that has more than the columns of a CSV file.
+    """
+    path = Path(path)
+    document = task_to_json(task)
+    match path.suffix.lower():
+        case ".toml":
+            text = "".join(f"{key} = {_toml(value)}\n" for key, value in document.items())
+        case ".json":
+            text = json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+        case ".csv":
+            text = _to_csv(document)
+        case _:
+            raise SynthesisError("{path}: end the name with .toml, .json or .csv", path=path)
+    if not path.parent.is_dir():
+        raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
+    with atomic_file(path, durable=False) as file:
+        file.write(text.encode("utf-8"))
+
+
+def _toml(value: Any) -> str:
+    if value is None:
+        return '""'
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _to_csv(document: Mapping[str, Any]) -> str:
+    keys = {key for key in document if key != "unit"}
+    rows: list[list[Any]]
+    match keys:
+        case _ if keys == {"positions"}:
+            header, rows = ["x", "y", "angle"], document["positions"]
+        case _ if keys == {"points"}:
+            header, rows = ["x", "y"], document["points"]
+        case _ if keys == {"points", "angles"}:
+            header = ["x", "y", "angle"]
+            rows = [[*p, "" if a is None else a] for p, a in zip(document["points"], document["angles"], strict=True)]
+        case _ if keys == {"points", "crank_angles"}:
+            header = ["x", "y", "crank"]
+            rows = [[*p, a] for p, a in zip(document["points"], document["crank_angles"], strict=True)]
+        case _ if keys == {"inputs", "outputs", "output", "start_input", "start_output"} and (
+            document["start_input"] and document["start_output"]
+        ):
+            header = ["input", "output" if document["output"] == "angle" else "travel"]
+            rows = [list(pair) for pair in zip(document["inputs"], document["outputs"], strict=True)]
+        case _ if keys & {"swing", "stroke"}:
+            header = sorted(keys)
+            rows = [[document[key] for key in header]]
+        case _:
+            raise SynthesisError(
+                "a CSV file has no columns for {keys}: write .toml or .json", keys=", ".join(sorted(keys))
+            )
+    if document["unit"] != "mm":
+        raise SynthesisError("a CSV file does not name the unit {unit!r}: write .toml or .json", unit=document["unit"])
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(
+        [header, *([f"{v}°" if isinstance(v, str) and v else v for v in row] for row in rows)]
+    )
+    return text.getvalue()

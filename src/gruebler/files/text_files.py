@@ -1,0 +1,99 @@
+"""Text files of other programs, read with care: never more than a limit, in a known encoding, no XML entities."""
+
+from __future__ import annotations
+
+from math import isfinite
+from pathlib import Path
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
+
+from gruebler.base.errors import GrueblerError
+
+__all__ = ["parse_xml", "read_number", "read_text"]
+
+LARGEST = 2_000_000
+"""Bytes of a file; drawings of a thousand links fit."""
+_DEEPEST = 100  # elements within elements
+
+
+def read_text(path: Path, largest: int = LARGEST) -> str:
+    """The text of a file, UTF-8 or UTF-16 with a byte order mark.
+
+    Raises `GrueblerError` that names the file if it cannot be read, is too large or is not such text.
+    """
+    try:
+        with path.open("rb") as file:
+            content = file.read(largest + 1)
+    except OSError as error:
+        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=error.strerror or error) from None
+    if len(content) > largest:
+        raise GrueblerError("{path}: larger than {limit:,} bytes", path=path, limit=largest)
+    encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    try:
+        text = content.decode(encoding)
+    except UnicodeDecodeError:
+        raise GrueblerError("{path}: is not UTF-8 text", path=path) from None
+    if not text.strip():
+        raise GrueblerError("{path}: is empty", path=path)
+    return text
+
+
+def parse_xml(text: str) -> Element:
+    """The root of an XML document without document type: no entity is expanded, nothing is fetched.
+
+    Raises `GrueblerError` for what is not XML, has a document type, or is nested too deeply.
+
+    >>> parse_xml("<a><b c='1'/></a>")[0].attrib
+    {'c': '1'}
+    >>> parse_xml("<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>")
+    Traceback (most recent call last):
+    gruebler.base.errors.GrueblerError: a document type (DOCTYPE) is not allowed here
+    """
+    builder = TreeBuilder()
+    parser = expat.ParserCreate()
+    depth = 0
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal depth
+        depth += 1
+        if depth > _DEEPEST:
+            raise GrueblerError("is nested too deeply")
+        builder.start(tag, attributes)
+
+    def end(tag: str) -> None:
+        nonlocal depth
+        depth -= 1
+        builder.end(tag)
+
+    def refuse(*_: object) -> None:
+        raise GrueblerError("a document type (DOCTYPE) is not allowed here")
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = builder.data
+    parser.StartDoctypeDeclHandler = refuse
+    parser.EntityDeclHandler = refuse
+    try:
+        parser.Parse(text, True)  # a text, so that no declared encoding counts
+    except expat.ExpatError as error:
+        raise GrueblerError("is not XML: {reason}", reason=error) from None
+    return builder.close()
+
+
+def read_number(text: str, what: object) -> float:
+    """A finite number; `GrueblerError` that says what it is otherwise.
+
+    >>> read_number("1e400", "x")
+    Traceback (most recent call last):
+    gruebler.base.errors.GrueblerError: x: expected a number, but found '1e400'
+    """
+    try:
+        value = float(text) if len(text) <= _LONGEST else float("nan")
+    except ValueError:
+        value = float("nan")
+    if not isfinite(value):
+        raise GrueblerError("{what}: expected a number, but found {text!r}", what=what, text=text)
+    return value
+
+
+_LONGEST = 100  # characters of a number

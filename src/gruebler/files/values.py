@@ -1,0 +1,193 @@
+"""`read`, `write` and `convert`: any value in a file, by the ending of its name and by what the file holds."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gruebler.base.doors import door
+from gruebler.base.errors import GrueblerError, level_of_user, nearest
+from gruebler.base.text import Message, joined, joined_by_or, message
+from gruebler.files.formats import FORMATS, Format, json_of_another_program
+
+if TYPE_CHECKING:
+    from gruebler.files.formats import Value
+
+__all__ = [
+    "FORMATS",
+    "Format",
+    "FormatWarning",
+    "convert",
+    "format_of",
+    "is_of_another_program",
+    "read",
+    "write",
+]
+
+_OWN = frozenset({"toml", "csv", "text", "graph6"})  # names of formats that the other readers of this library know, too
+
+
+class FormatWarning(UserWarning):
+    """A file has something that the value does not have, or the other way round."""
+
+
+def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
+    """The format of a name, else of the ending of a path; `GrueblerError` lists those there are.
+
+    >>> format_of("chains.g6.gz").name, format_of("leg.json", "pylinkage").name
+    ('graph6', 'pylinkage')
+    """
+    if name is not None:
+        for form in FORMATS:
+            if form.name == name:
+                return form
+        names = [form.name for form in FORMATS]
+        raise GrueblerError(
+            "there is no format {name!r}{suggestion}; known are {names}",
+            name=name,
+            suggestion=nearest(name, names),
+            names=", ".join(names),
+        )
+    lower = Path(path).name.lower()
+    for form in FORMATS:
+        if lower.endswith(form.suffixes):
+            return form
+    endings = [ending for form in FORMATS for ending in form.suffixes if not ending.endswith(".gz")]
+    raise GrueblerError(
+        "{path}: expected {endings}, not {suffix!r}",
+        path=path,
+        endings=joined_by_or(endings),
+        suffix=Path(path).suffix,
+    )
+
+
+def is_of_another_program(path: Path) -> bool:
+    """Whether a file is one that `read` alone reads: by the ending of its name, of JSON by its keys.
+
+    >>> is_of_another_program(Path("leg.linkage2")), is_of_another_program(Path("leg.toml"))
+    (True, False)
+    """
+    if path.suffix.lower() == ".json":
+        return json_of_another_program(path)
+    others = [form for form in FORMATS if form.read is not None and form.name not in _OWN]
+    return path.name.lower().endswith(tuple(ending for form in others for ending in form.suffixes))
+
+
+@door
+def read(path: str | PathLike[str], format_name: str | None = None, *, left_out: list[Message] | None = None) -> Value:
+    """The value in a file: a linkage, a chain or a list of chains, a task, a gear train.
+
+    Args:
+        path: a file; the ending of its name says the format, JSON of other programs is recognised.
+        format_name: the format, if the name does not say it: one of `FORMATS`.
+        left_out: gets a message for each thing in the file that the value does not have; without it such things are
+            warnings, `FormatWarning`.
+
+    Raises `GrueblerError` that names the file and what does not fit. docs/theory/formats.md has every format.
+    """
+    path = Path(path)
+    form = format_of(path, format_name)
+    if form.read is None:
+        raise GrueblerError("{path}: the format {name} is written only", path=path, name=form.name)
+    notes: list[Message] = []
+    value = form.read(path, notes)
+    _say(notes, left_out, message("{path}: not read: {items}", path=path, items=joined(notes, "; ")))
+    return value  # type: ignore[no-any-return]
+
+
+def _say(notes: list[Message], left_out: list[Message] | None, text: Message) -> None:
+    if left_out is not None:
+        left_out += notes
+    elif notes:
+        warnings.warn(str(text), FormatWarning, stacklevel=level_of_user())
+
+
+def write(
+    value: object,
+    path: str | PathLike[str],
+    format_name: str | None = None,
+    *,
+    left_out: list[Message] | None = None,
+) -> Path:
+    """Write a value into a file that `read` takes back, a motion as a table; returns the path.
+
+    Args:
+        value: a linkage, a chain or a list of chains, a task, a motion or its table (`Motion.table`).
+        path: a file, which appears complete or not at all; the ending of its name says the format.
+        format_name: the format, if the name does not say it: one of `FORMATS`.
+        left_out: gets a message for each thing of the value that the file does not have; without it such things are
+            warnings, `FormatWarning`.
+
+    Raises `GrueblerError` for a value and a format that do not go together, and if value and path are exchanged.
+    """
+    if isinstance(value, str | PathLike) and not isinstance(path, str | PathLike):
+        raise GrueblerError("write(value, path): the value comes first, then {path!r}", path=fspath(value))
+    return _written(value, path, format_name, left_out)
+
+
+@door
+def _written(value: object, path: str | PathLike[str], format_name: str | None, left_out: list[Message] | None) -> Path:
+    from gruebler.mechanics.linkages.conversion import makes_linkage
+
+    path = Path(path)
+    if makes_linkage(value):
+        value = value.linkage()
+    _check_kind(value)
+    form = format_of(path, format_name)
+    if form.write is None:
+        raise GrueblerError("{path}: the format {name} is read only", path=path, name=form.name)
+    notes: list[Message] = []
+    form.write(value, path, notes)
+    _say(notes, left_out, message("{path}: not written: {items}", path=path, items=joined(notes, "; ")))
+    return path
+
+
+def _check_kind(value: object) -> None:
+    from gruebler.base.columns import Table
+    from gruebler.design.synthesis import Task
+    from gruebler.mechanics.kinematics.motion import Motion
+    from gruebler.mechanics.linkages import Linkage
+    from gruebler.structure.chain import Chain
+
+    chains = isinstance(value, Sequence) and value and all(isinstance(item, Chain) for item in value)
+    if not (chains or isinstance(value, Chain | Linkage | Task | Motion | Table)):
+        raise GrueblerError(
+            "values of type {kind} cannot be written; linkages, tasks, motions, tables, chains and lists of chains can",
+            kind=type(value).__name__,
+        )
+
+
+def convert(
+    source: str | PathLike[str],
+    target: str | PathLike[str],
+    source_format: str | None = None,
+    target_format: str | None = None,
+) -> list[Message]:
+    """Read a file in one format and write it in another; returns what was left out, as messages.
+
+    Files of chains one a line are converted line by line, however many there are. Raises `GrueblerError` as `read` and
+    `write`.
+
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> _ = (folder / "chain.txt").write_text("R(a-b) R(b-c) R(c-d) R(d-a)", encoding="utf-8")
+    >>> convert(folder / "chain.txt", folder / "chain.graphml")
+    []
+    >>> print(read(folder / "chain.graphml"))
+    R(a-b) R(b-c) R(c-d) R(d-a)
+    """
+    from gruebler.files.chain_files import LINES, read_lines, write_lines
+
+    source, target = Path(source), Path(target)
+    from_form, to_form = format_of(source, source_format), format_of(target, target_format)
+    if source.exists() and target.exists() and source.samefile(target):
+        raise GrueblerError("{path}: would overwrite itself", path=source)
+    left_out: list[Message] = []
+    if from_form.name in LINES and to_form.name in LINES:
+        write_lines(read_lines(source, from_form.name), target, to_form.name)
+    else:
+        write(read(source, source_format, left_out=left_out), target, target_format, left_out=left_out)
+    return left_out

@@ -1,0 +1,5 @@
+"""Machines with closed forms of their own: cams, gear trains, Geneva drives."""
+
+from lazy_loader import attach_stub
+
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

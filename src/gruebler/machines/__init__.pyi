@@ -1,0 +1,11 @@
+from . import (
+    cams,
+    gears,
+    geneva,
+)
+
+__all__ = [
+    "cams",
+    "gears",
+    "geneva",
+]

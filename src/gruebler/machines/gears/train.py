@@ -1,0 +1,311 @@
+"""Gear trains: shafts, and meshes between wheels on them; docs/theory/gears.md.
+
+A *link* turns (or slides) as one body: a shaft with all its wheels, a carrier, a rack, a nut. A *mesh* joins
+two links; if a carrier bears its axes, it joins the speeds relative to that carrier (Willis).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+from numbers import Rational
+from types import MappingProxyType
+
+from gruebler.base import notebook
+from gruebler.base.doors import door
+from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.text import Message, message
+from gruebler.machines.gears.rational import Elimination, Row, rational_echelon
+
+__all__ = ["KINDS", "MIXED", "GearError", "Mesh", "MeshKind", "Train", "Unit", "comparable", "exact_number"]
+
+FRAME = "frame"
+
+
+MIXED = message("some slide per radian, others per turn, which differ by 2 pi; give racks and winches by pitch=TRAVEL")
+
+
+class GearError(GrueblerError):
+    """An impossible gear train, or a value that it does not determine."""
+
+
+class Unit(StrEnum):
+    """The unit of a link's speed, if wheels turn with one unit of angle."""
+
+    TURNING = "turning"
+    PER_RADIAN = "per radian"
+    """Length: a rack moves radius times angle."""
+    PER_TURN = "per turn"
+    """Length: a nut moves its lead in a full turn. Per radian and per turn differ by 2 pi and are never mixed."""
+
+
+_UNITS = {
+    Unit.TURNING: message("a turning link"),
+    Unit.PER_RADIAN: message("sliding per radian"),
+    Unit.PER_TURN: message("sliding per turn"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class MeshKind:
+    """The equation of a mesh: size_a (w_a - w_c) + sign size_b (w_b - w_c) = 0, or travel b - c = size_a * turn a."""
+
+    sign: int
+    unit: Unit = Unit.TURNING
+    """Of the second link."""
+    signed: bool = True
+    """Whether a negative size has a meaning: internal toothing, an opposite bevel gear, a left-hand screw."""
+
+
+KINDS = MappingProxyType(
+    {
+        "gear": MeshKind(+1),
+        "friction": MeshKind(+1),
+        "bevel": MeshKind(+1),
+        "belt": MeshKind(-1, signed=False),
+        "chain": MeshKind(-1, signed=False),
+        "crossed": MeshKind(+1, signed=False),
+        "rack": MeshKind(0, Unit.PER_RADIAN),
+        "rack by pitch": MeshKind(0, Unit.PER_TURN),
+        "winch": MeshKind(0, Unit.PER_RADIAN),
+        "screw": MeshKind(0, Unit.PER_TURN),
+    }
+)
+
+
+_EXPONENT = re.compile(r"[^eE]*([eE][-+]?0*\d{1,3})?")
+"""Exponents of three digits: 1e999999999 is no number of teeth, and its digits would fill the memory."""
+
+
+def exact_number(value: object, what: str | Message) -> Fraction:
+    """A finite number as a fraction; decimals exactly as written.
+
+    >>> exact_number(0.1, "size"), exact_number("7/2", "size"), exact_number("2.5e-3", "size")
+    (Fraction(1, 10), Fraction(7, 2), Fraction(1, 400))
+    """
+    try:
+        if isinstance(value, Rational) and not isinstance(value, bool):
+            return Fraction(int(value.numerator), int(value.denominator))
+        if isinstance(value, float) or (isinstance(value, str) and len(value) <= 40 and _EXPONENT.fullmatch(value)):
+            return Fraction(str(value))
+    except (ValueError, ZeroDivisionError):
+        pass
+    raise GearError(
+        "{what}: expected a number such as 24, 12.5, 7/2 or 1e6 (up to 1e999), but found {value!r}",
+        what=what,
+        value=value,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Two links that drive each other, with tooth numbers or radii, and the carrier of their axes.
+
+    ``size_a`` is the radius, pitch travel or lead where the second link slides, and ``size_b`` is then not used. In a
+    bevel mesh on a moving carrier the second link is the planet, its speed counted about its own axis, relative to the
+    carrier.
+    """
+
+    a: str
+    b: str
+    size_a: Fraction
+    size_b: Fraction = Fraction(1)
+    carrier: str = FRAME
+    kind: str = "gear"
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise GearError(
+                "no kind of mesh is called {kind!r}: {kinds}{suggestion}",
+                kind=self.kind,
+                kinds=", ".join(KINDS),
+                suggestion=nearest(self.kind, KINDS),
+            )
+        if len({self.a, self.b, self.carrier}) < 3 and not (self.carrier == FRAME and self.a != self.b):
+            raise GearError("a mesh joins two different links and is carried by a third: {mesh}", mesh=self)
+        for name, raw_size in ((self.a, self.size_a), (self.b, self.size_b)):
+            if not isinstance(name, str) or not name:
+                raise GearError("a link has a name, not {name!r}", name=name)
+            size = exact_number(raw_size, message("wheel on {link}", link=name))
+            if size == 0 or (size < 0 and not KINDS[self.kind].signed):
+                raise GearError(
+                    "wheel on {name}: {kind} takes a positive size, not {size}", name=name, kind=self.kind, size=size
+                )
+        object.__setattr__(self, "size_a", exact_number(self.size_a, self.a))
+        object.__setattr__(self, "size_b", exact_number(self.size_b, self.b))
+        if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
+            raise GearError("an internal wheel (minus) is larger than the wheel in it: {mesh}", mesh=self)
+        if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
+            raise GearError("two internal wheels do not mesh: {mesh}", mesh=self)
+
+    def __str__(self) -> str:
+        """The text of the mesh, as `read_train` takes it back.
+
+        >>> str(Mesh("planet", "ring", 18, -60, "arm"))
+        'gear planet:18 ring:-60 on arm'
+        """
+        kind = KINDS.get(self.kind)
+        second = self.b if kind and kind.sign == 0 else f"{self.b}:{self.size_b}"
+        first, tail = f"{self.a}:{self.size_a}", "" if self.carrier == FRAME else f" on {self.carrier}"
+        if self.kind == "screw":
+            return f"screw {self.a} {self.b} lead={self.size_a}{tail}"
+        if self.kind == "rack by pitch":
+            return f"rack {self.a}:1 {second} pitch={self.size_a}{tail}"
+        return f"{self.kind} {first} {second}{tail}"
+
+    def row(self) -> Row[str]:
+        """The linear form of the speeds that equals zero."""
+        kind, form = KINDS[self.kind], Row[str]()
+        if self.kind == "screw":
+            terms = ((self.b, Fraction(1)), (self.a, -self.size_a), (self.carrier, self.size_a))
+        elif kind.sign == 0:
+            terms = ((self.b, Fraction(1)), (self.carrier, Fraction(-1)), (self.a, -self.size_a))
+        else:
+            size_b = kind.sign * self.size_b
+            total = self.size_a if self.kind == "bevel" else self.size_a + size_b
+            terms = ((self.a, self.size_a), (self.b, size_b), (self.carrier, -total))
+        for link, value in terms:
+            form[link] = form.get(link, Fraction(0)) + value
+        form.pop(FRAME, None)
+        return form
+
+    def units(self) -> dict[str, Unit]:
+        """The units of the speeds of its links."""
+        kind = KINDS[self.kind]
+        slides = kind.sign == 0 and self.kind != "screw"
+        return {self.a: Unit.TURNING, self.b: kind.unit, self.carrier: kind.unit if slides else Unit.TURNING}
+
+
+@door
+@dataclass(frozen=True, slots=True)
+class Train:
+    """Links and meshes; the link ``frame`` is fixed.
+
+    >>> train = Train((Mesh("sun", "planet", 24, 18, "arm"), Mesh("planet", "ring", 18, -60, "arm")))
+    >>> train.links, train.mobility
+    (('sun', 'planet', 'arm', 'ring'), 2)
+    >>> train.relation("sun", "ring", "arm")
+    {'sun': 2, 'ring': 5, 'arm': -7}
+    """
+
+    meshes: tuple[Mesh, ...]
+
+    def __init__(self, meshes: Iterable[Mesh]) -> None:
+        object.__setattr__(self, "meshes", tuple(meshes))
+        if not self.meshes:
+            raise GearError("a gear train has at least one mesh")
+        self.units()
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The moving links in the order in which they are named."""
+        named = dict.fromkeys(link for mesh in self.meshes for link in (mesh.a, mesh.b, mesh.carrier))
+        return tuple(link for link in named if link != FRAME)
+
+    def units(self) -> dict[str, Unit]:
+        """The unit of each link's speed; GearError for a link with two units."""
+        units: dict[str, Unit] = {}
+        for mesh in self.meshes:
+            for link, unit in mesh.units().items():
+                if link != FRAME and units.setdefault(link, unit) != unit:
+                    raise GearError(
+                        "{link} is {first} in one mesh and {second} in '{mesh}'"
+                        if Unit.TURNING in (unit, units[link])
+                        else "{link} is {first} in one mesh and {second} in '{mesh}'; give the rack by its pitch "
+                        "instead",
+                        link=link,
+                        first=_UNITS[units[link]],
+                        second=_UNITS[unit],
+                        mesh=mesh,
+                    )
+        return units
+
+    @property
+    def basis(self) -> dict[str, Row[str]]:
+        """The speed relations in reduced form: each dependent link with its row."""
+        # Last links first: links named first remain free, and the others are expressed in terms of them.
+        return rational_echelon((mesh.row() for mesh in self.meshes), self.links[::-1])
+
+    @property
+    def mobility(self) -> int:
+        """The number of independent speeds."""
+        return len(self.links) - len(self.basis)
+
+    @property
+    def redundant(self) -> tuple[Mesh, ...]:
+        """Redundant meshes, such as those of a second planet; each depends on the ones before it."""
+        form = Elimination(self.links)
+        return tuple(mesh for mesh in self.meshes if not form.add(mesh.row()))
+
+    def comparable(self, links: Iterable[str]) -> bool:
+        """Whether the speeds of these links can be compared: not if some slide per radian and others per turn."""
+        units = self.units()
+        return comparable(units[link] for link in links)
+
+    def known(self, link: str) -> str:
+        """The link, if the train has it; otherwise an error that offers the nearest name."""
+        if link not in self.links:
+            raise GearError(
+                "the train has no moving link {link!r}{suggestion}; its links are {links}",
+                link=link,
+                links=", ".join(self.links),
+                suggestion=nearest(link, self.links),
+            )
+        return link
+
+    def relations(self, *links: str) -> list[dict[str, int]]:
+        """All independent relations between the speeds of some links, each in whole numbers."""
+        units, chosen = self.units(), dict.fromkeys(links)
+        if strangers := [link for link in chosen if link not in units]:
+            self.known(strangers[0])
+        others = [link for link in self.links if link not in chosen]
+        # Sliding links are expressed by turning ones, so that lengths per radian and per turn are not mixed.
+        turning = [link for link in chosen if units[link] == Unit.TURNING]
+        sliding = [link for link in chosen if units[link] != Unit.TURNING]
+        form = rational_echelon((mesh.row() for mesh in self.meshes), [*others, *sliding, *turning])
+        place = {link: k for k, link in enumerate(chosen)}
+        return [
+            _whole({link: row[link] for link in sorted(row, key=place.__getitem__)})
+            for pivot, row in form.items()
+            if pivot in chosen
+        ]
+
+    def relation(self, *links: str) -> dict[str, int]:
+        """The one relation between the speeds of some links: the sum of coefficient times speed is zero.
+
+        Raises GearError if their speeds are independent, or joined by more than one relation.
+        """
+        relations = self.relations(*links)
+        if len(relations) != 1:
+            raise GearError(
+                "there are {count} relations between the speeds of {links}, not one"
+                if relations
+                else "there is no relation between the speeds of {links}",
+                count=len(relations),
+                links=", ".join(links),
+            )
+        if not self.comparable(relations[0]):
+            raise GearError("{links}: {mixed}", links=", ".join(relations[0]), mixed=MIXED)
+        return relations[0]
+
+    def _repr_svg_(self) -> str | None:
+        """Its wheels to scale, for notebooks."""
+        return notebook.svg_of(self) if notebook.svg_of else None
+
+
+def comparable(units: Iterable[Unit]) -> bool:
+    """Whether speeds in these units can be compared: per radian and per turn differ by 2 pi."""
+    return not {Unit.PER_RADIAN, Unit.PER_TURN} <= set(units)
+
+
+def _whole(row: Row[str]) -> dict[str, int]:
+    from math import gcd, lcm
+
+    scale = lcm(*(value.denominator for value in row.values()))
+    whole = {link: int(value * scale) for link, value in row.items()}
+    common = gcd(*whole.values())
+    sign = 1 if next(iter(whole.values())) > 0 else -1
+    return {link: sign * value // common for link, value in whole.items()}

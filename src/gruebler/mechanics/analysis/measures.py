@@ -1,0 +1,473 @@
+"""Everything that is measured on a linkage with one drive, found by root finding: docs/theory/events.md.
+
+`Measures` (fields are stable):
+
+- ``linkage, output`` (`Output`: name, link, joint, turning), ``branch`` (labels at ``start``), ``start`` (drive value);
+- ``span`` (`CycleSpan`: low, high, full, turns, stops, period, width): the drive's range; ``turning_drive``;
+- ``ends``: the output at both ends of a range that is no full turn, else None;
+- ``dead_centres`` (tuple of `DeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
+- ``dwells`` (tuple of `Dwell`: begin, end, duration, output, kind, side): where the output rests; ``dwell_share``;
+  ``moving_span``, ``motion_ratio``: how far the drive moves while the output does, and that by the dwells;
+- ``inner, outer`` (`DeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
+  ``output_turns`` (turns of the output per period);
+- ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
+  output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
+  ``dwell_time``;
+- ``change_points`` (tuple of `ChangePoint`: drive, links, form; ``change_points_error`` says if some are not
+  known);
+- ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
+- ``transmission`` (`TransmissionExtremes`: extremes, smallest, largest, legs, good; None if undefined, then
+  ``transmission_note`` says why);
+- ``explain(lang)`` prose, ``to_json()`` plain data with angles in degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from math import degrees, isfinite, pi
+from typing import Any
+
+import numpy as np
+
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import LinkageError
+from gruebler.base.events import ChangePoint, DeadCentre, Transmission, TransmissionExtremes
+from gruebler.base.notebook import Brief
+from gruebler.base.text import Message, message
+from gruebler.mechanics.analysis.drive_cycle import CycleSpan, DriveCycle, by_place, drive_cycle
+from gruebler.mechanics.analysis.events import (
+    Crossing,
+    Dwell,
+    change_points,
+    crossings,
+    dyad_change_points,
+    natural_speed,
+    output_turns,
+    stops,
+    transfer_function,
+)
+from gruebler.mechanics.analysis.messages import (
+    MeasureUnits,
+    change_point_lines,
+    dead_centre_message,
+    dwell_message,
+    dwell_share_message,
+    motion_share_message,
+    output_lines,
+    range_lines,
+    stroke_lines,
+    time_lines,
+    transmission_lines,
+    unknown_change_points_message,
+)
+from gruebler.mechanics.analysis.outputs import Output, find_output
+from gruebler.mechanics.analysis.transmission import (
+    NoTransmissionAngleError,
+    measure_transmission,
+)
+from gruebler.mechanics.fourbar.extremes import StrokeTimes
+from gruebler.mechanics.kinematics.root_finding import sample_function
+from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
+
+__all__ = ["Measures", "Transfer", "measures"]
+
+_UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
+_STILL = 1e-11  # of the natural size: an output, or its velocity, that varies by less does not move
+
+
+@dataclass(frozen=True, slots=True)
+class Transfer:
+    """What the transfer functions of order 0, 1 and 2 do over the range."""
+
+    still: bool
+    """Whether the output does not move at all."""
+    uniform: bool
+    """Whether psi' is constant: a linear transfer function."""
+    ratio: float | None
+    """The transmission ratio i = omega in by omega out, with its sign, if it is constant."""
+    largest: float
+    """The largest psi' in the grid and at its extremes; grows without bound towards a limit of the drive."""
+    smallest: float
+    """The smallest (most negative) psi'."""
+    zeros: tuple[Crossing, ...]
+    """Zeros of the output itself."""
+    velocity: tuple[Crossing, ...]
+    """Extremes of psi': zeros of psi''."""
+    acceleration: tuple[Crossing, ...]
+    """Extremes of psi'': zeros of psi'''."""
+
+
+@dataclass(frozen=True, repr=False)
+class Measures(Brief):
+    """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
+
+    linkage: Linkage
+    output: Output
+    branch: tuple[str, ...]
+    start: float
+    turning_drive: bool
+    span: CycleSpan
+    ends: tuple[float, float] | None
+    dead_centres: tuple[DeadCentre, ...]
+    dwells: tuple[Dwell, ...]
+    """Where the output rests, behind a cam or a Geneva drive."""
+    output_turns: int
+    travel: float | None
+    change_points: tuple[ChangePoint, ...]
+    change_points_error: LinkageError | None
+    """Why those of larger groups are not known; None if they are."""
+    transfer: Transfer
+    transmission: TransmissionExtremes | None
+    transmission_error: NoTransmissionAngleError | None
+    """Why there is no transmission angle; None if there is one."""
+    speed_rpm: float | None
+
+    @property
+    def transmission_note(self) -> str:
+        """Why there is no transmission angle, in English; empty if there is one."""
+        return str(self.transmission_error or "")
+
+    @property
+    def inner(self) -> DeadCentre | Dwell | None:
+        """The inner dead centre, or the dwell in its place."""
+        return self._extreme("inner")
+
+    @property
+    def outer(self) -> DeadCentre | Dwell | None:
+        """The outer dead centre, or the dwell in its place."""
+        return self._extreme("outer")
+
+    @property
+    def stops(self) -> tuple[DeadCentre | Dwell, ...]:
+        """Where the output stops: dead centres, then dwells."""
+        return (*self.dead_centres, *self.dwells)
+
+    def _extreme(self, side: str) -> DeadCentre | Dwell | None:
+        return next((stop for stop in self.stops if stop.side == side), None)
+
+    @property
+    def phi_forward(self) -> float | None:
+        """The drive angle from the inner to the next outer dead centre, in the positive sense, less dwells between."""
+        return self._way(self.inner, self.outer)
+
+    @property
+    def phi_back(self) -> float | None:
+        """The drive angle from the outer to the next inner dead centre, in the positive sense, less dwells between."""
+        return self._way(self.outer, self.inner)
+
+    def _way(self, start: DeadCentre | Dwell | None, end: DeadCentre | Dwell | None) -> float | None:
+        """How far the drive turns, while the output moves, from one stop to the next that is like the other.
+
+        Of several stops like the first before that one the last counts: the ways are those of a mirror image, too.
+        """
+        if start is None or end is None or not self.span.full:
+            return None
+        period, near = self.span.period, 1e-9 * (self.travel or 0.0)
+
+        def alike(extreme: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
+            return [
+                stop for stop in self.stops if stop.kind == extreme.kind and abs(stop.output - extreme.output) <= near
+            ]
+
+        def ahead(drive: float, of: float) -> float:
+            return (drive - of) % period
+
+        leaves = [stop.end if isinstance(stop, Dwell) else stop.drive for stop in alike(start)]
+        first = start.end if isinstance(start, Dwell) else start.drive
+        arrives = first + min(
+            ahead(stop.begin if isinstance(stop, Dwell) else stop.drive, first) for stop in alike(end)
+        )
+        travel = min(ahead(arrives, leave) for leave in leaves)
+        begins = arrives - travel
+        return travel - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive, begins) < travel)
+
+    @property
+    def _whole(self) -> float:
+        return self.span.period if self.span.full else self.span.width
+
+    @property
+    def dwell_share(self) -> float:
+        """The part of the period, or of the drive's range, in which the output rests; 0 without a dwell."""
+        return sum(dwell.duration for dwell in self.dwells) / self._whole
+
+    @property
+    def moving_span(self) -> float:
+        """How far the drive moves, in the period or in its range, while the output does: without the dwells."""
+        return self._whole - sum(dwell.duration for dwell in self.dwells)
+
+    @property
+    def motion_ratio(self) -> float | None:
+        """The span in which the output moves by that in which it rests; None without a dwell."""
+        return (1 - self.dwell_share) / self.dwell_share if self.dwells else None
+
+    @property
+    def dwell_time(self) -> float | None:
+        """How long the output rests in one period at the speed given, in seconds."""
+        if self.speed_rpm is None or not self.span.full:
+            return None
+        return self.dwell_share * self.span.turns * 60 / abs(self.speed_rpm)
+
+    @property
+    def phi_max(self) -> float | None:
+        """The larger of the two."""
+        return None if self.phi_forward is None or self.phi_back is None else max(self.phi_forward, self.phi_back)
+
+    @property
+    def phi_min(self) -> float | None:
+        """The smaller of the two."""
+        return None if self.phi_forward is None or self.phi_back is None else min(self.phi_forward, self.phi_back)
+
+    @property
+    def delta_phi(self) -> float | None:
+        """By how much the larger is more than half the period."""
+        return None if self.phi_max is None or self.phi_min is None else (self.phi_max - self.phi_min) / 2
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The larger by the smaller: the ratio of times at constant speed."""
+        return None if self.phi_max is None or self.phi_min is None else self.phi_max / self.phi_min
+
+    @property
+    def times(self) -> StrokeTimes | None:
+        """How long both ways take at the speed given, in seconds; a negative speed turns the other way."""
+        if self.speed_rpm is None or self.phi_forward is None or self.phi_back is None:
+            return None
+        angles = (self.phi_forward, self.phi_back)
+        return StrokeTimes(
+            *(x / (2 * pi) * 60 / abs(self.speed_rpm) for x in angles[:: 1 if self.speed_rpm > 0 else -1])
+        )
+
+    def explain(self, lang: str = "en") -> str:
+        """The measures as lines of prose, in English (``en``) or German (``de``)."""
+        lines = [line.in_language(lang) for line in self._lines()]
+        return "\n".join(line[:1].upper() + line[1:] for line in lines)
+
+    def _lines(self) -> Iterator[Message]:
+        units = MeasureUnits(self.turning_drive, self.output.turning, self.linkage.unit, self.linkage.size)
+        yield from range_lines(units, self.span)
+        ratio = self.transfer.ratio if self.transfer.uniform else None
+        name, turns = self.output.name, self.output_turns
+        yield from output_lines(units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel)
+        yield from (dead_centre_message(units, centre) for centre in self.dead_centres)
+        yield from (dwell_message(units, dwell, self.span.period) for dwell in self.dwells)
+        if self.dwells:
+            yield dwell_share_message(self.dwell_share)
+            if self.output_turns:
+                yield motion_share_message(units, self.moving_span, self.span.period, self.motion_ratio)
+        if self.phi_forward is not None and self.phi_back is not None:
+            yield from stroke_lines(units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells))
+        yield from time_lines(self.speed_rpm, self.times, self.dwell_time if self.dwells else None)
+        drive_size = 1.0 if self.turning_drive else self.linkage.size
+        yield from change_point_lines(units, by_place(self.change_points, self.span, drive_size))
+        if self.change_points_error is not None:
+            yield unknown_change_points_message(self.change_points_error)
+        if self.transmission is not None:
+            yield from transmission_lines(units, self.transmission)
+        else:
+            yield message("{why}.", why=self.transmission_error)
+
+    def to_json(self) -> dict[str, Any]:
+        """The measures as plain data; angles in degrees, times in seconds."""
+        turn = degrees if self.turning_drive else float
+        in_unit = degrees if self.output.turning else float
+        span, transfer, transmission = self.span, self.transfer, self.transmission
+        rate = in_unit(1.0) / turn(1.0)
+
+        def angle(value: float | None) -> float | None:
+            return None if value is None else degrees(value)
+
+        def crossing(c: Any, scale: float) -> dict[str, Any]:
+            return {"drive": turn(c.drive), "value": c.value * scale, "kind": c.kind}
+
+        def extreme(e: Transmission) -> dict[str, Any]:
+            return {
+                "drive": turn(e.drive),
+                "mu": degrees(e.mu),
+                "deviation": degrees(e.deviation),
+                "links": list(e.links),
+            }
+
+        return {
+            "output": {"name": self.output.name, "unit": "deg" if self.output.turning else self.linkage.unit},
+            "drive": {
+                "unit": "deg" if self.turning_drive else self.linkage.unit,
+                "start": turn(self.start),
+                "branch": list(self.branch),
+                "full": span.full,
+                "turns": span.turns,
+                "range": None if span.full else [turn(span.low), turn(span.high)],
+                "stops": [None if s is None else {"reason": s.reason, "links": list(s.links)} for s in span.stops],
+            },
+            "ends": None if self.ends is None else [in_unit(value) for value in self.ends],
+            "dead_centres": [
+                {"drive": turn(c.drive), "output": in_unit(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
+                for c in self.dead_centres
+            ],
+            "dwells": [
+                {
+                    "begin": turn(d.begin),
+                    "end": turn(d.end),
+                    "duration": turn(d.duration),
+                    "output": in_unit(d.output),
+                    "kind": d.kind,
+                    "side": d.side,
+                }
+                for d in self.dwells
+            ],
+            "dwell_share": self.dwell_share,
+            "moving_span": turn(self.moving_span),
+            "motion_ratio": self.motion_ratio,
+            "dwell_time": self.dwell_time,
+            "output_turns": self.output_turns,
+            "travel": None if self.travel is None else in_unit(self.travel),
+            "phi_forward": angle(self.phi_forward),
+            "phi_back": angle(self.phi_back),
+            "time_ratio": self.time_ratio,
+            "speed_rpm": self.speed_rpm,
+            "times": None if self.times is None else {"forward": self.times.forward, "back": self.times.back},
+            "change_points": [
+                {"drive": turn(c.drive), "links": list(c.links), "form": c.form, "several": c.several}
+                for c in self.change_points
+            ],
+            "transfer": {
+                "still": transfer.still,
+                "uniform": transfer.uniform,
+                "ratio": None if transfer.ratio is None else transfer.ratio / rate,
+                "smallest": transfer.smallest * rate,
+                "largest": transfer.largest * rate,
+                "zeros": [crossing(c, rate) for c in transfer.zeros],
+                "velocity": [crossing(c, rate) for c in transfer.velocity],
+                "acceleration": [crossing(c, rate / turn(1.0)) for c in transfer.acceleration],
+            },
+            "transmission": None
+            if transmission is None
+            else {
+                "smallest": extreme(transmission.smallest),
+                "largest": extreme(transmission.largest),
+                "good": transmission.good,
+                "extremes": [extreme(e) for e in transmission.extremes],
+            },
+            "change_points_note": str(self.change_points_error or ""),
+            "transmission_note": self.transmission_note,
+        }
+
+
+@door_that_raises(LinkageError)
+def measures(
+    linkage: LinkageLike,
+    speed_rpm: float | None = None,
+    *,
+    branch: str | Iterable[str] | None = None,
+    output: str | None = None,
+) -> Measures:
+    """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
+
+    Args:
+        linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
+        speed_rpm: the drive's speed in revolutions per minute, for the times; not zero.
+        branch: as for `move`; without it that of the reference pose, else all ``+`` and 1. It applies where the motion
+            starts: `gruebler.mechanics.analysis.drive_cycle.drive_cycle`.
+        output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
+
+    Cost: some 60 ms for a dyad, 0.2 s for a group of four links.
+
+    Raises `LinkageError` if there are more drives than one, it cannot be assembled, or a name or number is wrong.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> found = measures(FourBar(a=2, b=7, c=4.5, d=5.5).linkage(), speed_rpm=300)
+    >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
+    (1.357364, 0.115159, 1.205044)
+    """
+    linkage = as_linkage(linkage)
+    looked_at = find_output(linkage, output)
+    speed = _speed(speed_rpm)
+    cycle = drive_cycle(linkage, branch)
+    if speed is not None and not cycle.turning_drive:
+        raise LinkageError("a speed in revolutions per minute needs a turning drive; this linkage has a sliding one")
+    span = cycle.span
+    ends = None
+    if not span.full:
+        size = 1.0 if looked_at.turning else cycle.size
+        low, high = (cycle.end(looked_at.values, upper, size).real for upper in (False, True))
+        ends = low, high
+    centres, rests = stops(cycle, looked_at)
+    turns = output_turns(cycle, looked_at)
+    changes_error: LinkageError | None = None
+    try:
+        changes = change_points(cycle)
+    except LinkageError as error:
+        changes, changes_error = dyad_change_points(cycle), error
+    transmission_error: NoTransmissionAngleError | None = None
+    try:
+        transmission = measure_transmission(cycle, looked_at)
+    except NoTransmissionAngleError as error:
+        transmission, transmission_error = None, error
+    return Measures(
+        linkage,
+        looked_at,
+        cycle.start.branch,
+        float(cycle.start.drives[0, 0]),
+        cycle.turning_drive,
+        span,
+        ends,
+        centres,
+        rests,
+        turns,
+        None
+        if turns
+        else _travel(cycle, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
+        changes,
+        changes_error,
+        _transfer(cycle, looked_at),
+        transmission,
+        transmission_error,
+        speed,
+    )
+
+
+def _speed(rpm: float | None) -> float | None:
+    if rpm is None:
+        return None
+    if isinstance(rpm, bool) or not isinstance(rpm, (int, float, np.number)) or not isfinite(rpm) or rpm == 0:
+        raise LinkageError("the speed is a number of revolutions per minute other than 0, not {rpm!r}", rpm=rpm)
+    return float(rpm)
+
+
+def _travel(cycle: DriveCycle, output: Output, values: list[float]) -> float:
+    """The difference of the largest and the smallest output among its stops and ends."""
+    if not values:  # it goes nowhere, or its motion has no end: what the grid shows
+        track = transfer_function(cycle, output, cycle.grid)
+        least = _STILL * (1.0 if output.turning else cycle.size)
+        return float(np.ptp(track)) if np.ptp(track) > least else 0.0
+    return max(values) - min(values)
+
+
+def _transfer(cycle: DriveCycle, output: Output) -> Transfer:
+    track = transfer_function(cycle, output, cycle.grid, 1)
+    still, uniform = _kind(cycle, output)
+    usual = float(np.median(track))
+    velocity = () if still or uniform else crossings(cycle, output, 2)
+    acceleration = () if still or uniform else crossings(cycle, output, 3)
+    values = [*track.tolist(), *(crossing.value for crossing in velocity)]
+    return Transfer(
+        still,
+        uniform,
+        1 / usual if uniform else None,
+        usual if uniform else max(values),
+        usual if uniform else min(values),
+        () if still else crossings(cycle, output, 0),
+        velocity,
+        acceleration,
+    )
+
+
+def _kind(cycle: DriveCycle, output: Output) -> tuple[bool, bool]:
+    """Whether the output never moves, and whether psi' is constant: on each piece on which the motion is analytic."""
+    parts = sample_function(lambda drives: transfer_function(cycle, output, drives, 1)[None], cycle.samples(1))
+    usual = float(np.median(np.concatenate([part[0] for part in parts])))
+    scale = _STILL * natural_speed(cycle, output)
+    still = all(float(np.quantile(np.abs(part[0]), 0.9)) <= scale for part in parts)
+    varies = max(float(np.quantile(np.abs(part[0] - usual), 0.9)) for part in parts)
+    return still, not still and varies <= _UNIFORM * abs(usual)

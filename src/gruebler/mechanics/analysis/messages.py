@@ -1,0 +1,214 @@
+"""What is said of measures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from math import degrees
+
+from gruebler.base.errors import GrueblerError
+from gruebler.base.events import ChangePoint, DeadCentre, TransmissionExtremes
+from gruebler.base.text import Message, joined, message
+from gruebler.mechanics.analysis.drive_cycle import CycleSpan
+from gruebler.mechanics.analysis.events import Dwell
+from gruebler.mechanics.fourbar.extremes import StrokeTimes
+from gruebler.structure.assur.forms import form_message
+
+__all__ = [
+    "MeasureUnits",
+    "change_point_lines",
+    "dead_centre_message",
+    "dwell_message",
+    "dwell_share_message",
+    "motion_share_message",
+    "output_lines",
+    "range_lines",
+    "stroke_lines",
+    "time_lines",
+    "transmission_lines",
+    "unknown_change_points_message",
+]
+
+_NOTHING = 1e-12  # of the size: lengths below it are roundings
+_CONSTANT = 1e-9  # radians: transmission angles that vary by less are one
+
+_DEAD_CENTRES = {
+    "inner": message("Inner dead centre at {drive}: {output}."),
+    "outer": message("Outer dead centre at {drive}: {output}."),
+    "": message("Dead centre at {drive}: {output}."),
+    "flat": message("The output pauses at {drive}: {output}."),
+}
+_DWELLS = {
+    "inner": message("Dwell in the inner position from {begin} to {end}, {duration}: {output}."),
+    "outer": message("Dwell in the outer position from {begin} to {end}, {duration}: {output}."),
+    "": message("Dwell from {begin} to {end}, {duration}: {output}."),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class MeasureUnits:
+    """How drive and output values are written."""
+
+    turning_drive: bool
+    turning_output: bool
+    unit: str
+    size: float
+    """Of the linkage: a length that is nothing against it is 0."""
+
+    def drive(self, value: float) -> Message:
+        """A drive value."""
+        return _angle(value) if self.turning_drive else self._length(value)
+
+    def output(self, value: float) -> Message:
+        """A value of the output."""
+        if self.turning_output:
+            return _angle(value)
+        return self._length(value)
+
+    def _length(self, value: float) -> Message:
+        rounded = 0.0 if abs(value) < _NOTHING * self.size else value
+        return message("{length:.7g} {unit}", length=rounded, unit=self.unit)
+
+
+def range_lines(units: MeasureUnits, span: CycleSpan) -> Iterator[Message]:
+    """How far the drive moves, and what stops it."""
+    if span.full:
+        if span.turns == 1:
+            yield message("The drive turns fully.")
+        else:
+            yield message("The drive turns fully; everything repeats after {turns} turns.", turns=span.turns)
+        return
+    low, high = units.drive(span.low), units.drive(span.high)
+    if units.turning_drive:
+        yield message("The drive turns from {low} to {high}.", low=low, high=high)
+    else:
+        yield message("The drive moves from {low} to {high}.", low=low, high=high)
+    for stop, drive in zip(span.stops, (low, high), strict=True):
+        if stop is None:
+            continue
+        if stop.reason == "limit":
+            text = message("At {drive} the group {form} {{{links}}} can no longer be assembled.")
+        else:
+            text = message("At {drive} two assembly modes of the group {form} {{{links}}} meet.")
+        yield text.filled(drive=drive, form=form_message(stop.form), links=", ".join(stop.links))
+
+
+def output_lines(
+    units: MeasureUnits, name: str, *, still: bool, ratio: float | None, turns: int, travel: float | None
+) -> Iterator[Message]:
+    """How the output moves: its ratio if that is constant, else its turns or its travel."""
+    if still and units.turning_output:
+        yield message("The output {name} does not turn.", name=name)
+    elif still:
+        yield message("The output {name} does not move.", name=name)
+    elif ratio is not None:
+        yield message("The transmission to {name} is uniform: i = {ratio:.9g}.", name=name, ratio=ratio)
+    elif abs(turns) == 1:
+        yield message("The output {name} makes one full turn in each period.", name=name)
+    elif turns:
+        yield message("The output {name} makes {turns} full turns in each period.", name=name, turns=abs(turns))
+    elif travel is not None and units.turning_output:
+        yield message("The output {name} swings through {travel}.", name=name, travel=units.output(travel))
+    elif travel is not None:
+        yield message("The output {name} has a stroke of {travel}.", name=name, travel=units.output(travel))
+
+
+def dead_centre_message(units: MeasureUnits, centre: DeadCentre) -> Message:
+    """Where the output turns back, or pauses."""
+    text = _DEAD_CENTRES["flat" if centre.kind == "flat" else centre.side]
+    return text.filled(drive=units.drive(centre.drive), output=units.output(centre.output))
+
+
+def dwell_message(units: MeasureUnits, dwell: Dwell, period: float) -> Message:
+    """Where the output rests; an end beyond the period is counted from its beginning."""
+    end = dwell.end - period if dwell.end > period * (1 + _CONSTANT) else dwell.end
+    begin, end_text, duration = (units.drive(value) for value in (dwell.begin, end, dwell.duration))
+    return _DWELLS[dwell.side].filled(begin=begin, end=end_text, duration=duration, output=units.output(dwell.output))
+
+
+def stroke_lines(
+    units: MeasureUnits, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool
+) -> Iterator[Message]:
+    """The drive angles of both strokes."""
+    if dwells:
+        text = message(
+            "Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}."
+        )
+    else:
+        text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.")
+    yield text.filled(forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
+    if phi_forward - phi_back > _CONSTANT:
+        yield message("Turning counter-clockwise, the slow stroke is the outward one.")
+    elif phi_back - phi_forward > _CONSTANT:
+        yield message("Turning counter-clockwise, the slow stroke is the inward one.")
+
+
+def time_lines(rpm: float | None, times: StrokeTimes | None, at_rest: float | None) -> Iterator[Message]:
+    """How long strokes and dwells take at a speed."""
+    if times is not None:
+        yield message(
+            "At {rpm:g} revolutions per minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
+            rpm=rpm,
+            forward=times.forward,
+            back=times.back,
+        )
+    if at_rest is not None:
+        yield message("At rest: {time:.6g} s in a period.", time=at_rest)
+
+
+def dwell_share_message(share: float) -> Message:
+    """How much of the drive's motion the output rests."""
+    return message("The output rests for {share:.9g} % of the drive's motion.", share=100 * share)
+
+
+def motion_share_message(units: MeasureUnits, moving: float, period: float, ratio: float | None) -> Message:
+    """How far the drive moves in a period while an output that turns fully does."""
+    return message(
+        "It moves during {moving} of {period} of the drive; motion by dwell {ratio:.9g}.",
+        moving=units.drive(moving),
+        period=units.drive(period),
+        ratio=ratio,
+    )
+
+
+def change_point_lines(units: MeasureUnits, places: Iterable[Sequence[ChangePoint]]) -> Iterator[Message]:
+    """Where groups may change their assembly modes; that several curves meet is said once of a place."""
+    for points in places:
+        for point in points:
+            yield _change_point(units, point, several=point.several and point is points[-1])
+
+
+def _change_point(units: MeasureUnits, point: ChangePoint, *, several: bool) -> Message:
+    line = message(
+        "Change point of {form} {{{links}}} at {drive}.",
+        form=form_message(point.form),
+        links=", ".join(point.links),
+        drive=units.drive(point.drive),
+    )
+    return joined([line, message("More than two curves of positions meet there.")], " ") if several else line
+
+
+def unknown_change_points_message(error: GrueblerError) -> Message:
+    """Why change points of larger groups are not known."""
+    return message("Change points of larger groups are not known: {why}", why=error)
+
+
+def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) -> Iterator[Message]:
+    """The transmission angle, and whether it is good."""
+    worst, best = transmission.smallest, transmission.largest
+    if best.mu - worst.mu > _CONSTANT:
+        yield message(
+            "Transmission angle {smallest} at {drive} (leg {links}) to {largest}; deviation angle up to {deviation}.",
+            smallest=_angle(worst.mu),
+            drive=units.drive(worst.drive),
+            links=", ".join(worst.links),
+            largest=_angle(best.mu),
+            deviation=_angle(worst.deviation),
+        )
+    else:
+        yield message("Transmission angle {angle} throughout.", angle=_angle(worst.mu))
+    yield message("It does not fall below 40°." if transmission.good else "It falls below 40°.")
+
+
+def _angle(value: float) -> Message:
+    return message("{degrees:.7g}°", degrees=round(degrees(value), 7) + 0.0)

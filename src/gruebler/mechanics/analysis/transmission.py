@@ -1,0 +1,310 @@
+"""The transmission angle in the generalised sense, along a motion and at its extremes.
+
+After Alt: the angle between the absolute path of the point at which the last group drives its output, and the path of
+that point relative to what drives the group. Definitions and proofs: docs/theory/events.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.errors import LinkageError
+from gruebler.base.events import Transmission, TransmissionExtremes
+from gruebler.base.jets import turn_derivative
+from gruebler.mechanics.analysis.drive_cycle import DriveCycle
+from gruebler.mechanics.analysis.outputs import Output, find_output
+from gruebler.mechanics.kinematics.motion import Motion
+from gruebler.mechanics.kinematics.plan import Plan
+from gruebler.mechanics.kinematics.root_finding import find_zeros
+from gruebler.mechanics.linkages import LinkPoint
+from gruebler.structure.assur import SolvedGroup
+from gruebler.structure.chain.pairs import in_alphabets
+
+__all__ = [
+    "NoTransmissionAngleError",
+    "PushingLink",
+    "deviation_angle",
+    "measure_transmission",
+    "pushing_links",
+    "transmission_angle",
+]
+
+_SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
+_LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
+_CONSTANT = 1e-8  # radians: an angle that varies by less is constant; next to change points half the digits are lost
+
+
+class NoTransmissionAngleError(LinkageError):
+    """The output has no transmission angle; the message says why."""
+
+
+Element = tuple[str, complex, complex]
+"""A joint on a link: the link, the point, the direction."""
+
+
+@dataclass(frozen=True, slots=True)
+class PushingLink:
+    """A link (or a body of several) that pushes another at one joint."""
+
+    links: tuple[str, ...]
+    outer: Element
+    inner: Element
+    form: str
+    """RR, RP, PR: the joint on the side of the drive, then that on the side of the output."""
+    pushed: str
+    """The link that it pushes."""
+    guide: tuple[str, Element] | None
+    """How the pushed link hangs on the frame, if by one joint: R or P, and the joint on the frame."""
+
+
+def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
+    """The legs by which the group of the output is driven.
+
+    A leg is a body of the group with one outer and one inner joint. It drives if it hangs on a link that moves, or has
+    the drive in itself. The output's own body is a leg only if there is no other.
+
+    Raises `LinkageError` with a sentence that says why there is no transmission angle.
+    """
+    if plan.released:
+        raise NoTransmissionAngleError(
+            "there is no transmission angle: the linkage is overconstrained, and how its joints share the force "
+            "depends on their stiffness"
+        )
+    group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
+    if group is None:
+        raise NoTransmissionAngleError(
+            "there is no transmission angle: {link!r} is moved by the drive itself", link=output.link
+        )
+    driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
+    legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
+    others = {k: leg for k, leg in legs.items() if output.link not in _bodies(group)[k]}
+    chosen = others or legs
+    if not chosen:
+        names = ", ".join(group.links)
+        raise NoTransmissionAngleError(
+            "there is no transmission angle: no link with two joints drives the group {form} {{{links}}}",
+            form=in_alphabets(group.form),
+            links=names,
+        )
+    if any(leg.form == "PP" for leg in chosen.values()):
+        links = next(", ".join(leg.links) for leg in chosen.values() if leg.form == "PP")
+        raise NoTransmissionAngleError(
+            "there is no transmission angle: {links} slides at both ends and transmits a couple only", links=links
+        )
+    return tuple(chosen.values())
+
+
+def _bodies(group: SolvedGroup) -> list[tuple[str, ...]]:
+    return [(*own, *carried) for own, carried in zip(group.bodies, group.carried, strict=True)]
+
+
+def _is_driven(plan: Plan, group: SolvedGroup, body: int) -> bool:
+    mechanism, links = plan.lower.mechanism, _bodies(group)[body]
+    if set(mechanism.drives[0].between) <= set(links):
+        return True
+    inside = {link for b in _bodies(group) for link in b}
+    for number, member in group.joints:
+        if member.outer and body in member.links:
+            holders = [link for link in mechanism.chain.joints[number].links if link not in inside]
+            return mechanism.frame not in holders
+    return False
+
+
+def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
+    joints = [(n, m) for n, m in group.joints if body in m.links]
+    outer, inner = ([(n, m) for n, m in joints if m.outer == side] for side in (True, False))
+    if len(outer) != 1 or len(inner) != 1:
+        return None
+    if any(not member.pair.is_basic for _, member in joints):
+        return None  # a wheel or cam
+    links = _bodies(group)
+    other = next(k for k in inner[0][1].links if k != body)
+    form = "".join(m.pair.symbol() for _, m in (outer[0], inner[0]))
+    pushed = _element(plan, inner[0][0], links[other])[0]
+    return PushingLink(
+        group.bodies[body],
+        _element(plan, outer[0][0], links[body]),
+        _element(plan, inner[0][0], links[body]),
+        form,
+        pushed,
+        _guide(plan, group, other),
+    )
+
+
+def _guide(plan: Plan, group: SolvedGroup, body: int) -> tuple[str, Element] | None:
+    frame = plan.lower.mechanism.frame
+    held = [(n, m) for n, m in group.joints if m.outer and body in m.links]
+    at_frame = [(n, m) for n, m in held if frame in plan.lower.mechanism.chain.joints[n].links]
+    if len(held) != 1 or len(at_frame) != 1:
+        return None
+    number, member = at_frame[0]
+    return member.pair.symbol(), _element(plan, number, (frame,))
+
+
+def _element(plan: Plan, joint: int, links: tuple[str, ...]) -> Element:
+    link = next(link for link in plan.lower.mechanism.chain.joints[joint].links if link in links)
+    e = plan.lower.elements[joint, link]
+    angle = getattr(e, "angle", 0.0)
+    return link, complex(e.x, e.y), complex(np.exp(1j * angle))
+
+
+class _Lines(NamedTuple):
+    """The force on the pushed link and the direction in which its point goes, with derivatives; complex, (rows,)."""
+
+    force: Complexes
+    force_rate: Complexes
+    direction: Complexes
+    direction_rate: Complexes
+
+
+def _lines(motion: Motion, leg: PushingLink) -> _Lines:
+    """Force and way of a leg; the motion is of order 2."""
+    outer, inner = _point(motion, leg.outer), _point(motion, leg.inner)
+    if leg.form == "RR":
+        (force, force_rate), point = (inner[0] - outer[0], inner[1] - outer[1]), inner
+    elif leg.form == "RP":
+        (force, force_rate), point = _normal(motion, leg.inner), outer
+    else:
+        (force, force_rate), point = _normal(motion, leg.outer), inner
+    if leg.guide is not None:
+        kind, place = leg.guide
+        if kind == "P":
+            directions = np.full(len(motion), place[2])
+            return _Lines(force, force_rate, directions, np.zeros_like(directions))
+        return _Lines(force, force_rate, 1j * (point[0] - place[1]), 1j * point[1])
+    return _Lines(force, force_rate, *_velocity(motion, leg.pushed, point))
+
+
+def _point(motion: Motion, element: Element) -> tuple[Complexes, Complexes, Complexes]:
+    """Position, velocity and acceleration of a joint."""
+    place = LinkPoint(element[0], element[1].real, element[1].imag)
+    position, velocity, acceleration = (motion.complex_point(place, order) for order in range(3))
+    return position, velocity, acceleration
+
+
+def _normal(motion: Motion, element: Element) -> tuple[Complexes, Complexes]:
+    k = motion.link_index(element[0])
+    normal = 1j * motion.turns[:, k] * element[2]
+    return normal, turn_derivative(motion.rates[:, :, k], 1) * normal
+
+
+def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Complexes]) -> tuple[Complexes, Complexes]:
+    """The velocity of the place of a link where a point is, with its rate; at rest the way it leaves."""
+    k = motion.link_index(link)
+    w, spin = motion.rates[0, :, k], motion.rates[1, :, k]
+    origin, speed, change = (motion.places[m, :, k] for m in range(3))
+    velocity = speed + 1j * w * (point[0] - origin)
+    rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
+    fastest = np.maximum(np.abs(motion.places[1]).max(axis=1), motion.size * np.abs(motion.rates[0]).max(axis=1))
+    rest = np.abs(velocity) < _SLOW * fastest
+    return np.where(rest, rate, velocity), np.where(rest, 0, rate)
+
+
+def _pace(motion: Motion) -> Reals:
+    """How fast the joints move, as points of all their links; (rows,)."""
+    elements = motion.lower_linkage.elements.items()
+    speeds = [_point(motion, (link, complex(e.x, e.y), 1))[1] for (_, link), e in elements]
+    return np.asarray(np.linalg.norm(speeds, axis=0))
+
+
+def _folded(lines: _Lines) -> Reals:
+    product = np.conj(lines.force) * lines.direction
+    return np.asarray(np.arctan2(np.abs(product.real), np.abs(product.imag)))
+
+
+def transmission_angle(motion: Motion, output: str | None = None) -> Reals:
+    """The transmission angle mu in each pose, at most pi/2; with several driving legs the smallest; (rows,).
+
+    Raises `LinkageError` if the motion has no accelerations (``order=2``), or there is no transmission angle.
+
+    >>> from gruebler.mechanics.kinematics import move
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> motion = move(FourBar(2, 5, 4, 5).linkage(), [0.0, pi], order=2)
+    >>> np.degrees(transmission_angle(motion)).round(4).tolist()
+    [36.8699, 78.463]
+    """
+    if motion.order < 2:
+        raise LinkageError("the transmission angle needs a motion with accelerations: move(..., order=2)")
+    legs = pushing_links(motion.plan, find_output(motion.linkage, output))
+    return np.asarray(np.min([_folded(_lines(motion, leg)) for leg in legs], axis=0))
+
+
+def deviation_angle(motion: Motion, output: str | None = None) -> Reals:
+    """The deviation angle alpha, pi/2 less the transmission angle; (rows,)."""
+    return pi / 2 - transmission_angle(motion, output)
+
+
+def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtremes:
+    """The extremes of the transmission angle over the whole range of the drive.
+
+    They are zeros of three functions: of the turning of the force against the way, of their sine (mu = 90 degrees)
+    and of their cosine (mu = 0); and the ends of the range.
+
+    Raises `LinkageError` if there is no transmission angle, with the reason.
+    """
+    legs = pushing_links(cycle.plan, output)
+    extremes = []
+    for leg in legs:
+        places, ends = _stationary(cycle, leg)
+        values = _folded(_lines(cycle.at(places, 2), leg)) if len(places) else places
+        extremes += [
+            Transmission(cycle.span.wrapped(float(x)), float(mu), leg.links)
+            for x, mu in zip(places, values, strict=True)
+        ]
+        extremes += [Transmission(x, mu, leg.links) for x, mu in ends]
+    ordered = [extreme for together in cycle.by_place(extremes) for extreme in together]
+    smallest = _first(ordered, min(extreme.mu for extreme in ordered))
+    extrema = [extreme for extreme in ordered if extreme.links == smallest.links]
+    largest = _first(extrema, max(extreme.mu for extreme in extrema))
+    return TransmissionExtremes(tuple(ordered), smallest, largest, tuple(leg.links for leg in legs))
+
+
+def _first(extremes: list[Transmission], mu: float) -> Transmission:
+    """The first extreme with a transmission angle: of equal ones rounding chooses none."""
+    return next(extreme for extreme in extremes if abs(extreme.mu - mu) <= _CONSTANT)
+
+
+def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
+    """Where the folded angle has a local extreme, and its values at the ends of a range."""
+
+    def product(motion: Motion) -> Complexes:
+        lines = _lines(motion, leg)
+        normed: Complexes = np.conj(lines.force) * lines.direction / (np.abs(lines.force) * np.abs(lines.direction))
+        return normed
+
+    def turning(drives: Reals) -> Reals:
+        lines = _lines(cycle.at(drives, 2), leg)
+        return np.imag(lines.force_rate / lines.force - lines.direction_rate / lines.direction)[None]
+
+    def sine(drives: Reals) -> Reals:
+        return product(cycle.at(drives, 2)).imag[None]
+
+    def cosine(drives: Reals) -> Reals:
+        return product(cycle.at(drives, 2)).real[None]
+
+    def unnormed(motion: Motion) -> Complexes:
+        """As `product`, but smooth where the driven point is slow next to a limit: of a speed by that of all joints."""
+        lines = _lines(motion, leg)
+        pace = np.abs(lines.direction) if leg.guide is not None else _pace(motion)
+        return np.asarray(np.conj(lines.force) * lines.direction / (np.abs(lines.force) * pace))
+
+    slow = _LEAST / cycle.drive_size
+    angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))
+    constant = not cycle.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
+    places = [
+        zero.at
+        for jet, floor in ((turning, slow), (sine, _LEAST), (cosine, _LEAST))
+        for zero in (() if constant else find_zeros(jet, cycle.samples(2), floor))
+    ]
+    if cycle.span.full:
+        return np.array(places or [cycle.span.low]), []
+    ends = []
+    for upper, at in ((False, cycle.span.low), (True, cycle.span.high)):
+        z = cycle.end(unnormed, upper)
+        ends.append((at, float(np.arctan2(abs(z.real), abs(z.imag)))))
+    return np.array(places), ends

@@ -1,0 +1,44 @@
+"""The velocities of a motion for other speeds of its drives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.mechanics.forces.loads import Rows
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.kinematics.branches import branch_of
+from gruebler.mechanics.kinematics.solve import move_in_radians
+
+__all__ = ["drive_speed", "with_velocities"]
+
+_TELLS = 1e-9  # a smaller root does not tell the assembly mode: its sign is rounding
+
+
+def with_velocities(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion]]:
+    """The poses of a motion once more, with velocities: from the row that is best assembled to its end, and back.
+
+    Yields rows and their motion. A row at a limit of the drive tells no assembly mode, so it is not begun there;
+    nothing is yielded if all rows are such, or change points.
+    """
+    branching = [dyad.number for dyad in motion.plan.dyads if dyad.branching]
+    margins = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0)
+    best = int(np.argmax(margins))
+    if not margins[best] > _TELLS:
+        return
+    branch = branch_of(motion.plan, motion.roots[best], motion.unknowns[best], motion.drives[best])
+    for rows in (np.arange(best, len(motion)), np.arange(best, -1, -1)):
+        moved = move_in_radians(motion.plan, motion.drives[rows], speed=speed, order=1, branch=branch)
+        yield rows[: len(moved)], moved
+
+
+def drive_speed(motion: Motion) -> Reals:
+    """The speed of the only drive in a motion with velocities; (rows,)."""
+    drive = motion.lower_linkage.mechanism.drives[0]
+    if not drive.turning:
+        return motion.displacement(drive.joint, 1)
+    first, second = motion.lower_linkage.reference(0)
+    speed: Reals = motion.angular(second) - motion.angular(first)
+    return speed

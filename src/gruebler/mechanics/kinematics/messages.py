@@ -1,0 +1,68 @@
+"""What is said of a motion."""
+
+from __future__ import annotations
+
+from math import degrees
+
+from gruebler.base.text import Message, joined, message
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.assur.forms import form_message
+from gruebler.structure.chain.pairs import in_alphabets
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = ["stop_message", "taken_for_exact_message", "unbounded_message"]
+
+_UNBOUNDED = message("At {drives} the drive stands at its limit: there are no finite rates.")
+_EXACT = message(
+    "From {first} to {last} the sizes miss a change point by so little that they were taken for exact: poses and rates "
+    "there are those of a linkage that meets it."
+)
+_EXACT_THERE = message(
+    "At {first} the sizes miss a change point by so little that they were taken for exact: pose and rates there are "
+    "those of a linkage that meets it."
+)
+_STOPS = {
+    "limit": message("The motion ends at {drives}: there {form} {{{links}}} can no longer be assembled."),
+    "singular": message("The motion ends at {drives}: there two assembly modes of {form} {{{links}}} meet."),
+    "open": message(
+        "The motion ends at {drives}: there {form} is open. The sizes do not let this overconstrained linkage move on; "
+        "`gruebler check --explain` shows what they allow."
+    ),
+    "start": message("At the start, {drives}, {form} {{{links}}} cannot be assembled in this way."),
+}
+
+
+def unbounded_message(linkage: Linkage, drives: tuple[float, ...]) -> Message:
+    """That there are no finite rates at these drive values."""
+    return _UNBOUNDED.filled(drives=_drive_values(linkage, drives))
+
+
+def taken_for_exact_message(linkage: Linkage, first: tuple[float, ...], last: tuple[float, ...]) -> Message:
+    """That a linkage was taken to meet a change point which it misses, in the rows between these drive values."""
+    text = _EXACT_THERE if first == last else _EXACT
+    return text.filled(first=_drive_values(linkage, first), last=_drive_values(linkage, last))
+
+
+def stop_message(
+    linkage: Linkage, reason: str, drives: tuple[float, ...], links: tuple[str, ...], form: str
+) -> Message:
+    """Where and why a motion ends; the arguments are those of `Stop`."""
+    at = _drive_values(linkage, drives)
+    return _STOPS[reason].filled(drives=at, form=form_message(form), links=", ".join(links))
+
+
+def _drive_values(linkage: Linkage, values: tuple[float, ...]) -> Message:
+    """Drive values with the names of their joints, turning ones in degrees."""
+    mechanism = linkage.mechanism
+    parts = []
+    for k, (drive, value) in enumerate(zip(mechanism.drives, values, strict=True)):
+        name = _drive_name(mechanism, k)
+        if drive.turning:
+            parts.append(message("{name} = {value:.9g}°", name=name, value=degrees(value)))
+        else:
+            parts.append(message("{name} = {value:.9g} {unit}", name=name, value=value, unit=linkage.unit))
+    return joined(parts)
+
+
+def _drive_name(mechanism: Mechanism, drive: int) -> Message:
+    return in_alphabets(lambda alphabet: mechanism.drive_names(alphabet)[drive])

@@ -1,0 +1,55 @@
+"""What stands for a linkage wherever one is asked for: the linkage, or lengths such as those of a four-bar."""
+
+from __future__ import annotations
+
+from typing import Protocol, TypeGuard, runtime_checkable
+
+from gruebler.base.errors import LinkageError
+from gruebler.mechanics.linkages.model import Linkage
+
+__all__ = ["LinkageLike", "as_linkage", "makes_linkage"]
+
+
+@runtime_checkable
+class HasLinkage(Protocol):
+    """Lengths that make a linkage: `FourBar`, `SliderCrank`, `InvertedSliderCrank`."""
+
+    def linkage(self) -> Linkage:
+        """The linkage of these lengths."""
+        ...
+
+
+LinkageLike = Linkage | HasLinkage
+
+
+def makes_linkage(value: object) -> TypeGuard[HasLinkage]:
+    """Whether a value is lengths that make a linkage; a motion has one, which is another thing."""
+    return isinstance(value, HasLinkage) and not isinstance(value, type) and callable(value.linkage)
+
+
+def as_linkage(value: object) -> Linkage:
+    """The linkage that a value is or makes; `LinkageError` says what else it is, and where that is answered.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> as_linkage(FourBar(25, 70, 40, 70)).mechanism.frame
+    'frame'
+    """
+    if isinstance(value, Linkage):
+        return value
+    kind = type(value).__name__
+    if kind == "SpatialLinkage":
+        raise LinkageError(
+            "expected a planar linkage, but found a SpatialLinkage: gr.mechanics.screws moves and judges it"
+        )
+    if kind in ("Chain", "Mechanism"):
+        raise LinkageError("a {kind} has no dimensions: realise(mechanism) finds some", kind=kind)
+    if makes_linkage(value):
+        return value.linkage()
+    raise LinkageError(
+        "expected a linkage, a FourBar, SliderCrank or InvertedSliderCrank, but found {found}", found=_in_short(value)
+    )
+
+
+def _in_short(value: object) -> str:
+    text = " ".join(repr(value).split())
+    return text if len(text) < 80 else f"{text[:77]}..."

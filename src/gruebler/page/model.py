@@ -1,0 +1,283 @@
+"""A linkage as the page takes it: its document, the flattened solving plan, and a pose to start from.
+
+The page executes the plan by the same rules as `gruebler.mechanics.kinematics` (explorer/src/kernel.ts), so that
+dragging needs no round trip. docs/theory/explorer.md says what may be changed there without a new plan.
+"""
+
+from __future__ import annotations
+
+from cmath import rect
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes
+from gruebler.base.text import LANGUAGES, Text, error_in_language, translate
+from gruebler.files import linkage_to_json
+from gruebler.mechanics.analysis.outputs import find_output
+from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
+from gruebler.mechanics.kinematics.branches import labelled_groups
+from gruebler.mechanics.kinematics.plan import Dyad, Plan
+from gruebler.mechanics.linkages import Linkage, Pin
+from gruebler.mechanics.linkages.elements import CENTRED, Line, direction
+from gruebler.pictures.canvas.shapes import CircleShape, Polylines
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
+from gruebler.pictures.linkage.wheels import round_parts
+from gruebler.teaching.catalog import entries
+
+__all__ = ["link_names", "model_of", "program_record"]
+
+_COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks
+
+_SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
+
+
+def model_of(
+    linkage: Linkage,
+    *,
+    name: str | Text = "",
+    source: str = "",
+    between: tuple[float, float] | None = None,
+) -> dict[str, Any]:
+    """Everything that the page needs to show a linkage and to move it by itself, as plain data for `json.dumps`.
+
+    Args:
+        linkage: a planar linkage whose drives fix its motion.
+        name: what the page calls it.
+        source: the word by which the command line finds it, such as ``lambda``; empty if there is none.
+        between: drive values between which it is shown; all if None.
+
+    Raises `LinkageError` if it cannot be moved or assembled. Cost: that of its drive cycle, 10 to 500 ms.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> made = model_of(FourBar(25, 70, 40, 70).linkage())
+    >>> made["joints"][1]["name"], made["program"]["operations"][1][0], len(made["start"]["signs"])
+    ('R(crank-coupler)', 2, 1)
+    """
+    posed = posed_linkage(linkage, between=between)
+    plan, lower, pose = posed.pose.plan, posed.lower, posed.pose
+    mechanism, chain = linkage.mechanism, linkage.mechanism.chain
+    names = chain.joint_names()
+    keys = sorted(linkage.elements)
+    drives = np.concatenate([pose.drives[0], plan.held])
+    return {
+        "version": 1,
+        "name": name.en if isinstance(name, Text) else name,
+        "names": {lang: name.in_language(lang) for lang in LANGUAGES} if isinstance(name, Text) else {},
+        "source": source,
+        "document": linkage_to_json(linkage),
+        "links": list(lower.mechanism.chain.links),
+        "linkNames": {lang: list(link_names(linkage, source, lang).values()) for lang in LANGUAGES},
+        "own": len(chain.links),
+        "frame": lower.mechanism.chain.index(mechanism.frame),
+        "unit": linkage.unit,
+        "joints": [
+            {"name": text, "pair": joint.pair.name, "links": [chain.index(link) for link in joint.links]}
+            for text, joint in zip(names, chain.joints, strict=True)
+        ],
+        "elements": [
+            {
+                "joint": number,
+                "link": chain.index(link),
+                "kind": "line" if isinstance(e, Line) else "pin" if isinstance(e, Pin) else "round",
+                "at": [e.x, e.y],
+                "angle": direction(e),
+            }
+            for number, link in keys
+            for e in [linkage.elements[number, link]]
+        ],
+        "points": [
+            {"name": text, "link": chain.index(point.link), "at": [point.x, point.y]}
+            for text, point in linkage.points.items()
+        ],
+        "drives": [
+            {"name": text, "turning": drive.turning, "joint": drive.joint}
+            for text, drive in zip(mechanism.drive_names(), mechanism.drives, strict=True)
+        ],
+        "program": program_record(plan),
+        "sources": [_source(plan, linkage, keys, number) for number in range(len(plan.keys))],
+        "reference": _reference_records(plan),
+        "groups": [
+            {
+                "dyad": isinstance(part, Dyad),
+                "number": part.number,
+                "form": plan.decomposition.groups[part.group].form(),
+                "links": list(plan.decomposition.groups[part.group].links),
+                "modes": part in labelled_groups(plan),
+            }
+            for part in plan.parts
+        ],
+        "shortest": [[number, value] for number, value in plan.shortest],
+        "released": list(plan.released),
+        "start": {
+            "drives": drives.tolist(),
+            "signs": np.where(pose.roots[0] < 0, -1, 1).tolist(),
+            "unknowns": pose.unknowns[0].tolist(),
+        },
+        "span": _span(posed, between),
+        "outputs": _output(linkage, plan),
+        "shapes": list(_shapes(posed)),
+    }
+
+
+def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
+    """The names of the links in a language, of machines of the catalog and of four-bars; else their own.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> link_names(FourBar(25, 70, 40, 70).linkage(), "", "de")["rocker"]
+    'Schwinge'
+    """
+    links = linkage.mechanism.chain.links
+    record = entries().get(source)
+    if record is not None and record.chain().links == links:
+        return dict(zip(links, record.in_language(lang).chain().links, strict=True))
+    return {link: translate(link, lang) if link in _COMMON else link for link in links}
+
+
+def program_record(plan: Plan) -> dict[str, Any]:
+    """The program of a plan as lists of numbers, complex ones as real and imaginary part in turn."""
+    p = plan.program
+    return {
+        "operations": p.operations.tolist(),
+        "links": p.links.tolist(),
+        "points": _parts(p.points),
+        "lines": _parts(p.lines),
+        "conditions": p.conditions.tolist(),
+        "kinds": p.kinds.tolist(),
+        "sides": p.sides.tolist(),
+        "owners": p.owners.tolist(),
+        "bodies": p.bodies.tolist(),
+        "roots": p.roots.tolist(),
+        "most": p.most.tolist(),
+        "size": p.size,
+        "values": p.values.ravel().tolist(),
+        "windings": p.windings.tolist(),
+        "pieces": p.pieces.tolist(),
+        "linkCount": len(plan.lower.mechanism.chain.links),
+        "drives": len(plan.lower.mechanism.drives),
+        "dyads": len(plan.dyads),
+    }
+
+
+def _parts(values: Complexes) -> list[float]:
+    numbers: list[float] = np.stack([values.real, values.imag], axis=1).ravel().tolist()
+    return numbers
+
+
+def _source(plan: Plan, linkage: Linkage, keys: Sequence[tuple[int, str]], number: int) -> int:
+    """The element of the linkage whose point is that of an element of the plan; -1 if it stays as it is."""
+    lower, (joint, link) = plan.lower, plan.keys[number]
+    if link not in linkage.mechanism.chain.links:
+        return -1  # a block of a pin in a slot has its origin there
+    element = lower.elements[joint, link]
+    near = set(lower.mechanism.chain.joints[joint].links)
+    near |= {other for block in near for other in _held_by(plan, block)}
+    best, most = -1, -1
+    for k, key in enumerate(keys):
+        e = linkage.elements[key]
+        if key[1] != link or isinstance(e, CENTRED) != isinstance(element, CENTRED):
+            continue
+        if abs(complex(e.x - element.x, e.y - element.y)) > _SAME * lower.size:
+            continue
+        alike = 2 * len(near & set(linkage.mechanism.chain.joints[key[0]].links)) + (isinstance(e, type(element)))
+        if alike > most:
+            best, most = k, alike
+    return best
+
+
+def _held_by(plan: Plan, block: str) -> set[str]:
+    """The links that a block joins; of no other link any."""
+    if block in plan.linkage.mechanism.chain.links:
+        return set()
+    joints = plan.lower.mechanism.chain.joints
+    return {link for joint in joints if block in joint.links for link in joint.links}
+
+
+def _reference_records(plan: Plan) -> dict[str, Any]:
+    """What says where signs, unknowns and drive values of a pose come from."""
+    index = plan.lower.mechanism.chain.index
+    return {
+        "drives": [[index(a), index(b), *_drive_elements(plan, k)] for k, (a, b) in enumerate(_references(plan))],
+        "bodies": [[index(root), index(part.base)] for part in plan.higher_groups for root in part.roots],
+        "windings": [[condition.kind, *condition.sides] for condition in plan.windings],
+    }
+
+
+def _references(plan: Plan) -> list[tuple[str, str]]:
+    return [plan.lower.reference(k) for k in range(len(plan.lower.mechanism.drives))]
+
+
+def _drive_elements(plan: Plan, k: int) -> tuple[int, int]:
+    drive, (first, other) = plan.lower.mechanism.drives[k], plan.lower.reference(k)
+    return plan.keys.index((drive.joint, first)), plan.keys.index((drive.joint, other))
+
+
+def _span(posed: PosedLinkage, between: tuple[float, float] | None) -> dict[str, Any]:
+    """The range that is shown, and after how many turns everything repeats; 0 if the drive does not go round."""
+    if posed.cycle is None or not posed.pose.plan.linkage.mechanism.drives:
+        return {"turns": 0, "between": None}
+    return {
+        "turns": posed.cycle.span.turns,
+        "between": None if between is None else [float(posed.path.drives[k, 0]) for k in (0, -1)],
+    }
+
+
+def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
+    """The output that is looked at, with the legs that drive it; or why it has no transmission angle."""
+    if len(linkage.mechanism.drives) != 1:
+        return []
+    output = find_output(linkage)
+    index = plan.lower.mechanism.chain.index
+    record: dict[str, Any] = {"link": index(output.link), "joint": output.joint, "legs": [], "note": {}}
+    try:
+        legs = pushing_links(plan, output)
+    except NoTransmissionAngleError as error:
+        return [record | {"note": {lang: error_in_language(error, lang) for lang in LANGUAGES}}]
+
+    def place(element: tuple[str, complex, complex]) -> list[float]:
+        link, point, line = element
+        return [index(link), point.real, point.imag, line.real, line.imag, _element_at(plan, element)]
+
+    record["legs"] = [
+        {
+            "form": leg.form,
+            "outer": place(leg.outer),
+            "inner": place(leg.inner),
+            "pushed": index(leg.pushed),
+            "guide": None if leg.guide is None else [leg.guide[0], *place(leg.guide[1])],
+        }
+        for leg in legs
+    ]
+    return [record]
+
+
+def _element_at(plan: Plan, element: tuple[str, complex, complex]) -> int:
+    """The number of an element of the plan, so that the page follows when it is dragged."""
+    link, point, line = element
+    for number, (joint, owner) in enumerate(plan.keys):
+        e = plan.lower.elements[joint, owner]
+        if owner == link and complex(e.x, e.y) == point and abs(rect(1, direction(e)) - line) < _SAME:
+            return number
+    return -1
+
+
+def _shapes(posed: PosedLinkage) -> Iterator[dict[str, Any]]:
+    """Wheels, cams and the like as outlines on their links, in the linkage's unit."""
+    index, scale = posed.lower.mechanism.chain.index, posed.scale
+    for part in round_parts(posed):
+        for shape in part.shapes:
+            if isinstance(shape, CircleShape):
+                circle = [_short(v / scale) for v in (shape.at.x, -shape.at.y, shape.radius)]
+                yield {"link": index(part.link), "style": shape.style, "circle": circle}
+            elif isinstance(shape, Polylines):
+                lines = [[c for p in line for c in (_short(p.x / scale), _short(-p.y / scale))] for line in shape.parts]
+                record = {"link": index(part.link), "style": shape.style, "lines": lines, "closed": shape.closed}
+                yield record | (
+                    {} if part.between is None else {"between": [c for z in part.between for c in (z.real, z.imag)]}
+                )
+
+
+def _short(value: float) -> float:
+    """Seven digits: outlines are for the eye."""
+    return float(f"{value:.7g}")

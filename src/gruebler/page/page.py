@@ -1,0 +1,83 @@
+"""The page as one HTML file that needs no server and asks for nothing, and the page that a server sends."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from gruebler.pictures.canvas.page_policy import policy_element, script_element
+from gruebler.pictures.canvas.styles import STYLES
+
+__all__ = ["module_text", "picture_styles", "served_page", "single_file"]
+
+_STATIC = Path(__file__).parent / "static"
+
+
+@cache
+def module_text() -> str:
+    """The front end: one ES module, built from `explorer/` and shipped with the library."""
+    return (_STATIC / "explorer.js").read_text(encoding="utf-8")
+
+
+def picture_styles() -> str:
+    """The rules of the library's pictures with the colours of the page, which the reader may turn dark."""
+    rules = [".gr{stroke-linecap:round;stroke-linejoin:round}"]
+    for name, style in STYLES.items():
+        parts = [f"fill:var(--{style.fill})" if style.fill else "fill:none"]
+        if style.stroke:
+            parts += [f"stroke:var(--{style.stroke})", f"stroke-width:{style.width:g}"]
+        if style.dash:
+            parts.append(f"stroke-dasharray:{' '.join(f'{length:g}' for length in style.dash)}")
+        if style.size:
+            parts.append(f"font-size:{style.size:g}px")
+        rules.append(f".gr-{name}{{{';'.join(parts)}}}")
+    return "".join(rules)
+
+
+def single_file(model: Mapping[str, Any], lang: str = "") -> str:
+    """One HTML file in which a linkage moves and can be dragged; it loads nothing and sends nothing.
+
+    Args:
+        model: what `gruebler.page.model.model_of` returns.
+        lang: the language in which it opens, the browser's if empty; the reader may choose another.
+
+    The policy in the file allows its own script, by the script's digest, and nothing else.
+
+    >>> from gruebler.page.model import model_of
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> page = single_file(model_of(FourBar(25, 70, 40, 70).linkage()))
+    >>> page.count("<script"), "fetch(" in page, " src=" in page
+    (2, False, False)
+    """
+    script = module_text()
+    values = {"lang": lang, "machine": model}
+    return _page(
+        str(model["name"]) or "gruebler",
+        lang,
+        "file",
+        values,
+        script_element(script, "module"),
+        policy_element(script, styles=False),
+    )
+
+
+def served_page(model: Mapping[str, Any], lang: str = "") -> str:
+    """The page of a server, which loads the module from beside it; its policy is sent as a header."""
+    values = {"lang": lang, "machine": model, "styles": picture_styles()}
+    return _page("gruebler", lang, "server", values, '<script type="module" src="explorer.js"></script>', "")
+
+
+def _page(title: str, lang: str, host: str, values: Mapping[str, Any], script: str, policy: str) -> str:
+    data = json.dumps(values, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    return (
+        f'<!doctype html><html lang="{lang or "en"}"><head><meta charset="utf-8">{policy}'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        '<meta name="referrer" content="no-referrer"><link rel="icon" href="data:,">'
+        f"<title>{html.escape(title)}</title></head>"
+        f'<body><div data-gruebler="{host}"></div>'
+        f'<script type="application/json" id="gruebler-model">{data}</script>{script}</body></html>\n'
+    )

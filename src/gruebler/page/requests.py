@@ -1,0 +1,418 @@
+"""What the page may ask of the library: each request has a name, typed parameters and plain data as its answer."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Mapping
+from itertools import islice
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import error_in_language, translate
+
+__all__ = ["REQUESTS", "answer"]
+
+Progress = Callable[[str], None]
+Word = Annotated[str, msgspec.Meta(max_length=200)]
+ChainText = Annotated[str, msgspec.Meta(max_length=5_000)]
+_PAGE = 60  # pictures in one answer
+_MOST_DESIGNS = 24
+_MOST_MODES = 64
+
+
+class _Params(msgspec.Struct, forbid_unknown_fields=True):
+    pass
+
+
+class Nothing(_Params):
+    """No parameters."""
+
+
+Number = Annotated[int, msgspec.Meta(ge=0, le=100)]
+
+
+class ListCatalog(_Params):
+    """Words that must all occur in a machine's name, remark, source or links, in either language; access features."""
+
+    words: Word = ""
+    pairs: Word = ""
+    """Symbols or names of joint types that must occur."""
+    joints: Word = ""
+    """Numbers of joints by type, such as ``R:4,P:0``."""
+    links: Number | None = None
+    mobility: Number | None = None
+    drive_joints: Number | None = None
+    drive_joints_at_frame: Number | None = None
+    output_links: Number | None = None
+    output_links_at_frame: Number | None = None
+    binary: Number | None = None
+    ternary: Number | None = None
+    multiple_joints: Number | None = None
+
+
+class CatalogId(_Params):
+    """A machine of the catalog."""
+
+    id: Word
+
+
+class OpenDocument(_Params):
+    """A linkage as plain data (`gruebler.files.linkage_to_json`)."""
+
+    document: dict[str, Any]
+    name: Word = ""
+    source: Word = ""
+
+
+class DescribeStructure(_Params):
+    """A chain or mechanism as text."""
+
+    text: ChainText
+    at_frame: bool = True
+    """Whether only drives at the frame are listed."""
+    document: dict[str, Any] = {}
+    """A linkage of this chain, which says what its higher pairs are."""
+
+
+class ListModes(_Params):
+    """A linkage at values of its drives, in radians or lengths."""
+
+    document: dict[str, Any]
+    drives: Annotated[list[float], msgspec.Meta(min_length=1, max_length=20)]
+
+
+class ListChains(_Params):
+    """Chains of turning joints."""
+
+    links: Annotated[int, msgspec.Meta(ge=3, le=12)]
+    mobility: Annotated[int, msgspec.Meta(ge=0, le=6)] = 1
+    start: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
+
+
+class Realise(_Params):
+    """A mechanism for which dimensions are wanted."""
+
+    text: ChainText
+    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+
+
+class SynthesisePath(_Params):
+    """Points of the plane that a coupler point passes, in their order."""
+
+    points: Annotated[
+        list[Annotated[list[float], msgspec.Meta(min_length=2, max_length=2)]],
+        msgspec.Meta(min_length=5, max_length=60),
+    ]
+    closed: bool = False
+    crank: bool = True
+    """Whether the drive must turn fully."""
+    transmission: Annotated[float, msgspec.Meta(ge=0, le=90)] = 0.0
+    """The least transmission angle, in degrees."""
+
+
+class Export(_Params):
+    """A linkage and the kind of file that is wanted of it."""
+
+    document: dict[str, Any]
+    kind: Literal["toml", "gif", "html", "pdf"]
+    name: Word = ""
+
+
+class NewExercise(_Params):
+    """A fresh task."""
+
+    kind: Word
+    level: Annotated[int, msgspec.Meta(ge=1, le=3)] = 1
+    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+
+
+class MarkAnswers(_Params):
+    """Answers to a task by key."""
+
+    id: Word
+    answers: dict[Word, Word]
+
+
+def answer(method: str, params: Mapping[str, Any], lang: str, progress: Progress) -> Any:
+    """The answer to a request as plain data.
+
+    Args:
+        method: a name in `REQUESTS`.
+        params: its parameters, as JSON gives them.
+        lang: the language of all texts.
+        progress: is called with a sentence now and then while work goes on.
+
+    Raises `GrueblerError` for what cannot be answered, wrong parameters included.
+
+    >>> answer("structure", {"text": "R(0-1) R(1-2) R(2-3) R(3-0)"}, "en", print)["counted"]
+    1
+    """
+    if method not in REQUESTS:
+        raise GrueblerError("there is no request {method!r}", method=method[:40])
+    kind, work = REQUESTS[method]
+    try:
+        typed = msgspec.convert(params, kind)
+    except msgspec.ValidationError as error:
+        raise GrueblerError("{method}: {problem}", method=method, problem=str(error)) from None
+    return work(typed, lang, progress)
+
+
+def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, Any]]:
+    from gruebler.structure.mechanism import Mechanism
+    from gruebler.structure.mobility import counted
+    from gruebler.teaching.catalog.feature_query import FeatureQuery, entry_features, entry_mechanism, read_pairs
+    from gruebler.teaching.catalog.loader import Query, search
+
+    kinds = ((2, asked.binary), (3, asked.ternary))
+    query = FeatureQuery(
+        links=asked.links,
+        mobility=asked.mobility,
+        drive_joints=asked.drive_joints,
+        drive_joints_at_frame=asked.drive_joints_at_frame,
+        output_links=asked.output_links,
+        output_links_at_frame=asked.output_links_at_frame,
+        pairs=read_pairs(asked.joints) if asked.joints.strip() else (),
+        kinds=tuple((k, number) for k, number in kinds if number is not None),
+        multiple_joints=asked.multiple_joints,
+    )
+    named = search(Query(words=tuple(asked.words.split()), pairs=tuple(asked.pairs.split())))
+    fitting = [candidate for candidate in named if query.fits(entry_mechanism(candidate), entry_features(candidate))]
+    return [
+        {
+            "id": candidate.id,
+            "name": candidate.name.in_language(lang),
+            "links": candidate.chain().n,
+            "counted": counted(candidate.chain()),
+            "moves": candidate.dimensions is not None and candidate.space == "planar",
+            "text": Mechanism(
+                candidate.chain(), candidate.frame or candidate.chain().links[0], candidate.drives
+            ).text(),
+        }
+        for candidate in fitting
+    ]
+
+
+def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
+    from gruebler.pictures.linkage.picture import draw_linkage
+    from gruebler.pictures.structure import draw_structure
+    from gruebler.structure.mechanism import Mechanism
+    from gruebler.teaching.catalog import entry
+
+    record = entry(asked.id)
+    name = record.name.in_language(lang)
+    if record.dimensions is not None and record.space == "planar":
+        figure = draw_linkage(record.linkage(), between=_between(asked.id), lang=lang, name=name)
+    else:
+        chain = record.chain()
+        figure = draw_structure(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
+    return {"picture": figure.svg(styled=False)}
+
+
+def _between(id: str) -> tuple[float, float] | None:
+    """The drive values between which a machine is shown, in radians where the drive turns."""
+    from math import radians
+
+    from gruebler.teaching.catalog import entry
+
+    record = entry(id)
+    assert record.dimensions is not None
+    shown, drives = record.dimensions.range, record.linkage().mechanism.drives
+    if shown is None or not drives or not drives[0].turning:
+        return shown
+    return radians(shown[0]), radians(shown[1])
+
+
+def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
+    from gruebler.page.model import model_of
+    from gruebler.teaching.catalog import entry
+
+    record = entry(asked.id)
+    linkage = record.linkage()  # an entry without dimensions is refused in one sentence
+    return model_of(linkage, name=record.name, source=record.id, between=_between(asked.id))
+
+
+def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
+    from gruebler.files import linkage_from_json
+    from gruebler.page.model import model_of
+
+    return model_of(linkage_from_json(asked.document), name=asked.name, source=asked.source)
+
+
+def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.files import linkage_from_json
+    from gruebler.page.structures import structure_record
+
+    linkage = linkage_from_json(asked.document) if asked.document else None
+    return structure_record(asked.text, lang, at_frame=asked.at_frame, linkage=linkage)
+
+
+def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
+    """Every assembly mode with the linkage in it."""
+    from gruebler.files import linkage_from_json, linkage_to_json
+    from gruebler.mechanics.kinematics.solve import assembly_modes, move_in_radians
+
+    linkage = linkage_from_json(asked.document)
+    modes = []
+    for label in assembly_modes(linkage, asked.drives)[:_MOST_MODES]:
+        motion = move_in_radians(linkage, [asked.drives], branch=label)
+        if motion.complete:
+            modes.append({"label": label, "document": linkage_to_json(linkage.with_reference_pose(motion.pose()))})
+    return modes
+
+
+def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
+    from gruebler.pictures.structure import draw_structure
+    from gruebler.structure.enumeration import chains, count_chains
+
+    total = count_chains(asked.links, asked.mobility).chains
+    items = []
+    for chain in islice(chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
+        items.append({"text": chain.text(), "picture": draw_structure(chain, lang=lang).svg(styled=False)})
+        if len(items) % 10 == 0:
+            progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
+    return {"total": total, "start": asked.start, "items": items}
+
+
+def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
+    from gruebler.design.realisation.realise import realise
+    from gruebler.page.model import model_of
+    from gruebler.page.structures import mechanism_of_text
+
+    progress(translate("Looking for dimensions with which it moves", lang))
+    realisation = realise(mechanism_of_text(asked.text), seed=asked.seed)
+    if realisation.linkage is None:
+        raise GrueblerError("{message}", message=realisation.message(lang))
+    linkage = realisation.linkage
+    return {"model": model_of(linkage, name=""), "message": realisation.message(lang)}
+
+
+def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[str, Any]:
+    from math import degrees, isfinite, radians
+
+    from gruebler.design.synthesis import Demands, PathTask, synthesise
+    from gruebler.files import linkage_to_json
+    from gruebler.pictures.linkage.picture import draw_linkage
+
+    progress(translate("Looking for four-bars through {count} points", lang, count=len(asked.points)))
+    task = PathTask(tuple((x, y) for x, y in asked.points), closed=asked.closed)
+    result = synthesise(task, demands=Demands(crank=asked.crank, transmission=radians(asked.transmission)))
+    designs = [design for design in result.designs if design.verdict.accepted]
+    items = []
+    for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
+        progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
+        picture = draw_linkage(design.linkage, curves=list(design.linkage.points), lang=lang).svg(styled=False)
+        angle, error = degrees(design.verdict.transmission), design.verdict.error
+        items.append(
+            {
+                "document": linkage_to_json(design.linkage),
+                "picture": picture,
+                "form": design.form_in_language(lang),
+                "transmission": angle if isfinite(angle) else None,
+                "error": error if isfinite(error) else None,
+            }
+        )
+    return {"total": len(designs), "refused": len(result.designs) - len(designs), "items": items}
+
+
+def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.files import linkage_from_json
+    from gruebler.mechanics.analysis.measures import measures
+    from gruebler.page.model import link_names
+
+    linkage = linkage_from_json(asked.document)
+    named = linkage.renamed(link_names(linkage, asked.source, lang))
+    return {"lines": measures(named).explain(lang).splitlines()}
+
+
+def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
+    from gruebler.files import linkage_from_json, linkage_to_toml
+
+    linkage = linkage_from_json(asked.document)
+    if asked.kind == "toml":
+        return _file(linkage_to_toml(linkage).encode("utf-8"), "application/toml")
+    if asked.kind == "html":
+        from gruebler.page.model import model_of
+        from gruebler.page.page import single_file
+
+        return _file(single_file(model_of(linkage, name=asked.name), lang).encode("utf-8"), "text/html")
+    if asked.kind == "gif":
+        from gruebler.pictures.linkage.animation_frames import animated_frames
+
+        return _file(animated_frames(linkage, "gif", lang=lang, name=asked.name), "image/gif")
+    from gruebler.pictures.canvas.files import picture_bytes
+    from gruebler.pictures.linkage.picture import draw_linkage
+
+    return _file(picture_bytes(draw_linkage(linkage, lang=lang, name=asked.name), "pdf"), "application/pdf")
+
+
+def _file(content: bytes, kind: str) -> dict[str, str]:
+    return {"base64": base64.b64encode(content).decode("ascii"), "type": kind}
+
+
+def _exercise_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
+    from gruebler.teaching.exercises import KINDS
+
+    return [{"kind": kind, "name": name.in_language(lang)} for kind, (name, _) in KINDS.items()]
+
+
+def _new_exercise(asked: NewExercise, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.teaching.exercises import ascii_key, generate, plain_name, solve
+
+    task = generate(asked.kind, asked.seed, asked.level)
+    results = solve(task).results
+    return {
+        "id": task.id,
+        "name": task.name.in_language(lang),
+        "task": task.task.in_language(lang),
+        "asked": [
+            {
+                "key": ascii_key(question.key),
+                "name": result.name.in_language(lang),
+                "unit": result.unit,
+                "choice": isinstance(result.value, bool),
+            }
+            for question in task.asked
+            for result in [results[question.key]]
+            if plain_name(result)
+        ],
+    }
+
+
+def _mark(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.teaching.exercises import exercise, grade, solution_text, solve
+
+    task = exercise(asked.id)
+    marks = []
+    for key, given in asked.answers.items():
+        if not given.strip():
+            continue
+        try:
+            graded = grade(task, {key: given})[0]
+        except GrueblerError as error:
+            marks.append({"key": key, "mark": "wrong", "hint": error_in_language(error, lang)})
+            continue
+        marks.append(
+            {"key": key, "mark": str(graded.mark), "hint": graded.hint.in_language(lang) if graded.hint else ""}
+        )
+    return {"marks": marks, "solution": solution_text(task, solve(task), lang)}
+
+
+REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] = {
+    "catalog": (ListCatalog, _list_catalog),
+    "picture": (CatalogId, _catalog_picture),
+    "open": (CatalogId, _open),
+    "open_document": (OpenDocument, _open_document),
+    "structure": (DescribeStructure, _structure),
+    "modes": (ListModes, _modes),
+    "chains": (ListChains, _chains),
+    "realise": (Realise, _realise),
+    "synthesise": (SynthesisePath, _synthesise),
+    "measures": (OpenDocument, _measures),
+    "export": (Export, _export),
+    "exercise_kinds": (Nothing, _exercise_kinds),
+    "exercise": (NewExercise, _new_exercise),
+    "mark": (MarkAnswers, _mark),
+}
+"""Name, parameters, work."""

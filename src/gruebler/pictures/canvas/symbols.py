@@ -1,0 +1,443 @@
+"""The signs of joints, links, frames and drives at given places, for structure and scale pictures.
+
+The sign of a joint, for its place and the directions of its links, consists of the shapes below and above the links and
+of the point at which each link is attached. Signs: docs/theory/drawing.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.pictures.canvas.styles import BAR
+
+__all__ = [
+    "CONTACTS",
+    "JointMember",
+    "JointSign",
+    "arrow",
+    "arrow_head",
+    "bar",
+    "hatching",
+    "joint_sign",
+    "polygon",
+    "straight_drive",
+    "ticks",
+    "turning_drive",
+    "widest_gap",
+]
+
+RADIUS = 6.2
+"""Of a turning joint."""
+_RING = 3.6
+_BLOCK = Point(12.5, 7.0)
+_GUIDE = Point(20.0, 10.0)
+_DISC = 8.0
+_HATCH = 6.0
+
+
+@dataclass(frozen=True, slots=True)
+class JointMember:
+    """A link at a joint: the direction in which it lies, and whether it is the frame."""
+
+    towards: Point
+    is_frame: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class JointSign:
+    """The sign of a joint."""
+
+    below: tuple[Shape, ...]
+    above: tuple[Shape, ...]
+    holds: tuple[Point, ...]
+    """The point of attachment of each member."""
+    axis: Point
+    """The direction of sliding, or the common tangent; for turning joints without meaning."""
+    reach: float
+    """The greatest distance of the sign from its middle."""
+
+
+def joint_sign(
+    kind: str, at: Point, members: Sequence[JointMember], *, letter: str = "", shapes: Sequence[str] = ()
+) -> JointSign:
+    """The sign of a pair by name; a letter where the pair has no sign of its own in the plane.
+
+    ``shapes`` says for each member of a higher pair what it is, by the keys of `CONTACTS`; without them the sign is the
+    general one of the pair.
+    """
+    if len(shapes) == len(members) == 2 and {*shapes} <= {*CONTACTS}:
+        return _contact(at, members, shapes)
+    if letter or kind not in _SIGNS:
+        return _lettered(at, members, letter)
+    return _SIGNS[kind](at, members)
+
+
+def _turning(at: Point, members: Sequence[JointMember]) -> JointSign:
+    """An open circle; one ring more for each link beyond two."""
+    rings = len(members) - 2
+    radius = RADIUS + _RING * rings
+    above = (CircleShape(at, radius, "joint"), *(CircleShape(at, RADIUS + _RING * k, "ring") for k in range(rings)))
+    return JointSign((), above, (at,) * len(members), Point(1, 0), radius)
+
+
+def _lettered(at: Point, members: Sequence[JointMember], letter: str) -> JointSign:
+    """A circle with the symbol of the pair, wide enough for it; one ring more for each link beyond two."""
+    inner = 5.0 + 3.6 * max(1, len(letter))
+    rings = range(len(members) - 2)
+    above = [
+        CircleShape(at, inner + _RING * len(rings), "joint"),
+        *(CircleShape(at, inner + _RING * k, "ring") for k in rings),
+    ]
+    return JointSign(
+        (), (*above, TextShape(at, letter, "letter")), (at,) * len(members), Point(1, 0), inner + _RING * len(rings)
+    )
+
+
+def _sliding(at: Point, members: Sequence[JointMember]) -> JointSign:
+    """A block in a guide; the guide belongs to the first member (the frame, if it is one), the block to the others."""
+    u = members[0].towards.unit
+    u = Point(-u.x, -u.y)
+    v = u.across
+    back = at.plus(u, -_GUIDE.x)
+    hold = back.plus(u, -BAR / 2)
+    corners = [back.plus(v, s * _GUIDE.y) for s in (-1, 1)]
+    ends = [corner.plus(u, 2 * _GUIDE.x) for corner in corners]
+    below: list[Shape] = [Polylines(((ends[0], corners[0], corners[1], ends[1]),), "rail")]
+    if members[0].is_frame:
+        below += [ticks(corners[0], ends[0], Point(-v.x, -v.y)), ticks(corners[1], ends[1], v)]
+    style = "block-frame" if members[1].is_frame else "block"
+    block = tuple(at.plus(u, a * _BLOCK.x).plus(v, b * _BLOCK.y) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    above: list[Shape] = [Polylines((block,), style, closed=True)]
+    for k in range(len(members) - 2):
+        part = 1 - (k + 1) / (len(members) - 1)
+        above.append(Polylines((tuple(at.plus(p.minus(at), part) for p in block),), "ring", closed=True))
+    return JointSign(tuple(below), tuple(above), (hold,) + (at,) * (len(members) - 1), u, _GUIDE.x)
+
+
+def _double_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
+    """A plate with a cross: it slides in two directions."""
+    half = 10.0 + _RING * (len(members) - 2)
+    square = tuple(Point(at.x + a * half, at.y + b * half) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    h = 6.5
+    cross = ((Point(at.x - h, at.y), Point(at.x + h, at.y)), (Point(at.x, at.y - h), Point(at.x, at.y + h)))
+    above = (Polylines((square,), "joint", closed=True), Polylines(cross, "ring"))
+    return JointSign((), above, (at,) * len(members), Point(1, 0), half)
+
+
+def _normal(members: Sequence[JointMember]) -> Point:
+    """From the first member to the second: the common normal of a contact."""
+    return members[1].towards.unit.minus(members[0].towards.unit).unit
+
+
+def _rolling(at: Point, members: Sequence[JointMember]) -> JointSign:
+    """Two discs that touch."""
+    n = _normal(members)
+    middles = (at.plus(n, -_DISC), at.plus(n, _DISC))
+    above = tuple(
+        CircleShape(middle, _DISC - 0.5, "block-frame" if member.is_frame else "block")
+        for middle, member in zip(middles, members, strict=True)
+    )
+    return JointSign((), above, middles, n.across, 2 * _DISC)
+
+
+def _roll_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
+    """A disc on a flat; the flat belongs to the first member."""
+    n = _normal(members)
+    t = n.across
+    flat = tuple(at.plus(t, a * 14.0).plus(n, b) for a, b in ((-1, -7.0), (1, -7.0), (1, -0.5), (-1, -0.5)))
+    middle = at.plus(n, _DISC)
+    styles = ["block-frame" if member.is_frame else "block" for member in members]
+    above = (Polylines((flat,), styles[0], closed=True), CircleShape(middle, _DISC - 0.5, styles[1]))
+    return JointSign((), above, (at.plus(n, -5.0), middle), t, 2 * _DISC)
+
+
+_BELOW = {"ring-body": 0, "ring-hole": 1}
+_WHEEL = 12.0  # radius of wheels and cams in a sign
+
+
+def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -> JointSign:
+    """Two bodies that touch, each as what it is: wheels, cam and roller, driver and cross, pin and slot."""
+    n = _normal(members)
+    apart = 5.0 if "belt" in shapes or "crossed" in shapes else 0.0
+    holds: list[Point] = []
+    above: list[Shape] = []
+    for side, shape, member in zip((-1.0, 1.0), shapes, members, strict=True):
+        towards = Point(n.x * side, n.y * side)
+        hold, parts = CONTACTS[shape](at.plus(towards, apart), towards, "block-frame" if member.is_frame else "block")
+        holds.append(hold)
+        above += parts
+    if apart:
+        middles = [at.plus(n, side * (apart + _WHEEL)) for side in (-1.0, 1.0)]
+        turn = -1.0 if "crossed" in shapes else 1.0
+        t = n.across
+        sides = [(middles[0].plus(t, s * _WHEEL), middles[1].plus(t, turn * s * _WHEEL)) for s in (1, -1)]
+        above.append(Polylines(tuple(sides), "edge"))
+    # Rings and slots lie below what runs in them.
+    above.sort(key=lambda shape: _BELOW.get(shape.style, len(_BELOW)))
+    return JointSign((), tuple(above), tuple(holds), n.across, 2 * _WHEEL + apart)
+
+
+_Part = tuple[Point, list[Shape]]
+
+
+def _wheel(at: Point, towards: Point, style: str) -> _Part:
+    """A smooth wheel: of a friction drive or a belt."""
+    middle = at.plus(towards, _WHEEL)
+    return middle, [CircleShape(middle, _WHEEL - 0.7, style)]
+
+
+def _gear(at: Point, towards: Point, style: str) -> _Part:
+    """A toothed wheel with its pitch circle."""
+    middle = at.plus(towards, _WHEEL)
+    rim = []
+    for k in range(12):
+        for part, radius in ((-0.3, -2.2), (-0.18, 2.0), (0.18, 2.0), (0.3, -2.2)):
+            turn = 2 * math.pi * (k + part) / 12
+            rim.append(middle.plus(Point(math.cos(turn), math.sin(turn)), _WHEEL + radius))
+    return middle, [Polylines((tuple(rim),), style, closed=True), CircleShape(middle, _WHEEL, "pitch")]
+
+
+def _ring_gear(at: Point, towards: Point, style: str) -> _Part:
+    """An internal wheel around the other one, which lies on the far side of the contact; hatched if it is held."""
+    middle = at.plus(towards, -1.6 * _WHEEL)
+    parts: list[Shape] = [
+        CircleShape(middle, 1.6 * _WHEEL + 6.0, "ring-body"),
+        CircleShape(middle, 1.6 * _WHEEL, "ring-hole"),
+        CircleShape(middle, 1.6 * _WHEEL, "pitch"),
+    ]
+    if style == "block-frame":
+        turns = [2 * math.pi * k / 30 for k in range(30)]
+        outer = [Point(math.cos(x), math.sin(x)) for x in turns]
+        strokes = [
+            (middle.plus(u, 1.6 * _WHEEL + 6), middle.plus(u, 1.6 * _WHEEL + 10).plus(u.across, 3)) for u in outer
+        ]
+        parts.append(Polylines(tuple(strokes), "hatch"))
+    return at.plus(towards, 3.0), parts
+
+
+def _rack(at: Point, towards: Point, style: str) -> _Part:
+    """A toothed rod along the common tangent."""
+    t = towards.across
+    top = [at.plus(t, -18 + 3.0 * k).plus(towards, 2.2 if k % 4 in (0, 3) else -1.6) for k in range(13)]
+    foot = [at.plus(t, s * 18.0).plus(towards, 10.0) for s in (1, -1)]
+    return at.plus(towards, 6.0), [Polylines(((*top, *foot),), style, closed=True)]
+
+
+def _cam(at: Point, towards: Point, style: str) -> _Part:
+    """A cam: an egg, its nose at the contact."""
+    middle = at.plus(towards, 1.35 * _WHEEL)
+    rim = []
+    for k in range(48):
+        turn = 2 * math.pi * k / 48
+        u = towards.unit
+        outward = Point(
+            -u.x * math.cos(turn) - u.across.x * math.sin(turn), -u.y * math.cos(turn) - u.across.y * math.sin(turn)
+        )
+        rim.append(middle.plus(outward, 0.85 * _WHEEL + 0.5 * _WHEEL * max(0.0, math.cos(turn)) ** 2))
+    return middle, [Polylines((tuple(rim),), style, closed=True)]
+
+
+def _roller(at: Point, towards: Point, _style: str) -> _Part:
+    """A roller with its pin."""
+    middle = at.plus(towards, 0.6 * _WHEEL)
+    return middle, [CircleShape(middle, 0.6 * _WHEEL - 0.7, "joint"), CircleShape(middle, 1.8, "dot")]
+
+
+def _flat(at: Point, towards: Point, style: str) -> _Part:
+    """A flat face along the common tangent."""
+    t = towards.across
+    plate = tuple(at.plus(t, a * 15.0).plus(towards, b) for a, b in ((-1, 0.5), (1, 0.5), (1, 7.0), (-1, 7.0)))
+    return at.plus(towards, 4.0), [Polylines((plate,), style, closed=True)]
+
+
+def _geneva_driver(at: Point, towards: Point, style: str) -> _Part:
+    """A disc with a pin."""
+    middle = at.plus(towards, _WHEEL + 3)
+    return middle, [CircleShape(middle, _WHEEL, style), CircleShape(at.plus(towards, 3.0), 3.0, "joint")]
+
+
+def _geneva_wheel(at: Point, towards: Point, style: str) -> _Part:
+    """A cross with four slots, one of them at the contact."""
+    middle = at.plus(towards, _WHEEL)
+    rim = []
+    for k in range(4):
+        u = towards.unit
+        for _ in range(k):
+            u = u.across
+        u = Point(-u.x, -u.y)
+        v = u.across
+        rim += [middle.plus(u, a * _WHEEL).plus(v, b * _WHEEL) for a, b in ((1, -0.62), (1, -0.2), (0.3, -0.2))]
+        rim += [middle.plus(u, a * _WHEEL).plus(v, b * _WHEEL) for a, b in ((0.3, 0.2), (1, 0.2), (1, 0.62))]
+        rim.append(middle.plus(u, 0.62 * _WHEEL).plus(v, 0.62 * _WHEEL))
+    return middle, [Polylines((tuple(rim),), style, closed=True)]
+
+
+def _oval(at: Point, towards: Point, style: str) -> _Part:
+    """A wheel that is not round: an ellipse about a focus."""
+    middle, u = at.plus(towards, 0.8 * _WHEEL), towards.unit
+    turns = [2 * math.pi * k / 36 for k in range(36)]
+    rim = [middle.plus(u, 0.8 * _WHEEL * math.cos(x)).plus(u.across, 1.25 * _WHEEL * math.sin(x)) for x in turns]
+    return middle, [Polylines((tuple(rim),), style, closed=True)]
+
+
+def _slot(at: Point, towards: Point, _style: str) -> _Part:
+    """A plate with a slot along the common tangent."""
+    t = towards.across
+    plate = tuple(at.plus(t, a * 19.0).plus(towards, b * 8.0) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    slot = tuple(at.plus(t, a * 15.0).plus(towards, b * 4.2) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    body = Polylines((plate,), "ring-body", closed=True)
+    return at.plus(towards, 6.0), [body, Polylines((slot,), "ring-hole", closed=True)]
+
+
+def _pin(at: Point, _towards: Point, _style: str) -> _Part:
+    """A pin at the contact."""
+    return at, [CircleShape(at, 4.0, "joint"), CircleShape(at, 1.6, "dot")]
+
+
+CONTACTS = {
+    "gear": _gear,
+    "ring": _ring_gear,
+    "rack": _rack,
+    "wheel": _wheel,
+    "belt": _wheel,
+    "crossed": _wheel,
+    "cam": _cam,
+    "roller": _roller,
+    "flat": _flat,
+    "geneva-driver": _geneva_driver,
+    "geneva-wheel": _geneva_wheel,
+    "oval": _oval,
+    "slot": _slot,
+    "pin": _pin,
+}
+"""What a body of a higher pair can be."""
+
+_SIGNS = {
+    "revolute": _turning,
+    "prismatic": _sliding,
+    "double_slide": _double_slide,
+    "rolling": _rolling,
+    "roll_slide": _roll_slide,
+}
+
+
+def bar(points: Sequence[Point], *, is_frame: bool = False, halo: bool = False) -> list[Shape]:
+    """A link of even width along points; a halo separates it from shapes that it crosses."""
+    line = (tuple(points),)
+    kind = "frame-bar" if is_frame else "body-bar"
+    shapes: list[Shape] = [Polylines((_shortened(points),), "halo-bar")] if halo else []
+    shapes += [Polylines(line, "outline-bar"), Polylines(line, kind)]
+    return [*shapes, _bar_hatching(points)] if is_frame else shapes
+
+
+def _shortened(points: Sequence[Point]) -> tuple[Point, ...]:
+    """A line shortened at both ends so that its halo does not cover the shapes that meet there."""
+    first, last = points[1].minus(points[0]), points[-2].minus(points[-1])
+    ends = [
+        points[0].plus(first.unit, min(16.0, first.length / 3)),
+        points[-1].plus(last.unit, min(16.0, last.length / 3)),
+    ]
+    return (ends[0], *points[1:-1], ends[1])
+
+
+def polygon(corners: Sequence[Point], *, is_frame: bool = False, halo: bool = False) -> list[Shape]:
+    """A link with three joints or more: a shaded polygon with rounded corners."""
+    line = (tuple(corners),)
+    shapes: list[Shape] = [Polylines(line, "halo", closed=True)] if halo else []
+    shapes += [Polylines(line, "outline", closed=True), Polylines(line, "frame" if is_frame else "body", closed=True)]
+    return [*shapes, hatching(corners)] if is_frame else shapes
+
+
+def _bar_hatching(points: Sequence[Point]) -> Polylines:
+    """Slanted strokes across a bar."""
+    strokes = []
+    half = BAR / 2
+    for a, b in pairwise(points):
+        along = b.minus(a)
+        u, v = along.unit, along.unit.across
+        number = max(1, int(along.length / _HATCH))
+        for k in range(number):
+            foot = a.plus(u, (k + 0.5) * along.length / number)
+            strokes.append((foot.plus(v, half).plus(u, -half / 2), foot.plus(v, -half).plus(u, half / 2)))
+    return Polylines(tuple(strokes), "hatch")
+
+
+def hatching(corners: Sequence[Point]) -> Polylines:
+    """Strokes at 45 degrees inside a polygon and its rim."""
+    spread = [p.x + p.y for p in corners]
+    first, last = math.ceil((min(spread) - BAR / 2) / 8.0), math.floor((max(spread) + BAR / 2) / 8.0)
+    strokes = []
+    for k in range(first, last + 1):
+        cuts = _cuts(corners, 8.0 * k)
+        strokes += [(_stretched(a, b), _stretched(b, a)) for a, b in zip(cuts[::2], cuts[1::2], strict=False)]
+    return Polylines(tuple(strokes), "hatch")
+
+
+def _cuts(corners: Sequence[Point], level: float) -> list[Point]:
+    """The intersections of the line x + y = level with the rim, from left to right."""
+    cuts = []
+    for a, b in zip(corners, [*corners[1:], corners[0]], strict=True):
+        da, db = a.x + a.y - level, b.x + b.y - level
+        if (da < 0) != (db < 0):
+            cuts.append(a.plus(b.minus(a), da / (da - db)))
+    return sorted(cuts)
+
+
+def _stretched(a: Point, b: Point) -> Point:
+    return a.plus(a.minus(b).unit, BAR / 2 - 1)
+
+
+def ticks(a: Point, b: Point, outward: Point) -> Polylines:
+    """The strokes on a line of the frame, on its outer side."""
+    along = b.minus(a)
+    number = max(2, round(along.length / _HATCH))
+    places = [a.plus(along, (k + 0.5) / number) for k in range(number)]
+    lean = outward.plus(along.unit, -0.7)
+    return Polylines(tuple((p.plus(outward, 1.3), p.plus(lean, 6.0)) for p in places), "hatch")
+
+
+def widest_gap(angles: Sequence[float]) -> float:
+    """The middle of the widest gap between directions, as an angle in radians.
+
+    >>> widest_gap([0.0, 1.0]) - 1.0 == (2 * math.pi - 1.0) / 2
+    True
+    """
+    around = sorted(angles)
+    gaps = [(b - a, a) for a, b in pairwise([*around, around[0] + 2 * math.pi])]
+    width, begin = max(gaps)
+    return begin + width / 2
+
+
+def turning_drive(at: Point, radius: float, away: float) -> list[Shape]:
+    """A curved arrow around a joint, its middle in the direction given by an angle."""
+    extent = math.radians(-230)
+    arc = ArcShape(at, radius, away - extent / 2, extent, "drive")
+    return [arc, arrow_head(arc)]
+
+
+def arrow_head(arc: ArcShape) -> Polylines:
+    """The head at the end of an arc."""
+    tip = arc.place(1.0)
+    forward = tip.minus(arc.at).unit.across
+    return _head(tip, forward if arc.extent > 0 else Point(-forward.x, -forward.y))
+
+
+def straight_drive(at: Point, axis: Point, side: Point) -> list[Shape]:
+    """A straight arrow along an axis, at one side of the joint."""
+    middle = at.plus(side.unit, 22.0)
+    return arrow(middle.plus(axis, -17.0), middle.plus(axis, 13.0))
+
+
+def arrow(tail: Point, tip: Point, line: str = "drive", head: str = "head") -> list[Shape]:
+    """A straight arrow; its head extends 7 pixels beyond the tip of the line."""
+    return [Polylines(((tail, tip),), line), _head(tip, tip.minus(tail).unit, head)]
+
+
+def _head(at: Point, forward: Point, style: str = "head") -> Polylines:
+    side = forward.across
+    back = at.plus(forward, -1.5)
+    return Polylines(((at.plus(forward, 7.0), back.plus(side, 4.6), back.plus(side, -4.6)),), style, closed=True)

@@ -1,0 +1,404 @@
+"""The bodies of the links of a linkage, each in its own coordinates: bars and polygons, blocks, guides, slots.
+
+A picture transforms them to the pose of the links; an animation moves them unchanged.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gruebler.base.convex_hull import convex_hull
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.linkages import Line, Linkage, LinkPoint, Pin
+from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.pictures.canvas.symbols import JointMember, joint_sign, ticks
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+from gruebler.pictures.linkage.wheels import round_parts
+
+__all__ = [
+    "BodyPart",
+    "Slide",
+    "barrel",
+    "body_parts",
+    "corners_of",
+    "in_link",
+    "layered",
+    "pins_of",
+    "shapes_at_pose",
+    "slides",
+]
+
+FRAME, BODIES, BLOCKS, PINS = range(4)
+"""Layers, from below."""
+
+_BLOCK = (14.0, 8.5)  # half sides of a block
+_BARREL = 9.0  # half the width of a cylinder
+_BEYOND = 5.0  # pixels by which a guide extends beyond the block
+_SLOT_END = 9.0  # pixels by which a slot extends beyond the pin
+_FOOT = Point(13.0, 21.0)  # of a pedestal
+_FLAT = 1e-6  # sizes: points nearer to a line lie on it
+_LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
+_CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
+_LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
+
+
+@dataclass(frozen=True, slots=True)
+class BodyPart:
+    """Shapes of a link, in pixels and coordinates of the link."""
+
+    layer: int
+    link: str
+    shapes: tuple[Shape, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """The sign of a sliding joint."""
+
+    joint: int
+    guide: str
+    block: str
+    sign: str
+    """``block``, ``slot`` (a pin in a slot) or ``cylinder``."""
+    middle: complex
+    """The middle of the block, in its own coordinates."""
+    along: complex
+    """The direction of the guide, in its coordinates."""
+    low: complex
+    """The ends of the path of the middle, in the guide's coordinates."""
+    high: complex
+
+
+# --- sliding joints ------------------------------------------------------------------------------
+
+
+def slides(posed: PosedLinkage) -> tuple[Slide, ...]:
+    """The sliding joints, with the travel of their blocks on the path of the linkage."""
+    chain = posed.lower.mechanism.chain
+    return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.is_prismatic)
+
+
+def _slide(posed: PosedLinkage, number: int) -> Slide:
+    lower = posed.lower
+    guide, block = _guide_and_block(posed, number)
+    line, block_line = lower.elements[number, guide], lower.elements[number, block]
+    assert isinstance(line, Line)
+    assert isinstance(block_line, Line)
+    middle = _foot(lower, block, block_line)
+    start, along = complex(line.x, line.y), cmath.rect(1, line.angle)
+    places = np.concatenate([_seen(motion, guide, block, middle) for motion in (posed.path, posed.pose)])
+    offsets = ((places - start) * along.conjugate()).real
+    low, high = float(offsets.min()), float(offsets.max())
+    sign = "block"
+    if block not in posed.linkage.mechanism.chain.links and pins_of(lower, block):
+        sign = "slot"
+    elif _is_cylinder(lower, number, guide, start, along, low, high):
+        sign = "cylinder"
+    return Slide(number, guide, block, sign, middle, along, start + low * along, start + high * along)
+
+
+def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
+    """The frame is the guide, a link that represents a pin in a slot is the block; else the one with fewer joints is.
+
+    Of two equal links the one with a name such as "block" is the block, else the second.
+    """
+    mechanism, links = posed.lower.mechanism, posed.linkage.mechanism.chain.links
+    chain = mechanism.chain
+
+    def rank(link: str) -> tuple[bool, bool, int, bool]:
+        joints = sum(link in joint.links for joint in chain.joints)
+        points = sum(point.link == link for point in posed.lower.points.values())
+        return (
+            link not in links,
+            link != mechanism.frame,
+            -joints - points,
+            any(name in link.lower() for name in _CALLED_BLOCKS),
+        )
+
+    first, second = sorted(chain.joints[number].links, key=rank)
+    return first, second
+
+
+def pins_of(lower: Linkage, link: str) -> list[complex]:
+    """The pins of a link, in its coordinates."""
+    elements = [e for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)]
+    return [complex(e.x, e.y) for e in elements]
+
+
+def _foot(lower: Linkage, link: str, line: Line) -> complex:
+    """The middle of a block: its single pin if that is on its line, else the origin of the displacement."""
+    start, pins = complex(line.x, line.y), pins_of(lower, link)
+    if len(pins) != 1:
+        return start
+    along = cmath.rect(1, line.angle)
+    return start + ((pins[0] - start) * along.conjugate()).real * along
+
+
+def _seen(path: Motion, link: str, other: str, point: complex) -> np.ndarray:
+    """A point of another link in coordinates of a link, along a path."""
+    k, m = (path.link_index(name) for name in (link, other))
+    place = path.places[0, :, m] + path.turns[:, m] * point
+    relative: np.ndarray = (place - path.places[0, :, k]) * path.turns[:, k].conj()
+    return relative
+
+
+def _is_cylinder(
+    lower: Linkage, number: int, guide: str, start: complex, along: complex, low: float, high: float
+) -> bool:
+    """Whether a driven slide between two moving links has the proportions of a cylinder with its rod."""
+    mechanism = lower.mechanism
+    if all(drive.joint != number for drive in mechanism.drives) or guide == mechanism.frame:
+        return False
+    pins = [(pin - start) * along.conjugate() for pin in pins_of(lower, guide)]
+    if len(pins) != 1 or abs(pins[0].imag) > _FLAT * lower.size:
+        return False
+    distances = sorted(abs(end - pins[0].real) for end in (low, high))
+    return (low - pins[0].real) * (high - pins[0].real) > 0 and distances[1] <= _LONGEST * distances[0]
+
+
+# --- bodies --------------------------------------------------------------------------------------
+
+
+def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
+    """All parts of the linkage, from the lowest layer up."""
+    joint_slides = slides(posed)
+    frame = posed.lower.mechanism.frame
+    links = [link for link in posed.lower.mechanism.chain.links if link != frame]
+    bodies = {link: _body(posed, link, joint_slides) for link in links}
+    parts = [BodyPart(FRAME, part.link, part.shapes) for part in round_parts(posed)]
+    parts += [BodyPart(FRAME, frame, tuple(_ground(posed, joint_slides)))]
+    parts += [
+        BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
+    ]
+    parts += [BodyPart(BODIES, frame, tuple(_pedestal(posed, pin))) for pin in _covered(posed, joint_slides)]
+    parts += [_block(posed, slide) for slide in joint_slides if slide.sign != "slot"]
+    parts += _pin_parts(posed)
+    return tuple(part for part in parts if part.shapes)
+
+
+def corners_of(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> tuple[Point, ...]:
+    """The corners of a link's body: one, two for a bar, or those of a polygon; in its coordinates, in pixels."""
+    lower = posed.lower
+    nodes = pins_of(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
+    nodes += [slide.middle for slide in joint_slides if slide.block == link and slide.sign != "cylinder"]
+    for slide in joint_slides:
+        if slide.guide == link and slide.sign != "cylinder":
+            middle = sum(nodes) / len(nodes) if nodes else slide.low
+            offset = ((middle - slide.low) * slide.along.conjugate()).real
+            more = _reach(slide) / posed.scale
+            nodes.append(slide.low + slide.along * min(max(offset, -more), abs(slide.high - slide.low) + more))
+    flat = max(_FLAT * lower.size * posed.scale, _LEAST_HEIGHT)
+    places = [posed.local(z) for z in nodes]
+    hull = convex_hull([complex(round(p.x, 6), round(p.y, 6)) for p in places], flat)
+    return tuple(Point(z.real, z.imag) for z in hull)
+
+
+def _height(a: Point, b: Point, c: Point) -> float:
+    """The distance of c from the line from a to b, positive on the side of x turned to y."""
+    return b.minus(a).unit.across.dot(c.minus(a))
+
+
+def _body(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> list[Shape]:
+    """A bar or polygon through the joints, and bars for its guides; outlines first, so that they merge."""
+    corners = corners_of(posed, link, joint_slides)
+    outlines: list[Shape] = []
+    fills: list[Shape] = []
+    slots: list[Shape] = []
+    if len(corners) > 1:
+        suffix = "-bar" if len(corners) == 2 else ""
+        outlines.append(Polylines((corners,), "outline" + suffix, closed=len(corners) > 2))
+        fills.append(Polylines((corners,), "body" + suffix, closed=len(corners) > 2))
+    for slide in joint_slides:
+        if slide.sign == "cylinder":
+            if link in (slide.guide, slide.block):
+                line, wide = _cylinder(posed, slide, link)
+                outlines.append(Polylines(line, f"outline-{wide}"))
+                fills.append(Polylines(line, f"body-{wide}"))
+        elif slide.guide == link:
+            line = (_guide_line(posed, slide, _reach(slide)),)
+            wide = "wide" if slide.sign == "slot" else "bar"
+            outlines.append(Polylines(line, f"outline-{wide}"))
+            fills.append(Polylines(line, f"body-{wide}"))
+            if slide.sign == "slot":
+                slots += [Polylines(line, "slot-rim"), Polylines(line, "slot")]
+    return [*outlines, *fills, *slots]
+
+
+def _reach(slide: Slide) -> float:
+    """Pixels by which the bar of a guide extends beyond the path of the block's middle."""
+    return 0.0 if slide.sign == "slot" else _BLOCK[0] + _BEYOND
+
+
+def _guide_line(posed: PosedLinkage, slide: Slide, beyond: float) -> tuple[Point, Point]:
+    more = max(beyond, 1.0) / posed.scale * slide.along
+    return posed.local(slide.low - more), posed.local(slide.high + more)
+
+
+def barrel(posed: PosedLinkage, slide: Slide) -> tuple[Point, Point]:
+    """The middle line of a barrel: from near its pin to the end at the shortest length."""
+    pin = posed.local(pins_of(posed.lower, slide.guide)[0])
+    ends = sorted((posed.local(slide.low), posed.local(slide.high)), key=lambda end: end.minus(pin).length)
+    along = ends[0].minus(pin)
+    return pin.plus(along.unit, 11.0), pin.plus(along, 0.93)
+
+
+def _cylinder(posed: PosedLinkage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
+    """The support of the barrel, or the rod from its pin into the barrel, long enough for the longest cylinder."""
+    lower = posed.lower
+    pin = pins_of(lower, slide.guide)[0]
+    if link == slide.guide:
+        return ((posed.local(pin), barrel(posed, slide)[0]),), "bar"
+    line = lower.elements[slide.joint, link]
+    assert isinstance(line, Line)
+    forward = ((slide.low - pin) * slide.along.conjugate()).real > 0
+    length = 0.9 * min(abs(slide.low - pin), abs(slide.high - pin)) * (-1 if forward else 1)
+    return ((posed.local(slide.middle), posed.local(slide.middle + cmath.rect(length, line.angle))),), "rod"
+
+
+def _extent(shapes: list[Shape]) -> float:
+    points = [p for shape in shapes if isinstance(shape, Polylines) for part in shape.parts for p in part]
+    return max((math.dist(a, b) for a in points for b in points), default=0.0)
+
+
+def _block(posed: PosedLinkage, slide: Slide) -> BodyPart:
+    """A rectangle: a block along its guide, or the barrel of a cylinder."""
+    if slide.sign == "cylinder":
+        a, b = barrel(posed, slide)
+        return BodyPart(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
+    line = posed.lower.elements[slide.joint, slide.block]
+    assert isinstance(line, Line)
+    u = Point(math.cos(line.angle), -math.sin(line.angle))
+    at = posed.local(slide.middle)
+    return BodyPart(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
+
+
+def _box(a: Point, b: Point, half: float) -> Polylines:
+    side = b.minus(a).unit.across
+    corners = a.plus(side, -half), b.plus(side, -half), b.plus(side, half), a.plus(side, half)
+    return Polylines((corners,), "block", closed=True)
+
+
+# --- the frame and the pins ----------------------------------------------------------------------
+
+
+def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]:
+    """Rails with hatching along the guides of the frame, a pedestal below each of its pins."""
+    lower, frame = posed.lower, posed.lower.mechanism.frame
+    shapes: list[Shape] = []
+    for slide in joint_slides:
+        if slide.guide == frame:
+            a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else _BLOCK[0] + _BEYOND)
+            half = 8.5 if slide.sign == "slot" else _BLOCK[1] + 2.5
+            for side in (b.minus(a).unit.across, a.minus(b).unit.across):
+                rail = a.plus(side, half), b.plus(side, half)
+                shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
+    covered = set(_covered(posed, joint_slides))
+    for pin in dict.fromkeys(pins_of(lower, frame)):
+        if pin not in covered:
+            shapes += _pedestal(posed, pin)
+    return shapes
+
+
+def _pedestal(posed: PosedLinkage, pin: complex) -> list[Shape]:
+    at = posed.local(pin)
+    left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
+    base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
+    return [
+        Polylines(((at, right, left),), "block-frame", closed=True),
+        Polylines((base,), "rail"),
+        ticks(*base, Point(0.0, 1.0)),
+    ]
+
+
+def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[complex]:
+    """The pins of the frame whose pedestals the body of another link would cover: they are drawn above it."""
+    lower, frame = posed.lower, posed.lower.mechanism.frame
+    joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
+    covered = []
+    for number, joint in enumerate(lower.mechanism.chain.joints):
+        element = lower.elements.get((number, frame))
+        if not isinstance(element, Pin):
+            continue
+        foot = Point(*posed.place(LinkPoint(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
+        for link in lower.mechanism.chain.links:
+            if link == frame or joint in joints[link]:
+                continue
+            corners = [
+                posed.place(LinkPoint(link, p.x / posed.scale, -p.y / posed.scale))
+                for p in corners_of(posed, link, joint_slides)
+            ]
+            if len(corners) > 2 and _inside(foot, corners):
+                covered.append(complex(element.x, element.y))
+                break
+    return covered
+
+
+def _inside(point: Point, corners: Sequence[Point]) -> bool:
+    """Whether a point lies in a convex polygon."""
+    sides = [_height(a, b, point) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    return min(sides) > 0 or max(sides) < 0
+
+
+def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
+    """Turning joints, and dots for named points elsewhere."""
+    lower = posed.lower
+    parts, marked = [], set()
+    for number, joint in enumerate(lower.mechanism.chain.joints):
+        if not joint.pair.is_revolute:
+            continue
+        link = min(joint.links, key=lambda member: member != lower.mechanism.frame)
+        seen = ((member, lower.elements[number, member]) for member in joint.links)
+        marked |= {(member, e.x, e.y) for member, e in seen}
+        e = lower.elements[number, link]
+        members = [JointMember(Point(1.0, 0.0))] * len(joint.links)
+        parts.append(BodyPart(PINS, link, joint_sign("revolute", posed.local(complex(e.x, e.y)), members).above))
+    for point in dict.fromkeys(lower.points.values()):
+        if (point.link, point.x, point.y) not in marked:
+            parts.append(BodyPart(PINS, point.link, (CircleShape(posed.local(complex(point.x, point.y)), 3.2, "dot"),)))
+    return parts
+
+
+# --- transformation to a pose ----------------------------------------------------------------------
+
+
+def shapes_at_pose(posed: PosedLinkage, part: BodyPart, motion: Motion | None = None, row: int = 0) -> list[Shape]:
+    """The shapes of a part in the pose of the linkage, or in a row of another motion."""
+    poses = posed.pose if motion is None else motion
+    k = posed.lower.mechanism.chain.index(part.link)
+    turn, place = complex(poses.turns[row, k]), posed.local(complex(poses.places[0, row, k]))
+    return [_put(shape, turn, place) for shape in part.shapes]
+
+
+def layered(posed: PosedLinkage, pieces: Sequence[BodyPart], lowest: int, highest: int) -> list[Shape]:
+    """The shapes of some layers in the pose of the linkage."""
+    return [shape for part in pieces if lowest <= part.layer <= highest for shape in shapes_at_pose(posed, part)]
+
+
+def in_link(posed: PosedLinkage, link: str, shapes: Sequence[Shape]) -> BodyPart:
+    """Shapes given in the pose of the linkage, as a part that moves with a link above all others."""
+    k = posed.lower.mechanism.chain.index(link)
+    back = complex(posed.pose.turns[0, k]).conjugate()
+    origin = _put(CircleShape(posed.local(complex(posed.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
+    assert isinstance(origin, CircleShape)
+    place = Point(-origin.at.x, -origin.at.y)
+    return BodyPart(PINS + 1, link, tuple(_put(shape, back, place) for shape in shapes))
+
+
+def _put(shape: Shape, turn: complex, place: Point) -> Shape:
+    def put(p: Point) -> Point:
+        return Point(place.x + turn.real * p.x + turn.imag * p.y, place.y - turn.imag * p.x + turn.real * p.y)
+
+    match shape:
+        case Polylines(lines, style, closed):
+            return Polylines(tuple(tuple(map(put, line)) for line in lines), style, closed)
+        case CircleShape(at, radius, style):
+            return CircleShape(put(at), radius, style)
+        case ArcShape(at, radius, begin, extent, style):
+            return ArcShape(put(at), radius, begin - cmath.phase(turn), extent, style)
+        case TextShape(at, text, style, anchor):
+            return TextShape(put(at), text, style, anchor)

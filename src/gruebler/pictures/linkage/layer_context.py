@@ -1,0 +1,25 @@
+"""The input of the layers of a linkage picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from gruebler.pictures.canvas.shapes import Shape
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+
+__all__ = ["Layer", "LayerContext"]
+
+
+class LayerContext(NamedTuple):
+    """The input of a layer."""
+
+    posed: PosedLinkage
+    output: str | None
+    """The output link or joint; None for the linkage's own."""
+    drawn: Sequence[Shape]
+    """The shapes drawn before, which texts avoid."""
+    lang: str = "en"
+
+
+Layer = Callable[[LayerContext], list[Shape]]

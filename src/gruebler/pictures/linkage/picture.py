@@ -1,0 +1,263 @@
+"""Pictures of linkages to scale, in any pose that their drives can reach: docs/theory/drawing.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from math import cos, degrees, pi, sin
+
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.text import message, number, number_separator, plural, translate
+from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
+from gruebler.mechanics.linkages.points import PointLike, each_point
+from gruebler.pictures.canvas.axes import as_text
+from gruebler.pictures.canvas.figure import MARGIN, Figure, figure_of
+from gruebler.pictures.canvas.labels import labels_with_names, legend
+from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.pictures.linkage.arrows import scale_bars
+from gruebler.pictures.linkage.bodies import (
+    BLOCKS,
+    BODIES,
+    FRAME,
+    PINS,
+    BodyPart,
+    Slide,
+    barrel,
+    body_parts,
+    corners_of,
+    layered,
+    shapes_at_pose,
+    slides,
+)
+from gruebler.pictures.linkage.dimensions import dimension_lines
+from gruebler.pictures.linkage.instant_centres import pole_numbers
+from gruebler.pictures.linkage.layer_context import LayerContext
+from gruebler.pictures.linkage.layers import BELOW, coupler_curve_lines, drive_arrows, ghosts, layer, point_names
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
+from gruebler.pictures.structure.messages import describe, title
+from gruebler.pictures.structure.picture import draw_structure
+
+__all__ = ["draw_linkage", "shown_linkage"]
+
+_MOST_GHOSTS = 60
+_AROUND = 17.0  # pixels from the middle of a block to its name
+_SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+_WHEEL, _ROUND = 12.0, 24  # pixels of the radius of a wheel, at least; points around it
+_PLAIN = 95.0  # pixels: a smaller perimeter is that of a block between rails, with its name outside of these
+_LAYER_NAMES = {
+    "dead-centres": message("dead centres"),
+    "centrodes": message("fixed centrode p, moving centrode q"),
+    "inflection": message("inflection circle"),
+    "transmission": message("transmission angle"),
+    "velocities": message("velocities"),
+    "accelerations": message("accelerations"),
+    "poles": message("instant centres"),
+    "planes": message("planes of the links"),
+    "dimensions": message("dimensions"),
+    "scale": message("scale"),
+}
+_MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
+_POLES = {"P": message("pole P"), "W": message("inflection pole W")}
+
+
+@door_that_raises(LinkageError)
+def draw_linkage(
+    linkage: LinkageLike,
+    drive: float | Sequence[float] | None = None,
+    *,
+    branch: str | Iterable[str] | None = None,
+    between: tuple[float, float] | None = None,
+    curves: Sequence[PointLike] = (),
+    show: Sequence[str] = (),
+    output: str | None = None,
+    ghost: int | None = None,
+    labels: bool = False,
+    lang: str = "en",
+    name: str = "",
+    names: Mapping[str, str] | None = None,
+) -> Figure:
+    """The picture of a linkage in one pose.
+
+    Args:
+        linkage: the linkage.
+        drive: the drive's value (radians, or a length), one for each drive; by default a suitable one.
+        branch: the assembly mode, as for `gruebler.mechanics.kinematics.move`.
+        between: drive values of its range, for curves and the size of the picture; by default the full range.
+        curves: points or joints whose paths are drawn.
+        show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
+            ``inflection``, ``planes``, ``dimensions``, ``scale``.
+        output: the link of dead centres and transmission angle, by default the linkage's own output; also
+            that of centrodes and inflection circle, by default a link that is no neighbour of the frame.
+        ghost: the number of thinly drawn positions, evenly through the range of the drive; at most 60.
+        labels: whether to name the links.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title; by default the kind of mechanism.
+        names: other names for links in the picture.
+
+    Raises `gruebler.LinkageError` for unreachable poses, unknown names, and layers that need a single drive.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> figure = draw_linkage(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), 1.0, curves=["K"])
+    >>> len(figure.svg()) < 8000
+    True
+    """
+    linkage = as_linkage(linkage)
+    posed = posed_linkage(linkage, drive, branch=branch, between=between)
+    layers = {key: layer(key) for key in dict.fromkeys(show)}
+    curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
+    pieces = body_parts(posed)
+    frame = layered(posed, pieces, FRAME, FRAME)
+    pins = layered(posed, pieces, PINS, PINS)
+    bodies = layered(posed, pieces, BODIES, PINS - 1)
+    context = LayerContext(posed, output, [*frame, *bodies, *pins], lang)
+    layer_shapes = {key: layers[key](context) for key in layers if key in BELOW}
+    below = [shape for shapes in layer_shapes.values() for shape in shapes]
+    shapes = [
+        *frame,
+        *(ghosts(posed, _count(ghost)) if ghost is not None else []),
+        *(shape for shape in below if shape.style not in _MARKS),
+        *bodies,
+        *curve,
+        *pins,
+        *drive_arrows(posed),
+        *(shape for shape in below if shape.style in _MARKS),
+    ]
+    for key in (key for key in layers if key not in BELOW and key != "dimensions"):
+        layer_shapes[key] = layers[key](context._replace(drawn=shapes))
+        shapes += layer_shapes[key]
+    shapes += point_names(posed, shapes)
+    texts, rows = _named(posed, pieces, shapes, names) if labels else ([], {})
+    shapes += texts
+    if "dimensions" in layers:
+        layer_shapes["dimensions"] = dimension_lines(context._replace(drawn=shapes))
+        shapes += layer_shapes["dimensions"]
+    shapes += scale_bars(context._replace(drawn=shapes), tuple(layers))
+    if "poles" in layers:
+        numbers = pole_numbers(linkage.mechanism.chain.links)
+        rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
+    if rows:
+        shapes += legend(rows, [Point(0.0, 0.0)], shapes)
+    sentences, missing = picture_notes(posed, curves, {key: layer_shapes[key] for key in layers}, lang, ghost or 0)
+    described = f"{describe(linkage.mechanism, lang)} {' '.join([*sentences, *missing])}"
+    return figure_of(shapes, title(linkage.mechanism, lang, name), described, MARGIN, missing)
+
+
+def shown_linkage(linkage: Linkage) -> Figure:
+    """A linkage for notebooks: in a pose; without one the structure of its mechanism, with the reason."""
+    try:
+        return draw_linkage(linkage, labels=True)
+    except GrueblerError as reason:
+        figure = draw_structure(linkage.mechanism, labels=True)
+        return replace(figure, description=f"{figure.description} {reason}", notes=(str(reason),))
+
+
+def _named(
+    posed: PosedLinkage, pieces: Sequence[BodyPart], shapes: Sequence[Shape], names: Mapping[str, str] | None
+) -> tuple[list[Shape], dict[str, str]]:
+    """Names beside the bodies, and the entries of the list."""
+    joint_slides = slides(posed)
+    outlines = {link: _outline(posed, link, pieces, joint_slides) for link in posed.linkage.mechanism.chain.links}
+    return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
+
+
+def _outline(
+    posed: PosedLinkage, link: str, pieces: Sequence[BodyPart], joint_slides: tuple[Slide, ...]
+) -> tuple[Point, ...]:
+    """Corners for placing the name of a link: those of its body, barrel, rod or block; for the frame of a base."""
+    parts = [part for part in pieces if part.link == link]
+    lines = [(part.layer, shape) for part in parts for shape in part.shapes if isinstance(shape, Polylines)]
+    corners = corners_of(posed, link, joint_slides)
+    rod = next((slide for slide in joint_slides if slide.block == link and slide.sign == "cylinder"), None)
+    rims = [rim for part in parts for shape in part.shapes if (rim := _rim(shape))]
+    if link == posed.lower.mechanism.frame:
+        corners = next((shape for _, shape in lines if shape.style == "block-frame"), lines[0][1]).parts[0][-2:]
+    elif rims and (len(corners) < 2 or max(map(_perimeter, rims)) > _perimeter(corners)):
+        corners = max(rims, key=_perimeter)
+    elif len(corners) < 2 and rod is not None:
+        return _seen_of_rod(posed, rod)
+    elif len(corners) < 2:
+        long = [shape.parts[0] for layer, shape in lines if layer == BLOCKS]
+        middle = corners[0] if corners else Point(0.0, 0.0)
+        corners = max(long, key=_perimeter, default=(middle,))
+        if _perimeter(corners) < _PLAIN:
+            corners = tuple(middle.plus(Point(a * _AROUND, b * _AROUND)) for a, b in _SQUARE)
+    return _placed(posed, link, corners)
+
+
+def _rim(shape: Shape) -> tuple[Point, ...]:
+    """Some points around a wheel, a cam or another contour; empty for other shapes."""
+    if isinstance(shape, CircleShape) and shape.radius > _WHEEL and shape.style != "dead":
+        turns = [2 * pi * k / _ROUND for k in range(_ROUND)]
+        return tuple(shape.at.plus(Point(cos(turn), sin(turn)), shape.radius) for turn in turns)
+    if isinstance(shape, Polylines) and shape.style == "area" and shape.closed:
+        contour = shape.parts[0]
+        return contour[:: -(-len(contour) // _ROUND)]
+    return ()
+
+
+def _seen_of_rod(posed: PosedLinkage, rod: Slide) -> tuple[Point, ...]:
+    """The part of a rod outside of its barrel: from there to its pin."""
+    return *_placed(posed, rod.guide, barrel(posed, rod)[1:]), *_placed(posed, rod.block, [posed.local(rod.middle)])
+
+
+def _placed(posed: PosedLinkage, link: str, corners: Sequence[Point]) -> tuple[Point, ...]:
+    """Points of a link transformed to the pose."""
+    (line,) = shapes_at_pose(posed, BodyPart(BODIES, link, (Polylines((tuple(corners),), "edge"),)))
+    assert isinstance(line, Polylines)
+    return line.parts[0]
+
+
+def _perimeter(corners: Sequence[Point]) -> float:
+    return sum(b.minus(a).length for a, b in pairwise([*corners, corners[0]]))
+
+
+def _count(number: int) -> int:
+    if not 0 < number <= _MOST_GHOSTS:
+        raise LinkageError(
+            "expected 1 to {most} thin positions, but found {number!r}", most=_MOST_GHOSTS, number=number
+        )
+    return number
+
+
+def picture_notes(
+    posed: PosedLinkage,
+    curves: Sequence[PointLike],
+    layer_shapes: Mapping[str, Sequence[Shape]],
+    lang: str,
+    count: int = 0,
+) -> tuple[list[str], list[str]]:
+    """The pose and the content of the picture, in sentences; and the requested layers that are missing."""
+    drives = posed.linkage.mechanism.drives
+    values = [
+        number(round(degrees(value), 2) + 0.0, lang, "g") + "°"
+        if drive.turning
+        else as_text(float(value), posed.linkage.unit, lang)
+        for value, drive in zip(posed.pose.drives[0], drives, strict=bool(drives))
+    ]
+    sentences = [
+        translate(
+            "To scale. Drive at {values}." if drives else "To scale, in the reference pose; nothing is driven.",
+            lang,
+            values=number_separator(lang).join(values),
+        )
+    ]
+    if len(curves):
+        sentences.append(translate("Curve of {points}.", lang, points=", ".join(each_point(curves))))
+    if count:
+        sentences.append(plural("{count} position thinly.", "{count} positions thinly.", count, lang))
+    shown = [_layer_name(key, shapes, lang) for key, shapes in layer_shapes.items() if shapes or key == "scale"]
+    empty = [_layer_name(key, (), lang) for key, shapes in layer_shapes.items() if not shapes and key != "scale"]
+    missing = [translate("Missing, or outside the picture: {layers}.", lang, layers=", ".join(empty))] if empty else []
+    sentences += [translate("Shown: {layers}.", lang, layers=", ".join(shown))] if shown else []
+    return sentences, missing
+
+
+def _layer_name(key: str, shapes: Sequence[Shape], lang: str) -> str:
+    """The name of a layer; for an inflection circle with its poles that lie in the picture."""
+    name = _LAYER_NAMES[key].in_language(lang)
+    text = {shape.text for shape in shapes if isinstance(shape, TextShape)}
+    poles = [pole.in_language(lang) for letter, pole in _POLES.items() if key == "inflection" and letter in text]
+    return f"{name} ({', '.join(poles)})" if poles else name

@@ -1,0 +1,257 @@
+"""Structure pictures of chains and mechanisms in textbook style: links as bodies, joints as signs.
+
+The places depend on the structure alone: isomorphic chains have the same picture, and the inversions of a chain the
+same layout, turned so that the frame is low.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from gruebler.pictures.canvas.figure import Figure, figure_of
+from gruebler.pictures.canvas.shapes import Point, Shape, TextShape
+from gruebler.pictures.canvas.symbols import (
+    JointMember,
+    JointSign,
+    arrow,
+    bar,
+    joint_sign,
+    polygon,
+    straight_drive,
+    turning_drive,
+    widest_gap,
+)
+from gruebler.pictures.structure.bodies import LayoutBodies
+from gruebler.pictures.structure.layout import Layout, lay_out
+from gruebler.pictures.structure.messages import describe, title
+from gruebler.pictures.structure.orientation import upright
+from gruebler.structure.chain import Chain
+from gruebler.structure.chain.pairs import Alphabet, Pair, Space
+from gruebler.structure.isomorphism import canonical_order
+from gruebler.structure.mechanism import Mechanism
+
+__all__ = ["PlacedChain", "chain_of", "draw_structure", "letters", "mean_scale", "paint", "place_joints"]
+
+_LENGTH = 78.0  # pixels from joint to joint, on average
+_ASIDE = 17.0  # pixels between the middle of a link and its output arrow
+_NARROW = 30.0  # pixels between a joint and another link, at least, unless the picture becomes too large
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedChain:
+    """A chain with places for its joints, in pixels: the input for drawing links, joints and drives."""
+
+    chain: Chain
+    joints: tuple[Point, ...]
+    outlines: dict[str, tuple[Point, ...]]
+    """For each link its corners in drawing order, free ends and elbows included."""
+    frame: str | None = None
+    drives: tuple[tuple[int, str], ...] = ()
+    """Driven joints with the direction of the freedom."""
+    crossing: frozenset[str] = frozenset()
+    """Links drawn with a halo above others."""
+    faces: tuple[tuple[int, ...], ...] = ()
+    contacts: Mapping[tuple[int, str], str] = field(default_factory=dict)
+    """What the bodies of higher pairs are, by joint and link."""
+
+
+def draw_structure(
+    structure: Chain | Mechanism,
+    *,
+    labels: bool = False,
+    symbols: bool = False,
+    contacts: Mapping[tuple[int, str], str] | None = None,
+    outputs: Collection[str] = (),
+    lang: str = "en",
+    name: str = "",
+    names: Mapping[str, str] | None = None,
+) -> Figure:
+    """The structure picture of a chain or a mechanism.
+
+    Args:
+        structure: the chain or mechanism.
+        labels: whether to name the links.
+        symbols: whether to write the symbol of its pair beside every joint whose sign is none, in the alphabet of the
+            language.
+        contacts: what the bodies of higher pairs are, by joint number and link, in the words of
+            `gruebler.pictures.canvas.symbols.CONTACTS`: ``gear``, ``cam``, ``roller``, ...
+        outputs: links that get a double arrow.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title; by default a name derived from the structure.
+        names: other names for links in the picture.
+
+    Raises `gruebler.base.errors.ChainError` for an output that is no link.
+
+    >>> picture = draw_structure(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"))
+    >>> len(picture.svg()) < 5000
+    True
+    """
+    from gruebler.pictures.canvas.labels import labels_or_numbers, note_near
+
+    placed = place_joints(structure, contacts)
+    shapes = paint(placed, lang)
+    for link in outputs:
+        shapes += _output(placed, link, shapes)
+    if symbols:
+        signed = {shape.at for shape in shapes if isinstance(shape, TextShape)}
+        for joint, at in zip(placed.chain.joints, placed.joints, strict=True):
+            if at not in signed:
+                symbol = joint.pair.symbol(Alphabet.of_language(lang))
+                shapes.append(note_near(at, symbol, "letter", shapes))
+    if labels:
+        degrees = chain_of(structure).degrees
+        outlines = {link: placed.outlines[link] for link in degrees}
+        shapes = labels_or_numbers(outlines, {link: degrees[link] > 2 for link in degrees}, shapes, names)
+    return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
+
+
+def chain_of(structure: Chain | Mechanism) -> Chain:
+    """The chain itself, or that of the mechanism."""
+    return structure if isinstance(structure, Chain) else structure.chain
+
+
+def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str], str] | None = None) -> PlacedChain:
+    """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure.
+
+    ``contacts`` are those of `draw`.
+    """
+    frame, drives = (None, ()) if isinstance(structure, Chain) else (structure.frame, structure.drives)
+    chain, number = _ordered(chain_of(structure), frame, {drive.joint for drive in drives})
+    plain, places = _ordered(chain)
+    layout = _layout_of(
+        tuple((joint.pair.name, tuple(sorted(map(plain.index, joint.links)))) for joint in plain.joints), chain.n
+    )
+    scale = mean_scale(layout)
+    low = None if frame is None else plain.index(frame)
+    points = [Point(scale * x, -scale * y) for x, y in upright(layout, low).tolist()]
+    back = {p: k for k, p in places.items()}
+    return PlacedChain(
+        chain,
+        tuple(points[places[k]] for k in range(len(chain.joints))),
+        {link: tuple(points[p] for p in layout.outlines[plain.index(link)]) for link in chain.links},
+        frame,
+        tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
+        frozenset(plain.links[max(pair)] for pair in layout.crossings),
+        tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
+        _renumbered(chain_of(structure), chain, contacts or {}),
+    )
+
+
+def _renumbered(chain: Chain, placed: Chain, contacts: Mapping[tuple[int, str], str]) -> dict[tuple[int, str], str]:
+    """The same with the joint numbers of the placed chain, whose joints stand in another order."""
+    where = {(joint.pair.name, frozenset(joint.links)): number for number, joint in enumerate(placed.joints)}
+    return {
+        (where[chain.joints[number].pair.name, frozenset(chain.joints[number].links)], link): shape
+        for (number, link), shape in contacts.items()
+    }
+
+
+def _ordered(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> tuple[Chain, dict[int, int]]:
+    """The chain with links and joints in canonical order, and the new number of each joint."""
+    order = canonical_order(chain, frame, drives)
+    moved = Chain(
+        [chain.joints[k] for k in order.joints], links=[chain.links[i] for i in order.links], space=chain.space
+    )
+    return moved, {k: place for place, k in enumerate(order.joints)}
+
+
+@lru_cache(maxsize=4096)
+def _layout_of(rows: tuple[tuple[str, tuple[int, ...]], ...], links: int) -> Layout:
+    kinds = list(dict.fromkeys(kind for kind, _ in rows))
+    colours = [kinds.index(kind) for kind, _ in rows]
+    bodies = [[p for p, (_, members) in enumerate(rows) if link in members] for link in range(links)]
+    return lay_out(LayoutBodies.of(colours, bodies))
+
+
+def mean_scale(layout: Layout) -> float:
+    """Pixels for the longer side: for bars of usual length, more where points would be too near to others."""
+    sides = [math.dist(layout.points[a], layout.points[b]) for outline in layout.outlines for a, b in pairwise(outline)]
+    usual = _LENGTH / max(float(np.mean(sides)), 1e-9)
+    return min(max(usual, _NARROW / max(layout.clearance, 1e-9)), 1.8 * usual)
+
+
+def paint(placed: PlacedChain, lang: str = "en") -> list[Shape]:
+    """Links, joints and drives, in the order of painting; letters of joints in the alphabet of the language."""
+    signs = [_sign(placed, number, lang) for number in range(len(placed.chain.joints))]
+    shapes = [shape for sign, _ in signs for shape in sign.below]
+    holds = {
+        (link, number): hold
+        for number, (sign, members) in enumerate(signs)
+        for link, hold in zip(members, sign.holds, strict=True)
+    }
+    for link in sorted(placed.chain.links, key=lambda link: (link in placed.crossing, -placed.chain.degrees[link])):
+        shapes += _link(placed, link, holds)
+    shapes += [shape for sign, _ in signs for shape in sign.above]
+    for number, direction in placed.drives:
+        shapes += _drive(placed, number, direction, signs[number][0])
+    return shapes
+
+
+def _link(placed: PlacedChain, link: str, holds: dict[tuple[str, int], Point]) -> list[Shape]:
+    """The body of a link, its corners moved to its points of attachment at the joints."""
+    moved = {placed.joints[n]: holds[link, n] for n, j in enumerate(placed.chain.joints) if link in j.links}
+    corners = [moved.get(corner, corner) for corner in placed.outlines[link]]
+    shape = polygon if placed.chain.degrees[link] > 2 else bar
+    return shape(corners, is_frame=link == placed.frame, halo=link in placed.crossing)
+
+
+def towards(placed: PlacedChain, link: str, number: int) -> Point:
+    """The direction from a joint to the link."""
+    at = placed.joints[number]
+    corners = placed.outlines[link]
+    if placed.chain.degrees[link] < 3:
+        k = corners.index(at)
+        return corners[k + 1 if k == 0 else k - 1].minus(at)
+    middle = Point(sum(p.x for p in corners) / len(corners), sum(p.y for p in corners) / len(corners))
+    return middle.minus(at)
+
+
+def _sign(placed: PlacedChain, number: int, lang: str) -> tuple[JointSign, list[str]]:
+    """The sign of a joint and its links in the order of the sign: the frame first, then the larger ones."""
+    joint = placed.chain.joints[number]
+    links = sorted(joint.links, key=lambda link: _precedence(placed, link))
+    members = [JointMember(towards(placed, link, number), link == placed.frame) for link in links]
+    flat = placed.chain.space is Space.PLANAR
+    letter = "" if flat else letters(joint.pair, lang)
+    known = [placed.contacts[number, link] for link in links if (number, link) in placed.contacts]
+    return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter, shapes=known), links
+
+
+def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
+    return link != placed.frame, -placed.chain.degrees[link], placed.chain.index(link)
+
+
+def letters(pair: Pair, lang: str) -> str:
+    """The symbol of a pair that a reader of the language expects, or the German one where there is no other."""
+    return pair.symbols.get(Alphabet.of_language(lang)) or pair.symbols[Alphabet.GERMAN]
+
+
+def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
+    """A double arrow along the longest side of a link, on the side where there is more space."""
+    from gruebler.pictures.canvas.free_space import Obstacles, complexes
+
+    placed.chain.index(link)  # raises ChainError for an unknown link
+    corners = placed.outlines[link]
+    first, last = max(pairwise([*corners, corners[0]]), key=lambda side: side[1].minus(side[0]).length)
+    along = last.minus(first).unit
+    middle = first.plus(last.minus(first), 0.5)
+    sides = [middle.plus(along.across, side) for side in (_ASIDE, -_ASIDE)]
+    free = Obstacles(shapes).free(complexes(sides), 2 * _ASIDE)
+    at = sides[0] if free[0] >= free[1] else sides[1]
+    return [shape for sign in (1, -1) for shape in arrow(at, at.plus(along, sign * 11.0), "velocity", "velocity-head")]
+
+
+def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:
+    at = placed.joints[number]
+    directions = [towards(placed, link, number) for link in placed.chain.joints[number].links]
+    if direction.startswith("T"):
+        side = sign.axis.across
+        lean = sum(side.dot(d.unit) for d in directions)
+        return straight_drive(at, sign.axis, Point(-side.x, -side.y) if lean > 0 else side)
+    return turning_drive(at, sign.reach + 9.0, widest_gap([math.atan2(d.y, d.x) for d in directions]))

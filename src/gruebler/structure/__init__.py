@@ -1,0 +1,5 @@
+"""Structure: chains, mobility, isomorphism, mechanisms, enumeration, Assur groups, variants, the atlas."""
+
+from lazy_loader import attach_stub
+
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -1,0 +1,145 @@
+"""All Assur groups of turning joints with a given number of links, from the trusses with one link more.
+
+With its places outside merged to one link, a group becomes a Baranov truss: a chain with F = 0 in which no smaller part
+is rigid. Without any one of its links, a truss is an Assur group whose outer joints are that link's. Links that an
+automorphism exchanges give the same group, others different ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from gruebler.base.doors import door
+from gruebler.structure.assur.groups import AssurGroup, place_name
+from gruebler.structure.assur.locking import AssurError
+from gruebler.structure.chain import Chain
+
+__all__ = [
+    "GroupRow",
+    "assur_groups",
+    "count_assur_groups",
+    "expected_seconds_of_groups",
+    "group_of_truss",
+    "group_rows",
+]
+
+_GROUP = 1.5e-5  # seconds on one core
+_INTERPRETED = 4e-3  # for a truss, if the kernel is interpreted
+
+
+@dataclass(frozen=True, slots=True)
+class GroupRow:
+    """An Assur group of simple turning joints in canonical form, without an object for each joint."""
+
+    class_number: int
+    order: int
+    joints: tuple[tuple[str, str], ...]
+    """The two links of each joint; the outer ones first, each with a place of its own."""
+
+    def text(self, symbol: str = "R") -> str:
+        """The joints, as `chain.notation` writes them."""
+        return " ".join(f"{symbol}({a}-{b})" for a, b in self.joints)
+
+    def group(self) -> AssurGroup:
+        """The group as a value."""
+        return AssurGroup.known(Chain([("revolute", ends) for ends in self.joints]))
+
+
+@door
+def assur_groups(links: int) -> Iterator[AssurGroup]:
+    """Every Assur group with this many links and simple turning joints, each once, in canonical form.
+
+    Raises `AssurError` unless the number is even and positive: each link brings three constraints, each joint two.
+    Cost: about 70 us for each group, most of it for the chain of the group; `group_rows` leaves that out.
+
+    >>> [group.form for group in assur_groups(2)]
+    ['RRR']
+    """
+    return (row.group() for row in group_rows(links))
+
+
+def group_rows(links: int) -> Iterator[GroupRow]:
+    """The groups of `assur_groups` as rows, in the same order; errors likewise. Cost: some 15 us for each group.
+
+    >>> [(row.class_number, row.order, row.text()) for row in group_rows(2)]
+    [(2, 2, 'R(a-1) R(b-2) R(1-2)')]
+    """
+    _check_number(links)
+    return _rows(links)
+
+
+def _rows(links: int) -> Iterator[GroupRow]:
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.labelling.label_workspace import make_workspace
+    from gruebler.structure.assur.group_kernels import CLASS, HEAD, ORDER, describe_groups
+    from gruebler.structure.enumeration import edge_blocks  # imported only here: it compiles kernels
+
+    n = links + 1
+    for block in edge_blocks(n, 0):
+        joints = block.shape[1]
+        for begin in range(0, len(block), 4096):
+            trusses = np.ascontiguousarray(block[begin : begin + 4096])
+            rows = np.zeros((n * len(trusses), HEAD + 2 * joints), np.int64)
+            describe = for_work(describe_groups, _INTERPRETED * len(trusses))
+            count = describe(n, trusses, make_workspace(2 * n, joints), rows, np.zeros(len(rows), np.int64))
+            for row in rows[:count].tolist():
+                ends = [(row[k], str(row[k + 1])) for k in range(HEAD, len(row), 2)]
+                named = tuple((str(a) if a else place_name(k), b) for k, (a, b) in enumerate(ends))
+                yield GroupRow(row[CLASS], row[ORDER], named)
+
+
+def _check_number(links: int) -> None:
+    if links < 2 or links % 2:
+        raise AssurError("an Assur group of turning joints has 2, 4, 6, ... links, not {links}", links=links)
+
+
+def count_assur_groups(links: int) -> int:
+    """The number of Assur groups with this many links and simple turning joints; errors as for `assur_groups`.
+
+    Counted as the orbits of links of all trusses, by Burnside's lemma: a second for 14 links.
+
+    >>> [count_assur_groups(links) for links in (2, 4, 6, 8, 10, 12)]
+    [1, 2, 10, 173, 5438, 251638]
+    """
+    from gruebler.structure.enumeration import count_simple_chains
+
+    _check_number(links)
+    number = count_simple_chains(links + 1, 0, orbits=True).inversions
+    assert number is not None
+    return number
+
+
+def expected_seconds_of_groups(links: int) -> float:
+    """The estimated time of `assur_groups` for all groups, to a factor of three.
+
+    >>> expected_seconds_of_groups(8) < 5, expected_seconds_of_groups(14) > 100
+    (True, True)
+    """
+    from gruebler.structure.enumeration.estimates import expected_chains
+    from gruebler.structure.enumeration.request import Request
+
+    if links < 2 or links % 2:
+        return 0.0
+    trusses, _ = expected_chains(Request(links + 1, 0))
+    return trusses * (links + 1) * _GROUP
+
+
+def group_of_truss(truss: Chain, link: str) -> AssurGroup:
+    """The group of a truss without this link; each of the link's joints gets a place of its own.
+
+    >>> print(group_of_truss(Chain.parse("R(0-1) R(1-2) R(2-0)"), "0"))
+    R(place1-1) R(1-2) R(2-place2)
+    """
+    return AssurGroup(_without(truss, link))
+
+
+def _without(truss: Chain, link: str) -> Chain:
+    truss.index(link)
+    joints, place = [], 0
+    for joint in truss.joints:
+        place += link in joint.links
+        joints.append((joint.pair, [f"place{place}" if other == link else other for other in joint.links]))
+    return Chain(joints, space=truss.space)

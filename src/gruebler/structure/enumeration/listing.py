@@ -1,0 +1,78 @@
+"""Chains that answer a request, listed and counted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
+
+from gruebler.base.doors import door
+from gruebler.structure.chain import Chain
+from gruebler.structure.enumeration.request import Request, RequestCount
+
+__all__ = ["chains", "count_chains"]
+
+
+@door
+def chains(
+    links: int,
+    mobility: int = 1,
+    *,
+    fractionated: str = "none",
+    assortment: Sequence[int] | None = None,
+    multiple_joints: int | str = 0,
+) -> Iterator[Chain]:
+    """Planar chains of revolute joints without any rigid part, each once, lazily and in a fixed order.
+
+    Args:
+        links: number of links, n >= 3.
+        mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
+        fractionated: ``none``: chains that do not fall apart; ``link``, ``joint``: those that fall apart at a link
+            only, at some joint; ``all``: the three classes in this order.
+        assortment: only chains with these numbers of binary, ternary, ... links.
+        multiple_joints: the number of joints of more than two links, a range such as ``0-2``, or ``any``.
+
+    Raises `RequestError` for an invalid request, and `GrueblerError` for more loops than the kernels can process.
+    Cost: about 50 us for a chain that is not fractionated and has simple joints, 1 ms for others.
+
+    >>> len(list(chains(8))), len(list(chains(9, 2, fractionated="all"))), len(list(chains(6, multiple_joints="any")))
+    (16, 40, 4)
+    """
+    from gruebler.structure.enumeration.work_units import chains_of_request
+
+    numbers = None if assortment is None else tuple(assortment)
+    return chains_of_request(Request(links, mobility, fractionated, numbers, multiple_joints))
+
+
+@door
+def count_chains(
+    links: int,
+    mobility: int = 1,
+    *,
+    fractionated: str = "none",
+    assortment: Sequence[int] | None = None,
+    multiple_joints: int | str = 0,
+    orbits: bool = False,
+    executor: Executor | None = None,
+) -> RequestCount:
+    """The number of chains that `chains` gives, by assortment and by class, and of their mechanisms.
+
+    Args:
+        links: number of links, n >= 3.
+        mobility: F >= 0.
+        fractionated: as for `chains`.
+        assortment: as for `chains`.
+        multiple_joints: as for `chains`.
+        orbits: whether to count inversions, driven mechanisms and joint orbits too.
+        executor: runs the pieces of the work; by default this process.
+
+    Chains that are not fractionated and have simple joints are counted without being built.
+
+    >>> count_chains(9, 2, fractionated="all").to_json()["by_fractionation"]
+    {'none': 35, 'link': 5, 'joint': 0}
+    """
+    from gruebler.structure.enumeration.work_units import PieceCounter, add_tallies, work_units
+    from gruebler.structure.enumeration.worker_pool import run_work
+
+    numbers = None if assortment is None else tuple(assortment)
+    request = Request(links, mobility, fractionated, numbers, multiple_joints)
+    return add_tallies(request, orbits, run_work(PieceCounter(request, orbits), work_units(request), executor))

@@ -1,0 +1,242 @@
+"""The work of an enumeration, divided into independent pieces.
+
+A piece is plain data: some contracted graphs and the numbers of links and freedoms. `count_piece` and `list_piece` are
+pure functions of a piece, so any worker can run a piece, and run it again; the pieces of a task and their order are
+always the same.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
+from functools import cache
+from itertools import islice
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.errors import GrueblerError
+from gruebler.structure.enumeration.assortment import Assortment, joint_count, loop_count
+from gruebler.structure.enumeration.contracted import MOST_LOOPS, packed_graphs
+
+__all__ = ["PieceCount", "WorkPiece", "count_piece", "list_piece", "pieces", "run_pieces", "work_of_graphs"]
+
+MOST_FREEDOMS = 24  # the kernels' products of binomial coefficients stay within 64 bits
+
+Packed = NDArray[np.int64]
+P = TypeVar("P")
+R = TypeVar("R")
+
+
+@dataclass(frozen=True, slots=True)
+class WorkPiece:
+    """A part of an enumeration: contracted graphs of one number of loops."""
+
+    links: int
+    mobility: int
+    graphs: Packed
+    """int64[k, nodes], packed and canonical."""
+    work: int
+    """The approximate number of string assignments to test; counting takes a nanosecond for each."""
+
+
+@dataclass(frozen=True, slots=True)
+class PieceCount:
+    """The chains of one assortment in a piece, and the orbits on them (0 if not requested)."""
+
+    assortment: Assortment
+    chains: int
+    inversions: int
+    joint_orbits: int
+    drives: int
+
+
+def refuse_too_large(links: int, mobility: int) -> None:
+    """Raise `GrueblerError` for more loops or freedoms than the kernels can process."""
+    loops = loop_count(links, mobility)
+    if loops is not None and (loops > MOST_LOOPS or mobility > MOST_FREEDOMS):
+        raise GrueblerError(
+            "{links} links with mobility {mobility} make {loops} loops; chains are enumerated up to "
+            "{most_loops} loops and mobility {most_freedoms}",
+            links=links,
+            mobility=mobility,
+            loops=loops,
+            most_loops=MOST_LOOPS,
+            most_freedoms=MOST_FREEDOMS,
+        )
+
+
+def pieces(
+    links: int, mobility: int, *, assortment: Sequence[int] | None = None, size: int = 50_000_000
+) -> Iterator[WorkPiece]:
+    """The non-fractionated chains of n links and mobility F, at least two loops, in pieces of similar work.
+
+    Args:
+        links: number of links, n.
+        mobility: F.
+        assortment: (n_2, n_3, ...), to restrict the chains to this assortment.
+        size: the work of a piece, as `WorkPiece.work`; a contracted graph is not divided.
+
+    Chains of one loop have no contracted graph and no piece; impossible numbers give no piece either.
+
+    Raises:
+        GrueblerError: invalid numbers, or more loops or freedoms than the kernels can process.
+    """
+    loops = loop_count(links, mobility)
+    if loops is None or loops < 2:
+        return iter(())
+    refuse_too_large(links, mobility)
+    return _cut(links, mobility, None if assortment is None else tuple(assortment), size)
+
+
+def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) -> Iterator[WorkPiece]:
+    loops = loop_count(links, mobility)
+    assert loops is not None
+    waiting: list[Packed] = []
+    load = 0
+    for block in packed_graphs(loops):
+        rows = block[:, : 2 * loops - 2]
+        if assortment is not None:
+            rows = rows[_has_degrees(rows, assortment)]
+        begin = 0
+        total = load + np.cumsum(work_of_graphs(rows))
+        while begin < len(rows):
+            end = min(int(np.searchsorted(total, size)) + 1, len(rows))
+            waiting.append(rows[begin:end])
+            load, begin = int(total[end - 1]), end
+            if load >= size:
+                yield WorkPiece(links, mobility, np.concatenate(waiting), load)
+                total -= load
+                waiting, load = [], 0
+    if waiting:
+        yield WorkPiece(links, mobility, np.concatenate(waiting), load)
+
+
+def _strings(rows: Packed) -> NDArray[np.int64]:
+    """int64[k, nodes, nodes]: the numbers of strings between nodes."""
+    nodes = np.arange(rows.shape[1])
+    strings: NDArray[np.int64] = rows[:, :, None] >> (4 * nodes) & 15
+    return strings
+
+
+def work_of_graphs(rows: Packed) -> NDArray[np.int64]:
+    """For each graph the number of assignments of c = 0, 1, 2 to its bundles with the sum 3V - 4, and a fixed cost.
+
+    That is the number of assignments if no set of nodes could be rigid, one to five times too many. For the
+    graphs that take most of the time counting costs 0.7 to 1.7 ns for each (seven and eight loops, F = 1).
+    """
+    bundles = np.count_nonzero(_strings(rows), axis=(1, 2)) // 2
+    assignments: NDArray[np.int64] = _trinomials()[bundles, 3 * np.count_nonzero(rows, axis=1) - 4] + 5000
+    return assignments
+
+
+@cache
+def _trinomials() -> NDArray[np.int64]:
+    """The coefficient of x^s in (1 + x + x^2)^b, for b and s up to 48."""
+    table = np.zeros((49, 49), np.int64)
+    table[0, 0] = 1
+    for b in range(1, 28):
+        table[b] = table[b - 1]
+        table[b, 1:] += table[b - 1, :-1]
+        table[b, 2:] += table[b - 1, :-2]
+    return table
+
+
+def _has_degrees(rows: Packed, assortment: Assortment) -> NDArray[np.bool_]:
+    """Whether each graph has these numbers of nodes of three, four, ... strings; its degrees are descending."""
+    degrees = [i for i, k in enumerate(assortment, 2) if i > 2 for _ in range(k)][::-1]
+    if len(degrees) > rows.shape[1]:
+        return np.zeros(len(rows), np.bool_)
+    row = np.array(degrees + [0] * (rows.shape[1] - len(degrees)), np.int64)
+    matches: NDArray[np.bool_] = (_strings(rows).sum(axis=2) == row).all(axis=1)
+    return matches
+
+
+def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...]:
+    """The numbers of chains of a piece by assortment, with orbits if requested.
+
+    Raises:
+        OverflowError: a number beyond 64 bits.
+    """
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.counting.census import COLUMNS, DEGREES, DIGITS, make_census_memory, take_census
+    from gruebler._numeric.work_estimates import census
+
+    loops = loop_count(piece.links, piece.mobility)
+    assert loops is not None
+    table = np.zeros((len(piece.graphs), COLUMNS), np.int64)
+    count = for_work(take_census, census(len(piece.graphs)))
+    count(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_census_memory(loops, piece.mobility), table)
+    counts = []
+    for code in np.unique(table[:, DEGREES]):
+        higher = []
+        remaining = int(code)
+        while remaining:
+            higher.append(remaining & ((1 << DIGITS) - 1))
+            remaining >>= DIGITS
+        sums = [sum(column) for column in table[table[:, DEGREES] == code, DEGREES + 1 :].T.tolist()]
+        counts.append(PieceCount((piece.links - sum(higher), *higher), *sums))
+    return tuple(counts)
+
+
+def list_piece(piece: WorkPiece, form: str = "edges") -> NDArray[np.uint8]:
+    """The chains of a piece in canonical order.
+
+    Args:
+        piece: the piece.
+        form: ``edges`` for uint8[k, joints, 2], ``graph6`` for uint8[k, bytes of a line].
+    """
+    blocks = list(_blocks(piece, form))
+    return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
+
+
+def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.counting.chain_lists import line_length, list_chains, make_list_memory, write_graph6
+    from gruebler._numeric.work_estimates import census, writing
+
+    loops, joints = loop_count(piece.links, piece.mobility), joint_count(piece.links, piece.mobility)
+    assert loops is not None
+    assert joints is not None
+    memory = make_list_memory(loops, piece.mobility)
+    graphs = np.ascontiguousarray(piece.graphs)
+    capacity = max(256, min(65536, piece.work // 4))
+    listed = for_work(list_chains, census(len(graphs)))
+    while True:
+        edges = np.empty((capacity, joints, 2), np.uint8)
+        count = listed(graphs, piece.mobility, memory, edges)
+        edges = edges[:count]
+        if form == "graph6":
+            lines = np.empty((count, line_length(piece.links)), np.uint8)
+            for_work(write_graph6, writing(count, piece.links))(edges, piece.links, lines)
+            yield lines
+        else:
+            yield edges
+        if count < capacity:
+            return
+
+
+def run_pieces(
+    function: Callable[[P], R], work: Iterable[P], executor: Executor | None = None, ahead: int = 64
+) -> Iterator[R]:
+    """The results of a function for every piece, in order; at most `ahead` pieces are pending at a time.
+
+    Without an executor the work runs in this process. An error of a piece is raised; pieces not yet started are then,
+    or when the iterator is closed, cancelled.
+    """
+    if executor is None:
+        yield from map(function, work)
+        return
+    source = iter(work)
+    pending: deque[Future[R]] = deque(executor.submit(function, piece) for piece in islice(source, ahead))
+    try:
+        while pending:
+            result = pending.popleft().result()
+            pending.extend(executor.submit(function, piece) for piece in islice(source, 1))
+            yield result
+    finally:
+        for future in pending:
+            future.cancel()

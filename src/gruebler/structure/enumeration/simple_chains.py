@@ -1,0 +1,130 @@
+"""Chains with simple joints, one by one or in blocks.
+
+The order is always the same: contracted graphs as `contracted.packed_graphs` yields them, the chains of each in
+lexicographic order of the weights of its bundles. Each chain appears once; its links are the nodes of the
+contracted graph, then the binary links string by string.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.structure.chain import Chain
+from gruebler.structure.enumeration.assortment import loop_count
+from gruebler.structure.enumeration.contracted import ContractedGraph, pack
+from gruebler.structure.enumeration.pieces import WorkPiece, list_piece, pieces, run_pieces
+
+__all__ = ["chains_of", "edge_blocks", "graph6_blocks", "simple_chains"]
+
+_LAZY = 100_000  # work of a piece when chains are requested one by one: a few thousand chains
+_BULK = 200_000  # ... and in bulk: some ten thousand chains, a megabyte or two
+
+
+def simple_chains(
+    links: int,
+    mobility: int = 1,
+    *,
+    assortment: Sequence[int] | None = None,
+    executor: Executor | None = None,
+) -> Iterator[Chain]:
+    """The non-fractionated planar chains of simple revolute joints, none of them with a rigid part, each once.
+
+    Args:
+        links: number of links, n.
+        mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
+        assortment: only chains with these numbers of binary, ternary, ... links.
+        executor: runs the pieces of the work; by default this process.
+
+    Lazy: the first chains are available immediately. Building the `Chain` objects takes most of the time, some 50 us
+    each; use `edge_blocks` or `graph6_blocks` for millions of chains.
+
+    Raises:
+        GrueblerError: links < 1, mobility < 0, or more loops than the kernels can process.
+
+    >>> for chain in simple_chains(6):
+    ...     print(chain)
+    R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1)
+    R(0-2) R(2-1) R(0-3) R(3-1) R(0-4) R(4-5) R(5-1)
+    """
+    blocks = _blocks(links, mobility, assortment, executor, "edges", _LAZY)
+    return (_chain(links, edges) for block in blocks for edges in block.tolist())
+
+
+def chains_of(graph: ContractedGraph, mobility: int = 1) -> Iterator[Chain]:
+    """The chains of mobility F that have this contracted graph, each once; n = 2 loops + 1 + F.
+
+    >>> square = ContractedGraph(((0, 1, 2), (1, 2, 1), (2, 3, 2), (3, 0, 1)))
+    >>> len(list(chains_of(square)))
+    3
+    """
+    links = 2 * graph.loops + 1 + mobility
+    edges = list_piece(WorkPiece(links, mobility, pack([graph]), _BULK))
+    return (_chain(links, joints) for joints in edges.tolist())
+
+
+def edge_blocks(
+    links: int,
+    mobility: int = 1,
+    *,
+    assortment: Sequence[int] | None = None,
+    executor: Executor | None = None,
+) -> Iterator[NDArray[np.uint8]]:
+    """The same chains in bulk: arrays uint8[k, joints, 2] of links that share a joint.
+
+    Cost about 250 ns for each chain on one core.
+
+    >>> [block.shape for block in edge_blocks(8)]
+    [(16, 10, 2)]
+    """
+    return _blocks(links, mobility, assortment, executor, "edges", _BULK)
+
+
+def graph6_blocks(
+    links: int,
+    mobility: int = 1,
+    *,
+    assortment: Sequence[int] | None = None,
+    executor: Executor | None = None,
+) -> Iterator[NDArray[np.uint8]]:
+    r"""The same chains in bulk as graph6: arrays uint8[k, bytes of a line], line ends included.
+
+    A block can be written directly to a file (`block.tofile(file)`). Cost about 350 ns for each chain on one
+    core: 16 links, 19.8 million lines of 22 bytes, take 7 s.
+
+    >>> b"".join(block.tobytes() for block in graph6_blocks(6))
+    b'Er`G\nE]`G\n'
+    """
+    return _blocks(links, mobility, assortment, executor, "graph6", _BULK)
+
+
+def _blocks(
+    links: int, mobility: int, assortment: Sequence[int] | None, executor: Executor | None, form: str, size: int
+) -> Iterator[NDArray[np.uint8]]:
+    work = pieces(links, mobility, assortment=assortment, size=size)
+    if loop_count(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
+        return iter([_ring(links, form)])
+    return (block for block in run_pieces(partial(list_piece, form=form), work, executor) if len(block))
+
+
+def _ring(links: int, form: str) -> NDArray[np.uint8]:
+    """The chain of one loop, in a block of its own."""
+    link = np.arange(links)
+    edges = np.stack([link, (link + 1) % links], axis=1).astype(np.uint8)[None]
+    if form == "edges":
+        return edges
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.counting.chain_lists import line_length, write_graph6
+    from gruebler._numeric.work_estimates import writing
+
+    lines = np.empty((1, line_length(links)), np.uint8)
+    for_work(write_graph6, writing(1, links))(edges, links, lines)
+    return lines
+
+
+def _chain(links: int, edges: list[list[int]]) -> Chain:
+    return Chain([("revolute", edge) for edge in edges], links=range(links))

@@ -1,0 +1,282 @@
+"""The work of a request, divided into pieces: plain data, in a fixed order.
+
+A piece contains contracted graphs (chains that are not fractionated), sizes of the last block (fractionated ones) or
+some chains with simple joints (multiple joints grow from them). `PieceCounter` and `PieceLister` are pure functions of
+a piece and can be sent to any worker.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from dataclasses import astuple, dataclass
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.structure.chain import Chain
+from gruebler.structure.enumeration.assortment import Assortment, loop_count
+from gruebler.structure.enumeration.condition import fractionation
+from gruebler.structure.enumeration.fractionated import (
+    BlockAddition,
+    block_additions,
+    composed,
+    edges_of,
+    fractionated_chains,
+)
+from gruebler.structure.enumeration.multiple import grown_joints, with_multiple_joints
+from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, list_piece, pieces
+from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.simple_chains import simple_chains as plain_chains
+from gruebler.structure.isomorphism import orbits as orbits_of
+from gruebler.structure.isomorphism import symmetry
+
+__all__ = [
+    "PieceCounter",
+    "PieceLister",
+    "PieceListing",
+    "PieceTally",
+    "Work",
+    "add_tallies",
+    "chains_of_piece",
+    "chains_of_request",
+    "work_units",
+]
+
+_GROWN_AT_ONCE = 256  # chains with simple joints in a piece; at 12 links some ten thousand chains grow from them
+
+Edges = tuple[tuple[int, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RingPiece:
+    """The chain of one loop, which has no contracted graph."""
+
+    links: int
+
+
+@dataclass(frozen=True, slots=True)
+class MultipleJointPiece:
+    """Chains with simple joints from which those with multiple joints grow."""
+
+    links: int
+    simple: tuple[Edges, ...]
+
+
+Work = WorkPiece | RingPiece | BlockAddition | MultipleJointPiece
+
+
+@dataclass(frozen=True, slots=True)
+class PieceTally:
+    """The chains of one class and assortment in a piece, and the orbits on them (0 if not requested)."""
+
+    kind: str
+    assortment: Assortment
+    chains: int
+    inversions: int
+    joint_orbits: int
+    drives: int
+
+
+@dataclass(frozen=True, slots=True)
+class PieceListing:
+    """The chains of one class in a piece, written out."""
+
+    kind: str
+    chains: int
+    text: bytes
+    """A line for each chain, line ends included: graph6, the text of a chain, or a JSON document."""
+
+
+def work_units(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
+    """The pieces of work, lazily.
+
+    Args:
+        request: the request.
+        size: work of a piece of contracted graphs, see `pieces.WorkPiece`.
+    """
+    if not request.only_simple:
+        simple = chains_of_request(Request(request.links, request.mobility, "all"))
+        while some := tuple(edges_of(chain) for chain in islice(simple, _GROWN_AT_ONCE)):
+            yield MultipleJointPiece(request.links, some)
+        return
+    for kind in request.classes:
+        if kind != "none":
+            yield from block_additions(request.links, request.mobility, kind)
+        elif loop_count(request.links, request.mobility) == 1:
+            if request.assortment in (None, (request.links,)):
+                yield RingPiece(request.links)
+        else:
+            yield from pieces(request.links, request.mobility, assortment=request.assortment, size=size)
+
+
+def chains_of_request(request: Request) -> Iterator[Chain]:
+    """The requested chains, lazily, in the order of the pieces of work."""
+    if request.only_simple and request.classes == ("none",):
+        yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
+        return
+    if request.only_simple:
+        for kind in request.classes:
+            if kind == "none":
+                yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
+            else:
+                chains = fractionated_chains(plain_chains, request.links, request.mobility, kind)
+                yield from (chain for chain in chains if request.assortment in (None, chain.assortment))
+        return
+    for work in work_units(request):
+        yield from (chain for _, chain in chains_of_piece(request, work))
+
+
+def chains_of_piece(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
+    """The chains of a piece with their classes, for pieces without contracted graphs."""
+    if isinstance(work, RingPiece):
+        yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
+    elif isinstance(work, BlockAddition):
+        kind = "joint" if work.bridges else "link"
+        for compound in composed(plain_chains, work):
+            if request.assortment in (None, compound.chain.assortment):
+                yield kind, compound.chain
+    elif isinstance(work, MultipleJointPiece):
+        fewest, most = request.joints_range
+        simple = (Chain([("revolute", edge) for edge in edges], links=range(work.links)) for edges in work.simple)
+        for chain in with_multiple_joints(simple, fewest=fewest, most=most):
+            if request.assortment in (None, chain.assortment) and (kind := fractionation(chain)) in request.classes:
+                yield kind, chain
+
+
+@dataclass(frozen=True, slots=True)
+class PieceCounter:
+    """Counts a piece in a worker."""
+
+    request: Request
+    orbits: bool
+
+    def __call__(self, work: Work) -> list[PieceTally]:
+        """The numbers of a piece, by class and assortment."""
+        if isinstance(work, WorkPiece):
+            return [PieceTally("none", *astuple(piece_count)) for piece_count in count_piece(work, self.orbits)]
+        if isinstance(work, MultipleJointPiece) and self.request.mobility < 2 and not self.orbits:
+            return _grown_tallies(self.request, work)
+        sums: dict[tuple[str, Assortment], list[int]] = {}
+        for kind, chain in chains_of_piece(self.request, work):
+            row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])
+            for k, number in enumerate((1, *(_orbits(chain) if self.orbits else ()))):
+                row[k] += number
+        return [PieceTally(kind, assortment, *row) for (kind, assortment), row in sorted(sums.items())]
+
+
+def _grown_tallies(request: Request, work: MultipleJointPiece) -> list[PieceTally]:
+    """The numbers of chains with multiple joints by assortment; with F < 2 none is fractionated."""
+    if "none" not in request.classes:
+        return []
+    sums: dict[Assortment, int] = {}
+    for block in _grown(request, work):
+        degrees = np.stack([(block[:, 1:] >> link & 1).sum(axis=1) for link in range(work.links)], axis=1)
+        numbers = np.stack([(degrees == k).sum(axis=1) for k in range(2, int(degrees.max(initial=2)) + 1)], axis=1)
+        unique, counts = np.unique(numbers, axis=0, return_counts=True)
+        for row, count in zip(unique, counts.tolist(), strict=True):
+            assortment = tuple(np.trim_zeros(row, "b").tolist())
+            if request.assortment in (None, assortment):
+                sums[assortment] = sums.get(assortment, 0) + count
+    return [PieceTally("none", assortment, count, 0, 0, 0) for assortment, count in sorted(sums.items())]
+
+
+def _grown(request: Request, work: MultipleJointPiece) -> Iterator[NDArray[np.int64]]:
+    fewest, most = request.joints_range
+    simple = [[1 << a | 1 << b for a, b in edges] for edges in work.simple]
+    return grown_joints(work.links, simple, fewest=fewest, most=most)
+
+
+def _joints_of(row: list[int]) -> list[list[int]]:
+    """The links of the joints of a row of `grown_joints`."""
+    return [[link for link in range(mask.bit_length()) if mask >> link & 1] for mask in row[1:] if mask]
+
+
+def _orbits(chain: Chain) -> tuple[int, int, int]:
+    """Orbits of links, of joints, and of (frame, joint at it, link that the joint drives)."""
+    symmetries = symmetry(chain)
+    drives = [
+        (i, number, j)
+        for number, joint in enumerate(chain.joints)
+        for i in map(chain.index, joint.links)
+        for j in map(chain.index, joint.links)
+        if i != j
+    ]
+    images = [{(i, k, j): (g.links[i], g.joints[k], g.links[j]) for i, k, j in drives} for g in symmetries.generators]
+    return len(symmetries.link_orbits), len(symmetries.joint_orbits), len(orbits_of(drives, images))
+
+
+def add_tallies(request: Request, orbits: bool, tallies_of_pieces: Iterable[Iterable[PieceTally]]) -> RequestCount:
+    """The sum of the numbers of all pieces."""
+    by_assortment: dict[Assortment, int] = {}
+    by_kind = dict.fromkeys(request.classes if request.fractionated != "all" else ("none", "link", "joint"), 0)
+    sums = [0, 0, 0, 0]
+    for tallies in tallies_of_pieces:
+        for tally in tallies:
+            if tally.chains:
+                by_assortment[tally.assortment] = by_assortment.get(tally.assortment, 0) + tally.chains
+            by_kind[tally.kind] += tally.chains
+            counts = tally.chains, tally.inversions, tally.joint_orbits, tally.drives
+            sums = [old + new for old, new in zip(sums, counts, strict=True)]
+    chains, inversions, joint_orbits, drives = sums
+    return RequestCount(
+        request.links,
+        request.mobility,
+        chains,
+        dict(sorted(by_assortment.items())),
+        inversions if orbits else None,
+        drives if orbits else None,
+        joint_orbits if orbits else None,
+        by_kind,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class PieceLister:
+    """Writes out a piece in a worker, in a format: graph6, text or json."""
+
+    request: Request
+    format: str
+
+    def __call__(self, work: Work) -> list[PieceListing]:
+        """The chains of a piece by class, written out."""
+        if isinstance(work, WorkPiece) and self.format == "graph6":
+            block = list_piece(work, "graph6")
+            return [PieceListing("none", len(block), block.tobytes())]
+        lines_by_kind: dict[str, list[str]] = {}
+        for kind, joints in self._joints(work):
+            lines_by_kind.setdefault(kind, []).append(self._written(kind, joints))
+        return [
+            PieceListing(kind, len(lines), "".join(lines).encode()) for kind, lines in sorted(lines_by_kind.items())
+        ]
+
+    def _joints(self, work: Work) -> Iterator[tuple[str, Iterable[Iterable[int]]]]:
+        if isinstance(work, WorkPiece):
+            yield from (("none", edges) for edges in list_piece(work).tolist())
+        elif isinstance(work, MultipleJointPiece) and self.request.mobility < 2 and self.request.assortment is None:
+            if "none" in self.request.classes:
+                yield from (("none", _joints_of(row)) for block in _grown(self.request, work) for row in block.tolist())
+        else:
+            for kind, chain in chains_of_piece(self.request, work):
+                yield kind, [[chain.index(link) for link in joint.links] for joint in chain.joints]
+
+    def _written(self, kind: str, joints: Iterable[Iterable[int]]) -> str:
+        if self.format == "text":
+            return " ".join(f"R({'-'.join(map(str, links))})" for links in joints) + "\n"
+        if self.format == "graph6":
+            return _graph6(self.request.links, joints)
+        label = {"fractionation": kind} if self.request.fractionated == "all" else {}
+        names = [str(i) for i in range(self.request.links)]
+        joint_documents = [{"pair": "revolute", "links": [names[i] for i in links]} for links in joints]
+        return json.dumps({**label, "space": "planar", "links": names, "joints": joint_documents}) + "\n"
+
+
+def _graph6(links: int, joints: Iterable[Iterable[int]]) -> str:
+    """One line; format: B. D. McKay, Description of graph6, sparse6 and digraph6 encodings."""
+    import networkx as nx
+
+    graph = nx.empty_graph(links)
+    graph.add_edges_from(tuple(joint) for joint in joints)
+    text: str = nx.to_graph6_bytes(graph, header=False).decode("ascii")
+    return text

@@ -1,0 +1,66 @@
+"""The names of the links of a mechanism: frame, crank, rocker, coupler, slider, ..."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from gruebler.base.text import message
+from gruebler.structure.mechanism.model import Mechanism
+
+__all__ = ["Role", "roles"]
+
+
+class Role(StrEnum):
+    """The role of a link, as far as the structure alone determines it."""
+
+    FRAME = "frame"
+    CRANK = "crank"
+    ROCKER = "rocker"
+    SLIDER = "slider"
+    ROLLER = "wheel"
+    COUPLER = "coupler"
+
+    def in_language(self, lang: str) -> str:
+        """The role in English (``en``) or German (``de``)."""
+        return _NAMES[self].in_language(lang)
+
+
+_NAMES = {
+    Role.FRAME: message("frame"),
+    Role.CRANK: message("crank"),
+    Role.ROCKER: message("rocker"),
+    Role.SLIDER: message("slider"),
+    Role.ROLLER: message("wheel"),
+    Role.COUPLER: message("coupler"),
+}
+
+
+def roles(mechanism: Mechanism) -> dict[str, Role]:
+    """The role of each link.
+
+    The frame; a crank (a revolute at the frame that is driven); a slider (a sliding joint at the frame); a wheel (a
+    revolute at the frame and a rolling or roll-slide contact); a rocker (any other revolute at the frame: the structure
+    does not determine whether it turns fully); a coupler (not joined to the frame).
+
+    >>> [str(r) for r in roles(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)")).values()]
+    ['frame', 'crank', 'coupler', 'rocker']
+    """
+    chain, frame = mechanism.chain, mechanism.frame
+    driven = {(d.joint, link) for d in mechanism.drives for link in d.between if frame in d.between}
+    named = {}
+    for link in chain.links:
+        joints = {k: j for k, j in enumerate(chain.joints) if link in j.links}
+        at_frame = {k: j.pair.name for k, j in joints.items() if frame in j.links}
+        contacts = {"rolling", "roll_slide"} & {j.pair.name for j in joints.values()}
+        if link == frame:
+            role = Role.FRAME
+        elif any(name == "revolute" and (k, link) in driven for k, name in at_frame.items()):
+            role = Role.CRANK
+        elif any(name in {"prismatic", "double_slide", "cylindrical"} for name in at_frame.values()):
+            role = Role.SLIDER
+        elif "revolute" in at_frame.values():
+            role = Role.ROLLER if contacts else Role.ROCKER
+        else:
+            role = Role.COUPLER
+        named[link] = role
+    return named

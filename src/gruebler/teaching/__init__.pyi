@@ -1,0 +1,42 @@
+from . import (
+    catalog,
+    constructions,
+    exercises,
+    sheets,
+    worksheets,
+)
+from .exercises import (
+    all_exercises,
+    exercise,
+    generate,
+    grade,
+    lines_of_table,
+    solution_text,
+    solve,
+    task_text,
+    teaching_table,
+)
+from .sheets import Sheet, sheet
+from .sheets import sheets as all_sheets
+from .sheets.expressions import Expression
+
+__all__ = [
+    "Expression",
+    "Sheet",
+    "all_exercises",
+    "all_sheets",
+    "catalog",
+    "constructions",
+    "exercise",
+    "exercises",
+    "generate",
+    "grade",
+    "lines_of_table",
+    "sheet",
+    "sheets",
+    "solution_text",
+    "solve",
+    "task_text",
+    "teaching_table",
+    "worksheets",
+]

@@ -1,0 +1,186 @@
+"""The catalog of the library: its folder, its entries, and searches."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+from gruebler.base.errors import CatalogError, near_words
+from gruebler.files.catalog_records import Entry, Exercise, Record, read_entry, read_exercise
+from gruebler.structure.chain.pairs import PAIRS, Pair, pair
+from gruebler.structure.mobility import counted
+from gruebler.teaching.catalog.claims import CheckedEntry, WrongClaim, check_claims
+
+__all__ = [
+    "Query",
+    "catalog_folder",
+    "check_all",
+    "check_entry",
+    "check_exercise",
+    "entries",
+    "entry",
+    "exercises",
+    "search",
+]
+
+
+def catalog_folder() -> Path:
+    """The folder of the catalog: inside the installed package, or at the top of a source checkout."""
+    package = Path(__file__).resolve().parents[2]
+    for folder in (package / "catalogs", package.parents[2] / "catalogs"):
+        if folder.is_dir():
+            return folder
+    raise CatalogError(
+        "the catalog is missing: neither {package} nor a source checkout has it", package=package / "catalogs"
+    )
+
+
+@cache
+def entries() -> dict[str, Entry]:
+    """All machines by id, in alphabetical order.
+
+    >>> entries()["vcomp"].name.en
+    'Two-cylinder V-compressor'
+    """
+    return {
+        path.stem: _named(read_entry(path), path) for path in sorted((catalog_folder() / "machines").glob("*.toml"))
+    }
+
+
+@cache
+def exercises() -> dict[str, Exercise]:
+    """All exercises by id."""
+    paths = sorted((catalog_folder() / "exercises").glob("*.toml"))
+    records = {path.stem: _named(read_exercise(path), path) for path in paths}
+    for exercise in records.values():
+        for case in exercise.cases:
+            if case.machine not in entries():
+                raise CatalogError(
+                    "{exercise}: {case}: there is no machine {machine!r} in the catalog",
+                    exercise=exercise.id,
+                    case=case.id,
+                    machine=case.machine,
+                )
+    return records
+
+
+def _named(record: Record, path: Path) -> Record:
+    if record.id != path.stem:
+        raise CatalogError(
+            "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
+        )
+    return record
+
+
+def entry(id: str) -> Entry:
+    """The machine of this id; `CatalogError` with the nearest ids for any other word."""
+    try:
+        return entries()[id]
+    except KeyError:
+        if id in exercises():
+            machines = dict.fromkeys(case.machine for case in exercises()[id].cases)
+            raise CatalogError(
+                "{id!r} is an exercise; the machines in it are {machines}", id=id, machines=", ".join(machines)
+            ) from None
+        if os.path.isdir(id):  # noqa: PTH112  Path.is_dir refuses long names
+            raise CatalogError(
+                "{id!r} is a folder; expected a file, a chain or the id of a catalog entry", id=id
+            ) from None
+        close = near_words(id, entries(), 3)
+        raise CatalogError(
+            "the catalog has no entry {id!r}; did you mean {nearest}?"
+            if close
+            else "the catalog has no entry {id!r}; `gruebler catalog list` shows them all",
+            id=id,
+            nearest=", ".join(close),
+        ) from None
+
+
+def check_all() -> list[CheckedEntry]:
+    """Check every claim of the catalog: the machines, then the exercises' cases."""
+    machines = [check_entry(e) for e in entries().values()]
+    return machines + [checked_entry for exercise in exercises().values() for checked_entry in check_exercise(exercise)]
+
+
+def check_entry(record: Entry, origin: str | None = None) -> CheckedEntry:
+    """Check every claim of a machine; ``origin`` is its file, by default that of the catalog."""
+    where = str(catalog_folder() / "machines" / f"{record.id}.toml") if origin is None else origin
+    checked = check_claims(
+        record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed()
+    )
+    if not record.claims.says_motion and not record.quantities:
+        return checked
+    from gruebler.teaching.catalog.motion_claims import (
+        wrong_motions,  # they move linkages: loaded where they are needed
+    )
+    from gruebler.teaching.catalog.motion_quantities import wrong_quantities
+
+    wrong = (*(WrongClaim(*each) for each in wrong_motions(record)), *wrong_quantities(record))
+    return replace(checked, wrong=checked.wrong + wrong)
+
+
+def check_exercise(record: Exercise, origin: str | None = None) -> list[CheckedEntry]:
+    """Check every claim of an exercise's cases."""
+    where = str(catalog_folder() / "exercises" / f"{record.id}.toml") if origin is None else origin
+    checked = []
+    for case in record.cases:
+        machine = entry(case.machine)
+        placed = None if case.claims.mobility is None else machine.placed()
+        checked.append(
+            check_claims(machine.chain(), case.claims, id=case.id, frame=machine.frame, origin=where, linkage=placed)
+        )
+    return checked
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """A search; None and empty mean no requirement."""
+
+    words: tuple[str, ...] = ()
+    """Each must occur in the id, a name, a remark, the source or a link's name, in either language."""
+    links: int | None = None
+    joints: int | None = None
+    mobility: int | None = None
+    """F by the count."""
+    pairs: tuple[str, ...] = ()
+    """Symbols or names of pairs that must occur."""
+    drive: str | None = None
+    """Symbol or name of the pair of a driven joint."""
+
+    def finds(self, candidate: Entry) -> bool:
+        """Whether the entry satisfies the query."""
+        chain = candidate.chain()
+        driven = {chain.joints[k].pair for drive in candidate.drives if (k := chain.find_joint(drive)) is not None}
+        present = {joint.pair for joint in chain.joints}
+        return (
+            (self.links is None or chain.n == self.links)
+            and (self.joints is None or chain.g == self.joints)
+            and (self.mobility is None or counted(chain) == self.mobility)
+            and all(_meanings(symbol) & present for symbol in self.pairs)
+            and (self.drive is None or bool(_meanings(self.drive) & driven))
+            and all(word.casefold() in _all_text(candidate) for word in self.words)
+        )
+
+
+def _meanings(symbol: str) -> set[Pair]:
+    """All pairs that a symbol means in some alphabet, or the one of this name; `PairError` for any other word."""
+    return {p for p in PAIRS if symbol in p.symbols.values()} or {pair(symbol)}
+
+
+def _all_text(candidate: Entry) -> str:
+    remark = candidate.remark
+    parts = [candidate.id, candidate.name.en, candidate.name.de, candidate.source]
+    parts += [*candidate.links, *candidate.links.values()]
+    parts += [remark.en, remark.de] if remark else []
+    return "\n".join(parts).casefold()
+
+
+def search(query: Query) -> list[Entry]:
+    """The machines that satisfy a query, by id.
+
+    >>> [e.id for e in search(Query(words=("Kompressor",), pairs=("P",)))]
+    ['compressor', 'vcomp']
+    """
+    return [e for e in entries().values() if query.finds(e)]

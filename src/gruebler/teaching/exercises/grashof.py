@@ -1,0 +1,234 @@
+"""Which links of a four-bar turn fully, and for which values of one length, step by step."""
+
+from __future__ import annotations
+
+from gruebler.base.errors import LinkageError
+from gruebler.base.text import in_every_language, joined, message
+from gruebler.mechanics.analysis import drive_range
+from gruebler.mechanics.fourbar import FourBar, Grashof, turning_ranges
+from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, figure, formula_number
+
+__all__ = ["condition", "length_range"]
+
+_SAYS = {
+    "<": message("The shortest link turns fully against all others."),
+    "=": message("Limiting case: all four joints can lie on one line, and there the motion can branch (change point)."),
+    ">": message("No link turns fully."),
+}
+
+
+def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solution:
+    """Grashof's condition for four lengths: type, and whether the crank a turns fully.
+
+    >>> condition(40, 100, 70, 90)["type"].in_language("de")
+    'Kurbelschwinge'
+    """
+    grashof = FourBar(a, b, c, d).grashof
+    if not grashof.assemblable:
+        raise LinkageError("lengths {a:g}, {b:g}, {c:g}, {d:g} cannot be assembled", a=a, b=b, c=c, d=d)
+    builder = SolutionBuilder(unit)
+    _add_sums(builder, grashof)
+    shortest = ", ".join(grashof.shortest)
+    turns = "a" in grashof.turning
+    builder.keep("turns", message("the crank a turns fully"), turns)
+    kind = in_every_language(grashof.type.name)
+    builder.keep("type", message("type"), kind, symbol="")
+    builder.parts.append(
+        SolutionStep(
+            message("The place of the shortest link ({shortest}; d is the frame) makes it a:", shortest=shortest),
+            value=kind,
+        )
+    )
+    if grashof.condition != "=":
+        moved = drive_range(FourBar(a, b, c, d).linkage())
+        builder.check(
+            message("The crank turns fully (1) or not (0), by following the motion"),
+            float(turns),
+            float(moved.full),
+            "",
+        )
+    builder.mistake(
+        "turns",
+        not turns,
+        message("Compare l_min + l_max with the two others, and see where the shortest link is."),
+    )
+    return builder.done()
+
+
+def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
+    """The sums of Grashof's condition and their relation."""
+    unit = builder.unit
+    low, first, second, high = sorted(grashof.lengths.values())
+    shortest = ", ".join(grashof.shortest)
+    builder.say(
+        message(
+            "Shortest link: {shortest} with {low} {unit}; longest: {longest} with {high} {unit}.",
+            shortest=shortest,
+            low=figure(low),
+            unit=unit,
+            longest=grashof.longest,
+            high=figure(high),
+        ),
+    )
+    name = message("sum of the shortest and the longest length")
+    ends = builder.find("sum_ends", name, "l_min + l_max", low + high, symbol="s1", l_min=low, l_max=high)
+    name = message("sum of the two others")
+    others = first + second
+    builder.parts.append(
+        SolutionStep(name, "s2 = l' + l''", f"{formula_number(second)} + {formula_number(first)}", others, unit)
+    )
+    builder.keep("sum_others", name, others, unit=unit, symbol="s2")
+    relation = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
+    builder.parts.append(
+        SolutionStep(
+            message("Grashof's condition: {meaning}", meaning=_SAYS[grashof.condition]),
+            relation[grashof.condition],
+            f"{formula_number(ends)} {grashof.condition} {formula_number(others)}",
+        )
+    )
+    builder.mistake("sum_ends", low + second, message("This is not the sum with the longest link."))
+
+
+def length_range(
+    free: str,
+    a: float | None = None,
+    b: float | None = None,
+    c: float | None = None,
+    d: float | None = None,
+    unit: str = "mm",
+) -> Solution:
+    """The values of the length ``free`` (b, c or d) with which the four-bar is a crank-rocker with crank a.
+
+    A second range, with the frame as the shortest link (double crank), is added if there is one.
+
+    >>> solution = length_range("d", a=40, b=100, c=70)
+    >>> solution["d_min"], solution["d_max"]
+    (70.0, 130.0)
+    """
+    lengths = {name: value for name, value in zip("abcd", (a, b, c, d), strict=True) if value is not None}
+    if free not in ("b", "c", "d") or set(lengths) != set("abcd") - {free}:
+        raise LinkageError(
+            "of a, b, c, d all but the free length must be given, and that must be b, c or d: {free!r}", free=free
+        )
+    crank = lengths["a"]
+    (longer, long), (shorter, short) = sorted(
+        ((n, v) for n, v in lengths.items() if n != "a"), key=lambda item: -item[1]
+    )
+    low, high = crank + long - short, long + short - crank
+    if crank >= short:
+        given_lengths = joined(
+            message("{name} = {length:g}", name=name, length=value) for name, value in lengths.items()
+        )
+        raise LinkageError(
+            "no value of {free} makes a crank-rocker with crank a of {lengths}: a is not the shortest",
+            free=free,
+            lengths=given_lengths,
+        )
+    builder = SolutionBuilder(unit)
+    builder.say(
+        message(
+            "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, "
+            "and with it l_min + l_max must not exceed the sum of the two others."
+        ),
+    )
+    text = message(
+        "{free} is not the longest link, {longest} is: a + {longest} ≤ {other} + {free}",
+        free=free,
+        longest=longer,
+        other=shorter,
+    )
+    values = {"a": crank, longer: long, shorter: short}
+    name = message("smallest value")
+    builder.find(f"{free}_min", name, f"a + {longer} - {shorter}", low, text=text, values=values)
+    text = message(
+        "{free} is the longest link: a + {free} ≤ {longest} + {other}", free=free, longest=longer, other=shorter
+    )
+    name = message("largest value")
+    builder.find(f"{free}_max", name, f"{longer} + {shorter} - a", high, text=text, values=values)
+    builder.say(
+        message(
+            "So {low} {unit} ≤ {free} ≤ {high} {unit}. At both ends the sums are equal: there the linkage is at a "
+            "change point; the crank turns fully without doubt only in between.",
+            low=figure(low),
+            unit=unit,
+            free=free,
+            high=figure(high),
+        ),
+    )
+    _add_shortest(builder, free, crank, long, short, (longer, shorter))
+    _check_range(builder, free, lengths, low, high)
+    _add_range_mistakes(builder, free, crank, long, short)
+    return builder.done()
+
+
+def _add_shortest(
+    builder: SolutionBuilder, free: str, crank: float, long: float, short: float, names: tuple[str, str]
+) -> None:
+    """The range with the free length as the shortest link: the crank turns fully there only if that is the frame."""
+    upper = crank + short - long
+    name = message("{free} as the shortest link, up to", free=free)
+    symbol = f"{free}'"
+    if free != "d" or upper <= 0:
+        builder.keep("shortest_upper", name, upper, unit=builder.unit, symbol=symbol)
+        return
+    longer, shorter = names
+    text = message(
+        "Beside that, a turns fully with a frame that is the shortest link (double crank): d + {longest} ≤ a + "
+        "{other}, so 0 < d ≤ d'",
+        longest=longer,
+        other=shorter,
+    )
+    values = {"a": crank, longer: long, shorter: short}
+    builder.find("shortest_upper", name, f"a + {shorter} - {longer}", upper, symbol=symbol, text=text, values=values)
+
+
+def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float], low: float, high: float) -> None:
+    (crank_rocker,) = (part for part in turning_ranges("a", **lengths) if part.type.key == "crank_rocker")
+    builder.check(message("Lower end, by going through all types"), low, crank_rocker.lower)
+    builder.check(message("Upper end, by going through all types"), high, crank_rocker.upper)
+    near = 1e-3 * (high - low)
+    tried = [(low + near, True), (low - near, False), (high - near, True), (high + near, False)]
+    upper = builder.number("shortest_upper")
+    cranks = [part.upper for part in turning_ranges("a", **lengths) if part.type.key == "double_crank"]
+    if free == "d" and upper > 0:
+        double = message("Double crank up to, by going through all types")
+        builder.check(double, upper, max(cranks, default=0.0))
+        close = 1e-3 * min(upper, low - upper)
+        tried += [(upper - close, True), (upper + close, False)]
+    for value, full in tried:
+        moved = drive_range(FourBar(**lengths, **{free: value}).linkage()).full
+        builder.check(
+            message(
+                "{free} = {value}: the crank turns fully (1) or not (0), by following the motion",
+                free=free,
+                value=figure(value),
+            ),
+            float(full),
+            float(moved),
+            "",
+        )
+
+
+def _add_range_mistakes(builder: SolutionBuilder, free: str, crank: float, long: float, short: float) -> None:
+    wrong = message("Both cases are needed: once the free link is the longest, once it is not.")
+    builder.mistake(
+        f"{free}_min",
+        long - short,
+        message("The crank a was forgotten in the sum l_min + l_max."),
+    )
+    builder.mistake(
+        f"{free}_max",
+        long + short,
+        message("That only closes the chain; for a full turn the crank a is subtracted."),
+    )
+    builder.mistake(
+        f"{free}_max",
+        long + short + crank,
+        message("l_max stands on the side of l_min: a is subtracted."),
+    )
+    builder.mistake(f"{free}_max", long, wrong)
+    builder.mistake(
+        f"{free}_min",
+        crank,
+        message("To be longer than the crank is not enough: the sums decide."),
+    )

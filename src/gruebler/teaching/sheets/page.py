@@ -1,0 +1,178 @@
+"""A page of paper: texts, rules and pictures at places; as SVG, HTML, PDF and PNG, always on light ground."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+from xml.sax.saxutils import escape
+
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.files import suffix_of
+from gruebler.pictures.canvas.page_policy import policy_element
+from gruebler.pictures.canvas.styles import COLOURS
+from gruebler.pictures.canvas.svg import style_sheet, svg_element, svg_number, svg_text
+
+__all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "painted", "suffix_of"]
+
+WIDTH, HEIGHT = 793.7, 1122.5
+"""Of A4, in pixels of 1/96 inch."""
+SUFFIXES = ("svg", "html", "pdf", "png")
+_POINTS = 72 / 96
+
+
+@dataclass(frozen=True, slots=True)
+class TextLine:
+    """A line of text; ``y`` is its base line, the role one of the colours."""
+
+    x: float
+    y: float
+    text: str
+    size: float = 11.5
+    bold: bool = False
+    role: str = "ink"
+    anchor: str = "start"
+
+
+@dataclass(frozen=True, slots=True)
+class HorizontalRule:
+    """A level line."""
+
+    x: float
+    y: float
+    length: float
+    width: float = 0.8
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedPicture:
+    """A picture with the place of its upper left corner."""
+
+    x: float
+    y: float
+    scale: float
+    figure: Figure
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """Items on a page of A4."""
+
+    items: tuple[TextLine | HorizontalRule | PlacedPicture, ...]
+    title: str
+    description: str
+    lang: str
+
+    def svg(self) -> str:
+        """The page as SVG of the size of the paper, with text as text elements."""
+        used = sorted({shape.style for item in self._pictures() for shape in item.figure.shapes})
+        rules = style_sheet(used).partition("@media")[0]
+        return "\n".join(
+            [
+                f'<svg xmlns="http://www.w3.org/2000/svg" class="gr" role="img" lang="{self.lang}" width="210mm" '
+                f'height="297mm" viewBox="0 0 {WIDTH} {HEIGHT}">',
+                f"<title>{escape(self.title)}</title><desc>{escape(self.description)}</desc>",
+                f"<style>{rules}</style>",
+                f'<rect width="{WIDTH}" height="{HEIGHT}" fill="{COLOURS["paper"][0]}"/>',
+                *(_SVG[type(item)](item) for item in self.items),
+                "</svg>\n",
+            ]
+        )
+
+    def html(self) -> str:
+        """A document with the page alone, printed on A4 without margins."""
+        return (
+            f'<!DOCTYPE html>\n<html lang="{self.lang}"><head><meta charset="utf-8">{policy_element()}'
+            f"<title>{escape(self.title)}</title>"
+            "<style>@page{size:A4;margin:0}body{margin:0;background:#fff}"
+            "svg{display:block;margin:0 auto;max-width:100%;height:auto}"
+            "@media print{svg{width:210mm;height:297mm}}</style></head><body>\n"
+            f"{self.svg()}</body></html>\n"
+        )
+
+    def written(self, suffix: str) -> bytes:
+        """The content of a file of this kind; `GrueblerError` if matplotlib is needed and missing."""
+        if suffix in ("svg", "html"):
+            return (self.svg() if suffix == "svg" else self.html()).encode("utf-8")
+        canvas = painted(self)
+        memory = io.BytesIO()
+        metadata: dict[str, Any] = {"Title": self.title}
+        metadata |= {"CreationDate": None, "Creator": None} if suffix == "pdf" else {"Software": None}
+        canvas.savefig(memory, format=suffix, dpi=192, metadata=metadata)
+        return memory.getvalue()
+
+    def _pictures(self) -> Iterable[PlacedPicture]:
+        return (item for item in self.items if isinstance(item, PlacedPicture))
+
+
+# --- SVG --------------------------------------------------------------------------------------------
+
+
+def _words_svg(item: TextLine) -> str:
+    style = f'font-size="{item.size:g}" fill="{COLOURS[item.role][0]}"' + ' font-weight="bold"' * item.bold
+    text = svg_text(item.text, item.size)
+    anchor = "" if item.anchor == "start" else f' text-anchor="{item.anchor}"'
+    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{text}</text>'
+
+
+def _rule_svg(item: HorizontalRule) -> str:
+    line = f"M{svg_number(item.x)} {svg_number(item.y)}h{svg_number(item.length)}"
+    return f'<path d="{line}" stroke="{COLOURS["ink"][0]}" stroke-width="{item.width:g}" fill="none"/>'
+
+
+def _placed_svg(item: PlacedPicture) -> str:
+    place = f"translate({svg_number(item.x)} {svg_number(item.y)}) scale({item.scale:.4g})"
+    shapes = "\n".join(map(svg_element, item.figure.shapes))
+    return f'<g transform="{place}"><title>{escape(item.figure.title)}</title>\n{shapes}\n</g>'
+
+
+_SVG: dict[type, Any] = {TextLine: _words_svg, HorizontalRule: _rule_svg, PlacedPicture: _placed_svg}
+
+
+# --- matplotlib -------------------------------------------------------------------------------------
+
+
+def painted(page: Page) -> Any:
+    """The page as a figure of matplotlib; `GrueblerError` if it is not installed."""
+    from gruebler.pictures.canvas.matplotlib_files import matplotlib_figure
+
+    canvas = matplotlib_figure(Figure((), WIDTH, HEIGHT, page.title, page.description))
+    for item in page.items:
+        _PAINT[type(item)](canvas, item)
+    return canvas
+
+
+def _paint_words(canvas: Any, item: TextLine) -> None:
+    from gruebler.pictures.canvas.matplotlib_files import math_text
+
+    text, has_subscripts = math_text(item.text)
+    canvas.text(
+        item.x / WIDTH,
+        1 - item.y / HEIGHT,
+        text,
+        fontsize=item.size * _POINTS,
+        fontweight="bold" if item.bold else "normal",
+        color=COLOURS[item.role][0],
+        ha={"start": "left", "middle": "center", "end": "right"}[item.anchor],
+        va="baseline",
+        parse_math=has_subscripts,
+    )
+
+
+def _paint_rule(canvas: Any, item: HorizontalRule) -> None:
+    from matplotlib.lines import Line2D
+
+    ends, level = (item.x / WIDTH, (item.x + item.length) / WIDTH), 1 - item.y / HEIGHT
+    canvas.add_artist(Line2D(ends, (level, level), linewidth=item.width * _POINTS, color=COLOURS["ink"][0]))
+
+
+def _paint_placed(canvas: Any, item: PlacedPicture) -> None:
+    from gruebler.pictures.canvas.matplotlib_files import paint_shapes
+
+    wide, high = item.scale * item.figure.width, item.scale * item.figure.height
+    axes = canvas.add_axes((item.x / WIDTH, 1 - (item.y + high) / HEIGHT, wide / WIDTH, high / HEIGHT))
+    paint_shapes(axes, item.figure, scale=item.scale)
+
+
+_PAINT: dict[type, Any] = {TextLine: _paint_words, HorizontalRule: _paint_rule, PlacedPicture: _paint_placed}

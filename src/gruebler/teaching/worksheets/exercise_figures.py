@@ -1,0 +1,155 @@
+"""The figure of an exercise: the linkage of its text, with its letters and the points whose paths are asked for."""
+
+from __future__ import annotations
+
+from cmath import rect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import pi, radians
+
+from gruebler.files import Exercise
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.linkages import Linkage
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.exercises import solve
+from gruebler.teaching.exercises.coupler_points import read_points
+
+__all__ = ["exercise_linkage", "linkage_figure"]
+
+_TWO_ROCKERS = "R(frame-first) R(first-coupler) R(coupler-second) R(frame-second); frame=frame; drive=R(frame-first)"
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnLinkage:
+    """What is drawn: a linkage, the letters of its links, the driven joint's value and range, points with paths."""
+
+    linkage: Linkage
+    letters: Mapping[str, str]
+    drive: float | None = None
+    between: tuple[float, float] | None = None
+    curves: tuple[str, ...] = ()
+
+
+def linkage_figure(exercise: Exercise, lang: str) -> Figure | None:
+    """The linkage of an exercise to scale; None if its lengths are not all given or cannot be assembled."""
+    drawn = exercise_linkage(exercise)
+    if drawn is None:
+        return None
+    return draw_linkage(
+        drawn.linkage,
+        drawn.drive,
+        between=drawn.between,
+        curves=drawn.curves,
+        labels=True,
+        lang=lang,
+        names=drawn.letters,
+    )
+
+
+def exercise_linkage(exercise: Exercise) -> DrawnLinkage | None:
+    """The linkage that the text of an exercise describes, from its given quantities."""
+    own = _OWN.get(exercise.method or "")
+    return _of_lengths(exercise) if own is None else own(exercise)
+
+
+def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
+    """a, b, c, d: crank, coupler, rocker, frame; a, b, e: crank, connecting rod, eccentricity."""
+    given = exercise.given
+    lengths = {key: float(given[key]) for key in ("a", "b", "c", "d", "e") if isinstance(given.get(key), int | float)}
+    if "b" not in lengths and {"a", "ratio"} <= {*given}:
+        lengths["b"] = float(given["a"]) / float(given["ratio"])
+    if {*"abcd"} <= {*lengths}:
+        size: FourBar | SliderCrank = FourBar(*(lengths[key] for key in "abcd"))
+    elif {*"ab"} <= {*lengths} and not {*"cd"} & {*lengths} and "free" not in given:
+        size = SliderCrank(lengths["a"], lengths["b"], lengths.get("e", 0.0))
+    else:
+        return None
+    phi = radians(float(given["phi"])) if "phi" in given else None
+    letters = _LETTERS | {"frame": "d" if isinstance(size, FourBar) else " "}
+    return DrawnLinkage(size.linkage(), letters, phi) if size.limits else None
+
+
+_LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d", "slider": " "}
+
+
+def _numbers(exercise: Exercise) -> dict[str, float]:
+    return {key: float(value) for key, value in exercise.given.items() if isinstance(value, int | float)}
+
+
+def _rows(exercise: Exercise) -> list[list[float]]:
+    """The numbers of the solution's first table."""
+    rows = solve(exercise).tables[0].rows
+    return [[float(value) for value in row if isinstance(value, int | float)] for row in rows]
+
+
+def _drawn(places: Mapping[str, complex], points: Mapping[str, tuple[str, complex]]) -> Linkage:
+    """Two rockers and a coupler, drawn with their joints in these places."""
+    return Linkage.from_drawing(
+        Mechanism.parse(_TWO_ROCKERS),
+        {joint: (z.real, z.imag) for joint, z in places.items()},
+        {name: (link, z.real, z.imag) for name, (link, z) in points.items()},
+    )
+
+
+def _double_rocker(exercise: Exercise) -> DrawnLinkage:
+    """The middle row of the solution's table: coupler a, rockers d (driven) and b, frame c at its angle."""
+    number = _numbers(exercise)
+    rows = _rows(exercise)
+    phi, *xy = rows[len(rows) // 2]
+    a, d, c = (complex(*xy[k : k + 2]) for k in (0, 2, 4))
+    other = rect(number["c"], radians(number["frame"]))
+    places = {"R(frame-first)": 0j, "R(first-coupler)": d, "R(coupler-second)": a, "R(frame-second)": other}
+    points = {"A": ("coupler", a), "D": ("coupler", d), "C": ("coupler", c)}
+    between = radians(rows[0][0]), radians(rows[-1][0])
+    letters = {"first": "d", "coupler": "a", "second": "b", "frame": "c"}
+    return DrawnLinkage(_drawn(places, points), letters, radians(phi), between, ("C",))
+
+
+def _watt(exercise: Exercise) -> DrawnLinkage:
+    """The middle position of the solution: both rockers level, the coupler upright."""
+    number = _numbers(exercise)
+    a, up = number["rocker"], number["coupler"] / 2 * 1j
+    places = {"R(frame-first)": -a + up, "R(first-coupler)": up, "R(coupler-second)": -up, "R(frame-second)": a - up}
+    rows = _rows(exercise)
+    between = radians(rows[0][0]), radians(rows[-1][0])
+    letters = {"first": "a", "coupler": "c", "second": "b", "frame": " "}
+    return DrawnLinkage(_drawn(places, {"F": ("coupler", 0j)}), letters, 0.0, between, ("F",))
+
+
+def _lambda(exercise: Exercise) -> DrawnLinkage:
+    a, b, c, d, e = (_numbers(exercise)[key] for key in "abcde")
+    return DrawnLinkage(FourBar(a, b, c, d).linkage({"C": (b + e, 0)}), _LETTERS, curves=("C",))
+
+
+def _scott_russell(exercise: Exercise) -> DrawnLinkage:
+    """C lies e beyond A on the line B-A; e is no eccentricity here."""
+    a, b, e = (_numbers(exercise)[key] for key in "abe")
+    letters = _LETTERS | {"frame": " "}
+    return DrawnLinkage(SliderCrank(a, b).linkage({"C": (-e, 0)}), letters, pi / 4, curves=("C",))
+
+
+def _conchoid(exercise: Exercise) -> DrawnLinkage:
+    a, d, b = (_numbers(exercise)[key] for key in "adb")
+    linkage = InvertedSliderCrank(a, d).linkage({"C": (b, 0)})
+    letters = {"frame": "d", "crank": "a", "coupler": "b", "block": " "}
+    return DrawnLinkage(linkage, letters, radians(60), curves=("C",))
+
+
+def _coupler_points(exercise: Exercise) -> DrawnLinkage:
+    a, b, c, d = (_numbers(exercise)[key] for key in "abcd")
+    places = read_points(str(exercise.given["points"]))
+    points = {f"K{k}" if len(places) > 1 else "K": place for k, place in enumerate(places, 1)}
+    return DrawnLinkage(FourBar(a, b, c, d).linkage(points), _LETTERS, radians(60), curves=tuple(points))
+
+
+_OWN: Mapping[str, Callable[[Exercise], DrawnLinkage]] = {
+    "coupler_points.conchoid": _conchoid,
+    "coupler_points.four_bar": _coupler_points,
+    "straight_guides.double_rocker": _double_rocker,
+    "straight_guides.lambda_linkage": _lambda,
+    "straight_guides.scott_russell": _scott_russell,
+    "straight_guides.watt_linkage": _watt,
+}
+"""Methods whose letters mean something else than those of `_of_lengths`, or that ask for paths of points."""

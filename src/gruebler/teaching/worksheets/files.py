@@ -1,0 +1,315 @@
+"""A document as a file: PDF, HTML, LaTeX, Markdown; pictures stand in the file itself."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Callable, Iterator
+from html import escape
+
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import joined_by_or
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.page_policy import policy_element
+from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
+from gruebler.pictures.canvas.styles import COLOURS, STYLES
+from gruebler.pictures.canvas.svg import style_sheet
+from gruebler.teaching.worksheets.blocks import (
+    AnswerLines,
+    Block,
+    Contents,
+    Document,
+    Heading,
+    PageBreak,
+    Paragraph,
+    Pictures,
+    Rows,
+)
+from gruebler.teaching.worksheets.paged import document_pages, pages_as_pdf
+
+__all__ = ["DOCUMENT_SUFFIXES", "document_bytes"]
+
+
+def document_bytes(document: Document, suffix: str) -> bytes:
+    """The content of a file; `GrueblerError` for another ending, or if matplotlib is needed and missing."""
+    if suffix not in _WRITERS:
+        raise GrueblerError(
+            "expected a file name that ends with {endings}, but found {found!r}",
+            endings=joined_by_or([f".{ending}" for ending in _WRITERS]),
+            found=f".{suffix}",
+        )
+    return _WRITERS[suffix](document)
+
+
+def _pdf(document: Document) -> bytes:
+    return pages_as_pdf(document.title, document_pages(document))
+
+
+# --- HTML --------------------------------------------------------------------------------------------
+
+_HTML_WIDTH = 740.0
+_HTML_STYLE = (
+    "body{max-width:50rem;margin:1rem auto;padding:0 1rem;font:15px/1.45 sans-serif;color:#22262b;background:#fff}"
+    "h1{font-size:1.5rem}h2{font-size:1.15rem;break-after:avoid}h3{font-size:1rem;break-after:avoid}"
+    ".row{display:flex;gap:1rem;align-items:end;break-inside:avoid}figure{margin:.3rem 0;flex:1 1 0}"
+    "figcaption,.small{font-size:.82rem;color:#5c636b}svg{max-width:100%;height:auto}"
+    "table{border-collapse:collapse;margin:.5rem 0}th,td{padding:.1rem .8rem .1rem "
+    "0;text-align:left;vertical-align:top}"
+    "th{border-bottom:1px solid #22262b}.answer{break-inside:avoid}.line{display:inline-block;width:11rem;"
+    "border-bottom:1px solid #22262b;margin-left:.6rem}.break{break-before:page}"
+    "@page{size:A4;margin:16mm}@media print{body{margin:0;padding:0;max-width:none}}"
+)
+
+
+def _html(document: Document) -> bytes:
+    used = {
+        shape.style
+        for block in document.blocks
+        if isinstance(block, Pictures)
+        for figure in block.figures
+        for shape in figure.shapes
+    }
+    rules = style_sheet(sorted({"ground", *used})).partition("@media")[0]
+    body = "\n".join(part for block in document.blocks for part in _html_block(block))
+    title = escape(document.title)
+    return (
+        f'<!doctype html>\n<html lang="{document.lang}"><head><meta charset="utf-8">{policy_element()}'
+        f"<title>{title}</title>"
+        f"<style>{rules}{_HTML_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
+        f'<p class="small">{escape(document.subtitle)}</p>\n{body}\n</body></html>\n'
+    ).encode()
+
+
+def _markup(text: str) -> str:
+    """Text for HTML, with subscripts."""
+    return "".join(f"<sub>{escape(part)}</sub>" if low else escape(part) for part, low in split_subscripts(text))
+
+
+def _html_block(block: Block) -> Iterator[str]:
+    match block:
+        case Heading(text, level, key):
+            anchor = f' id="{escape(key)}"' if key else ""
+            yield f"<h{level + 1}{anchor}>{_markup(text)}</h{level + 1}>"
+        case Paragraph(text, small):
+            yield f"<p{' class=small' if small else ''}>{'<br>'.join(map(_markup, text.split(chr(10))))}</p>"
+        case Pictures(figures, captions):
+            items = []
+            for k, (figure, scale) in enumerate(zip(figures, block.scales(_HTML_WIDTH), strict=True)):
+                wide = scale * figure.width
+                caption = f"<figcaption>{_markup(captions[k])}</figcaption>" if k < len(captions) else ""
+                style = f"flex-grow:{wide:.0f};max-width:{wide:.0f}px"
+                items.append(f'<figure style="{style}">{figure.svg(styled=False)}{caption}</figure>')
+            yield f'<div class="row">{"".join(items)}</div>'
+        case Rows(headers, rows):
+            yield f"<table><tr>{''.join(f'<th>{_markup(cell)}</th>' for cell in headers)}</tr>"
+            for row in rows:
+                yield f"<tr>{''.join(f'<td>{_markup(cell)}</td>' for cell in row)}</tr>"
+            yield "</table>"
+        case Contents():
+            for line, row in zip(_html_block(block.without_pages), (("", ""), *block.rows, ("", "")), strict=True):
+                cell = f"<td>{_markup(row[0])}</td>"
+                yield line.replace(cell, f'<td><a href="#{escape(row[0])}">{_markup(row[0])}</a></td>', 1)
+        case AnswerLines(asked, space):
+            lines = "".join(f'<p>{_markup(name)}<span class="line"></span></p>' for name in asked)
+            yield f'<div class="answer" style="padding-top:{space:.0f}px">{lines}</div>'
+        case PageBreak():
+            yield '<div class="break"></div>'
+
+
+# --- Markdown ----------------------------------------------------------------------------------------
+
+
+def _markdown(document: Document) -> bytes:
+    lines = [f"# {document.title}", "", document.subtitle, ""]
+    for block in document.blocks:
+        lines += [*_markdown_block(block), ""]
+    return ("\n".join(lines).rstrip() + "\n").encode()
+
+
+def _markdown_block(block: Block) -> Iterator[str]:
+    match block:
+        case Heading(text, level, _):
+            yield f"{'#' * (level + 1)} {text}"
+        case Paragraph(text):
+            yield "  \n".join(text.split("\n"))
+        case Pictures(figures, captions):
+            for k, figure in enumerate(figures):
+                data = base64.b64encode(figure.svg().encode("utf-8")).decode("ascii")
+                caption = captions[k] if k < len(captions) else figure.title
+                yield f"![{caption.replace('[', '(').replace(']', ')')}](data:image/svg+xml;base64,{data})"
+        case Rows(headers, rows):
+            for number, row in enumerate([headers, *rows]):
+                yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
+                if number == 0:
+                    yield "|" + "---|" * len(headers)
+        case Contents():
+            yield from _markdown_block(block.without_pages)
+        case AnswerLines(asked):
+            yield from (f"- {name} ________" for name in asked)
+        case PageBreak():
+            yield "---"
+
+
+# --- LaTeX -------------------------------------------------------------------------------------------
+
+_LATEX_WIDTH = 620.0  # of the lines on A4 with margins of 20 mm
+_SPECIAL = {
+    **{sign: f"\\{sign}" for sign in "&%$#_{}"},
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+}
+_GREEK = (
+    "alpha beta gamma delta varepsilon zeta eta theta iota kappa lambda mu nu xi o pi rho varsigma sigma tau upsilon \
+varphi chi psi omega"
+)
+_MATHS = {
+    **{chr(0x3B1 + k): rf"$\{name}$" if name != "o" else "$o$" for k, name in enumerate(_GREEK.split())},
+    **{sign: f"$^{k}$" for k, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")},
+    **{chr(0x2080 + k): f"$_{k}$" for k in range(10)},
+    **{
+        "⁻": "$^-$",
+        "ᵢ": "$_i$",
+        "ẋ": r"$\dot x$",
+        "ẏ": r"$\dot y$",
+        "µ": r"$\mu$",
+        "√": r"$\surd$",
+        "°": r"$^\circ$",
+        "−": "$-$",
+        "≤": r"$\leq$",
+        "≥": r"$\geq$",
+        "≈": r"$\approx$",
+        "≠": r"$\neq$",
+        "·": r"$\cdot$",
+        "×": r"$\times$",
+        "±": r"$\pm$",
+        "∓": r"$\mp$",
+        "∩": r"$\cap$",
+        "→": r"$\to$",
+        "′": "$'$",
+        "″": "$''$",
+        "∞": r"$\infty$",
+        "Γ": r"$\Gamma$",
+        "Σ": r"$\Sigma$",
+        "Δ": r"$\Delta$",
+        "Φ": r"$\Phi$",
+        "Ψ": r"$\Psi$",
+        "Ω": r"$\Omega$",
+        "…": r"\dots{}",
+        "\u00a0": "~",
+    },
+}
+_SIGNS = str.maketrans({**_SPECIAL, **_MATHS})
+
+
+def _latex_text(text: str) -> str:
+    """Text for LaTeX, with subscripts and signs of mathematics."""
+    return "".join(
+        rf"\textsubscript{{{piece.translate(_SIGNS)}}}" if low else piece.translate(_SIGNS)
+        for piece, low in split_subscripts(text)
+    )
+
+
+def _latex(document: Document) -> bytes:
+    babel = {"de": "ngerman"}.get(document.lang, "english")
+    colours = "\n".join(
+        rf"\definecolor{{gr{role}}}{{HTML}}{{{light[1:].upper()}}}" for role, (light, _) in COLOURS.items()
+    )
+    body = "\n".join(part for block in document.blocks for part in _latex_block(block))
+    return (
+        "\\documentclass[a4paper,11pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n"
+        f"\\usepackage[{babel}]{{babel}}\n\\usepackage[margin=20mm]{{geometry}}\n\\usepackage{{tikz}}\n"
+        "\\usepackage{longtable}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{6pt}\n"
+        f"{colours}\n\\begin{{document}}\n\\section*{{{_latex_text(document.title)}}}\n"
+        f"{{\\small {_latex_text(document.subtitle)}}}\n\n{body}\n\\end{{document}}\n"
+    ).encode()
+
+
+def _latex_block(block: Block) -> Iterator[str]:
+    match block:
+        case Heading(text, level, key):
+            command = {1: "section", 2: "subsection", 3: "subsubsection"}[level]
+            # Pages end before headings if they can.
+            label = f"\\label{{{key}}}" if key else ""
+            yield f"\\filbreak\n\\{command}*{{{_latex_text(text)}}}{label}"
+        case Paragraph(text, small):
+            lines = r"\\ ".join(map(_latex_text, text.split("\n")))
+            yield f"{{\\small {lines}\\par}}\n" if small else f"{lines}\\par\n"
+        case Pictures(figures, captions):
+            scales = block.scales(_LATEX_WIDTH)
+            every = sum(scale * figure.width for scale, figure in zip(scales, figures, strict=True))
+            for k, (figure, scale) in enumerate(zip(figures, scales, strict=True)):
+                caption = rf"\\ {{\footnotesize {_latex_text(captions[k])}}}" if k < len(captions) else ""
+                wide = 0.98 * scale * figure.width / every
+                picture = _tikz(figure, scale)
+                yield f"\\begin{{minipage}}[b]{{{wide:.2f}\\linewidth}}{picture}{caption}\\end{{minipage}}%"
+            yield "\\par\n"
+        case Rows(headers, rows):
+            widest = max(range(len(headers)), key=lambda k: max(len(row[k]) for row in [headers, *rows]))
+            columns = "".join(r"p{0.5\linewidth}" if k == widest else "l" for k in range(len(headers)))
+            yield f"\\begin{{longtable}}[l]{{@{{}}{columns}@{{}}}}"
+            for number, row in enumerate([headers, *rows]):
+                yield " & ".join(map(_latex_text, row)) + r" \\" + (r" \hline" if number == 0 else "")
+            yield "\\end{longtable}\n"
+        case Contents(headers, rows):
+            paragraphs = r"p{0.4\linewidth}" * (len(headers) - 2)
+            yield f"\\begin{{longtable}}[l]{{@{{}}l{paragraphs}r@{{}}}}"
+            yield " & ".join(map(_latex_text, headers)) + r" \\ \hline"
+            yield from (" & ".join(map(_latex_text, row)) + rf" & \pageref{{{row[0]}}} \\" for row in rows)
+            yield "\\end{longtable}\n"
+        case AnswerLines(asked, space):
+            yield f"\\vspace{{{space * 0.75:.0f}pt}}\n"
+            yield from (f"{_latex_text(name)}\\enspace\\underline{{\\hspace{{40mm}}}}\\par\n" for name in asked)
+        case PageBreak():
+            yield "\\newpage"
+
+
+def _tikz(figure: Figure, scale: float) -> str:
+    """The picture in TikZ."""
+    unit = 0.75 * scale
+    commands = "\n".join(part for shape in figure.shapes for part in _tikz_shape(shape, unit))
+    return (
+        f"\\begin{{tikzpicture}}[x={unit:.3f}pt,y=-{unit:.3f}pt,line cap=round,line join=round]\n"
+        f"\\useasboundingbox (0,0) rectangle ({figure.width:.1f},{figure.height:.1f});\n"
+        f"{commands}\n\\end{{tikzpicture}}"
+    )
+
+
+def _tikz_shape(shape: Shape, unit: float) -> Iterator[str]:
+    style = STYLES[shape.style]
+    if isinstance(shape, TextShape):
+        anchor = {"start": "west", "middle": "center", "end": "east"}[shape.anchor]
+        size = style.size * unit
+        text = _latex_text(shape.text)
+        yield (
+            f"\\node[anchor={anchor},inner sep=0,text=gr{style.fill},font=\\fontsize{{{size:.1f}}}{{{size * 1.2:.1f}}}"
+            f"\\selectfont] at {_place(shape.at)} {{{text}}};"
+        )
+        return
+    options = []
+    if style.stroke:
+        options.append(f"draw=gr{style.stroke},line width={style.width * unit:.2f}pt")
+    if style.fill:
+        options.append(f"fill=gr{style.fill}")
+    if style.dash:
+        pairs = zip(style.dash[::2], style.dash[1::2], strict=True)
+        options.append("dash pattern=" + " ".join(f"on {on * unit:.1f}pt off {off * unit:.1f}pt" for on, off in pairs))
+    path = f"\\path[{','.join(options)}]"
+    match shape:
+        case Polylines(parts, _, closed):
+            for part in parts:
+                yield f"{path} {' -- '.join(map(_place, part))}{' -- cycle' if closed else ''};"
+        case CircleShape(at, radius):
+            yield f"{path} {_place(at)} circle [radius={radius * unit:.2f}pt];"
+        case ArcShape():
+            steps = max(2, math.ceil(abs(shape.extent) / 0.05))
+            yield f"{path} {' -- '.join(_place(shape.place(k / steps)) for k in range(steps + 1))};"
+
+
+def _place(at: Point) -> str:
+    return f"({at.x:.1f},{at.y:.1f})"
+
+
+_WRITERS: dict[str, Callable[[Document], bytes]] = {"pdf": _pdf, "html": _html, "tex": _latex, "md": _markdown}
+DOCUMENT_SUFFIXES = tuple(_WRITERS)
+"""Endings of the files that a document can be written into."""

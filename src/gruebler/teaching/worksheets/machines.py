@@ -1,0 +1,214 @@
+"""A document for any machine: pictures, access features, dimensions, main diagram, values; the book of the catalog."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import hypot, radians
+
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, number, translate
+from gruebler.files import Entry
+from gruebler.files.catalog_records import source_text
+from gruebler.mechanics.analysis.measures import measures
+from gruebler.mechanics.linkages import Linkage, Pin
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.linkage.contact_shapes import contact_shapes
+from gruebler.pictures.linkage.curve_plots import coupler_plot
+from gruebler.pictures.linkage.motion_plots import transfer_plot, transmission_plot
+from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.pictures.structure import draw_structure
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.mechanism import Mechanism
+from gruebler.structure.mechanism.inversion import family
+from gruebler.structure.mobility import mobility_report
+from gruebler.teaching.catalog import entries
+from gruebler.teaching.catalog.feature_query import entry_mechanism
+from gruebler.teaching.catalog.features import access_features
+from gruebler.teaching.worksheets.blocks import Block, Contents, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+
+__all__ = ["catalog_book", "machine_document"]
+
+_POINTS = 3  # paths in one diagram
+
+
+def machine_document(
+    machine: Entry | Linkage | Mechanism,
+    *,
+    lang: str = "en",
+    between: tuple[float, float] | None = None,
+    name: str = "",
+) -> Document:
+    """The collection sheet of a machine: a catalog entry, a linkage, or a mechanism without dimensions.
+
+    ``between`` are the drive values, in degrees or the unit, between which a linkage is shown. Cost: a second.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> made = machine_document(FourBar(25, 70, 40, 70).linkage())
+    >>> made.title, sum(len(block.figures) for block in made.blocks if isinstance(block, Pictures))
+    ('four-bar linkage', 3)
+    """
+    if isinstance(machine, Entry):
+        title = machine.name.in_language(lang)
+        return Document(title, machine.id, tuple(_entry_blocks(machine, lang)), lang)
+    mechanism = machine.mechanism if isinstance(machine, Linkage) else machine
+    linkage = machine if isinstance(machine, Linkage) else None
+    title = name or family(mechanism, lang) or translate("mechanism", lang)
+    blocks = _machine_blocks(mechanism, linkage, lang, between, machine.outputs if isinstance(machine, Linkage) else ())
+    return Document(title, "", (Heading(title, 1), *blocks), lang)
+
+
+def _entry_blocks(entry: Entry, lang: str) -> Iterator[Block]:
+    shown = entry.in_language(lang)
+    yield Heading(entry.name.in_language(lang), 1, entry.id)
+    if entry.remark is not None:
+        yield Paragraph(entry.remark.in_language(lang))
+    linkage = None if shown.dimensions is None else shown.linkage()
+    between = None if shown.dimensions is None else shown.dimensions.range
+    yield from _machine_blocks(entry_mechanism(shown), linkage, lang, between, shown.outputs)
+    source = source_text(entry.source, lang)
+    yield Paragraph(translate("Source: {source}", lang, source=source), small=True)
+
+
+def _machine_blocks(
+    mechanism: Mechanism,
+    linkage: Linkage | None,
+    lang: str,
+    between: tuple[float, float] | None,
+    outputs: Sequence[str],
+) -> Iterator[Block]:
+    yield _pictures(mechanism, linkage, lang, outputs)
+    yield Heading(translate("Access features", lang))
+    yield Rows(
+        (translate("feature", lang), translate("value", lang)), access_features(mechanism, outputs).described(lang)
+    )
+    report = mobility_report(mechanism.chain, frame=mechanism.frame)
+    yield Paragraph(
+        f"{report.count.formula()}. {translate('Generic mobility: {mobility}.', lang, mobility=report.generic)}"
+    )
+    if linkage is None:
+        return
+    rows = tuple(_lengths(linkage, lang))
+    if rows:
+        yield Heading(translate("Dimensions in {unit}", lang, unit=linkage.unit))
+        yield Rows((translate("link", lang), translate("joints or points", lang), translate("distance", lang)), rows)
+    diagram = _diagram(linkage, mechanism, lang, between)
+    if diagram is not None:
+        yield Heading(translate("Main diagram", lang))
+        yield Pictures((diagram,), height=420.0)
+    values = _values(linkage, lang)
+    if values:
+        yield Heading(translate("Values", lang))
+        yield Paragraph(values)
+
+
+def _pictures(mechanism: Mechanism, linkage: Linkage | None, lang: str, outputs: Sequence[str]) -> Pictures:
+    """The linkage to scale, if there are dimensions, and the structure with the symbols of the joints."""
+    contacts = None if linkage is None else contact_shapes(linkage)
+    structure = draw_structure(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
+    caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
+    if linkage is not None:
+        try:
+            scheme = draw_linkage(linkage, curves=[*linkage.points][:_POINTS], labels=True, lang=lang)
+        except GrueblerError:
+            return Pictures((structure,), (caption,))
+        return Pictures((scheme, structure), (translate("To scale", lang), caption), 260.0)
+    return Pictures((structure,), (caption,))
+
+
+def _lengths(linkage: Linkage, lang: str) -> Iterator[tuple[str, str, str]]:
+    """The distances of the pins of every link, and the places of its named points from its first pin."""
+    chain = linkage.mechanism.chain
+    alphabet = Alphabet.of_language(lang)
+    names = [f"{joint.pair.symbol(alphabet)} {' / '.join(joint.links)}" for joint in chain.joints]
+    for link in chain.links:
+        pins = [(names[k], e) for (k, holder), e in linkage.elements.items() if holder == link and isinstance(e, Pin)]
+        points = [(name, Pin(point.x, point.y)) for name, point in linkage.points.items() if point.link == link]
+        for k, (first, pin) in enumerate(pins):
+            others = [*pins[k + 1 :], *(points if k == 0 else [])]
+            for second, other_pin in others:
+                distance = hypot(other_pin.x - pin.x, other_pin.y - pin.y)
+                yield link, f"{first} – {second}", number(distance, lang, ".6g")
+
+
+def _diagram(linkage: Linkage, mechanism: Mechanism, lang: str, between: tuple[float, float] | None) -> Figure | None:
+    """The paths of named points, else the transfer function, else the transmission angle; None if there is none."""
+    shown = between
+    if between is not None and mechanism.drives and mechanism.drives[0].turning:
+        shown = radians(between[0]), radians(between[1])
+    ways: list[Callable[[], Figure]] = []
+    if linkage.points:
+        ways.append(lambda: coupler_plot(linkage, [*linkage.points][:_POINTS], between=shown, lang=lang))
+    if len(mechanism.drives) == 1:
+        ways.append(lambda: transfer_plot(linkage, between=shown, lang=lang))
+        ways.append(lambda: transmission_plot(linkage, between=shown, lang=lang))
+    for branch in ways:
+        try:
+            return branch()
+        except GrueblerError:
+            continue
+    return None
+
+
+def _values(linkage: Linkage, lang: str) -> str:
+    """What the measures of a linkage with one drive say."""
+    if len(linkage.mechanism.drives) != 1:
+        return ""
+    try:
+        return measures(linkage).explain(lang)
+    except GrueblerError:
+        return ""
+
+
+# --- the book ----------------------------------------------------------------------------------------
+
+
+def catalog_book(*, lang: str = "en", ids: Sequence[str] = ()) -> Document:
+    """All machines of the catalog, each on pages of its own, with an index by feature; or the named ones.
+
+    Cost: about a second for each machine.
+    """
+    known = entries()
+    chosen: Mapping[str, Entry] = {id: known[id] for id in ids} if ids else known
+    blocks: list[Block] = [Heading(translate("Contents", lang), 1)]
+    names = message("machine"), message("name"), message("source"), message("page")
+    headers = tuple(name.in_language(lang) for name in names)
+    rows = tuple((id, entry.name.in_language(lang), source_text(entry.source, lang)) for id, entry in chosen.items())
+    blocks.append(Contents(headers, rows))
+    for entry in chosen.values():
+        blocks += [PageBreak(), *_entry_blocks(entry, lang)]
+    blocks += [PageBreak(), *_index(chosen, lang)]
+    title = translate("Collection of mechanisms", lang)
+    return Document(title, translate("{count} machines", lang, count=len(chosen)), tuple(blocks), lang)
+
+
+def _index(chosen: Mapping[str, Entry], lang: str) -> Iterator[Block]:
+    """The machines by what they have: number of links, joints, drives, kind of output, mobility."""
+    ids_by_feature: dict[tuple[str, str], list[str]] = {}
+    for id, entry in chosen.items():
+        mechanism = entry_mechanism(entry)
+        features = access_features(mechanism, entry.outputs)
+        space = mechanism.chain.space.adjective.in_language(lang)
+        marks = [
+            (translate("space", lang), space),
+            (translate("links", lang), str(features.links)),
+            (translate("drives", lang), str(features.drive_joints)),
+            (translate("mobility", lang), str(mobility_report(mechanism.chain, frame=mechanism.frame).generic)),
+            *(
+                (translate("joint", lang), pair.full_name(lang).replace("_", " "))
+                for pair, _ in features.joints_by_pair
+            ),
+        ]
+        guided = features.output_links > features.output_links_at_frame
+        kind = translate("guide mechanism", lang) if guided else translate("transmits a motion", lang)
+        marks.append((translate("purpose", lang), kind))
+        for mark in marks:
+            ids_by_feature.setdefault(mark, []).append(id)
+    yield Heading(translate("Index by feature", lang), 1)
+    headers = translate("feature", lang), translate("value", lang), translate("machines", lang)
+    yield Rows(
+        headers, tuple((*mark, ", ".join(ids_by_feature[mark])) for mark in sorted(ids_by_feature, key=_natural))
+    )
+
+
+def _natural(mark: tuple[str, str]) -> tuple[str, int, str]:
+    return mark[0], int(mark[1]) if mark[1].isdigit() else 0, mark[1]

@@ -1,0 +1,227 @@
+"""A document on pages of A4."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import takewhile
+
+from gruebler.base.text import translate
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.shapes import text_width, wrapped_text
+from gruebler.teaching.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
+from gruebler.teaching.worksheets.blocks import (
+    AnswerLines,
+    Block,
+    Contents,
+    Document,
+    Heading,
+    PageBreak,
+    Paragraph,
+    Pictures,
+    Rows,
+)
+
+__all__ = ["document_pages", "pages_as_pdf"]
+
+_LEFT, _RIGHT, _TOP, _BOTTOM = 60.0, WIDTH - 60.0, 86.0, HEIGHT - 66.0
+_BODY, _LEAD = 11.5, 16.0
+_SIZES = {1: 17.0, 2: 13.5, 3: 12.0}
+_GAP = 12.0
+_HEAD = 10.0
+_KEPT = 0.45 * HEIGHT  # what is higher than that may be divided
+_PASSES = 4
+_FILL = 1.04  # texts are set a little wider than estimated
+
+Item = TextLine | HorizontalRule | PlacedPicture
+
+
+def document_pages(document: Document) -> tuple[Page, ...]:
+    """The pages, with title and number on each."""
+    numbers: dict[str, int] = {}
+    for _ in range(_PASSES):
+        pages, later = _divided(document, numbers)
+        if later == numbers:
+            break
+        numbers = later  # the contents with these numbers may be a line longer
+    return tuple(_page(document, items, k, len(pages)) for k, items in enumerate(pages, 1))
+
+
+def _divided(document: Document, numbers: Mapping[str, int]) -> tuple[list[list[Item]], dict[str, int]]:
+    """The items of each page, and the pages of the headings that have a key; the contents with such pages."""
+    pages: list[list[Item]] = [[]]
+    y = _TOP
+    page_of: dict[str, int] = {}
+    blocks = tuple(b.with_pages(numbers) if isinstance(b, Contents) else b for b in document.blocks)
+    if _shortened(document) != document.title and not any(
+        isinstance(block, Heading) and block.level == 1 for block in blocks[:1]
+    ):
+        blocks = (Heading(document.title, 1), *blocks)
+    for number, block in enumerate(blocks):
+        if isinstance(block, PageBreak):
+            if pages[-1]:
+                pages.append([])
+                y = _TOP
+            continue
+        # A heading stays with all that it heads, or with the beginning if that is much.
+        more = _headed(blocks[number:]) if isinstance(block, Heading) else 0.0
+        for items, high in _parts(block):
+            if y + high + more > _BOTTOM and pages[-1]:
+                pages.append([])
+                y = _TOP
+            pages[-1] += [item.at(y) for item in items]
+            y += high
+        if isinstance(block, Heading) and block.key:
+            page_of[block.key] = len(pages)
+    return pages, page_of
+
+
+class _Lowered:
+    """An item whose y is counted from the top of its part."""
+
+    def __init__(self, item: Item) -> None:
+        self.item = item
+
+    def at(self, y: float) -> Item:
+        """The item on a page, its part beginning at y."""
+        match self.item:
+            case TextLine(x, below, text, size, bold, role, anchor):
+                return TextLine(x, y + below, text, size, bold, role, anchor)
+            case HorizontalRule(x, below, length, width):
+                return HorizontalRule(x, y + below, length, width)
+            case PlacedPicture(x, below, scale, figure):
+                return PlacedPicture(x, y + below, scale, figure)
+        raise AssertionError(self.item)
+
+
+Part = tuple[list[_Lowered], float]
+
+
+def _parts(block: Block) -> Iterator[Part]:
+    """The pieces of a block that are not divided, each with its height."""
+    match block:
+        case Heading(text, level, _):
+            yield _heading(text, _SIZES[level])
+        case Paragraph(text, small):
+            size, lead = (9.5, 13.0) if small else (_BODY, _LEAD)
+            lines = [
+                line for paragraph in text.split("\n") for line in wrapped_text(paragraph, _RIGHT - _LEFT, size * _FILL)
+            ]
+            role = "faint" if small else "ink"
+            placed = [
+                _Lowered(TextLine(_LEFT, size + k * lead, line, size, role=role)) for k, line in enumerate(lines[:2])
+            ]
+            yield placed, lead * len(placed)  # the first line is never left alone
+            for line in lines[2:]:
+                yield [_Lowered(TextLine(_LEFT, size, line, size, role=role))], lead
+            yield [], _GAP / 2
+        case Pictures():
+            yield _pictures(block)
+        case Rows():
+            yield from _table(block)
+        case AnswerLines(asked, space):
+            items = [_Lowered(TextLine(_LEFT, space + _BODY + 22.0 * k, name)) for k, name in enumerate(asked)]
+            rules = [
+                _Lowered(HorizontalRule(_LEFT + text_width(name, _BODY) + 14, space + _BODY + 22.0 * k + 2, 150.0))
+                for k, name in enumerate(asked)
+            ]
+            yield [*items, *rules], space + 22.0 * len(asked) + _GAP
+
+
+def _heading(text: str, size: float) -> Part:
+    lines = wrapped_text(text, _RIGHT - _LEFT, size * 1.08)
+    items = [_Lowered(TextLine(_LEFT, _GAP + size * (1 + 1.25 * k), line, size, True)) for k, line in enumerate(lines)]
+    return items, _GAP + 1.25 * size * len(lines) + 6
+
+
+def _pictures(block: Pictures) -> Part:
+    scales = block.scales(_RIGHT - _LEFT - _GAP * (len(block.figures) - 1))
+    sizes = [(scale * figure.width, scale * figure.height) for scale, figure in zip(scales, block.figures, strict=True)]
+    spare = (_RIGHT - _LEFT - sum(wide for wide, _ in sizes)) / len(sizes) - _GAP  # given to all captions alike
+    high = max(height for _, height in sizes)
+    items: list[_Lowered] = []
+    left, below = _LEFT, 0.0
+    for k, (figure, scale, (wide, height)) in enumerate(zip(block.figures, scales, sizes, strict=True)):
+        items.append(_Lowered(PlacedPicture(left, high - height, scale, figure)))
+        if k < len(block.captions):
+            lines = wrapped_text(block.captions[k], wide + max(spare, 0.0), 9.5 * _FILL)
+            items += [
+                _Lowered(TextLine(left, high + 13 + 12.5 * row, line, 9.5, role="faint"))
+                for row, line in enumerate(lines)
+            ]
+            below = max(below, 12.5 * len(lines) + 4)
+        left += wide + _GAP + max(spare, 0.0)
+    return items, high + below + _GAP
+
+
+def _table(block: Rows) -> Iterator[Part]:
+    """The rows, each as high as its highest cell; columns as wide as their widest cell, the widest one wrapped."""
+    cells = [block.headers, *block.rows]
+    widths = [max(text_width(row[k], 10 * _FILL) for row in cells) + 14 for k in range(len(block.headers))]
+    excess = sum(widths) - (_RIGHT - _LEFT)
+    if excess > 0:
+        widest = max(range(len(widths)), key=widths.__getitem__)
+        widths[widest] = max(widths[widest] - excess, 90.0)
+    for number, row in enumerate(cells):
+        items, x, high = [], _LEFT, 0.0
+        for cell, width in zip(row, widths, strict=True):
+            lines = wrapped_text(cell, width - 10, 10 * _FILL)
+            items += [_Lowered(TextLine(x, 10 + 13 * k, line, 10, number == 0)) for k, line in enumerate(lines)]
+            x, high = x + width, max(high, 13.0 * len(lines))
+        if number == 0:
+            items.append(_Lowered(HorizontalRule(_LEFT, high + 2, min(sum(widths), _RIGHT - _LEFT))))
+        yield items, high + (6 if number == 0 else 3)
+    yield [], _GAP
+
+
+def _headed(blocks: Sequence[Block]) -> float:
+    """The height of what a heading heads, down to the next one of its level; of much, that of the first part."""
+    heading, *others = blocks
+
+    def belongs(block: Block) -> bool:
+        ends = isinstance(block, Heading) and isinstance(heading, Heading) and block.level <= heading.level
+        return not ends and not isinstance(block, PageBreak)
+
+    heights = [[high for _, high in _parts(block)] for block in takewhile(belongs, others)]
+    whole = sum(map(sum, heights))
+    return whole if whole <= _KEPT else min(next((high for part in heights for high in part), 0.0), _KEPT)
+
+
+def _shortened(document: Document) -> str:
+    """The title as far as the head of a page has space for it."""
+    wide = _RIGHT - _LEFT - text_width(document.subtitle, _HEAD * _FILL) - 2 * _GAP
+    first, *others = wrapped_text(document.title, wide, _HEAD * _FILL)
+    return f"{first.rstrip(',')} …" if others else first
+
+
+def _page(document: Document, items: list[Item], number: int, count: int) -> Page:
+    lang = document.lang
+    head: list[Item] = [
+        TextLine(_LEFT, 50, _shortened(document), _HEAD, role="faint"),
+        TextLine(_RIGHT, 50, document.subtitle, _HEAD, role="faint", anchor="end"),
+        HorizontalRule(_LEFT, 57, _RIGHT - _LEFT),
+        TextLine(
+            WIDTH / 2,
+            HEIGHT - 34,
+            translate("page {number} of {count}", lang, number=number, count=count),
+            9,
+            role="faint",
+            anchor="middle",
+        ),
+    ]
+    return Page((*head, *items), document.title, document.subtitle, lang)
+
+
+def pages_as_pdf(title: str, pages: tuple[Page, ...]) -> bytes:
+    """The pages in one PDF; `GrueblerError` if matplotlib is not installed."""
+    from gruebler.pictures.canvas.matplotlib_files import matplotlib_figure
+    from gruebler.teaching.sheets.page import painted
+
+    memory = io.BytesIO()
+    matplotlib_figure(Figure((), 10, 10, title, ""))  # says what is missing
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    with PdfPages(memory, metadata={"Title": title, "CreationDate": None, "Creator": None}) as file:
+        for page in pages:
+            file.savefig(painted(page))
+    return memory.getvalue()

@@ -1,0 +1,272 @@
+"""Task sheets: generated tasks with figures and space for answers; solutions with constructions; a marking key."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import cycle, islice
+
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import joined, message, translate
+from gruebler.files import Exercise
+from gruebler.pictures.canvas.construction import Construction
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.structure import draw_structure
+from gruebler.structure.chain import Chain
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.teaching.constructions import construction
+from gruebler.teaching.exercises import (
+    KINDS,
+    PartHeading,
+    Result,
+    Solution,
+    TeachingTable,
+    ascii_key,
+    compare,
+    generate,
+    solve,
+    value_text,
+)
+from gruebler.teaching.exercises.grading import key_in_language
+from gruebler.teaching.exercises.messages import (
+    asked_text,
+    cells_of_table,
+    check_text,
+    printed_note,
+    result_text,
+    step_lines,
+)
+from gruebler.teaching.worksheets.blocks import (
+    AnswerLines,
+    Block,
+    Document,
+    Heading,
+    PageBreak,
+    Paragraph,
+    Pictures,
+    Rows,
+)
+from gruebler.teaching.worksheets.exercise_figures import linkage_figure
+
+__all__ = ["TaskSheet", "construction_of", "exercise_figure", "solution_document", "task_sheet"]
+
+_MOST = 60
+_SPACE = {"mobility": 60.0, "grashof": 80.0, "dyad": 60.0}
+
+
+@dataclass(frozen=True, slots=True)
+class TaskSheet:
+    """A sheet with its tasks, and the sheet of their solutions with the marking key."""
+
+    tasks: Document
+    solutions: Document
+    ids: tuple[str, ...]
+
+
+def task_sheet(kinds: Sequence[str], count: int, *, level: int = 1, seed: int = 0, lang: str = "en") -> TaskSheet:
+    """So many tasks of the kinds in turn, with seeds from ``seed`` on; kinds may stand in the plural.
+
+    Cost: some tenths of a second a task. Raises `GrueblerError` for unknown kinds, levels and counts.
+
+    >>> task_sheet(["grashof", "dead-centres"], 3, seed=7).ids
+    ('grashof-1-7', 'dead-centre-1-8', 'grashof-1-9')
+    """
+    if not kinds:
+        raise GrueblerError("expected at least one kind of task among {kinds}", kinds=", ".join(KINDS))
+    kinds = [kind if kind in KINDS else kind.removesuffix("s") for kind in kinds]
+    if not 1 <= count <= _MOST:
+        raise GrueblerError("--count is a number from 1 to {most}, not {count}", most=_MOST, count=count)
+    exercises = [generate(kind, seed + k, level) for k, kind in enumerate(islice(cycle(kinds), count))]
+    names = joined([KINDS[kind][0] for kind in dict.fromkeys(kinds)]).in_language(lang)
+    title = translate("Tasks: {kinds}", lang, kinds=names)
+    subtitle = translate("level {level}, seed {seed}", lang, level=level, seed=seed)
+    tasks = [block for k, each in enumerate(exercises, 1) for block in _task_blocks(each, k, lang)]
+    name_line = translate("Name: {line}   Date: {short}", lang, line="_" * 34, short="_" * 14)
+    solutions: list[Block] = []
+    for k, each in enumerate(exercises, 1):
+        solutions += _solution_blocks(each, k, lang)
+    solutions += [PageBreak(), *_marking_key(exercises, lang)]
+    return TaskSheet(
+        Document(title, subtitle, (Paragraph(name_line), *tasks), lang),
+        Document(translate("Solutions: {kinds}", lang, kinds=names), subtitle, tuple(solutions), lang),
+        tuple(each.id for each in exercises),
+    )
+
+
+# --- tasks -------------------------------------------------------------------------------------------
+
+
+def _task_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
+    solution = solve(exercise)
+    yield Heading(translate("Task {number}", lang, number=number))
+    yield Paragraph(_text(exercise, lang))
+    figure = exercise_figure(exercise, lang)
+    if figure is not None:
+        yield Pictures((figure,), height=170.0)
+    asked = [solution.results[question.key] for question in exercise.asked]
+    names = tuple(f"{_symbol(solution, result, lang)}: {asked_text(result, lang)}" for result in asked)
+    yield AnswerLines(names, _SPACE.get(_kind(exercise), 110.0))
+    yield Paragraph(exercise.id, small=True)
+
+
+def _kind(exercise: Exercise) -> str:
+    return next(kind for kind in KINDS if exercise.id.startswith(f"{kind}-"))
+
+
+def _text(exercise: Exercise, lang: str) -> str:
+    """The task; where the chain is drawn, without the list of its joints."""
+    if exercise.method != "mobility.chain":
+        return exercise.task.in_language(lang)
+    symbols = {joint.pair.symbol(Alphabet.of_language(lang)) for joint in _chain(exercise).joints}
+    return translate(
+        "Count the links and the joints ({symbols}) of the drawn chain, a joint of k links k - 1 times, and find its "
+        "degree of freedom F.",
+        lang,
+        symbols=", ".join(sorted(symbols)),
+    )
+
+
+def _chain(exercise: Exercise) -> Chain:
+    return Chain.parse(str(exercise.given["chain"]))
+
+
+def exercise_figure(exercise: Exercise, lang: str = "en") -> Figure | None:
+    """The figure of a task: the drawn chain, or the linkage to scale with the letters of its lengths; None without.
+
+    >>> from gruebler.teaching.exercises import exercise
+    >>> exercise_figure(exercise("mobility-1-7")).title
+    "Watt's chain"
+    """
+    given = exercise.given
+    if isinstance(given.get("chain"), str):
+        # Names of the links would give away how many there are; a dyad is put between named links.
+        return draw_structure(_chain(exercise), labels=exercise.method != "mobility.chain", lang=lang)
+    return linkage_figure(exercise, lang)
+
+
+# --- solutions ---------------------------------------------------------------------------------------
+
+_CONSTRUCTIONS = {
+    "dead_centres.slider_crank": (("dead-centres", "slider-crank", "abe"),),
+    "dead_centres.stroke_table": (("dead-centres", "slider-crank", "abe"),),
+    "dead_centres.crank_rocker": (("dead-centres", "four-bar", "abcd"),),
+    "dead_centres.central_crank_rocker": (("central-crank-rocker", "", "abc"),),
+    "transmission_angle.slider_crank": (("transmission-angle", "slider-crank", "abe"),),
+    "transmission_angle.four_bar": (("transmission-angle", "four-bar", "abcd"),),
+    "velocities.slider_crank": (("accelerations", "slider-crank", "abe"),),
+    "velocities.four_bar": (("accelerations", "four-bar", "abcd"),),
+    "grashof.length_range": (("permissible-frame", "", "abc"),),
+}
+"""The construction that solves an exercise graphically: name, form, the given lengths that it takes."""
+
+
+def construction_of(exercise: Exercise) -> Construction | None:
+    """The graphical way of an exercise, with its quantities; None if there is none.
+
+    >>> from gruebler.teaching.exercises import exercise
+    >>> round(construction_of(exercise("12")).values["d"], 1)
+    91.2
+    """
+    given = exercise.given
+    for name, form, keys in _CONSTRUCTIONS.get(exercise.method or "", ()):
+        values: dict[str, float | str] = {key: float(given[key]) for key in keys if key in given}
+        if "e" in keys and "e" not in given:
+            values["e"] = 0.0
+        if "b" in keys and "b" not in given and "ratio" in given:
+            values["b"] = float(given["a"]) / float(given["ratio"])
+        if not {*keys} - {"e"} <= {*values}:
+            continue
+        values |= {key: float(given[key]) for key in ("phi", "omega") if key in given and name == "accelerations"}
+        return construction(name, form, **values)
+    return None
+
+
+def solution_document(exercises: Sequence[Exercise], *, lang: str = "en") -> Document:
+    """The solutions of exercises with figures, and with the constructions that give the same.
+
+    >>> from gruebler.teaching.exercises import exercise
+    >>> len([block for block in solution_document([exercise("12")]).blocks if isinstance(block, Pictures)])
+    1
+    """
+    blocks = [block for each in exercises for block in _solution_blocks(each, 0, lang)]
+    names = ", ".join(each.id for each in exercises)
+    return Document(translate("Solutions: {kinds}", lang, kinds=names), "", tuple(blocks), lang)
+
+
+def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
+    """A solution; its heading has the number of the task, or its name for the number 0."""
+    solution = solve(exercise)
+    heading = translate("Task {number}: {id}", lang, number=number, id=exercise.id)
+    yield Heading(heading if number else f"{exercise.name.in_language(lang)} ({exercise.id})")
+    yield Paragraph(exercise.task.in_language(lang))
+    if number == 0 and (figure := exercise_figure(exercise, lang)) is not None:
+        yield Pictures((figure,), height=170.0)
+    count = 0
+    for part in solution.parts:
+        if isinstance(part, PartHeading):
+            count = 0
+            yield Heading(part.text.in_language(lang), 3)
+        elif isinstance(part, TeachingTable):
+            head, *rows = cells_of_table(part, lang)
+            yield Paragraph(part.title.in_language(lang))
+            yield Rows(tuple(head), tuple(map(tuple, rows)))
+        else:
+            count += 1
+            yield Paragraph("\n".join(line.strip() for line in step_lines(part, count, lang)))
+    if exercise.asked:
+        yield _answers(exercise, solution, lang)
+    if exercise.remark is not None:
+        yield Paragraph(translate("Remark: {remark}", lang, remark=exercise.remark))
+    if solution.checks:
+        checks = (check_text(check, lang) for check in solution.checks)
+        yield Paragraph("\n".join([translate("Check by a second method:", lang), *checks]))
+    if number and isinstance(exercise.given.get("chain"), str):
+        yield Pictures((draw_structure(_chain(exercise), labels=True, lang=lang),), height=170.0)
+    whole = construction_of(exercise)
+    if whole is not None:
+        steps = " ".join(f"{k}. {step.text.in_language(lang)}" for k, step in enumerate(whole.steps, 1))
+        yield Pictures((whole.figures(lang, captions=False)[-1],), (steps,), height=340.0)
+
+
+def _answers(exercise: Exercise, solution: Solution, lang: str) -> Rows:
+    """The results, and beside them what the source prints where it prints anything."""
+    comparisons = compare(exercise, solution)
+    rows = tuple(
+        (
+            f"{_symbol(solution, each.result, lang)}: {each.result.name.in_language(lang)}",
+            result_text(each.result, lang),
+            printed_note(each, lang),
+        )
+        for each in comparisons
+    )
+    headers = (translate("answer", lang), translate("value", lang), translate("source", lang))
+    width = 3 if any(note for *_, note in rows) else 2
+    return Rows(headers[:width], tuple(row[:width] for row in rows))
+
+
+def _symbol(solution: Solution, result: Result, lang: str) -> str:
+    """The name under which an answer is marked: its symbol, or its key where other results have the same symbol."""
+    alone = sum(other.symbol == result.symbol for other in solution.results.values()) == 1
+    return key_in_language(result.symbol if alone else ascii_key(result.key), lang)
+
+
+def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
+    """What is right, and its points: one for each answer, one for each way."""
+    rows, total = [], 0
+    for k, exercise in enumerate(exercises, 1):
+        solution = solve(exercise)
+        for question in exercise.asked:
+            result = solution.results[question.key]
+            rows.append((str(k), _symbol(solution, result, lang), value_text(result.value, result.unit, lang), "1"))
+        rows.append((str(k), translate("solution steps", lang), "", "1"))
+        total += len(exercise.asked) + 1
+    rows.append(("", translate("sum", lang), "", str(total)))
+    yield Heading(translate("Marking key", lang), 1)
+    rule = message(
+        "A number is right within half a unit of its last digit or a thousandth, nearly right within two in a hundred. "
+        "gruebler exercise check ID KEY=ANSWER marks by the same rule."
+    )
+    yield Paragraph(rule.in_language(lang))
+    headers = (message("task"), message("answer"), message("value"), message("points"))
+    yield Rows(tuple(header.in_language(lang) for header in headers), tuple(rows))
+    yield Paragraph(translate("Tasks: {ids}", lang, ids=", ".join(each.id for each in exercises)), small=True)

@@ -1,0 +1,95 @@
+"""Dead centres: the family, its range, its best member."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from gruebler.base.errors import SynthesisError
+from gruebler.design.synthesis import DeadCentreTask, synthesise_dead_centres
+from gruebler.design.synthesis.dead_centres import _member, dead_centre_family
+from gruebler.mechanics.analysis import measures
+from gruebler.mechanics.fourbar import FourBar, SliderCrank
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(10, 150), st.floats(0.1, 0.9))
+def test_every_member_has_the_dead_centres(swing, share):
+    angle = np.radians(90 + swing / 2 + 180 * share)
+    family = dead_centre_family(DeadCentreTask(swing=np.radians(swing), crank_angle=angle))
+    for member in family.members[::40]:
+        assert member.linkage.swing == pytest.approx(np.radians(swing), abs=1e-9)
+        assert member.linkage.dead_centres.phi_back == pytest.approx(angle, abs=1e-9)
+        assert member.linkage.type.name if hasattr(member.linkage.type, "name") else str(member.linkage.type)
+        assert member.transmission <= family.best.transmission + 1e-9
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.1, 0.6), st.floats(0.5, 3), st.floats(0.5, 3))
+def test_every_crank_rocker_belongs_to_its_family(a, b, d):
+    """Completeness, by another hand: any crank-rocker is found as the member of its own crank length."""
+    linkage = FourBar(a, b, 1.0, d)
+    assume(str(linkage.type) == "crank-rocker")
+    centres = linkage.dead_centres
+    task = DeadCentreTask(swing=centres.travel, crank_angle=centres.phi_back)
+    assume(abs(task.angle - np.pi) > 1e-3)
+    member = _member(task, a)
+    assert member is not None
+    assert (member.linkage.b, member.linkage.d) == pytest.approx((b, d), rel=1e-6)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.floats(0.1, 1), st.floats(1.3, 5), st.floats(0, 0.25))
+def test_every_slider_crank_belongs_to_its_family(a, b, e):
+    linkage = SliderCrank(a, b, e)
+    stroke, centres = linkage.stroke, linkage.dead_centres
+    assume(abs(centres.phi_max - np.pi) > 1e-3)
+    member = _member(DeadCentreTask(stroke=stroke, crank_angle=centres.phi_max), a / stroke)
+    assert member is not None
+    assert (member.linkage.b, abs(member.linkage.e)) == pytest.approx((b / stroke, e / stroke), rel=1e-6)
+
+
+def test_the_best_member_against_brute_force():
+    """Second method: all crank-rockers of a grid of lengths with nearly this swing and angle are no better."""
+    swing, angle = np.radians(60), np.radians(200)
+    best = dead_centre_family(DeadCentreTask(swing=swing, crank_angle=angle)).best
+    rng = np.random.default_rng(1)
+    seen = 0
+    for a, b, d in rng.uniform([0.3, 0.5, 0.5], [0.5, 2.5, 2.5], (60000, 3)):
+        if a + max(b, d, 1) > b + d + 1 - max(b, d, 1) or a > min(b, d, 1):
+            continue
+        linkage = FourBar(a, b, 1.0, d)
+        centres = linkage.dead_centres
+        if centres is None or abs(centres.travel - swing) > 0.02 or abs(centres.phi_back - angle) > 0.02:
+            continue
+        seen += 1
+        assert linkage.transmission_angle.smallest.mu < best.transmission + 0.06
+    assert seen > 3
+
+
+def test_the_design_really_moves_so():
+    found = synthesise_dead_centres(DeadCentreTask(swing=np.radians(50), time_ratio=1.2))
+    design = found.designs[0]
+    made = measures(design.linkage)
+    assert made.time_ratio == pytest.approx(1.2, abs=1e-6)
+    assert "infinitely many" in str(found.notes[0])
+    assert [d.verdict.transmission for d in found.designs] == sorted(
+        (d.verdict.transmission for d in found.designs), reverse=True
+    )
+
+
+@pytest.mark.parametrize("angle", [119, 301])
+def test_what_is_not_possible_says_what_is(angle):
+    with pytest.raises(SynthesisError, match="more than 120 and less than 300 degrees"):
+        dead_centre_family(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(angle)))
+    assert dead_centre_family(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(121 + (angle > 200) * 178)))
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 12])
+def test_so_many_members_stand_for_the_family(number):
+    """The best among them, and none at the limits of the family, where the transmission angle is nearly 0."""
+    found = synthesise_dead_centres(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(200)), number=number)
+    angles = [design.verdict.transmission for design in found.designs]
+    assert len(angles) == number
+    assert np.degrees(angles[0]) == pytest.approx(38.04, abs=0.01)
+    assert min(angles) > np.radians(1)

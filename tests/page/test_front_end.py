@@ -1,0 +1,61 @@
+"""The built front end is what its sources give; its German is complete; its lock file names no registry."""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SOURCES = ROOT / "explorer"
+BUILT = ROOT / "src/gruebler/page/static/explorer.js"
+
+pytestmark = pytest.mark.skipif(not SOURCES.is_dir(), reason="the sources of the front end are not here")
+
+
+def run(*command: str) -> None:
+    done = subprocess.run(command, cwd=SOURCES, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.skipif(shutil.which("npm") is None, reason="building the front end needs node and npm")
+def test_the_built_file_is_what_the_sources_give(tmp_path):
+    if not all((SOURCES / "node_modules/.bin" / tool).exists() for tool in ("biome", "esbuild", "tsc")):
+        run("npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts")
+    run("npm", "run", "--silent", "check")  # strict types, the linter (no circle of imports), the formatter
+    run("node", "build.mjs", str(tmp_path))
+    assert (tmp_path / "explorer.js").read_text(encoding="utf-8") == BUILT.read_text(encoding="utf-8"), (
+        "run `npm ci && npm run build` in explorer/ and commit src/gruebler/page/static/explorer.js"
+    )
+
+
+def test_the_lock_file_names_no_address():
+    lock = json.loads((SOURCES / "package-lock.json").read_text(encoding="utf-8"))
+    assert "http" not in json.dumps(lock["packages"])
+    assert all("integrity" in package for name, package in lock["packages"].items() if name)
+
+
+def test_no_line_is_longer_than_120():
+    files = [*SOURCES.glob("*.mjs"), *SOURCES.glob("src/*.ts"), *SOURCES.glob("test/*.ts")]
+    longest = {file.name: max(map(len, file.read_text(encoding="utf-8").splitlines())) for file in files}
+    assert {name: long for name, long in longest.items() if long > 120} == {}  # the formatter leaves texts as they are
+
+
+def test_every_text_has_its_german():
+    said = set()
+    for source in SOURCES.glob("src/*.ts"):
+        text = re.sub(r'" \+\n *"', "", source.read_text(encoding="utf-8"))  # texts of more than one line
+        said |= {json.loads(f'"{one}"') for one in re.findall(r'\bt\(\s*"((?:[^"\\]|\\.)*)"', text)}
+        said |= {json.loads(f'"{one}"') for one in re.findall(r'BadLink\("((?:[^"\\]|\\.)*)"', text)}
+    german = json.loads((SOURCES / "src/de.json").read_text(encoding="utf-8"))
+    assert set(german) == said
+    for english, other in german.items():
+        assert sorted(re.findall(r"\{\w+\}", english)) == sorted(re.findall(r"\{\w+\}", other)), english
+
+
+def test_the_module_asks_for_nothing():
+    built = BUILT.read_text(encoding="utf-8")
+    assert set(re.findall(r"https?://[^\"'`\s)]+", built)) <= {"http://www.w3.org/2000/svg"}
+    assert not re.search(r"\bimport\s*\(|\bimport\s*[\"']|\beval\(|new Function", built)

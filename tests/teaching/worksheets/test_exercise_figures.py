@@ -1,0 +1,52 @@
+"""The figure of an exercise is the linkage of its text: moved, it gives the table of the solution."""
+
+import re
+
+import numpy as np
+import pytest
+
+from gruebler.mechanics.kinematics import move
+from gruebler.teaching.exercises import exercise, solve
+from gruebler.teaching.worksheets.exercise_figures import exercise_linkage
+from gruebler.teaching.worksheets.tasks import exercise_figure
+
+WITH_PATHS = ["exercise-16", "exercise-17", "exercise-18", "exercise-19", "exercise-20", "example-3.5.4-lambda",
+              "example-3.5.4-scott-russell"]  # fmt: skip
+
+
+@pytest.mark.parametrize("id", WITH_PATHS)
+def test_the_drawn_linkage_gives_the_table_of_the_solution(id):
+    drawn, table = exercise_linkage(exercise(id)), solve(exercise(id)).tables[0]
+    rows = np.array([[float(value) for value in row] for row in table.rows])
+    motion = move(drawn.linkage, np.radians(rows[:, 0]))
+    assert motion.complete, motion.message()
+    names = [re.fullmatch(r"(\w+)_x", str(column)) for column in table.headers]
+    places = {found[1]: k for k, found in enumerate(names) if found}
+    compared = {*places} & {*drawn.linkage.points}
+    assert compared >= set(drawn.curves)
+    for name in compared:
+        wanted = rows[:, places[name]] + 1j * rows[:, places[name] + 1]
+        assert abs(motion.complex_point(name) - wanted).max() < 1e-9 * drawn.linkage.size, name
+
+
+def test_exercise_19_draws_the_lengths_of_its_text():
+    """Coupler a, rockers b and d, frame c; C on the line A-D with AC = 60: 000/003, exercise 19."""
+    drawn = exercise_linkage(exercise("19"))
+    linkage = drawn.linkage
+    letters = {drawn.letters[link]: link for link in linkage.mechanism.chain.links}
+    for letter, length in {"a": 30, "b": 80, "c": 60, "d": 100}.items():
+        joints = [k for k, joint in enumerate(linkage.mechanism.chain.joints) if letters[letter] in joint.links]
+        assert linkage.length(letters[letter], *joints) == pytest.approx(length)
+    a, c, d = (linkage.points[name] for name in "ACD")
+    assert np.hypot(c.x - a.x, c.y - a.y) == pytest.approx(60)
+    assert np.hypot(d.x - a.x, d.y - a.y) == pytest.approx(30)
+    assert linkage.mechanism.drive_names() == ("R(frame-first)",)
+    words = [shape.text for shape in exercise_figure(exercise("19")).shapes if hasattr(shape, "text")]
+    assert sorted(words) == ["A", "C", "D", "a", "b", "c", "d"]
+
+
+def test_the_eccentricity_of_scott_russell_is_none():
+    """There e is the length beyond A, and the slide passes through A0."""
+    linkage = exercise_linkage(exercise("3.5.4-scott-russell")).linkage
+    assert linkage.length("crank", 0, 1) == linkage.length("coupler", 1, 2) == 1
+    assert move(linkage, [1.0]).point("C")[0] == pytest.approx([0, 2 * np.sin(1.0)], abs=1e-12)
