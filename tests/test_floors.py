@@ -48,9 +48,9 @@ WINGS = {
         {"analysis", "screws", "forces"},
         {"geometry"},
     ],
-    "design": [{"realisation", "synthesis"}],
+    "design": [{"realisation"}, {"synthesis"}],
     "files": [{"files"}],
-    "pictures": [{"canvas"}, {"machines", "structure", "linkage"}, {"designs", "values"}],
+    "pictures": [{"canvas"}, {"machines", "structure"}, {"linkage"}, {"designs", "values"}],
     "teaching": [{"catalog"}, {"constructions", "exercises", "sheets"}, {"worksheets"}],
     "page": [{"page"}],
     "cli": [{"cli"}],
@@ -169,9 +169,9 @@ def test_no_two_files_need_each_other():
 
 def test_architecture_has_the_same_floors():
     page = ROOT / "ARCHITECTURE.md"
-    rows = re.findall(r"^\| `(\w+)/?` \| ([^|]*) \|", page.read_text(encoding="utf-8"), re.MULTILINE)
+    rows = re.findall(r"^\| `(\w+)/?` \| ([^|]*)\|", page.read_text(encoding="utf-8"), re.MULTILINE)
     written = {wing: [set(re.findall(r"`([a-z_]+?)/?`", floor)) for floor in rooms.split("→")] for wing, rooms in rows}
-    assert written == {wing: floors if wing not in WHOLE else [set()] for wing, floors in WINGS.items()}
+    assert written == {wing: [set()] if wing in WHOLE else floors for wing, floors in WINGS.items()}
 
 
 def test_the_package_has_few_entries():

@@ -24,9 +24,9 @@ SHARED = {
 # Names that say nothing of what they name. Arrays that a kernel fills are `out`, as in numpy.
 EMPTY = {"found", "made", "mine", "one", "out", "told", "way"}
 ALLOWED = {
-    ("synthesis.dyads", "found"),  # fields of results: how many were found
-    ("synthesis.results", "found"),
-    ("text", "one"),  # the singular of `plural(one, many)`
+    ("design.synthesis.dyads", "found"),  # fields of results: how many were found
+    ("design.synthesis.results", "found"),
+    ("base.text", "one"),  # the singular of `plural(one, many)`
 }
 
 
@@ -79,4 +79,4 @@ def test_shared_names_are_shared(name):
 
 def test_methods_of_exercises_are_in_their_room():
     for name in ("four_bar", "slider_crank"):
-        assert {room(module) for module in definitions(ast.FunctionDef)[name]} == {"exercises"}
+        assert {room(module) for module in definitions(ast.FunctionDef)[name]} == {"teaching/exercises"}

@@ -23,7 +23,7 @@ _STUB = Path(gruebler.__file__).with_suffix(".pyi")
 _STABILITY = Path(__file__).parents[1] / "reference" / "stability.md"
 _DOCSTRING_SECTIONS = {"Args:": "Arguments", "Returns:": "Returns", "Raises:": "Raises", "Yields:": "Yields"}
 _FURTHER = {  # modules whose names are public though no room lists them
-    "drawing": (
+    "pictures": (
         "structure.picture",
         "linkage.picture",
         "linkage.animation",
@@ -33,9 +33,12 @@ _FURTHER = {  # modules whose names are public though no room lists them
         "machines.geneva_picture",
         "machines.train_picture",
     ),
-    "explorer": ("notebook",),
+    "page": ("notebook",),
 }
-_NO_ROOMS = {"notebook"}  # for the library itself
+_FOR_THE_LIBRARY = {
+    "pictures": None,
+    "base": {"columns", "errors", "text"},
+}  # other rooms of these wings are not public
 
 
 @cache
@@ -44,12 +47,28 @@ def _imports() -> tuple[ast.ImportFrom, ...]:
     return tuple(node for node in tree.body if isinstance(node, ast.ImportFrom))
 
 
+def _rooms_of(wing: str) -> list[str]:
+    """The rooms that a wing opens, by its own list of names."""
+    stub = _STUB.parent / wing / "__init__.pyi"
+    if not stub.exists():
+        return []
+    nodes = [node for node in ast.parse(stub.read_text(encoding="utf-8")).body if isinstance(node, ast.ImportFrom)]
+    rooms = {alias.name for node in nodes if node.module is None for alias in node.names}
+    return sorted(rooms & (_FOR_THE_LIBRARY[wing] or set()) if wing in _FOR_THE_LIBRARY else rooms)
+
+
 @cache
 def documented_rooms() -> tuple[str, ...]:
-    """The rooms that the front door opens, and those from which it takes names."""
-    rooms = {alias.name for node in _imports() if node.module is None for alias in node.names}
-    rooms |= {node.module.split(".")[0] for node in _imports() if node.module}
-    return tuple(sorted(rooms - _NO_ROOMS))
+    """The wings that the front door opens, and their rooms, as mechanics.geometry."""
+    wings = sorted(alias.name for node in _imports() if node.module is None for alias in node.names)
+    return tuple(name for wing in wings for name in (wing, *(f"{wing}.{room}" for room in _rooms_of(wing))))
+
+
+def _room_of(module: str) -> str:
+    """The documented wing or room in which a module lies."""
+    parts = module.split(".")
+    names = [".".join(parts[:k]) for k in range(len(parts), 0, -1)]
+    return next(name for name in names if name in documented_rooms())
 
 
 @cache
@@ -61,7 +80,7 @@ def _public() -> dict[str, dict[str, Any]]:
         modules += [import_module(f"gruebler.{room}.{each}") for each in _FURTHER.get(room, ())]
         names = {name: getattr(module, name) for module in modules for name in getattr(module, "__all__", ())}
         for node in _imports():
-            if node.module and node.module.split(".")[0] == room:
+            if node.module and _room_of(node.module) == room:
                 names |= {alias.name: getattr(gruebler, alias.name) for alias in node.names}
         found[room] = names
     return found
@@ -71,7 +90,7 @@ def _place_of(name: str) -> str:
     """The full name under which a name of the front door is documented."""
     for node in _imports():
         if name in [alias.name for alias in node.names]:
-            return f"gruebler.{node.module.split('.')[0]}.{name}" if node.module else f"gruebler.{name}"
+            return f"gruebler.{_room_of(node.module)}.{name}" if node.module else f"gruebler.{name}"
     raise KeyError(name)
 
 
@@ -88,8 +107,6 @@ def front_door_table(lang: str, _: str) -> str:
     words = {"stable": {"en": "stable", "de": "stabil"}, "provisional": {"en": "provisional", "de": "vorläufig"}}
     lines = [heads, "|---|---|---|"]
     for name in sorted(gruebler.__all__, key=lambda each: (each in documented_rooms(), each.lower())):
-        if name in _NO_ROOMS:
-            continue
         if name not in state:
             raise ValueError(f"{_STABILITY}: expected a row for the name {name}")
         value = getattr(gruebler, name)
@@ -114,6 +131,11 @@ def room_page(lang: str, room: str) -> str:
     del lang
     module = import_module(f"gruebler.{room}")
     lines = [f"# gruebler.{room}", "", *_markdown(inspect.getdoc(module) or ""), ""]
+    for inner in documented_rooms():
+        if inner.startswith(f"{room}."):
+            sentence = _cell(_first_sentence(import_module(f"gruebler.{inner}")))
+            lines.append(f"- [`gr.{inner}`]({inner}.md): {sentence}")
+    lines.append("")
     for name, value in sorted(
         _public()[room].items(), key=lambda item: (not inspect.isclass(item[1]), item[0].lower())
     ):

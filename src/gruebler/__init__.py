@@ -33,6 +33,10 @@ __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
 
 def _picture(value: object) -> str:
     """The SVG of a value for a notebook."""
+    if type(value).__name__ == "Sheet":
+        from gruebler.teaching.sheets.layout import page
+
+        return page(value).svg()
     from gruebler.pictures.values import picture_of
 
     return picture_of(value)

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 import gruebler as gr
 from gruebler.base.angles import doubt_of_angles
 from gruebler.cli import main
-from gruebler.design.synthesis import FunctionTask, PathTask, PositionTask, task_from_json
+from gruebler.design.synthesis import FunctionTask, PathTask, PositionTask
+from gruebler.files.tasks import task_from_json
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.kinematics import four_bars
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from gruebler.cli import main
-from gruebler.design.synthesis import task_from_json
 from gruebler.design.synthesis.positions import guiding_dyads
 from gruebler.files import linkage_from_json, read_linkage
+from gruebler.files.tasks import task_from_json
 from gruebler.mechanics.kinematics import move
 
 FIVE = """x,y,angle

@@ -12,8 +12,8 @@ from gruebler.mechanics.forces import Loads, statics, statics_table
 from gruebler.mechanics.fourbar import SliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.teaching.exercises import exercise, solve
-from tests.base.documents import independent as own
-from tests.base.documents.fact import Fact, answer_of, exercise_place, task
+from tests.documents import independent as own
+from tests.documents.fact import Fact, answer_of, exercise_place, task
 
 
 def table(id: str, states: str, columns: list[int], value: Any, *, number: int = 0, near: float = 1e-9) -> Fact:

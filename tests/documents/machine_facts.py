@@ -14,8 +14,8 @@ from gruebler.mechanics.analysis import drive_range, measures
 from gruebler.mechanics.kinematics import Motion, move
 from gruebler.structure.mobility import count_freedoms
 from gruebler.teaching.catalog import check_entry, entry
-from tests.base.documents import independent as own
-from tests.base.documents.fact import Fact
+from tests.documents import independent as own
+from tests.documents.fact import Fact
 
 
 class Structure(NamedTuple):

@@ -12,8 +12,8 @@ from gruebler.mechanics.geometry.meyer_zur_capellen import lambdas_for, symmetri
 from gruebler.mechanics.kinematics import move
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.sheets import sheet
-from tests.base.documents import independent as own
-from tests.base.documents.fact import Fact, on_sheet
+from tests.documents import independent as own
+from tests.documents.fact import Fact, on_sheet
 
 KAPPA = degrees(acos(5 * sqrt(3) / 9))
 LEVER = own.lever(5 / 6)

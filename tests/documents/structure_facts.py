@@ -14,8 +14,8 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import PAIRS, Alphabet, Space, pair
 from gruebler.structure.mobility import count_freedoms, counted, mobility_report
 from gruebler.teaching.exercises import teaching_table
-from tests.base.documents import independent as own
-from tests.base.documents.fact import Fact
+from tests.documents import independent as own
+from tests.documents.fact import Fact
 
 # Table 2.2: name, symbol, f; names and symbols as in docs/misprints.md where the text came through garbled.
 TABLE_2_2 = (

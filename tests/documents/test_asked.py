@@ -9,7 +9,7 @@ import pytest
 
 from gruebler.cli import main
 from gruebler.cli.commands import command as command_named
-from tests.base.documents.test_facts import FACTS
+from tests.documents.test_facts import FACTS
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]

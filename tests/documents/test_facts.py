@@ -8,9 +8,9 @@ import pytest
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises import all_exercises
 from gruebler.teaching.sheets import sheet
-from tests.base.documents import exercise_facts, machine_facts, sheet_facts, structure_facts
-from tests.base.documents.altered import altered_catalog
-from tests.base.documents.fact import Fact, alike
+from tests.documents import exercise_facts, machine_facts, sheet_facts, structure_facts
+from tests.documents.altered import altered_catalog
+from tests.documents.fact import Fact, alike
 
 FACTS = [*structure_facts.FACTS, *machine_facts.FACTS, *exercise_facts.FACTS, *sheet_facts.FACTS]
 

@@ -7,8 +7,8 @@ from gruebler.teaching.exercises import all_exercises, exercise, faults, solve
 from gruebler.teaching.exercises.solution import Check, Solution
 from gruebler.teaching.worksheets.files import document_bytes
 from gruebler.teaching.worksheets.tasks import solution_document
-from tests.base.documents.altered import altered_catalog
 from tests.commands import run_command
+from tests.documents.altered import altered_catalog
 
 # exercise 12: sqrt(75^2 + 60^2 - 30^2) = 91.2414; exercise 13: arccos(15/75) = 78.463 degrees, printed 78.2
 D_OF_12 = ("solved/exercise-12.toml", ('"91.2"', '"92.2"'))

@@ -182,8 +182,6 @@ def plot(linkage: object, kind: str = "transfer", **options: Any) -> Picture:
 
 def picture_of(value: object) -> str:
     """The SVG of a value for a notebook; of a linkage that cannot be placed, its structure and the reason."""
-    if type(value).__name__ == "Sheet":
-        return str(_function("sheets.layout", "page")(value).svg())
     value, kind = _drawn(value)
     match type(value).__name__:
         case "Linkage":
@@ -244,9 +242,7 @@ def _linkage_content(linkage: Linkage, options: dict[str, Any], kind: str, *, da
         return str(_function("linkage.animation", "animated_svg")(linkage, **options)).encode("utf-8")
     if kind == "html":
         return str(_function("linkage.animation_page", "animated_page")(linkage, **options)).encode("utf-8")
-    content: bytes = _function("linkage.animation_frames", "animated_frames")(
-        linkage, kind, dark=dark, **options
-    )
+    content: bytes = _function("linkage.animation_frames", "animated_frames")(linkage, kind, dark=dark, **options)
     return content
 
 

@@ -29,7 +29,7 @@ __all__ = [
 def catalog_folder() -> Path:
     """The folder of the catalog: inside the installed package, or at the top of a source checkout."""
     package = Path(__file__).resolve().parents[2]
-    for folder in (package / "catalogs", package.parents[2] / "catalogs"):
+    for folder in (package / "catalogs", package.parents[1] / "catalogs"):
         if folder.is_dir():
             return folder
     raise CatalogError(
