@@ -13,6 +13,7 @@ from dataclasses import is_dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from sphinx.addnodes import pending_xref
@@ -71,6 +72,12 @@ def _room_of(module: str) -> str:
     return next(name for name in names if name in documented_rooms())
 
 
+def _names_of(module: ModuleType) -> list[str]:
+    """What a door lists, else what a file defines without an underscore."""
+    own = (name for name, value in vars(module).items() if getattr(value, "__module__", None) == module.__name__)
+    return list(getattr(module, "__all__", ())) or [name for name in own if not name.startswith("_")]
+
+
 @cache
 def _public() -> dict[str, dict[str, Any]]:
     """For each room its public names and what they stand for."""
@@ -78,7 +85,7 @@ def _public() -> dict[str, dict[str, Any]]:
     for room in documented_rooms():
         modules = [import_module(f"gruebler.{room}")]
         modules += [import_module(f"gruebler.{room}.{each}") for each in _FURTHER.get(room, ())]
-        names = {name: getattr(module, name) for module in modules for name in getattr(module, "__all__", ())}
+        names = {name: getattr(module, name) for module in modules for name in _names_of(module)}
         for node in _imports():
             if node.module and _room_of(node.module) == room:
                 names |= {alias.name: getattr(gruebler, alias.name) for alias in node.names}

@@ -24,19 +24,6 @@ from typing import Any, NamedTuple, TypeVar
 
 from gruebler._numeric.kernel_cache import is_cached, prepared_folder
 
-__all__ = [
-    "Progress",
-    "compiled",
-    "for_work",
-    "instead",
-    "interpreted",
-    "kernels",
-    "njit",
-    "on_compiling",
-    "price",
-    "wanted_tier",
-]
-
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 Progress = Callable[[str, int, int], None]
 """Called before each kernel is compiled: its name, how many are done, how many there are; with an empty name at the

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 
-__all__ = ["ARRIVED", "FAILED", "INFINITE", "evaluate_system", "refine_solutions", "sharp_residuals", "track"]
-
 Complexes = NDArray[np.complex128]
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]

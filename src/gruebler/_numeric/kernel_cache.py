@@ -20,8 +20,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-__all__ = ["cache_folder", "is_cached", "kernel_sources", "prepared_folder"]
-
 _SOURCES = Path(__file__).parent
 _PACKAGE = _SOURCES.parent
 _UNUSED_DAYS = 60  # after so long without use the kernels of another version are removed

@@ -19,18 +19,6 @@ import numpy as np
 
 from gruebler._numeric.compiling import compiled, instead, njit
 
-__all__ = [
-    "choose",
-    "complex_number",
-    "dot",
-    "give_back",
-    "lanes",
-    "square_root",
-    "subtract",
-    "taken",
-    "tally",
-]
-
 
 @cache
 def _indices(n: int) -> Any:

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.lanes import give_back, taken
 
-__all__ = ["closest", "crossing_segments", "relax", "symmetrise"]
-
 _SMALLEST = 1e-12
 
 

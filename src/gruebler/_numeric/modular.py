@@ -15,23 +15,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "CoreTooLarge",
-    "Echelon",
-    "P",
-    "Support",
-    "echelon",
-    "left_null_space",
-    "left_null_spaces",
-    "modular_inverse",
-    "modular_product",
-    "null_space",
-    "null_space_by_column",
-    "random_solutions",
-    "reduced_echelon",
-    "transposed",
-]
-
 P = 2**31 - 1
 
 Row = dict[int, int]

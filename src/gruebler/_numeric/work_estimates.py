@@ -10,22 +10,6 @@ from __future__ import annotations
 from gruebler._numeric.motion.program import Program
 from gruebler._numeric.motion.sweep import SWEPT_ROWS, swept_links
 
-__all__ = [
-    "census",
-    "closing_work",
-    "comparing",
-    "growing",
-    "labelling",
-    "newton_work",
-    "packed_labelling",
-    "refining",
-    "relaxing",
-    "sampling",
-    "tracking",
-    "walking",
-    "writing",
-]
-
 
 def walking(program: Program, rows: int, order: int) -> float:
     """`motion.walk` over so many rows, with so many derivatives."""

@@ -14,8 +14,6 @@ from numpy.typing import ArrayLike
 from gruebler.base.errors import UnitWarning, level_of_user
 from gruebler.base.text import Message, message
 
-__all__ = ["doubt_of_angles", "warn_of_degrees"]
-
 _TURN = 2 * pi * (1 + 1e-9)
 _RIGHT = 90.0  # degrees: few ranges in radians are a whole number of these
 

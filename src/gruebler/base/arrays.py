@@ -11,8 +11,6 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Complexes", "Flags", "Integers", "Reals", "compared_by_value", "cross_product", "same", "scalar_product"]
-
 _Class = TypeVar("_Class", bound=type)
 
 Reals = NDArray[np.float64]

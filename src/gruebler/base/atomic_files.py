@@ -29,8 +29,6 @@ from gruebler.base.text import reason_of
 if sys.platform != "win32":
     import fcntl
 
-__all__ = ["PARTIAL", "atomic_file", "remove_abandoned_files", "temporary_directory"]
-
 PARTIAL = ".partial"
 """Ends the names of files that are not complete yet."""
 _NAME = 40  # characters of the final name in the temporary one: with the rest it stays below the 255 bytes of a name

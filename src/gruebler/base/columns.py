@@ -18,8 +18,6 @@ from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.notebook import ROWS_SHOWN, html_table
 from gruebler.base.text import number
 
-__all__ = ["FORMULA", "Column", "Table", "as_csv", "harmless_cell", "shown"]
-
 FORMULA = r"^([=+\-@\t\r\n])"
 """How a text begins that a spreadsheet takes for a formula."""
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import pairwise
 
-__all__ = ["convex_hull"]
-
 _ON_EDGE = 1e-9  # of the extent: corners as near as this to an edge lie on it (an error of rounding)
 
 

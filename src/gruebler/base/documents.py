@@ -16,8 +16,6 @@ import msgspec
 from gruebler.base.errors import near_words, visible
 from gruebler.base.text import Message, message, reason_of
 
-__all__ = ["Failing", "convert_document", "infinities_as_words", "load_document"]
-
 Failing = Callable[[Message], Exception]
 """Makes the exception of a message; the errors of the library are such makers themselves."""
 

@@ -19,8 +19,6 @@ from typing import Annotated, Any, TypeGuard, TypeVar
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, joined_by_or, message
 
-__all__ = ["door", "door_that_raises"]
-
 F = TypeVar("F", bound=Callable[..., Any])
 Fits = Callable[[object], bool]
 

@@ -9,8 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi, radians
 
-__all__ = ["GOOD", "ChangePoint", "DeadCentre", "Extremum", "Transmission", "TransmissionExtremes"]
-
 GOOD = radians(40)
 """The rule of thumb: the transmission angle should not fall below."""
 

@@ -11,8 +11,6 @@ from typing import Any
 
 from gruebler.base.arrays import Complexes, Reals
 
-__all__ = ["turn_derivative", "turned_derivative"]
-
 Derivatives = Sequence[Any] | Reals | Complexes
 """Numbers or arrays of one shape, one for each order."""
 

@@ -11,8 +11,6 @@ from html import escape
 from itertools import islice
 from typing import Any
 
-__all__ = ["ROWS_SHOWN", "Brief", "html_table", "svg_of", "table_of"]
-
 svg_of: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
 

@@ -24,30 +24,6 @@ import msgspec
 
 from gruebler.base.errors import GrueblerError, Suggestion, shortened
 
-__all__ = [
-    "LANGUAGES",
-    "LOCALE",
-    "Message",
-    "Readable",
-    "Text",
-    "arity",
-    "decimal_sign_in",
-    "error_in_language",
-    "in_every_language",
-    "joined",
-    "joined_by_and",
-    "joined_by_or",
-    "listed",
-    "message",
-    "number",
-    "number_separator",
-    "numbers",
-    "plural",
-    "reason_of",
-    "translate",
-    "translate_in_context",
-]
-
 LANGUAGES = ("en", "de")
 """The languages there are: that of the code, then one for each folder in `locale`."""
 

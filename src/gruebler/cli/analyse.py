@@ -15,7 +15,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
-from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
+from gruebler.cli.drive_rows import add_range, given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word, with_points
 from gruebler.cli.output import print_json, write_table
@@ -26,7 +26,7 @@ from gruebler.files.linkages import linkage_to_json
 from gruebler.mechanics.analysis import motion_roles, rotatability
 from gruebler.mechanics.analysis.outputs import Output, find_output
 from gruebler.mechanics.analysis.rotatability import slide_directions
-from gruebler.mechanics.analysis.table import motion_table
+from gruebler.mechanics.analysis.table import default_rows, motion_table
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import read_branch
 from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_in_radians
@@ -38,9 +38,6 @@ if TYPE_CHECKING:
     from gruebler.mechanics.analysis.measures import Measures
     from gruebler.mechanics.analysis.rotatability import Rotatability
     from gruebler.mechanics.kinematics.circuits import Circuit
-
-__all__ = ["add", "run"]
-
 
 _MOST_BRANCHES = 16
 

@@ -13,8 +13,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.linkage.animation import AnimationOptions, animated_svg
 from gruebler.pictures.linkage.animation_page import animated_page
 
-__all__ = ["add", "run"]
-
 _SUFFIXES = ("svg", "html", "gif", "webp", "png")
 
 

@@ -18,8 +18,6 @@ from gruebler.structure.enumeration import (
     largest_degree,
 )
 
-__all__ = ["print_assortments"]
-
 _MANY = 1_000_000  # assortments that are listed without being asked again: about a minute
 _COUNTED_QUICKLY = 300_000  # links above the mobility: about half a minute and 100 MB
 _NUMBERED_AT_ONCE = 2_000  # links: the number of assortments grows with the links, so this one bounds the later ones

@@ -19,8 +19,6 @@ from gruebler.structure.assur.listing import GroupRow, count_assur_groups, expec
 from gruebler.structure.chain.pairs import Alphabet, pair
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["add", "run"]
-
 _NAMED = 4  # groups of more links have no names
 _PROGRESS = message("{n} groups, {seconds:.0f} s")
 

@@ -23,8 +23,6 @@ from gruebler.cli.tables import print_table
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["add", "run"]
-
 _CHAIN = 1e-4  # seconds to describe a chain of simple joints, its files included
 _COMPOSED = 1e-2  # one with multiple or sliding joints, or a fractionated one
 _BULK = 2e-5  # for each link of a chain with F = 1, and each drive at it

@@ -32,8 +32,6 @@ from gruebler.machines.cams import (
     read_lift,
 )
 
-__all__ = ["add", "run"]
-
 _LAWS = (message("law"), "C_v", "C_a", "C_j", "C_v·C_a")
 _PARTS = (message("part"), message("from"), message("to"), message("lift"), message("law"))
 _FIGURES = (message("quantity"), message("value"), message("at"))

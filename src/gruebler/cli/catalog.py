@@ -20,8 +20,6 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mobility import counted
 from gruebler.teaching.catalog import entries, entry, exercises
 
-__all__ = ["add", "run"]
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""

@@ -34,8 +34,6 @@ from gruebler.structure.mobility import mobility_report
 from gruebler.structure.mobility.report import verdict_word
 from gruebler.teaching.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
 
-__all__ = ["add", "explanation", "print_checked", "run"]
-
 _WIDEST_NAME = 44
 
 

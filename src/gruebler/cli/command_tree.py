@@ -10,8 +10,6 @@ from gruebler.base.text import translate
 from gruebler.cli.commands import GROUPS
 from gruebler.cli.parser import Parser
 
-__all__ = ["Argument", "CommandNode", "command_tree"]
-
 _FILES = ("FILE", "DIR", "IN", "OUT")
 
 

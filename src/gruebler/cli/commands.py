@@ -14,8 +14,6 @@ from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.text import Message, message, translate
 from gruebler.cli.parser import Parser
 
-__all__ = ["GROUPS", "Command", "command", "command_names", "overview", "welcome"]
-
 
 @dataclass(frozen=True, slots=True)
 class Command:

@@ -13,8 +13,6 @@ from gruebler.base.text import translate
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
-__all__ = ["show_compiling"]
-
 
 def show_compiling(lang: str = "en") -> None:
     """Show on standard error what is compiled, if that is a terminal; else be silent.

@@ -9,8 +9,6 @@ from collections.abc import Iterator
 from gruebler.cli.command_tree import Argument, CommandNode, command_tree
 from gruebler.cli.parser import Parser
 
-__all__ = ["add", "run"]
-
 _SHELLS = ("bash", "zsh", "fish")
 
 

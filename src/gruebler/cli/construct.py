@@ -14,8 +14,6 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.pictures.canvas.construction_files import CONSTRUCTION_SUFFIXES, construction_bytes
 from gruebler.teaching.constructions import CONSTRUCTIONS, construction, construction_forms
 
-__all__ = ["add", "run"]
-
 _HEADERS = (message("name"), message("construction"), message("chapter"), message("quantities"))
 
 

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from gruebler.mechanics.linkages import Linkage
     from gruebler.structure.chain import Chain
 
-__all__ = ["add", "run"]
-
 _HEADERS = (message("format"), message("endings"), message("program"), message("what it holds"), message("lengths in"))
 
 
@@ -66,7 +64,8 @@ def _value_of(word: str, lang: str) -> Linkage | Chain:
 
 def run(arguments: argparse.Namespace) -> int:
     """The file written, and what was left out; or the table of formats."""
-    from gruebler.files.values import FORMATS, convert, write
+    from gruebler.files.formats import FORMATS
+    from gruebler.files.values import convert, write
 
     lang = arguments.lang
     if arguments.formats:

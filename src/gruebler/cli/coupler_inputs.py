@@ -8,8 +8,6 @@ from gruebler.cli.linkage_inputs import linkage_of_lengths
 from gruebler.cli.point_inputs import point_of
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 
-__all__ = ["branch_sign", "coupler_point"]
-
 _SIGNS = {"+": 1, "1": 1, "-": -1, "-1": -1}
 
 

@@ -26,8 +26,6 @@ from gruebler.cli.tables import Cell, print_table
 from gruebler.mechanics.analysis.drive_cycle import PathCycle
 from gruebler.mechanics.geometry import CouplerCurve, TangentContact, coupler_curve
 
-__all__ = ["add", "run"]
-
 _MODES: Mapping[str, Callable[[argparse.Namespace], int]] = {
     "straight": curve_straight.run,
     "cognates": curve_cognates.run,

@@ -13,8 +13,6 @@ from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
 from gruebler.mechanics.geometry.meyer_zur_capellen import CouplerLever, SymmetricRocker, lambdas_for, symmetric_rocker
 
-__all__ = ["run"]
-
 _HEADERS = ("", "l1", "l2", "l3", "l4", "k", "l", "κ", message("type"))
 
 

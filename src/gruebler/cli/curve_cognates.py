@@ -18,8 +18,6 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.geometry.lever_contact import lever_pose
 from gruebler.mechanics.geometry.roberts import Cognate, cognates, slider_cognates
 
-__all__ = ["run"]
-
 _INSIDE = 0.4  # of the range of the crank: a pose away from its limits
 _LINKS = {"crank": message("crank"), "coupler": message("coupler"), "rocker": message("rocker")}
 

@@ -16,8 +16,6 @@ from gruebler.files.measured_lengths import length_of, same_unit
 from gruebler.mechanics.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.mechanics.geometry.sizing import Sizing
 
-__all__ = ["run"]
-
 _HEADERS = (
     *(message("name"), message("inventor"), "n", message("kind"), message("contact"), message("length")),
     *(message("band"), "Q_G", message("drive")),

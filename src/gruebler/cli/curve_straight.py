@@ -24,8 +24,6 @@ from gruebler.mechanics.geometry.straight import (
     piece_of_ratio,
 )
 
-__all__ = ["run"]
-
 _FROM_LIMITS = 1e-9  # of the range: a limit of the drive is approached so far
 
 

@@ -9,8 +9,6 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_text
 from gruebler.teaching.catalog import check_all, check_entry, entry
 
-__all__ = ["add", "run"]
-
 _EXPLAINED = ("vcomp", "diff", "loco3", "quad_strut")
 
 

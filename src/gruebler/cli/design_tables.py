@@ -13,8 +13,6 @@ from gruebler.design.synthesis.results import EXACT, FITTED
 from gruebler.mechanics.linkages import Linkage, Pin
 from gruebler.mechanics.linkages.elements import Line
 
-__all__ = ["print_designs", "print_optimum"]
-
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
 _COLUMNS = (
     *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),

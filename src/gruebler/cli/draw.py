@@ -38,18 +38,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries
 
-__all__ = [
-    "add",
-    "contacts_of",
-    "entry_of",
-    "german",
-    "linkage_and_range",
-    "picture_suffix",
-    "run",
-    "subject",
-    "write_picture",
-]
-
 _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
     "contracted": draw_contracted,

@@ -11,13 +11,9 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.cli.parser import Parser
-from gruebler.mechanics.analysis.table import default_rows
 from gruebler.mechanics.kinematics import from_degrees
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
-
-__all__ = ["add_range", "default_rows", "driven_path", "given_rows", "pose_of", "turning_drives"]
-
 
 _MOST_ROWS = 1_000_000
 _LARGEST = 1e9

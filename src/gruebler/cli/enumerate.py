@@ -28,8 +28,6 @@ from gruebler.structure.enumeration.request import Request, RequestCount
 from gruebler.structure.enumeration.run_request import run_count, run_list
 from gruebler.structure.enumeration.work_units import PieceListing
 
-__all__ = ["add", "run"]
-
 _LONG = 900.0  # seconds; what takes longer, or more bytes than the following, needs --yes
 _LARGE = 8 * 10**9
 _ENDINGS = {".txt": "text", ".g6": "graph6", ".json": "json"}

@@ -11,8 +11,6 @@ from concurrent.futures import Executor
 from gruebler.base.errors import GrueblerError
 from gruebler.cli.parser import Parser
 
-__all__ = ["add_executor", "executor_of"]
-
 
 def add_executor(parser: Parser) -> None:
     """Add the options."""

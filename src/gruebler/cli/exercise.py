@@ -32,8 +32,6 @@ from gruebler.teaching.exercises import (
     with_values,
 )
 
-__all__ = ["add", "run"]
-
 _MARKS = {
     Mark.RIGHT: message("right"),
     Mark.NEAR: message("nearly right"),

@@ -14,8 +14,6 @@ from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
 from gruebler.page.model import model_of
 
-__all__ = ["add", "run"]
-
 _PORT = 8117
 
 

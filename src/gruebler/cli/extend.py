@@ -17,8 +17,6 @@ from gruebler.structure.isomorphism import code
 from gruebler.structure.mobility import mobility_report
 from gruebler.structure.transformations import Attachment, Extension, derive, extend
 
-__all__ = ["add", "run"]
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""

@@ -28,8 +28,6 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.inversion import family, inversions
 from gruebler.teaching.catalog import entries, entry
 
-__all__ = ["add", "run"]
-
 _MOST = 3000  # chains on a page; a browser still scrolls through them
 
 

@@ -30,8 +30,6 @@ from gruebler.machines.gears.assembly import axes
 from gruebler.machines.gears.messages import fraction_text, writable
 from gruebler.machines.gears.train import exact_number
 
-__all__ = ["add", "run"]
-
 _DRAWN = "drawn"
 _POWER = message(
     "Power is torque times speed times 2π/60: in W for torques in N m, forces in N, lengths in m, speeds in 1/min."

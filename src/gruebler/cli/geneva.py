@@ -17,8 +17,6 @@ from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.machines.geneva import Geneva
 
-__all__ = ["add", "run"]
-
 _ROWS = {
     "crank_ratio": (message("crank radius / centre distance"), ""),
     "most_pins": (message("largest number of pins"), ""),

@@ -16,8 +16,6 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.extremes import CrankRange
 from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
 
-__all__ = ["add", "run"]
-
 _HEADERS = (message("from"), message("to"), message("type"), message("below"), message("above"))
 
 

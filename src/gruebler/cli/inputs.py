@@ -15,8 +15,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 
-__all__ = ["assortment_of", "chain_from_word", "mechanism_of", "outputs_of"]
-
 
 def _of_file(word: str, lang: str = "en") -> Linkage | SpatialLinkage | Chain | None:
     """What a file holds, with the dimensions of a linkage, the screws of its joints or a chain of another program."""

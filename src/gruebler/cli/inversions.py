@@ -18,8 +18,6 @@ from gruebler.mechanics.fourbar import SizedInversion, double_slide_inversions, 
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
 
-__all__ = ["add", "item", "run"]
-
 _DOUBLE_SLIDE = "double-slide:"
 _PICTURES = (".html", ".pdf")
 _HEADERS = {

@@ -8,8 +8,6 @@ from collections.abc import Iterable
 from gruebler.base.errors import shortened
 from gruebler.base.text import Message, translate
 
-__all__ = ["print_left_out", "say_left_out"]
-
 _notes: list[str] = []
 
 

@@ -15,8 +15,6 @@ from gruebler.base.text import LANGUAGES
 from gruebler.cli.parser import Parser
 from gruebler.structure.chain.notation import renamed_links
 
-__all__ = ["language_of_names", "spell_links_alike"]
-
 _ON_THE_COUPLER = re.compile(r"[-+.\deE]+,[-+.\deE]+")
 _FOR_PROGRAMS = (".json", ".toml")
 

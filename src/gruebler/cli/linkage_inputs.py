@@ -15,18 +15,6 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.structure.chain import Chain
 
-__all__ = [
-    "add_branch",
-    "add_curves",
-    "add_linkage",
-    "is_lengths",
-    "linkage_of_lengths",
-    "linkage_of_word",
-    "size_of",
-    "value_of_another_program",
-    "with_points",
-]
-
 _BARE = re.compile(r"[-+.\deE]+(,[-+.\deE]+){3}")
 
 _KINDS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {

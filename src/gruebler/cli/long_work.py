@@ -14,8 +14,6 @@ from gruebler.base.text import Message, message, translate
 if TYPE_CHECKING:
     from gruebler.structure.enumeration.worker_pool import Progress
 
-__all__ = ["ask_before", "progress", "run_progress", "time_text"]
-
 T = TypeVar("T")
 
 _LONG = 60.0

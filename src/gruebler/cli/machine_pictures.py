@@ -16,8 +16,6 @@ from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.pictures.canvas.moving_files import MOVING, moving_bytes
 from gruebler.pictures.canvas.moving_picture import MovingPicture
 
-__all__ = ["add_picture_options", "angle_of", "is_few", "is_printed", "refuse_picture", "write_machine_picture"]
-
 _OPTIONS = ("at", "plot", "teeth", "animate", "seconds", "dark")
 _FEW = ("gif", "webp", "png")
 

@@ -10,8 +10,6 @@ from gruebler.base.text import translate
 from gruebler.cli.command_tree import CommandNode, command_tree
 from gruebler.cli.parser import Parser
 
-__all__ = ["add", "run"]
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""

@@ -15,8 +15,6 @@ from gruebler.base.columns import Column, Table, as_csv
 from gruebler.base.errors import visible
 from gruebler.base.text import translate
 
-__all__ = ["print_json", "print_svg", "say_written", "write_file", "write_table"]
-
 
 def print_json(document: Any, indent: int | None = 2) -> None:
     """Print plain data as JSON, valid on any output: null for what is not finite, escapes where it is not UTF-8.

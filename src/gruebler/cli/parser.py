@@ -18,8 +18,6 @@ from gruebler.base.errors import GrueblerError, nearest, shortened
 from gruebler.base.text import LANGUAGES, LOCALE, joined_by_or, message, translate
 from gruebler.cli.printed_file import TABLES
 
-__all__ = ["Parser", "argparse_in_language", "wanted_language"]
-
 _PICTURES = (".svg", ".png", ".pdf", ".html", ".gif", ".webp")
 _FILE = r".+\.[A-Za-z]\w{1,4}"
 _PLACEHOLDERS = {

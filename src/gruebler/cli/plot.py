@@ -19,8 +19,6 @@ from gruebler.pictures.canvas.panels import ratio_diagram
 from gruebler.pictures.linkage.curve_plots import coupler_plot, family_plot, hodograph
 from gruebler.pictures.linkage.motion_plots import transfer_plot, transmission_plot
 
-__all__ = ["add", "run"]
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""

@@ -8,8 +8,6 @@ import re
 from gruebler.base.errors import GrueblerError
 from gruebler.mechanics.linkages import LinkPoint
 
-__all__ = ["point_of"]
-
 _NUMBERS = re.compile(r"[-+.\deE]+,[-+.\deE]+")
 
 

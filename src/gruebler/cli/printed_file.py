@@ -11,8 +11,6 @@ from pathlib import Path
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or
 
-__all__ = ["TABLES", "is_table", "printed_to_file"]
-
 TABLES = (".csv", ".parquet")
 """Endings of files with tables."""
 

@@ -14,8 +14,6 @@ from gruebler.cli.parser import Parser
 from gruebler.design.realisation import Realisation, realise
 from gruebler.files.linkages import linkage_to_json, linkage_to_toml, write_linkage
 
-__all__ = ["add", "run"]
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""

@@ -36,8 +36,6 @@ from gruebler.teaching.catalog.features import AccessFeatures
 if TYPE_CHECKING:
     from gruebler.structure.atlas import Atlas
 
-__all__ = ["add", "run"]
-
 _PROGRESS = message("{n} mechanisms, {seconds:.0f} s")
 _NAMED = {"binary": 2, "ternary": 3, "quaternary": 4}
 

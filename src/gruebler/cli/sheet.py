@@ -20,8 +20,6 @@ from gruebler.teaching.sheets.messages import explanation_paragraphs, typeset_nu
 if TYPE_CHECKING:
     from gruebler.teaching.worksheets import Document
 
-__all__ = ["add", "run"]
-
 _LIST = (message("id"), message("title"), message("source"))
 _VALUES = (message("symbol"), message("meaning"), message("exact"), message("computed"), message("printed"), "")
 

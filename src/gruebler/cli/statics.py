@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, number, translate
-from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
+from gruebler.cli.drive_rows import given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word
 from gruebler.cli.output import print_json, write_table
@@ -23,12 +23,11 @@ from gruebler.cli.point_inputs import point_of
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table
 from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.table import default_rows
 from gruebler.mechanics.forces import Friction, Loads, Statics, component_table, statics, statics_table
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage
-
-__all__ = ["add", "run"]
 
 _FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
 

@@ -40,8 +40,6 @@ from gruebler.files.linkages import write_linkage
 from gruebler.files.tasks import read_task
 from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 
-__all__ = ["add", "run"]
-
 _ON_A_PAGE, _IN_A_PICTURE = 24, 6  # designs that are drawn
 _OPTIONS = {
     "swing": "--swing",

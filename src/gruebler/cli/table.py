@@ -11,9 +11,6 @@ from gruebler.cli.parser import Parser
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.teaching.exercises import lines_of_table, table_as_dict, teaching_table
 
-__all__ = ["add", "run"]
-
-
 _TABLES = ("joints", "links", "inversions", "grashof", "transfer")
 
 

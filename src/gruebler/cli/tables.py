@@ -10,9 +10,6 @@ from textwrap import fill
 from gruebler.base.errors import visible
 from gruebler.base.text import LANGUAGES, Message
 
-__all__ = ["Cell", "print_long_table", "print_table", "print_text", "terminal_width"]
-
-
 Cell = str | Message
 """A text of a table; messages are translated."""
 

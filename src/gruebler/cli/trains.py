@@ -12,8 +12,6 @@ from gruebler.cli.tables import print_text
 from gruebler.structure.enumeration import count_epicyclic_trains, epicyclic_trains
 from gruebler.structure.enumeration.epicyclic import MOST_LINKS
 
-__all__ = ["trains"]
-
 _OTHERS = {
     "--fractionated": ("fractionated", "none"),
     "--assortment": ("assortment", None),

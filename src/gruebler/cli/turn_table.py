@@ -13,8 +13,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, number
 from gruebler.cli.tables import Cell, print_table
 
-__all__ = ["print_turn", "records", "turn_degrees"]
-
 
 def turn_degrees(step: float, *, closed: bool = False) -> NDArray[np.float64]:
     """Angles from 0 with this step, the full turn included if it is closed.

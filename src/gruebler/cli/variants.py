@@ -27,8 +27,6 @@ from gruebler.structure.type_synthesis import (
 )
 from gruebler.structure.type_synthesis.estimates import expected_seconds_of_sliding
 
-__all__ = ["add", "run"]
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""

@@ -9,8 +9,6 @@ from __future__ import annotations
 from decimal import Context, Decimal, InvalidOperation
 from math import isfinite
 
-__all__ = ["in_degrees", "in_radians"]
-
 _EXACT = Context(prec=60)
 _RADIAN = _EXACT.divide(Decimal(180), Decimal("3.14159265358979323846264338327950288419716939937510582097494459"))
 _LONGEST = 60  # characters of an angle written as a text

@@ -12,8 +12,6 @@ from gruebler.files.measured_lengths import MILLIMETRES
 from gruebler.files.pin_drawings import lower_linkage
 from gruebler.mechanics.linkages import Linkage
 
-__all__ = ["DENSITY", "SLENDER", "BodyTree"]
-
 DENSITY = 7850.0
 """kg/m³, of steel."""
 SLENDER = 50

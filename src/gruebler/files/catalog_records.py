@@ -25,23 +25,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.chain.notation import renamed_links
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = [
-    "MOTION_NUMBERS",
-    "Case",
-    "ClaimedGroup",
-    "Claims",
-    "Entry",
-    "Exercise",
-    "MotionKind",
-    "MotionQuantity",
-    "Question",
-    "Sizes",
-    "entry_of_data",
-    "read_entry",
-    "read_exercise",
-    "source_text",
-]
-
 _SOURCE_WORDS = (
     message("sections"),
     message("section"),

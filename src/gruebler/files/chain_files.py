@@ -28,8 +28,6 @@ from gruebler.structure.chain.documents import check_size, links_of_code
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["GRAPHS", "LINES", "chain_from_graph_text", "graph_text", "read_lines", "write_lines"]
-
 _LONGEST_LINE = 1_000_000
 _REVOLUTE = "revolute"
 _PACKED = 100  # times its size a packed file may be: lists of chains come to 30, bombs to 1000

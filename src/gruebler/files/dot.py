@@ -12,8 +12,6 @@ from gruebler.structure.chain import Chain
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["dot_from_chain", "graph_from_dot"]
-
 _COMMENT = re.compile(r'("(?:[^"\\]|\\.)*")|//[^\n]*|^#[^\n]*|/\*.*?\*/', re.DOTALL | re.MULTILINE)
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|--|->|-?(?:\.\d+|\d+(?:\.\d*)?)|\w+|[{}\[\];,=]|\S')
 _MOST = 300_000  # words and signs; a chain of thousands of joints has fewer

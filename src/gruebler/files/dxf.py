@@ -28,8 +28,6 @@ from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
 from gruebler.mechanics.linkages import Linkage, Pose2D
 
-__all__ = ["CutOuts", "cut_outs", "dxf_from_linkage", "dxf_of_links", "plate_outline"]
-
 _UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "dm": 14}
 _FORBIDDEN = dict.fromkeys(map(ord, '<>/\\":;?*|=`'), "_")  # in names of layers
 _COLOURS = (7, 1, 3, 5, 4, 6, 30, 150)

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
 
     Value: TypeAlias = Chain | list[Chain] | Linkage | SpatialLinkage | TrainReading | Task
 
-__all__ = ["FORMATS", "Format", "Value", "json_of_another_program"]
-
 _TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
 _LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
 _LARGEST_TABLE = 1_000_000  # bytes

@@ -19,8 +19,6 @@ from gruebler.base.text import Message, message
 from gruebler.files.pin_drawings import NO_UNIT_WRITTEN, DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit
 from gruebler.files.text_files import read_number
 
-__all__ = ["curve_from_csv", "drawing_from_ron", "ron_from_drawing"]
-
 _FIELD = re.compile(r"\s*([A-Za-z_]\w*)\s*:\s*([^\s,()]+)\s*(?:,|$)")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _LENGTHS = ("l1", "l2", "l3", "l4")

@@ -30,8 +30,6 @@ from gruebler.files.pin_drawings import (
 )
 from gruebler.files.text_files import parse_xml, read_number
 
-__all__ = ["drawing_from_linkage2", "linkage2_from_drawing"]
-
 _FRAME = "frame"
 _UNITS = {"millimeters": "mm", "inches": "in"}  # another name is millimetres to the program
 _PER_INCH = 96.0  # GetBaseUnitsPerInch

@@ -34,8 +34,6 @@ from gruebler.mechanics.linkages.elements import (
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["Dimensions", "linkage_from_record"]
-
 
 class FourBarLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Crank a, coupler b, rocker c, frame d."""

@@ -32,15 +32,6 @@ from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = [
-    "check_linkage_path",
-    "linkage_from_json",
-    "linkage_to_json",
-    "linkage_to_toml",
-    "read_linkage",
-    "write_linkage",
-]
-
 _LONGEST = 50_000  # characters of the joints; a linkage of a thousand links fits
 
 

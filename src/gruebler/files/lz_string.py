@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from gruebler.base.errors import GrueblerError
 
-__all__ = ["decompressed"]
-
 _DIGITS = {
     letter: value for value, letter in enumerate("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-$")
 }

@@ -7,8 +7,6 @@ import re
 
 from gruebler.base.errors import GrueblerError
 
-__all__ = ["MILLIMETRES", "in_unit", "length_of", "same_unit"]
-
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 """How long each unit is, in millimetres; the only table of units of length."""
 _FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*")

@@ -19,8 +19,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.structure.mechanism import Drive
 
-__all__ = ["mjcf_from_linkage"]
-
 _STIFF = 100.0  # 1/s: the drive follows its control at this rate
 _STEP = 5e-4  # s
 _LEAST_INERTIA = 1e-9  # kg m², of a bar as long as the linkage: the smallest ball has 1e-5 of it, mjMINVAL is 1e-15

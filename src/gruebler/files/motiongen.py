@@ -25,8 +25,6 @@ from gruebler.files.pin_drawings import (
     with_slot_ends,
 )
 
-__all__ = ["drawing_from_motiongen", "is_motiongen", "motiongen_from_drawing"]
-
 _FRAME = "frame"
 
 

@@ -26,20 +26,6 @@ from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import pair
 from gruebler.structure.mechanism import Drive, Mechanism
 
-__all__ = [
-    "NO_UNIT_WRITTEN",
-    "DrawnDrive",
-    "DrawnJoint",
-    "PinDrawing",
-    "drawing_in",
-    "drawing_of",
-    "linkage_of_drawing",
-    "lower_linkage",
-    "no_unit",
-    "one_drive_a_joint",
-    "with_slot_ends",
-]
-
 NO_UNIT_WRITTEN = message("the unit of the numbers, which are mm")
 """What writers of formats without a unit say; their readers say `no_unit`."""
 _MOST = 600  # joints, and links; real mechanisms have fewer than a hundred

@@ -30,8 +30,6 @@ from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, draw
 from gruebler.files.pmks_tables import tables_of_address
 from gruebler.files.text_files import read_number
 
-__all__ = ["drawing_from_pmks", "pmks_from_drawing"]
-
 _ADDRESS = "https://app.pmksplus.com/?"
 _FRAME = "ground"
 _DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"

@@ -20,8 +20,6 @@ from gruebler.base.text import message
 from gruebler.files.lz_string import decompressed
 from gruebler.files.text_files import read_number
 
-__all__ = ["TableJoint", "TableLink", "Tables", "tables_of_address"]
-
 _LONGEST = 2_000_000  # characters; the program's undo steps are in the document, too
 _WHOLE = re.compile(r"-?[0-9a-fA-F]{1,30}")
 

@@ -19,8 +19,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.files.pin_drawings import NO_UNIT_WRITTEN, DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit
 
-__all__ = ["drawing_from_pylinkage", "is_pylinkage", "pylinkage_from_drawing"]
-
 _FRAME = "ground"
 _PLACED = {"Static", "Crank", "Revolute", "Pivot", "Fixed", "Prismatic", "Linear"}
 

@@ -17,8 +17,6 @@ from gruebler.base.text import Message, message
 from gruebler.files.pin_drawings import NO_UNIT_WRITTEN, DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit
 from gruebler.files.text_files import read_number
 
-__all__ = ["drawing_from_pyslvs", "pyslvs_from_drawing"]
-
 _FRAME = "ground"
 _SKIPPED = re.compile(r"(?:\s|#\[[\s\S]*?#\]|#[^\n]*)*")
 _TOKEN = re.compile(r"[A-Za-z_][A-Za-z_0-9]*|[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[\[\],()]|\S")

@@ -21,8 +21,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["ScrewsRecord", "read_any_linkage", "screws_to_json", "spatial_from_json", "spatial_linkage_from_record"]
-
 
 class JointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """A joint in the reference pose."""

@@ -21,17 +21,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism import decode
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = [
-    "STRUCTURE_ENDINGS",
-    "Structure",
-    "chain_of_text",
-    "is_code",
-    "is_structure_text",
-    "read_structures",
-    "structures_of_json",
-    "structures_of_lines",
-]
-
 STRUCTURE_ENDINGS = (".toml", ".json", ".txt", ".g6")
 """Endings of files with structures; a file without ending has one chain per line."""
 

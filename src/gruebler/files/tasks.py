@@ -22,8 +22,6 @@ from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
 from gruebler.files.angles import in_degrees, in_radians
 
-__all__ = ["read_task", "task_from_json", "task_to_json", "write_task"]
-
 
 class _Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     unit: str = "mm"

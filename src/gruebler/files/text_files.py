@@ -9,8 +9,6 @@ from xml.parsers import expat
 
 from gruebler.base.errors import GrueblerError
 
-__all__ = ["parse_xml", "read_number", "read_text"]
-
 LARGEST = 2_000_000
 """Bytes of a file; drawings of a thousand links fit."""
 _DEEPEST = 100  # elements within elements

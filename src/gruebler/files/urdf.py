@@ -15,8 +15,6 @@ from gruebler.files.body_tree import DENSITY, SLENDER, BodyTree
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.elements import direction
 
-__all__ = ["urdf_from_linkage"]
-
 
 def urdf_from_linkage(linkage: Linkage, left_out: list[Message]) -> str:
     """The robot of a linkage of turning and sliding joints; the list gets the joints at which its loops are cut.

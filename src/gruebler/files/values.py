@@ -16,17 +16,6 @@ from gruebler.files.formats import FORMATS, Format, json_of_another_program
 if TYPE_CHECKING:
     from gruebler.files.formats import Value
 
-__all__ = [
-    "FORMATS",
-    "Format",
-    "FormatWarning",
-    "convert",
-    "format_of",
-    "is_of_another_program",
-    "read",
-    "write",
-]
-
 _OWN = frozenset({"toml", "csv", "text", "graph6"})  # names of formats that the other readers of this library know, too
 
 

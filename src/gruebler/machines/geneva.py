@@ -19,9 +19,6 @@ from gruebler.base.angles import warn_of_degrees
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
 
-__all__ = ["Geneva", "GenevaError", "GenevaMotion", "GenevaSizes"]
-
-
 _MOST = 2_000
 
 

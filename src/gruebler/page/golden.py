@@ -12,8 +12,6 @@ from gruebler.mechanics.kinematics.solve import cached_plan
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import program_record
 
-__all__ = ["golden_record"]
-
 
 def golden_record(linkage: Linkage, rows: Reals, signs: Reals, unknowns: Reals) -> dict[str, Any]:
     """A path, (rows, drives), and what is found along it with velocities and accelerations for speed 1, as plain data.

@@ -14,8 +14,6 @@ import msgspec
 
 from gruebler.base.errors import GrueblerError
 
-__all__ = ["SharedLinkage", "link_of", "read_link"]
-
 VERSION = "1"
 _LONGEST = 200_000  # characters; the document of a linkage of ten links has 2,000
 _LARGEST = 2_000_000  # bytes unpacked

@@ -26,8 +26,6 @@ from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.linkage.wheels import round_parts
 from gruebler.teaching.catalog import entries
 
-__all__ = ["link_names", "model_of", "program_record"]
-
 _COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks
 
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones

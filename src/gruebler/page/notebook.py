@@ -10,8 +10,6 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 if TYPE_CHECKING:
     from gruebler.page.widget import Explorer
 
-__all__ = ["explore"]
-
 
 def explore(linkage: LinkageLike, *, lang: str = "", height: int = 640) -> Explorer:
     """A linkage in a notebook cell that moves, and whose joints and lengths can be dragged.

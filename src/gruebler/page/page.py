@@ -12,8 +12,6 @@ from typing import Any
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.canvas.styles import STYLES
 
-__all__ = ["module_text", "picture_styles", "served_page", "single_file"]
-
 _STATIC = Path(__file__).parent / "static"
 
 

@@ -12,8 +12,6 @@ import msgspec
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import error_in_language, translate
 
-__all__ = ["REQUESTS", "answer"]
-
 Progress = Callable[[str], None]
 Word = Annotated[str, msgspec.Meta(max_length=200)]
 ChainText = Annotated[str, msgspec.Meta(max_length=5_000)]

@@ -31,8 +31,6 @@ from gruebler.base.text import error_in_language
 from gruebler.page.page import module_text, served_page
 from gruebler.page.workers import CancelledError, Workers
 
-__all__ = ["ExplorerServer", "kept_token", "run_server"]
-
 LARGEST = 400_000
 """Characters of a message; the document of a linkage of a hundred links has a tenth of it."""
 MOST_WAITING = 200

@@ -17,8 +17,6 @@ from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
 from gruebler.structure.mobility import MobilityReport, mobility_report
 
-__all__ = ["mechanism_of_text", "structure_record"]
-
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _MOST_DRIVEN = 60
 

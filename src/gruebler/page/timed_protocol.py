@@ -7,8 +7,6 @@ import asyncio
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-__all__ = ["SECONDS", "TimedProtocol"]
-
 SECONDS = 10.0
 """From the first moment of a connection, or the first byte of a further request, to the last byte of the request."""
 

@@ -16,8 +16,6 @@ from gruebler.page.page import module_text, picture_styles
 from gruebler.page.requests import answer
 from gruebler.pictures.linkage.picture import draw_linkage
 
-__all__ = ["Explorer"]
-
 _UNREADABLE: Message = message("this is not a request of the page")
 
 

@@ -12,8 +12,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import error_in_language, translate
 from gruebler.page.requests import answer
 
-__all__ = ["main"]
-
 
 def main() -> None:
     """Answer until standard input ends; what anything prints goes to standard error."""

@@ -13,8 +13,6 @@ import msgspec
 
 from gruebler.base.errors import GrueblerError
 
-__all__ = ["CancelledError", "Workers"]
-
 LONGEST = 120.0
 """Seconds after which a request is ended."""
 _WIDEST = 64_000_000  # bytes of an answer

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from gruebler.pictures.canvas.moving_picture import MovingPicture
     from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["Animation", "Picture", "animate", "draw", "picture_of", "plot"]
-
 _MOVING = ("svg", "html", "gif", "webp", "png")
 
 

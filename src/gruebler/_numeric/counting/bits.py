@@ -4,8 +4,6 @@ from typing import Any
 
 from gruebler._numeric.compiling import instead
 
-__all__ = ["lowest", "popcount"]
-
 _WORD = (1 << 64) - 1
 
 

@@ -20,8 +20,6 @@ from gruebler._numeric.motion.program import (
 from gruebler._numeric.motion.registers import REGISTERS
 from gruebler._numeric.work_estimates import walking
 
-__all__ = ["DesignInputs", "DesignPoses", "run_designs"]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]

@@ -35,24 +35,6 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 
-__all__ = [
-    "EQUATIONS",
-    "FACE",
-    "MESH",
-    "PIN",
-    "POLAR",
-    "RACK",
-    "REACH",
-    "RIDE",
-    "SLIDE",
-    "TRAIN",
-    "TRAVEL",
-    "Conditions",
-    "closing",
-    "evaluate_law",
-    "unwound_angle",
-]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]

@@ -22,8 +22,6 @@ from gruebler._numeric.motion.closure import (
 )
 from gruebler._numeric.motion.planar_jets import BodyJets, rotated_derivative
 
-__all__ = ["RateScratch", "closing_rates"]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 

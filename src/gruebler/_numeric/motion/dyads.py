@@ -19,8 +19,6 @@ from gruebler._numeric.lanes import square_root
 from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets, rotated_derivative
 from gruebler._numeric.motion.program import PRP, RPP, RPR, RRP, RRR
 
-__all__ = ["dyad_place", "dyad_rates", "dyad_square", "meeting"]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 

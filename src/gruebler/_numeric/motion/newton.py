@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.motion.closure import Conditions, closing
 
-__all__ = ["NewtonScratch", "close_near_singular", "factor", "new_newton_scratch", "newton", "solve_factored"]
-
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]
 

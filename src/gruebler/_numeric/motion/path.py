@@ -18,7 +18,6 @@ from gruebler._numeric.motion.planar_jets import ElementJets
 from gruebler._numeric.motion.program import (
     APART,
     APPROACH,
-    CARRY,
     DONE,
     FLAT,
     GOOD,
@@ -29,11 +28,9 @@ from gruebler._numeric.motion.program import (
     MEET,
     NEAR,
     NEAREST,
-    PUSH,
     RPR,
     SINGULAR,
     START,
-    TURN,
     MotionScratch,
     PoseBuffer,
     PoseMemory,
@@ -44,8 +41,6 @@ from gruebler._numeric.motion.program import (
 from gruebler._numeric.motion.registers import REGISTERS
 from gruebler._numeric.motion.sweep import SWEPT_ROWS, steady, sweep, swept_links
 from gruebler._numeric.work_estimates import walking
-
-__all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "PoseBuffer", "Program", "run_path"]
 
 Reals = NDArray[np.float64]
 _NOISE = 1e-14  # of squared roots: a hundred roundings

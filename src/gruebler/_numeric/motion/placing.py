@@ -35,8 +35,6 @@ from gruebler._numeric.motion.program import (
     Program,
 )
 
-__all__ = ["accept_pose", "driven_arm", "forget_poses", "set_drives", "try_pose", "zero_ahead"]
-
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 
-__all__ = ["BodyJets", "ElementJets", "carry", "rotated_derivative", "set_element_jet"]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 

@@ -10,40 +10,6 @@ from numpy.typing import NDArray
 from gruebler._numeric.motion.newton import new_newton_scratch
 from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets
 
-__all__ = [
-    "APART",
-    "APPROACH",
-    "CARRY",
-    "DONE",
-    "EXPECTED",
-    "FARTHEST",
-    "FLAT",
-    "GOOD",
-    "GROUP",
-    "KEPT",
-    "LEAST",
-    "LIMIT",
-    "LOST",
-    "MEET",
-    "NEAR",
-    "NEAREST",
-    "PRP",
-    "PUSH",
-    "RPP",
-    "RPR",
-    "RRP",
-    "RRR",
-    "SINGULAR",
-    "START",
-    "TURN",
-    "MotionScratch",
-    "PoseBuffer",
-    "PoseMemory",
-    "Program",
-    "new_motion_scratch",
-    "new_pose_memory",
-]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]

@@ -37,8 +37,6 @@ from gruebler._numeric.motion.registers import (
     rotate,
 )
 
-__all__ = ["SWEPT_ROWS", "steady", "sweep", "swept_links"]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]

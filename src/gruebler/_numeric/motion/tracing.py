@@ -19,22 +19,6 @@ from gruebler._numeric.lanes import dot, give_back, subtract, taken
 from gruebler._numeric.motion.closure import EQUATIONS, Conditions, closing
 from gruebler._numeric.motion.newton import factor
 
-__all__ = [
-    "CLOSED",
-    "DEPENDENT",
-    "FLIP",
-    "FULL",
-    "LONG",
-    "LOST",
-    "SHORTEST",
-    "SampleBuffer",
-    "evaluate_pose",
-    "jacobian",
-    "new_trace_scratch",
-    "settle_on_curve",
-    "trace_curve",
-]
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]

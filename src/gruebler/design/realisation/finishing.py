@@ -17,8 +17,6 @@ from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
 from gruebler.mechanics.linkages import Line, Linkage
 
-__all__ = ["FinishedLinkage", "finish_linkage", "motion_quality"]
-
 Ranges = tuple[tuple[float, float], ...]
 
 _SIZE = 100.0

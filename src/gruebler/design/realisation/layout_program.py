@@ -27,9 +27,6 @@ from gruebler.structure.mechanism import Mechanism
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
 
-__all__ = ["KernelLayout", "LayoutProgram", "check_drawable", "joint_places", "layout_program"]
-
-
 _DRAWN = ("revolute", "prismatic", "roll_slide", "double_slide")
 
 

@@ -12,9 +12,6 @@ from gruebler.design.realisation.layout_program import KernelLayout, LayoutProgr
 from gruebler.design.realisation.measures import conditioning
 from gruebler.mechanics.kinematics.kernel_calls import SolvedRows, run_rows
 
-__all__ = ["FLOOR", "LayoutTrial", "closed_path_quality", "range_path", "returns_to_start", "try_layout"]
-
-
 FLOOR = 0.1
 """A pose with a smaller measure does not count as within the range."""
 _ROWS = 73

@@ -19,9 +19,6 @@ from gruebler.mechanics.kinematics.plan import Plan
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
 
-__all__ = ["conditioning"]
-
-
 _ARM = 0.3  # the length by which angles are multiplied, in parts of the size
 _SCALE = 2.0  # a larger group: singular value to sine
 _SHORT = 1 / 3  # RPR: distances below this part of the size count as short

@@ -19,8 +19,6 @@ from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mobility import generic
 
-__all__ = ["realise", "realise_all", "with_drives"]
-
 _NOTHING_TO_DRIVE = message("There is nothing to drive: the chain has no mobility.")
 _AGAIN = 3  # searches with other random numbers if the first finds no full turn
 

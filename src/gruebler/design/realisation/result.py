@@ -18,8 +18,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["Realisation"]
-
 _FULL = message("{drive} turns fully.")
 _TURNING = {
     "range": message("{drive} turns from {low:.7g}° to {high:.7g}°."),

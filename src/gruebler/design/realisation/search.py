@@ -10,9 +10,6 @@ from gruebler.base.arrays import Reals
 from gruebler.design.realisation.layout_program import LayoutProgram
 from gruebler.design.realisation.layout_trial import LayoutTrial, try_layout
 
-__all__ = ["SearchResult", "search_layouts"]
-
-
 _KEPT = 4  # drawings to be improved
 _ENOUGH = 12  # drawings that turn fully, after which no others are drawn
 _DRAWING, _PATIENCE = 0.5, 80  # share of the budget for random drawings; changes without success before the end

@@ -24,9 +24,6 @@ from gruebler.design.synthesis.discs import certified
 from gruebler.design.synthesis.endgame import path_ends
 from gruebler.design.synthesis.results import Progress
 
-__all__ = ["PROBLEMS", "Problem", "Solutions", "load_generic_solutions", "parameters", "solutions"]
-
-
 QUICK, CAREFUL = 1e-3, 1e-6
 """How far the corrector may change a prediction: at first, and when paths are followed again."""
 _ASIDE = 1e-7  # from where a solution is looked for again; a task has the size 1, dyads may be a millionth apart

@@ -20,9 +20,6 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.dyads import Displacements, GuidingDyad, circle_point_cubics, misfit, sliding_dyads
 from gruebler.design.synthesis.tasks import PositionTask
 
-__all__ = ["BurmesterCurves", "CurvePiece", "burmester_curves"]
-
-
 _STEPS = 30  # along a curve to the point nearest to a place
 _LONGEST = 0.05  # of the pivots' distances: the longest of these steps
 _NOTHING = 1e-13  # a cubic whose coefficients are all smaller is no condition

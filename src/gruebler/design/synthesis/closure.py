@@ -18,8 +18,6 @@ from gruebler.mechanics.kinematics import Poses
 from gruebler.mechanics.linkages import Line, Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.elements import Element, Pin, Pose2D
 
-__all__ = ["DesignClosure", "PoseDerivatives"]
-
 
 class _Joined(NamedTuple):
     """Both sides of all joints at poses. Each condition is the real part of a factor times the gap, or an angle."""

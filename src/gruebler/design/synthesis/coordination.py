@@ -19,19 +19,6 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage
 
-__all__ = [
-    "KINDS",
-    "Coordination",
-    "CoordinationKind",
-    "Coordinations",
-    "Minimax",
-    "MinimaxCertificate",
-    "as_coordination",
-    "coordinations_with_fixed_starts",
-    "coordinations_with_one_free_start",
-    "pair_arrays",
-]
-
 _SMALL = 1e-9  # a length smaller than this part of the frame (or of the travel) is none
 
 

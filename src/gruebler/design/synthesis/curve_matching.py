@@ -11,9 +11,6 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 
-__all__ = ["PLACES", "CurveMatch", "best_matches", "drive_angles", "evenly_along", "resampled"]
-
-
 PLACES = 64
 """Places on each curve of a book."""
 _WINDOWS = (8, 12, 16, 24, 32, 48)  # pieces of a curve, in such places, for open targets

@@ -25,8 +25,6 @@ from gruebler.design.synthesis.results import Design, Progress, SolutionCount, S
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.linkages import Linkage
 
-__all__ = ["CurveAtlas", "Fit", "atlas", "fit_curve", "fit_open_points", "fit_path"]
-
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
 _NEAR = 1e-3  # of the size: if the best of the first come nearer, more are not tried
 _STEPS = 300

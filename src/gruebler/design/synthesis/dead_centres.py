@@ -19,16 +19,6 @@ from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCou
 from gruebler.design.synthesis.tasks import DeadCentreTask
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 
-__all__ = [
-    "DeadCentreFamily",
-    "DeadCentrePlaces",
-    "FamilyMember",
-    "dead_centre_family",
-    "member_places",
-    "synthesise_dead_centres",
-]
-
-
 _SAMPLES = 720
 _SAME = 1e-9  # dead centres of a member agree with the task to this
 

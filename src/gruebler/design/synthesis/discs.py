@@ -14,9 +14,6 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 
-__all__ = ["Disc", "certified"]
-
-
 _ROUNDING = 8 * float(np.finfo(float).eps)
 """More than the relative error of any complex product, quotient or sum of doubles."""
 _SHARPER = 2.0**-40

@@ -16,17 +16,6 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import SynthesisError
 
-__all__ = [
-    "Displacements",
-    "GuidingDyad",
-    "all_dyads",
-    "dyad_of_fixed_pivot",
-    "dyad_of_moving_pivot",
-    "misfit",
-    "sliding_dyads",
-]
-
-
 _REAL = 1e-7
 """Two conjugate numbers nearer to real than this are looked at as real: a double root has half the digits of 1e-16."""
 _FAR = 1e-9

@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Integers
 
-__all__ = ["PathEnds", "path_ends"]
-
 _RADII = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 """Circles about the end. The smallest two neighbours that agree count: a larger one may hold another singular task."""
 _CORNERS = 12  # of the polygon that stands for a circle

@@ -22,8 +22,6 @@ from gruebler.design.synthesis.fitting import FitState, FitTargets, output_links
 from gruebler.mechanics.kinematics import circuit
 from gruebler.mechanics.linkages import Line
 
-__all__ = ["first_state"]
-
 _SAMPLES = 96  # poses along a circuit
 _WALKERS, _WALKS, _STRIDE = 10, 30, 0.25  # walks at random of several drives, of so many steps (radians or sizes)
 _PROPOSALS = 600

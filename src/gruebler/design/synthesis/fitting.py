@@ -18,8 +18,6 @@ from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTa
 from gruebler.mechanics.linkages.elements import Line
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["FitState", "FitTargets", "fit_stages", "fit_targets", "improved", "output_links"]
-
 _STEPS = 150
 _MOTIONS = 4  # of the poses to their targets after each step
 _LEAST = 1e-12  # damping of the motion of poses, of their mean square rate: a pose may stand at a dead centre

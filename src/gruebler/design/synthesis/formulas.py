@@ -13,9 +13,6 @@ from numpy.typing import ArrayLike
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError, nearest
 
-__all__ = ["Formula", "FunctionLaw", "chebyshev_spacing"]
-
-
 _LONGEST = 300  # characters
 _DEEPEST = 40  # operations within one another
 

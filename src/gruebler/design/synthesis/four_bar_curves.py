@@ -13,8 +13,6 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 
-__all__ = ["FOUR_BAR", "SLIDER_CRANK", "CurvePoints", "FourBarKind", "curve_points"]
-
 
 @dataclass(frozen=True, slots=True)
 class FourBarKind:

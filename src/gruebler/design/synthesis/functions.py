@@ -33,8 +33,6 @@ from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["synthesise_function"]
-
 _FAMILIES = {
     2: message("There are infinitely many solutions, a family of dimension 3; {count} were taken."),
     3: message("There are infinitely many solutions, one for each point of the plane; {count} were taken."),

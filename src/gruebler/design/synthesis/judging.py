@@ -26,21 +26,6 @@ from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage, Pin
 from gruebler.mechanics.linkages.elements import Line
 
-__all__ = [
-    "Demands",
-    "Probe",
-    "Targets",
-    "best_of",
-    "faults_of_size",
-    "judge_design",
-    "judge_with_drives",
-    "missing_alike",
-    "point_targets",
-    "position_targets",
-    "transmission_fault",
-]
-
-
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
 _REFINEMENTS = 8
 _SHARPENINGS = 3

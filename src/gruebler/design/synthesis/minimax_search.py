@@ -16,8 +16,6 @@ from gruebler.design.synthesis.coordination import Coordination, Minimax, Minima
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.structural_error import ErrorFamily
 
-__all__ = ["minimax"]
-
 _REGION = 0.1
 """The region for which a certificate says by how much the error may still fall: parts of the numbers, and radians."""
 _EQUAL, _STATIONARY, _CONVEX = 1e-6, 1e-7, 1e-6

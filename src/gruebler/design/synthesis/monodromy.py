@@ -15,9 +15,6 @@ import numpy as np
 from gruebler.base.arrays import Complexes
 from gruebler.design.synthesis.alt_burmester import QUICK, GenericSolutions, Problem, _distinct, follow_from_generic
 
-__all__ = ["find_generic", "known_solution", "write_generic"]
-
-
 _IDLE = 4  # so many ways without anything new: enough
 _SHARP = 1e-8  # a last Newton step above it: no solution, or a nearly singular one
 

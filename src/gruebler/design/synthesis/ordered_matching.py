@@ -19,8 +19,6 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Integers, Reals
 
-__all__ = ["OrderedMatch", "Places", "SmoothCurve", "TargetDistances", "preferred"]
-
 _PARTS = 2  # of the curve from sample to sample, in each of which a distance has one extreme at most
 _SHIFT = 1e-12  # of the length: a place that lies so little behind another is the same
 _SHARP = 1e-10  # of the natural size: so narrow is the bracket of the ordered distance in the end

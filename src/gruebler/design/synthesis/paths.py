@@ -33,8 +33,6 @@ from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict, Prog
 from gruebler.design.synthesis.tasks import MOST_POINTS, SAME, PathTask, PositionTask
 from gruebler.mechanics.linkages import Linkage
 
-__all__ = ["four_bars_through", "synthesise_path"]
-
 MOST_ON_CIRCLE = 6
 MOST_TIMED = 5
 """Points that are met with any crank angles."""

@@ -34,9 +34,6 @@ from gruebler.mechanics.fourbar import grashof
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of_dyads", "ranked", "synthesise_positions"]
-
-
 _SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
 """What the link between frame and coupler is called: the first of its kind, the second."""
 NEAR = 0.05

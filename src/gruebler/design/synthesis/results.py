@@ -19,17 +19,6 @@ from gruebler.mechanics.analysis.transmission import measure_transmission
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet, in_alphabets, pair
 
-__all__ = [
-    "ORDERS",
-    "Design",
-    "DesignVerdict",
-    "ParetoRow",
-    "SolutionCount",
-    "SynthesisResult",
-    "in_order_of",
-    "pareto",
-]
-
 
 @compared_by_value
 @dataclass(frozen=True, eq=False)

@@ -19,8 +19,6 @@ from gruebler.design.synthesis.formulas import Formula, FunctionLaw, chebyshev_s
 from gruebler.design.synthesis.results import Design
 from gruebler.design.synthesis.tasks import FunctionTask
 
-__all__ = ["ErrorFamily", "coordination_of", "error_extremes", "largest_error", "structural_error"]
-
 _SAMPLES = 121
 _ZOOMS, _PARTS = 4, 20
 """How often the surroundings of an extreme are divided, and into how many parts: 1e-5 of the samples' distance is left,

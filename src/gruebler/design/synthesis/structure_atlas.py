@@ -18,9 +18,6 @@ from gruebler.design.synthesis.curve_matching import PLACES, evenly_along
 from gruebler.structure.assur import AssurError, decompose
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["DyadStructure", "StructureAtlas", "dyad_structure", "link_motions", "structure_atlas"]
-
-
 _TRIALS = 60_000
 _LARGEST = 6.0  # places of joints, in crank lengths
 _SAFE = 0.15  # the least sine of an angle between two links of a dyad, so that small changes do not stop the motion

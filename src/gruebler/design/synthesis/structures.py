@@ -31,9 +31,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.mechanism import Mechanism, check_drives
 
-__all__ = ["fit_structure", "synthesise_structures"]
-
-
 _NEIGHBOURS, _REALISATIONS = 24, 4  # starts of one mechanism
 ACCEPTED = 0.05
 

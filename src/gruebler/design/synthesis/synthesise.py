@@ -17,8 +17,6 @@ from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["synthesise"]
-
 
 @door_that_raises(SynthesisError)
 def synthesise(

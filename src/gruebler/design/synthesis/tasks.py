@@ -18,8 +18,6 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 
-__all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task", "function_task"]
-
 Pair = tuple[float, float]
 _Pairs = tuple[tuple[float, ...], tuple[float, ...], bool, bool]  # inputs, outputs, whether their starts are given
 

@@ -21,8 +21,6 @@ from gruebler.machines.cams.follower import Flat, Follower, Roller
 from gruebler.machines.cams.laws import CamError, finite_array
 from gruebler.machines.cams.lift import Lift
 
-__all__ = ["Cam", "CamReport"]
-
 
 class _Contact(NamedTuple):
     """The contact in the cam's frame: contact point, curvature of the profile there, and signed pressure angle."""

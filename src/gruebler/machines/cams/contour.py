@@ -20,18 +20,6 @@ from gruebler.base.text import message
 from gruebler.machines.cams.follower import Flat, Follower, Roller
 from gruebler.machines.cams.laws import CamError, finite_array
 
-__all__ = [
-    "ArcContour",
-    "ContactSamples",
-    "Contour",
-    "ContourArc",
-    "FollowerMotion",
-    "arm_coordinate",
-    "face_coordinate",
-    "follower_motion",
-    "tangent_cam",
-]
-
 
 class ContactSamples(NamedTuple):
     """Contacts at cam's angles: the follower's coordinate, and the contour's outward normal in the fixed frame.

@@ -13,8 +13,6 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-__all__ = ["Function", "extremes", "roots"]
-
 Function = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 _DEGREE = 24

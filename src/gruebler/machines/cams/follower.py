@@ -16,8 +16,6 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.machines.cams.laws import CamError
 
-__all__ = ["FaceLine", "Flat", "Follower", "Path", "Roller"]
-
 
 class Path(NamedTuple):
     """A point of the follower as a function of its coordinate, with two derivatives."""

@@ -22,18 +22,6 @@ from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.text import Message, message
 from gruebler.machines.cams.extremes import extremes
 
-__all__ = [
-    "LAWS",
-    "CamError",
-    "LawPeaks",
-    "LawPiece",
-    "MotionLaw",
-    "boundary_law",
-    "finite_array",
-    "motion_law",
-    "polynomial_law",
-]
-
 
 class CamError(GrueblerError):
     """An impossible cam, law or contour."""

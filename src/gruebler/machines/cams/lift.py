@@ -17,9 +17,6 @@ from gruebler.base.text import message
 from gruebler.machines.cams.extremes import Function, extremes
 from gruebler.machines.cams.laws import CamError, MotionLaw, boundary_law, finite_array, motion_law
 
-__all__ = ["DerivativeJump", "Lift", "LiftSegment", "SmoothSpan", "dwell", "motion", "read_lift"]
-
-
 _LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
 
 

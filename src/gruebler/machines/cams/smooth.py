@@ -17,9 +17,6 @@ from gruebler.machines.cams.contour import ContactSamples, arm_coordinate, face_
 from gruebler.machines.cams.follower import Flat, Follower, Roller
 from gruebler.machines.cams.laws import CamError, finite_array
 
-__all__ = ["SmoothContour"]
-
-
 _BISECTIONS = 52
 _CHUNK = 1 << 20
 _MOST = 1e70  # of lengths, as for followers: their powers stay finite

@@ -8,8 +8,6 @@ from fractions import Fraction
 
 from gruebler.machines.gears.train import FRAME, GearError, Mesh, Train
 
-__all__ = ["Assembly", "Axes", "assembly", "axes", "even_numbers"]
-
 
 @dataclass(frozen=True, slots=True)
 class Assembly:

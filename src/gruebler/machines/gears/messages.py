@@ -12,8 +12,6 @@ from gruebler.machines.gears.motion import speeds
 from gruebler.machines.gears.reading import TrainReading
 from gruebler.machines.gears.train import FRAME, Train, comparable
 
-__all__ = ["decimal", "explain_train", "fraction_text", "writable"]
-
 _LARGEST_BITS = 13_500  # below the 4,300 digits that Python turns into text
 
 

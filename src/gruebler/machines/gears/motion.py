@@ -12,9 +12,6 @@ from gruebler.base.text import message
 from gruebler.machines.gears.rational import Elimination, Row, reduce_row
 from gruebler.machines.gears.train import MIXED, GearError, Train, Unit, exact_number
 
-__all__ = ["Balance", "Contradiction", "Speeds", "balance", "influence", "ratio", "speeds"]
-
-
 _GIVEN = ""  # the column of the constants: a drive is the row "link - speed * constant"; no link has an empty name
 
 

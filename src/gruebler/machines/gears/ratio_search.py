@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 
 from gruebler.machines.gears.train import GearError
 
-__all__ = ["PlanetaryDesign", "search_ratio"]
-
 _Ints = NDArray[np.int64]
 _MOST_TEETH = 250  # of a wheel: products of four numbers stay exact, all choices take seconds
 _ROLES = ("a", "b", "carrier")

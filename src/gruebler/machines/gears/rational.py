@@ -6,8 +6,6 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Generic, TypeVar
 
-__all__ = ["Elimination", "Row", "rational_echelon", "reduce_row"]
-
 K = TypeVar("K", bound=Hashable)
 Row = dict[K, Fraction]
 """A linear form: column to coefficient, zeros left out."""

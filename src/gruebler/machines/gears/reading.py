@@ -28,8 +28,6 @@ from typing import Any
 from gruebler.base.errors import nearest
 from gruebler.machines.gears.train import FRAME, KINDS, GearError, Mesh, Train, exact_number
 
-__all__ = ["TrainReading", "read_toml", "read_train"]
-
 _STATEMENTS = (*(kind for kind in KINDS if " " not in kind), "drive", "hold", "load")
 _OPTIONS = {"rack": {"module", "pitch"}, "screw": {"lead"}, "winch": {"falls", "pitch"}, "gear": {"planets"}}
 _NAME = re.compile(r"[^\s:=;#]+\Z")

@@ -6,8 +6,6 @@ from collections.abc import Iterable
 
 from gruebler.machines.gears.train import FRAME, Mesh, Train
 
-__all__ = ["WHEEL_PAIRS", "central_links", "mesh_groups", "wheels_of"]
-
 WHEEL_PAIRS = ("gear", "friction", "belt", "chain", "crossed", "bevel")
 """The kinds of meshes with a wheel on both links; in the others the second link slides."""
 

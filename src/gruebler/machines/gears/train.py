@@ -20,8 +20,6 @@ from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.text import Message, message
 from gruebler.machines.gears.rational import Elimination, Row, rational_echelon
 
-__all__ = ["KINDS", "MIXED", "GearError", "Mesh", "MeshKind", "Train", "Unit", "comparable", "exact_number"]
-
 FRAME = "frame"
 
 

@@ -29,8 +29,6 @@ from gruebler.mechanics.kinematics.root_finding import FunctionSamples, brackete
 from gruebler.mechanics.kinematics.solve import cached_plan, motion_from_rows, move_in_radians
 from gruebler.mechanics.linkages import Linkage
 
-__all__ = ["CycleSpan", "DriveCycle", "PathCycle", "by_place", "drive_cycle", "path_cycle"]
-
 _CELLS = 360  # of the first grid
 _LEVELS = 16  # how often a cell is halved where the motion bends: to 3e-7 of a turning drive
 _LEVELS_OF_SLOW = 5  # the same for slow links: of one that does not turn, all is rounding next to change points

@@ -23,21 +23,6 @@ from gruebler.mechanics.kinematics.redundancy import ReferenceConditions
 from gruebler.mechanics.kinematics.root_finding import Zero, bracketed_root, find_zeros, vanishing
 from gruebler.structure.assur import SolvedGroup
 
-__all__ = [
-    "Crossing",
-    "Dwell",
-    "change_points",
-    "crossings",
-    "dead_centres",
-    "drive_pivot",
-    "dwells",
-    "dyad_change_points",
-    "natural_speed",
-    "output_turns",
-    "stops",
-    "transfer_function",
-]
-
 _STILL = 1e-11  # a velocity (lengths in sizes) that is hardly ever larger is none
 _ASIDE = np.array(
     [0.5**k for k in range(6, 0, -1)]

@@ -19,16 +19,6 @@ from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.analysis.plates import Plates, plates_of, whole_motion
 from gruebler.mechanics.linkages.conversion import LinkageLike
 
-__all__ = [
-    "Collisions",
-    "LinkPlanes",
-    "collisions_of",
-    "gaps_to_hull",
-    "link_planes",
-    "plate_sizes",
-    "search_planes",
-]
-
 _HOLES = 30  # the size of the linkage over the diameter of a hole
 _ARC = 1.05  # an arc between two poses over its chord; poses are half a degree apart
 _MOST_STEPS = 50_000  # planes of a link that are tried

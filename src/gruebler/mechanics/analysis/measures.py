@@ -71,8 +71,6 @@ from gruebler.mechanics.kinematics.root_finding import sample_function
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 
-__all__ = ["Measures", "Transfer", "measures"]
-
 _UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
 _STILL = 1e-11  # of the natural size: an output, or its velocity, that varies by less does not move
 

@@ -14,21 +14,6 @@ from gruebler.mechanics.analysis.events import Dwell
 from gruebler.mechanics.fourbar.extremes import StrokeTimes
 from gruebler.structure.assur.forms import form_message
 
-__all__ = [
-    "MeasureUnits",
-    "change_point_lines",
-    "dead_centre_message",
-    "dwell_message",
-    "dwell_share_message",
-    "motion_share_message",
-    "output_lines",
-    "range_lines",
-    "stroke_lines",
-    "time_lines",
-    "transmission_lines",
-    "unknown_change_points_message",
-]
-
 _NOTHING = 1e-12  # of the size: lengths below it are roundings
 _CONSTANT = 1e-9  # radians: transmission angles that vary by less are one
 

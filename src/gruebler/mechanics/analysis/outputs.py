@@ -11,8 +11,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.wheels import sliding_joint
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["Output", "find_output"]
-
 
 @dataclass(frozen=True, slots=True)
 class Output:

@@ -16,8 +16,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.elements import direction
 
-__all__ = ["Peg", "Plate", "Plates", "plates_of", "whole_motion"]
-
 _ROWS = 721
 _SPREAD = 15  # the size of the linkage over the distance of the two pins that keep a slide from turning
 

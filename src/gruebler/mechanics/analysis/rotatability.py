@@ -18,8 +18,6 @@ from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.mechanism.roles import Role
 
-__all__ = ["DriveRange", "Rotatability", "drive_range", "motion_roles", "rotatability", "slide_directions"]
-
 _FREEDOMS = {
     "revolute": ("turn",),
     "prismatic": ("slide",),

@@ -25,8 +25,6 @@ from gruebler.structure.chain.pairs import Alphabet
 if TYPE_CHECKING:
     from gruebler.mechanics.analysis.drive_cycle import CycleSpan
 
-__all__ = ["default_rows", "motion_table"]
-
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi

@@ -25,15 +25,6 @@ from gruebler.mechanics.linkages import LinkPoint
 from gruebler.structure.assur import SolvedGroup
 from gruebler.structure.chain.pairs import in_alphabets
 
-__all__ = [
-    "NoTransmissionAngleError",
-    "PushingLink",
-    "deviation_angle",
-    "measure_transmission",
-    "pushing_links",
-    "transmission_angle",
-]
-
 _SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
 _LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
 _CONSTANT = 1e-8  # radians: an angle that varies by less is constant; next to change points half the digits are lost

@@ -16,8 +16,6 @@ import numpy as np
 from gruebler.base.arrays import Flags, Reals
 from gruebler.mechanics.forces.loads import Rows
 
-__all__ = ["Branches", "Contacts", "continued"]
-
 _TOLERANCE = 1e-12  # of the largest force of a row: so far Newton's method goes
 _STEPS = 12  # of Newton's method, which doubles the digits; a longer way is another solution
 _SEARCH = 30  # steps of the search for other equilibria

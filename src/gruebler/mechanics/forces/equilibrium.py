@@ -15,8 +15,6 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.structure.chain.pairs import Space
 
-__all__ = ["JointConnection", "Reactions", "joint_connections", "joint_of_connection", "joints_left_out", "reactions"]
-
 _GROWTH = 1e6  # an answer larger than this by its load (lengths in sizes): the links are not held in this pose
 _BLOCK = 2048  # rows solved at once
 

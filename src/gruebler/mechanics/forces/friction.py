@@ -22,8 +22,6 @@ from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.quantities import as_finite
 
-__all__ = ["Friction", "FrictionForces", "RubbingContact", "as_friction", "with_friction"]
-
 PerJoint = float | Mapping[str, float]
 """One number for all joints, or numbers by joint, ``"*"`` for all others; without that they have the default."""
 

@@ -16,8 +16,6 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.points import PointLike, place_of, point_name
 
-__all__ = ["Loads", "Wrench", "loads_over_rows"]
-
 Rows = NDArray[np.int64]
 
 _STANDARD = 9.80665

@@ -12,8 +12,6 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import branch_of
 from gruebler.mechanics.kinematics.solve import move_in_radians
 
-__all__ = ["drive_speed", "with_velocities"]
-
 _TELLS = 1e-9  # a smaller root does not tell the assembly mode: its sign is rounding
 
 

@@ -12,8 +12,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import SliderCrank
 from gruebler.mechanics.linkages.quantities import as_finite
 
-__all__ = ["SliderFriction", "slider_friction"]
-
 _AT_REST = 1e-9  # of the crank's speed: a slower slider has no direction
 
 

@@ -25,8 +25,6 @@ from gruebler.mechanics.forces.loads import Loads, Rows, Wrench, loads_over_rows
 from gruebler.mechanics.forces.motion_rates import drive_speed, with_velocities
 from gruebler.mechanics.kinematics import Motion
 
-__all__ = ["Statics", "statics"]
-
 _SINGULAR = message(
     "At the drive values {values} the joint forces are not determined: the links are not held there (a limit of the "
     "drive, or a change point)."

@@ -13,8 +13,6 @@ from gruebler.mechanics.forces.friction import FrictionForces
 from gruebler.mechanics.forces.solution import Statics
 from gruebler.structure.chain.pairs import Alphabet
 
-__all__ = ["component_table", "statics_table"]
-
 _NOISE = 1e-13  # of the loads: a smaller effort is none
 
 

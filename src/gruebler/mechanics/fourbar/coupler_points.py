@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-__all__ = ["CouplerPoints", "on_coupler"]
-
 CouplerPoints = Mapping[str, tuple[float, float]]
 
 

@@ -16,16 +16,6 @@ from gruebler.base.jets import turn_derivative
 from gruebler.base.text import Message
 from gruebler.mechanics.linkages.quantities import as_finite, as_numbers
 
-__all__ = [
-    "CrankMotion",
-    "CrankRates",
-    "InvertedMotion",
-    "crank_rates",
-    "determined_rates",
-    "points",
-    "rotation_derivative",
-]
-
 
 class CrankRates(NamedTuple):
     """A quantity at given instants with its velocity, acceleration and jerk; four arrays of one shape."""

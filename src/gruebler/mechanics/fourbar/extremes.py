@@ -15,17 +15,6 @@ from gruebler.base.events import DeadCentre, Transmission, TransmissionExtremes
 from gruebler.base.text import Message, joined, joined_by_or, message
 from gruebler.mechanics.linkages.quantities import as_finite
 
-__all__ = [
-    "CrankRange",
-    "DeadCentres",
-    "StrokeTimes",
-    "cannot_assemble",
-    "clipped_cosine",
-    "crank_ranges",
-    "transmission_extremes",
-    "triangle_angle",
-]
-
 TURN = 2 * math.pi
 _LEG = ("coupler",)
 Mask = npt.NDArray[np.bool_]

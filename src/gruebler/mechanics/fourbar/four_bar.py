@@ -36,8 +36,6 @@ from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import as_branch, as_finite, as_lengths, as_positive, given_and_missing
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["FourBar", "four_bar_linkage"]
-
 
 @dataclass(frozen=True, slots=True)
 class FourBar:

@@ -10,8 +10,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message, number, translate
 from gruebler.mechanics.linkages.quantities import as_lengths, given_and_missing
 
-__all__ = ["FOUR_BAR_TYPES", "Grashof", "LengthRange", "LinkageType", "grashof", "turning_ranges", "types_along"]
-
 _LINKS = {"a": message("crank"), "b": message("coupler"), "c": message("output")}
 _CLOSE = 1e-12
 

@@ -14,8 +14,6 @@ from gruebler.mechanics.fourbar.slider_crank import SliderCrank
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["SizedInversion", "double_slide_inversions", "sized_inversions"]
-
 _BLOCK_AS_FRAME = message("slider-crank (sliding lever with the block as frame)")
 _RING = "abcd"
 _LINKS = {"a": "crank", "b": "coupler", "c": "rocker", "d": "frame"}

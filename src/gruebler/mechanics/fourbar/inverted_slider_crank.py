@@ -38,8 +38,6 @@ from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import as_branch, as_eccentricity, as_finite, as_lengths, as_positive
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["InvertedSliderCrank", "inverted_slider_crank_linkage"]
-
 
 @dataclass(frozen=True, slots=True)
 class InvertedSliderCrank:

@@ -11,8 +11,6 @@ from gruebler.mechanics.fourbar.slider_crank import SliderCrank
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["ClosedForm", "linkage_on_mechanism"]
-
 ClosedForm = FourBar | SliderCrank | InvertedSliderCrank
 
 _LOOPS = {"four_bar": "RRRR", "slider_crank": "RRRP", "inverted_slider_crank": "RRPR"}

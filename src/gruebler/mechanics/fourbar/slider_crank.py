@@ -44,8 +44,6 @@ from gruebler.mechanics.linkages.quantities import (
 )
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["SliderCrank", "StrokeMidpoint", "slider_crank_linkage"]
-
 
 @dataclass(frozen=True, slots=True)
 class StrokeMidpoint:

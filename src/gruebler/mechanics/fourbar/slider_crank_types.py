@@ -5,8 +5,6 @@ from __future__ import annotations
 from gruebler.base.text import message
 from gruebler.mechanics.fourbar.grashof import NOT_ASSEMBLABLE, SINGLE_POSITION, LinkageType
 
-__all__ = ["INVERTED_SLIDER_CRANK_TYPES", "SLIDER_CRANK_TYPES", "offset_relation"]
-
 _CLOSE = 1e-12
 
 # By the relation of l_min + |e| to l_max, and by the links that are the shorter.

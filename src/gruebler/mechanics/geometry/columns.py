@@ -17,8 +17,6 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike, point_name
 
-__all__ = ["curvature_columns", "pole_columns", "pole_list"]
-
 
 def pole_columns(motion: Motion, lang: str = "en") -> list[Column]:
     """The pole of each pair of links (x, y), and its direction if it lies at infinity in some row."""

@@ -12,8 +12,6 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages.points import PointLike
 from gruebler.mechanics.linkages.quantities import as_positive
 
-__all__ = ["TangentContact", "tangent_contact"]
-
 
 @dataclass(frozen=True)
 class TangentContact:

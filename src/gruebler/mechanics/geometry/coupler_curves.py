@@ -32,8 +32,6 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike
 from gruebler.mechanics.linkages.quantities import as_finite
 
-__all__ = ["CouplerCurve", "coupler_curve"]
-
 _TOLERANCE = 1e-4  # of the reach of linkage and path
 
 

@@ -13,8 +13,6 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.points import PointLike, point_name
 
-__all__ = ["InflectionCircle", "PathCurvature", "inflection_circle", "path_curvature"]
-
 _POINT = 1e-10  # sizes of the linkage: a smaller inflection circle is a point, its tangent unknown
 _CUSP = 1e-10  # of the links' velocities: below it the point stands still and its path has no tangent
 

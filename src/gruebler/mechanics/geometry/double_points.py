@@ -12,8 +12,6 @@ from gruebler.base.arrays import Complexes, Flags, Reals, cross_product, scalar_
 from gruebler.mechanics.geometry.point_path import PointPath
 from gruebler.mechanics.geometry.sampling import PathPolygon
 
-__all__ = ["DoublePoint", "double_points"]
-
 _CLOSED = 1e-11  # sizes: two places that are nearer are one point
 _TOUCH = 1e-9  # the same, and tangents parallel
 _FLAT = 1e-5  # sine of the angle of the tangents: below it they touch

@@ -22,8 +22,6 @@ from gruebler.mechanics.geometry.straight import Path, PathPiece, linkage_path, 
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["GUIDANCES", "Guidance", "guidance"]
-
 _EXACT = 1e-12  # deviation by length over the whole window
 _POINT = "K"
 

@@ -14,8 +14,6 @@ from gruebler.base.notebook import Brief
 from gruebler.mechanics.geometry.relative import relative_motion, resting_and_translating
 from gruebler.mechanics.kinematics import Motion
 
-__all__ = ["Centrodes", "Poles", "centrodes", "poles"]
-
 
 @compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)

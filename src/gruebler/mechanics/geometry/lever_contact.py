@@ -21,8 +21,6 @@ from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.quantities import as_branch, as_finite
 
-__all__ = ["LeverContact", "LeverPose", "lever_contact", "lever_pose"]
-
 _ORDER = 9
 _ZERO = 1e-9  # of the linkage's size, or of what a coefficient may be: smaller ones are roundings
 

@@ -18,8 +18,6 @@ from gruebler.mechanics.linkages.quantities import as_finite, as_positive
 _LEAST, _MOST = 0.501, 1.4999  # lambda: towards 0.5 links grow beyond all bounds, towards 1.5 they shrink to nothing
 _WIDEST = 2000.0  # longest link by the shortest
 
-__all__ = ["CouplerLever", "SymmetricRocker", "lambdas_for", "symmetric_rocker"]
-
 
 @dataclass(frozen=True)
 class CouplerLever:

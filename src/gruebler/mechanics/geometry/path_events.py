@@ -13,18 +13,6 @@ from gruebler.mechanics.geometry.series import taylor_series
 from gruebler.mechanics.kinematics.root_finding import Zero, find_zeros
 from gruebler.mechanics.linkages.quantities import as_finite
 
-__all__ = [
-    "Cusp",
-    "Inflection",
-    "TurningPoint",
-    "Vertex",
-    "cusps",
-    "goes_back",
-    "inflections",
-    "turning_points",
-    "vertices",
-]
-
 _STILL = 1e-8  # of the usual velocity: slower, in the minimum, the point stands still
 _PARALLEL = 1e-7  # sine of the angle between the second and the third derivative in a cusp
 _BESIDE = np.array([0.02, 0.03, 0.05])  # of the parameter: places from which a path is looked for on its other side

@@ -16,8 +16,6 @@ from gruebler.mechanics.analysis.drive_cycle import DriveCycle, drive_cycle, pat
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.points import PointLike, point_name
 
-__all__ = ["PointPath", "point_path"]
-
 _CELLS = 360  # of the first grid, for each turn
 _EDGE = 1e-3  # of the parameter: nearer to a limit of the drive the path is continued by its Taylor polynomial
 _STILL = 1e-11  # sizes for each unit of the parameter: a point that is never faster does not move

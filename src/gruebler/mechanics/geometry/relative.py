@@ -12,9 +12,6 @@ from gruebler.base.jets import turn_derivative, turned_derivative
 from gruebler.base.text import message
 from gruebler.mechanics.kinematics import Motion
 
-__all__ = ["RelativeMotion", "relative_motion", "resting_and_translating"]
-
-
 _FAR = 1e10  # sizes of the linkage: poles further off have lost ten of their digits, and are told as directions
 _STILL = 1e-12  # velocities below this part of the largest in the row are roundings
 _ORDERS = (message("positions"), message("velocities"), message("accelerations"), message("jerks"))

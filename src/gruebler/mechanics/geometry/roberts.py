@@ -17,8 +17,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.quantities import as_finite, as_numbers
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["Cognate", "CognateSizes", "cognate_sizes", "cognates", "parallel_motion", "slider_cognates"]
-
 _AT_A_JOINT = 1e-9  # of the coupler: a nearer point draws an arc
 _TURNS_WITH = (("crank", "coupler", "rocker"), ("coupler", "crank", "rocker"), ("coupler", "rocker", "crank"))
 _PARALLEL = (

@@ -11,8 +11,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.geometry.point_path import PointPath
 from gruebler.mechanics.linkages.quantities import as_positive
 
-__all__ = ["PathPolygon", "path_area", "path_length", "path_polygon"]
-
 _FIRST = 64  # cells for each turn before any is halved
 _LEVELS = 24
 _FINEST = 1e-10  # of the reach: no tolerance below

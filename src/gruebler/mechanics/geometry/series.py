@@ -15,8 +15,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.points import PointLike, place_of
 
-__all__ = ["TaylorSeries", "taylor_series"]
-
 _HIGHEST = 40
 _SINGULAR = 1e-9  # a smaller root: the drive stands at a limit, or assembly modes meet
 

@@ -14,8 +14,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.linkages.quantities import as_finite
 
-__all__ = ["CouplerSextic", "coupler_sextic"]
-
 
 @compared_by_value
 @dataclass(frozen=True, eq=False)

@@ -15,18 +15,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike, point_name
 from gruebler.mechanics.linkages.quantities import as_finite, as_positive
 
-__all__ = [
-    "RatioCurve",
-    "Sizing",
-    "Window",
-    "crank_length",
-    "longest_in_band",
-    "ratio_curve",
-    "scale_for",
-    "tangent_windows",
-    "widest_piece",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class Window:

@@ -16,8 +16,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike
 from gruebler.mechanics.linkages.quantities import as_finite, as_positive
 
-__all__ = ["Path", "PathPiece", "coupler_path", "linkage_path", "longest_piece", "path_piece", "piece_of_ratio"]
-
 Path = Callable[[Reals], Complexes]
 """Points x + iy of a path at values of its parameter, such as the crank's angle."""
 

@@ -19,17 +19,6 @@ from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import LinkageError
 
-__all__ = [
-    "PIN",
-    "SLIDE",
-    "AssemblyModes",
-    "GroupConditions",
-    "GroupSolver",
-    "conditions",
-    "ordered_modes",
-    "search_modes",
-]
-
 Row = tuple[int, int, int, complex, complex, complex, complex]
 Method = Literal["exact", "degenerate", "search"]
 

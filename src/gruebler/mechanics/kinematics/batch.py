@@ -29,8 +29,6 @@ from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 if TYPE_CHECKING:
     from gruebler._numeric.motion.batch import DesignPoses
 
-__all__ = ["Designs", "Motions", "designs", "four_bars", "inverted_slider_cranks", "move_many", "slider_cranks"]
-
 
 @compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)

@@ -24,8 +24,6 @@ from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics.plan import Dyad, HigherGroup, Plan
 from gruebler.structure.chain.pairs import in_alphabets
 
-__all__ = ["branch_of", "modes_of_group", "pose_before", "read_branch"]
-
 _SAME = 1e-6  # sizes and radians: a pose so near to an assembly mode is in it, as modes that are nearer count as one
 
 

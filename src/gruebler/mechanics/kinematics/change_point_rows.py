@@ -12,8 +12,6 @@ from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose
 
-__all__ = ["ChangePointRows", "set_change_point_rows"]
-
 _SINGULAR = 1e-5  # below this root the linear equations of the rates lose too many digits
 _AT_LIMIT = 1e-7  # above this root the equations still give some digits of rates where there are no limits to take
 _STEP = 0.04  # radians (or part of the size): how far from a change point poses are taken to find that at it

@@ -36,8 +36,6 @@ from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike
 
-__all__ = ["Circuit", "MonotonePiece", "circuit"]
-
 Quantity = Callable[[Poses, int], Reals]
 """From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
 

@@ -28,9 +28,6 @@ if TYPE_CHECKING:
     from gruebler._numeric.motion.closure import Conditions
     from gruebler._numeric.motion.tracing import SampleBuffer, TraceScratch
 
-__all__ = ["ChangeSample", "ClosureSystem", "TracedCurve", "closure_system", "nearest_on_curve", "trace_circuit"]
-
-
 _SHORT = 0.02  # a change point is passed by a step of at most this length
 _EXACT = 1e-12  # a change point is open by less; if by more, the linkage only passes near one
 _SAME = 1e-9  # sizes and radians: poses that differ by less are one; samples are closed to some 1e-13

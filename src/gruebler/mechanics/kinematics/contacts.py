@@ -19,8 +19,6 @@ from gruebler.mechanics.linkages.elements import INVERSE, RoundElement, directio
 from gruebler.mechanics.linkages.wheels import rolling_factors
 from gruebler.structure.chain.pairs import Pair
 
-__all__ = ["Condition", "contact_conditions", "law_tables", "reference_angles", "side_of"]
-
 Keys = tuple[tuple[int, str], ...]
 _NO_LAW = PiecewiseLaw(())
 _MESHES = 1e-6  # radians: angles of a drawing with six digits fit

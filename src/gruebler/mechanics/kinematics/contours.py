@@ -17,8 +17,6 @@ from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.kinematics.noncircular import transfer_of
 from gruebler.mechanics.linkages import CamDisc, Element, GenevaDriver, GenevaWheel, NonCircular
 
-__all__ = ["COEFFICIENTS", "PiecewiseLaw", "cam_law", "cam_of", "turn_law"]
-
 COEFFICIENTS = 12
 _EXACT = 5e-16  # of the largest value: terms of a piece that are rounding
 _CONSTANT = 1e-14  # of the largest value: a law that varies by less between two joints varies by rounding only

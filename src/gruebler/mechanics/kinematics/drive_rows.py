@@ -11,8 +11,6 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.plan import Plan
 
-__all__ = ["drive_path", "drive_speeds", "from_degrees", "warn_of_path"]
-
 _ROUNDING = 1e-12  # of a number of steps: its error by two roundings, with room
 _LAST = 1e-9  # of a step: an end that is missed by less is reached
 

@@ -13,8 +13,6 @@ from gruebler.mechanics.kinematics.plan import Plan
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
 
-__all__ = ["SolvedRows", "follow_path", "run_rows", "without_first"]
-
 _AT_IT = 1e-12  # of the size: a row so near to the shortest way of a slide is there
 _PASSED = 1e-9  # of the size: a step that ends so near to the shortest way of a slide ends at it
 _AT_CHANGE = 1e-7  # below this root a path that turns back is taken to turn back in a change point

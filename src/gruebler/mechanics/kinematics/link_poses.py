@@ -20,8 +20,6 @@ from gruebler.mechanics.linkages import Line, Linkage, LinkPoint, Pose2D
 from gruebler.mechanics.linkages.points import PointLike, place_of
 from gruebler.mechanics.linkages.wheels import sliding_joint
 
-__all__ = ["LinkPoses"]
-
 
 class LinkPoses(ABC):
     """Poses of one linkage in rows, with derivatives by the time (`Motion`) or by the arc of a circuit (`Poses`)."""

@@ -10,8 +10,6 @@ from gruebler.structure.assur.forms import form_message
 from gruebler.structure.chain.pairs import in_alphabets
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["stop_message", "taken_for_exact_message", "unbounded_message"]
-
 _UNBOUNDED = message("At {drives} the drive stands at its limit: there are no finite rates.")
 _EXACT = message(
     "From {first} to {last} the sizes miss a change point by so little that they were taken for exact: poses and rates "

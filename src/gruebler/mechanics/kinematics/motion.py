@@ -26,8 +26,6 @@ from gruebler.mechanics.linkages.elements import INVERSE, LeadingElement, RoundE
 from gruebler.mechanics.linkages.points import PointLike
 from gruebler.mechanics.linkages.wheels import carriers, rolling_factors, round_joints
 
-__all__ = ["Motion", "Stop", "joint_openings"]
-
 
 @dataclass(frozen=True)
 class Stop:

@@ -15,9 +15,6 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.machines.cams import Lift, read_lift
 from gruebler.mechanics.linkages import NonCircular
 
-__all__ = ["WheelTransfer", "transfer_of"]
-
-
 _RATIOS = (1e-3, 1e3)  # beyond them a radius is less than a thousandth of the centre distance
 _FLATTEST = 0.8  # eccentricity: the ratio goes from 1/9 to 9; beyond, pieces of 0.04 rad are not exact
 _CLOSED = 1e-9  # radians, as the parts of a lift fill a turn

@@ -21,8 +21,6 @@ from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.assur import Decomposition, SolvedGroup, decompose
 
-__all__ = ["Dyad", "HigherGroup", "Plan", "plan"]
-
 _DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
 _FORMS = {code: form for form, code in _DYADS.items()}
 _BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes

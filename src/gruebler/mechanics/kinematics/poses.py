@@ -14,8 +14,6 @@ from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike
 
-__all__ = ["Poses"]
-
 
 @compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)

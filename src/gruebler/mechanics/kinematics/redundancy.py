@@ -26,12 +26,6 @@ from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Pair, Space, pair
 from gruebler.structure.mechanism import Drive, Mechanism
 
-__all__ = [
-    "Independent",
-    "independent_part",
-]
-
-
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `screws.freedoms`
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
 _ROUNDING = 1e-14  # sizes and radians: a step of Newton's method that is shorter changes nothing

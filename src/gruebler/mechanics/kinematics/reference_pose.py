@@ -16,8 +16,6 @@ from gruebler.mechanics.kinematics.plan import Dyad, Plan
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 
-__all__ = ["ReferencePose", "check_reference", "pose_at_reference"]
-
 
 class ReferencePose(NamedTuple):
     """Drive values, signs of dyads and unknowns of larger groups in the reference pose."""

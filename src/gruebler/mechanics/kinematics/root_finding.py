@@ -15,8 +15,6 @@ import numpy as np
 
 from gruebler.base.arrays import Reals, compared_by_value
 
-__all__ = ["FunctionSamples", "Zero", "bracketed_root", "find_zeros", "sample_function", "vanishing"]
-
 Jet = Callable[[Reals], Reals]
 """From (n,) places to (derivatives, n): the function, and as many of its derivatives as are known."""
 

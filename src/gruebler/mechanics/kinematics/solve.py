@@ -29,8 +29,6 @@ from gruebler.mechanics.kinematics.reference_pose import ReferencePose, check_re
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 
-__all__ = ["all_branches", "assembly_modes", "cached_plan", "motion_from_rows", "move", "starting_configuration"]
-
 _OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
 _DOUBTFUL = 1e-6  # a root below it may be wrong by as much as 1e-16 over it, and so may the pose
 _REASONS = {1: "limit", 2: "singular", 3: "start"}

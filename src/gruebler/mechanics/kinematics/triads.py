@@ -13,11 +13,10 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.assembly_modes import (
-    PIN,
-    SLIDE,
     AssemblyModes,
     GroupConditions,
     GroupSolver,
@@ -26,8 +25,6 @@ from gruebler.mechanics.kinematics.assembly_modes import (
     ordered_modes,
     search_modes,
 )
-
-__all__ = ["BOUNDS", "all_modes", "is_triad", "triad_modes"]
 
 BOUNDS = {
     ("RR", "RR", "RR"): 6,

@@ -7,8 +7,6 @@ from typing import Protocol, TypeGuard, runtime_checkable
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.linkages.model import Linkage
 
-__all__ = ["LinkageLike", "as_linkage", "makes_linkage"]
-
 
 @runtime_checkable
 class HasLinkage(Protocol):

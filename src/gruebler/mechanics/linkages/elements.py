@@ -11,27 +11,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, joined_by_or, message
 from gruebler.structure.chain.pairs import Pair
 
-__all__ = [
-    "CENTRED",
-    "INVERSE",
-    "CamDisc",
-    "Circle",
-    "Element",
-    "GenevaDriver",
-    "GenevaWheel",
-    "LeadingElement",
-    "Line",
-    "LinkPoint",
-    "NonCircular",
-    "Pin",
-    "Pose2D",
-    "RoundElement",
-    "Wheel",
-    "check_elements_fit",
-    "direction",
-    "read_element",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class Pin:

@@ -24,8 +24,6 @@ from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Space, pair
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["linkage_of_train", "train_of"]
-
 _PLANAR = ("gear", "friction", "belt", "chain", "crossed", "rack", "rack by pitch")
 _BELTS = {"belt": "open", "chain": "open", "crossed": "crossed"}
 _APART = 1.7  # sums of radii: the distance of the axes of a belt

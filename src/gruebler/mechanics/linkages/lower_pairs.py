@@ -14,8 +14,6 @@ from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import pair
 from gruebler.structure.mechanism import Drive, Mechanism
 
-__all__ = ["with_lower_pairs"]
-
 
 def with_lower_pairs(linkage: Linkage) -> Linkage:
     """The linkage with a further link for each pin in a slot and each double slide; the other links keep their names.

@@ -33,9 +33,6 @@ from gruebler.mechanics.linkages.wheels import check_wheels, resolve_wheels
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["NEAR_REFERENCE", "Linkage"]
-
-
 NEAR_REFERENCE = 0.05
 """Sizes and radians: a closed position farther away is not the reference pose that was meant."""
 

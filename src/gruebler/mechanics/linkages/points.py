@@ -13,8 +13,6 @@ from gruebler.base.errors import LinkageError, nearest
 from gruebler.mechanics.linkages.elements import Element, LinkPoint
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["PointLike", "each_point", "place_of", "point_name", "points_of", "text_as_point"]
-
 PointLike = Annotated[str | LinkPoint | tuple[str, float, float] | tuple[float, float], "checked by points_of"]
 """A name of a point or joint, ``LINK:X,Y`` or ``X,Y`` as a text, ``(link, x, y)``, or ``(x, y)`` on the coupler."""
 _COUPLER = "coupler"

@@ -12,16 +12,6 @@ import numpy.typing as npt
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import message
 
-__all__ = [
-    "as_branch",
-    "as_eccentricity",
-    "as_finite",
-    "as_lengths",
-    "as_numbers",
-    "as_positive",
-    "given_and_missing",
-]
-
 FloatArray = npt.NDArray[np.float64]
 
 

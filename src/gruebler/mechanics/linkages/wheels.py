@@ -29,17 +29,6 @@ from gruebler.mechanics.linkages.elements import (
 )
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = [
-    "Carrier",
-    "carriers",
-    "check_wheels",
-    "redundant_wheels",
-    "resolve_wheels",
-    "rolling_factors",
-    "round_joints",
-    "sliding_joint",
-]
-
 Elements = Mapping[tuple[int, str], Element]
 _SAME = 1e-9  # of a length: a distance that fits
 

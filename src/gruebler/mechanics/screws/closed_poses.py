@@ -20,9 +20,6 @@ from gruebler.mechanics.screws.joint_places import JointPlace
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import inverse_motion
 
-__all__ = ["closed_pose", "has_only_lower_pairs"]
-
-
 _EXACT = 1e-15  # a reference pose that is closed so well is meant as it is
 _STARTS = 60  # random poses from which a linkage without a reference pose is assembled
 _NEARLY = 1e-8  # of the size: joints that may be closed at a double root, where a pose is known to that only

@@ -15,8 +15,6 @@ from gruebler.mechanics.screws.rigid_motions import exponential, exponential_rat
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["CLOSED", "RANK", "TINY", "Closing", "JointFrames"]
-
 CLOSED = 1e-12
 """Sizes and radians: joints that are open by less are closed.
 

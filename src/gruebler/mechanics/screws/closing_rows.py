@@ -22,8 +22,6 @@ from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.joint_places import JointPlace
 from gruebler.structure.chain.pairs import Pair, Space
 
-__all__ = ["Bent", "Row", "joint_rows"]
-
 Bent = Callable[[Reals], tuple[float, Reals]]
 """From E to the value of a row and its derivatives by the entries of E, (4, 4)."""
 Row = Reals | Bent

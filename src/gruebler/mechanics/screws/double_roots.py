@@ -16,9 +16,6 @@ from gruebler.mechanics.screws.closing import Closing
 from gruebler.mechanics.screws.instant_mobility import InstantMobility, instant_mobility
 from gruebler.mechanics.screws.obstruction import ObstructionMap
 
-__all__ = ["is_near_double_root", "refined_at_double_root"]
-
-
 _ROUNDING = 1e-16  # no residual is known better
 _SAFETY = 3.0  # by which the root of the residual is taken larger
 _WORSE = 4.0  # by how much the residual may grow on the way to the double root

@@ -21,9 +21,6 @@ from gruebler.mechanics.screws.instant_mobility import InstantMobility, instant_
 from gruebler.mechanics.screws.obstruction import ObstructionMap
 from gruebler.mechanics.screws.quadratic_forms import directions, is_definite
 
-__all__ = ["Evidence", "FiniteMobility", "finite_mobility"]
-
-
 _RADII = (0.02, 0.08, 0.25)  # of the velocities' numbers at which F is looked at: radians and sizes
 _TRIES = 4  # directions at each radius
 _STARTS = 24  # directions from which zeros of F are sought if its second order says nothing

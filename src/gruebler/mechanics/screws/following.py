@@ -13,9 +13,6 @@ from gruebler.base.text import joined, message
 from gruebler.mechanics.screws.closing import CLOSED, RANK, Closing
 from gruebler.mechanics.screws.model import SpatialLinkage
 
-__all__ = ["follow_from_pose", "follow_joint", "follow_joints", "joint_value"]
-
-
 _STEP = 0.05  # of the driven joint, in radians or sizes, between two corrections
 
 

@@ -17,9 +17,6 @@ from gruebler.mechanics.screws.instant_mobility import InstantMobility
 from gruebler.mechanics.screws.motion_groups import screws_of
 from gruebler.structure.mobility.idle import IdleCondition, IdleFreedom, between_balls
 
-__all__ = ["idle_parts"]
-
-
 _SAME = 1e-7  # lines and directions that differ by less, in sizes, coincide: ten times what a pose may be open by
 
 

@@ -11,8 +11,6 @@ from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.notebook import Brief
 from gruebler.mechanics.screws.closing import TINY, Closing
 
-__all__ = ["InstantMobility", "instant_mobility"]
-
 _STILL = 1e-7  # shares of unit vectors: a null space whose rank is decided at 1e-8 is known to some 1e-16/1e-8
 
 

@@ -10,9 +10,6 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.instant_mobility import InstantMobility
 
-__all__ = ["SAME", "JointGeometry", "Reason"]
-
-
 SAME = 1e-8
 """Sizes and radians: places and directions that differ by less are one; a pose at a double root is known to that."""
 """Points and directions that differ by less, in sizes, are the same."""

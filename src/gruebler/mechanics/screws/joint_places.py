@@ -13,8 +13,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import joined_by_and, joined_by_or
 from gruebler.structure.chain.pairs import Pair, Space
 
-__all__ = ["JointPlace", "Vector", "joint_axes", "read_place"]
-
 Vector = tuple[float, float, float]
 
 _SQUARE = 1e-9  # axes that should be at right angles may miss it by so much

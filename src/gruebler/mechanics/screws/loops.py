@@ -12,8 +12,6 @@ from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.mechanics.screws.joint_geometry import SAME, JointGeometry, Reason
 from gruebler.structure.chain.pairs import Space
 
-__all__ = ["bennett", "bricard", "cardan", "sarrus"]
-
 
 def bennett(s: JointGeometry) -> Iterator[Reason]:
     """Four skew axes, opposite links equal, length over sine of the twist the same for all, no offsets."""

@@ -28,8 +28,6 @@ from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mobility import MobilityReport, mobility_report
 from gruebler.structure.mobility.idle import IdleFreedom
 
-__all__ = ["Freedoms", "freedoms"]
-
 _FINITE = {
     "rigid": message("Finite: 0, for nothing moves even for an instant."),
     "regular": message("Finite: {finite}, proved, for no constraint is redundant (implicit function theorem)."),

@@ -16,8 +16,6 @@ from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axe
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["SpatialLinkage"]
-
 _ORTHOGONAL = 1e-9  # by how much a rotation matrix may miss its transpose as inverse: nine digits were written
 
 

@@ -17,9 +17,6 @@ from gruebler.mechanics.screws.closing import Closing
 from gruebler.mechanics.screws.rigid_motions import adjoint, lie_bracket
 from gruebler.structure.chain.pairs import Space
 
-__all__ = ["MotionGroup", "MotionGroupKind", "common_group", "screws_of", "smallest_algebra"]
-
-
 _SAME = 1e-9  # directions and shares of twists that differ by less are one: poses are closed to 1e-12
 
 

@@ -9,8 +9,6 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.instant_mobility import InstantMobility
 
-__all__ = ["NearbyPose", "ObstructionMap"]
-
 _SHORT, _ROUNDING = 1e-13, 1e-15  # sizes and radians: a step, and what is open, that are rounding
 _NOISE = 1e-6  # second derivatives: differences of values known to some 1e-15 over steps of 1e-3 err by 1e-9 at most
 

@@ -7,9 +7,6 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.closing import TINY
 
-__all__ = ["directions", "is_definite"]
-
-
 _DIFFERENT = 1e-4  # 1 less the cosine: directions that differ by less (0.8 degrees) are one
 _RANK = 1e-10  # of the largest singular value: slopes of exact forms that are smaller are rounding
 _ROUNDING = 1e-14  # of a unit vector: a shorter step changes nothing

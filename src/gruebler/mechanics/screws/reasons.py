@@ -19,9 +19,6 @@ from gruebler.mechanics.screws.rigid_motions import adjoint
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mobility import counted
 
-__all__ = ["Reason", "reasons"]
-
-
 _ROUNDING = 1e-14  # of a point, in sizes
 
 _ROUND = ("roll_slide", "rolling")

@@ -11,9 +11,6 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 
-__all__ = ["adjoint", "exponential", "exponential_rate", "inverse_motion", "lie_bracket", "twist_matrix"]
-
-
 _SMALL = 1e-2  # radians: below, four terms of the series are exact to rounding, and 1 - cos has lost digits
 _TERMS = 16  # of the series of the rate of an exponential; twists below 1 leave an error below 1e-16
 

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 
 from gruebler.base.text import decimal_sign_in
 
-__all__ = ["Axis", "Scale", "angles", "as_text", "decades", "decimals", "tick_labels"]
-
 _FEW = 7  # approximate number of ticks of an axis
 _ANGLES = (1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720)  # degrees
 _TINY = 1e-9  # steps: the tolerance for a value beyond a tick

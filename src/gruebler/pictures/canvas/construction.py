@@ -33,20 +33,6 @@ from gruebler.pictures.canvas.shapes import (
 from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.canvas.symbols import arrow
 
-__all__ = [
-    "Angle",
-    "Arrow",
-    "Construction",
-    "ConstructionStep",
-    "Dot",
-    "Drawn",
-    "DrawnCircle",
-    "DrawnCurve",
-    "DrawnLine",
-    "Segment",
-    "quantity",
-]
-
 _WIDE, _HIGH = 560.0, 400.0  # pixels of the drawing
 _TEXT = 13.0  # pixels, of the caption
 _LEAD = 18.0

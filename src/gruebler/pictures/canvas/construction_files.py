@@ -15,8 +15,6 @@ from gruebler.pictures.canvas.shapes import Point, Shape, moved_shape
 from gruebler.pictures.canvas.styles import COLOURS
 from gruebler.pictures.canvas.svg import style_sheet
 
-__all__ = ["CONSTRUCTION_SUFFIXES", "construction_bytes", "pictures_in_one", "steps_html"]
-
 CONSTRUCTION_SUFFIXES = ("html", "pdf", "svg", "png")
 _COLUMNS = 2
 

@@ -13,14 +13,6 @@ from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
 from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.canvas.svg import style_sheet, svg_element, svg_number, xml_text
 
-__all__ = [
-    "MARGIN",
-    "Figure",
-    "figure_of",
-    "svg",
-    "svg_document",
-]
-
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Figure(Brief):

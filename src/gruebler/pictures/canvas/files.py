@@ -9,8 +9,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or
 from gruebler.pictures.canvas.figure import Figure
 
-__all__ = ["SUFFIXES", "picture_bytes", "suffix_of"]
-
 SUFFIXES = ("svg", "png", "pdf")
 
 

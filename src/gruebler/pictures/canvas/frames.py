@@ -14,9 +14,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.matplotlib_files import matplotlib_figure
 
-__all__ = ["FRAMES", "check_kind", "frames_file"]
-
-
 FRAMES = ("gif", "webp", "png")
 """Kinds of files; png is APNG."""
 

@@ -12,9 +12,6 @@ from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES
 
-__all__ = ["HALF", "Obstacles", "complexes", "distance_between", "from_segment", "is_inside"]
-
-
 HALF = 7.0
 """Half the height of a text."""
 _FILLED = ("body", "frame", "area", "block", "block-frame")

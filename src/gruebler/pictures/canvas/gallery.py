@@ -12,8 +12,6 @@ from gruebler.pictures.canvas.page_policy import policy_element
 from gruebler.pictures.canvas.styles import COLOURS
 from gruebler.pictures.canvas.svg import style_sheet
 
-__all__ = ["Item", "Section", "gallery_html"]
-
 
 @dataclass(frozen=True, slots=True)
 class Item:

@@ -13,8 +13,6 @@ from gruebler.pictures.canvas.free_space import HALF, Obstacles, complexes
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, bounds, text_width
 from gruebler.pictures.canvas.styles import BAR, STYLES
 
-__all__ = ["labels_or_numbers", "labels_with_names", "legend", "note_near", "short_names"]
-
 _ENOUGH = 7.0  # pixels around a text; more does not improve a place
 _LEAST = 1.5
 _CLEAR = BAR / 2 + 4.0  # pixels from the middle of a link to outside of it

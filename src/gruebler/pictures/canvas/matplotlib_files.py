@@ -14,8 +14,6 @@ from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Polylines, Shape, TextShape, split_subscripts
 from gruebler.pictures.canvas.styles import COLOURS, STYLES
 
-__all__ = ["gallery_pdf", "matplotlib_figure", "pages_pdf", "paint_shapes", "save_figure"]
-
 _POINTS = 72 / 96  # of print, to a pixel
 
 

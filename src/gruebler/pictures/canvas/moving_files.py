@@ -8,8 +8,6 @@ from gruebler.pictures.canvas.frames import FRAMES, frames_file
 from gruebler.pictures.canvas.moving_page import PageSettings, moving_page_html
 from gruebler.pictures.canvas.moving_picture import MovingPicture, figure_at, moving_svg
 
-__all__ = ["MOVING", "moving_bytes", "moving_page"]
-
 MOVING = ("svg", "html", *FRAMES)
 """Kinds of files; png is APNG."""
 _MOST, _RATE = 144, 20  # pictures of a file, and a second

@@ -11,9 +11,6 @@ from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.canvas.styles import COLOURS
 
-__all__ = ["PageSettings", "moving_page_html"]
-
-
 _STYLE = (
     ":root{{color-scheme:light dark}}body{{margin:0;font:16px sans-serif;background:{light};color:{ink}}}"
     "main{{max-width:{width}px;margin:auto;padding:1rem}}h1{{font-size:1.2rem}}svg{{max-width:100%;height:auto}}"

@@ -27,22 +27,6 @@ from gruebler.pictures.canvas.shapes import (
 )
 from gruebler.pictures.canvas.svg import svg_element, svg_number
 
-__all__ = [
-    "Body",
-    "Clock",
-    "MovingPicture",
-    "Shift",
-    "Turn",
-    "always",
-    "at_time",
-    "even_keys",
-    "figure_at",
-    "key_list",
-    "moving",
-    "moving_svg",
-    "still_picture",
-]
-
 _MARGIN = 16.0
 _LONGEST = 3600.0  # seconds
 _ROW, _SAMPLE = 20.0, 30.0  # of a list of lines

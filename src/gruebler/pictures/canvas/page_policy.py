@@ -5,8 +5,6 @@ from __future__ import annotations
 import base64
 import hashlib
 
-__all__ = ["policy_element", "script_element"]
-
 
 def script_element(script: str, kind: str = "") -> str:
     """A script as it stands in a page; ``kind`` is ``module`` or nothing."""

@@ -18,9 +18,6 @@ from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, moved_shape, text_width
 from gruebler.pictures.canvas.simplification import FINE, simplified
 
-__all__ = ["AxisMarker", "Band", "DwellMarker", "Panel", "PlottedCurve", "PointMarker", "draw_panels", "ratio_diagram"]
-
-
 _SIZE = Point(520.0, 300.0)
 _TICK = 5.0
 _ABOVE = 17.0  # from a panel to the name of its axis, and once more where marks have texts

@@ -13,20 +13,6 @@ from typing import NamedTuple
 
 from gruebler.pictures.canvas.styles import STYLES
 
-__all__ = [
-    "ArcShape",
-    "CircleShape",
-    "Point",
-    "Polylines",
-    "Shape",
-    "TextShape",
-    "bounds",
-    "moved_shape",
-    "split_subscripts",
-    "text_width",
-    "wrapped_text",
-]
-
 
 class Point(NamedTuple):
     """A place or a vector."""

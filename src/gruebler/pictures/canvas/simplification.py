@@ -8,8 +8,6 @@ import numpy as np
 
 from gruebler.pictures.canvas.shapes import Point
 
-__all__ = ["FINE", "simplified"]
-
 FINE = 0.12
 """The tolerance of a drawn curve in pixels."""
 

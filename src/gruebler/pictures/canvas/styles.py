@@ -10,8 +10,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["BAR", "COLOURS", "LINE", "LINES", "ROD", "SLOT", "STYLES", "Style"]
-
 BAR = 9.0
 """Width of a link."""
 LINE = 1.4

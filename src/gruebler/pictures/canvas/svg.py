@@ -8,12 +8,6 @@ from xml.sax.saxutils import escape
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
 from gruebler.pictures.canvas.styles import COLOURS, STYLES, Style
 
-__all__ = [
-    "style_sheet",
-    "svg_element",
-    "svg_number",
-]
-
 _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 65534, 65535, *range(55296, 57344)))
 
 

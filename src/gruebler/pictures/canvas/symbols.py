@@ -14,22 +14,6 @@ from itertools import pairwise
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.pictures.canvas.styles import BAR
 
-__all__ = [
-    "CONTACTS",
-    "JointMember",
-    "JointSign",
-    "arrow",
-    "arrow_head",
-    "bar",
-    "hatching",
-    "joint_sign",
-    "polygon",
-    "straight_drive",
-    "ticks",
-    "turning_drive",
-    "widest_gap",
-]
-
 RADIUS = 6.2
 """Of a turning joint."""
 _RING = 3.6

@@ -25,8 +25,6 @@ from gruebler.pictures.canvas.construction import (
     quantity,
 )
 
-__all__ = ["STRAIGHT", "AltConstruction", "alt_construction", "alt_steps"]
-
 STRAIGHT = 1e-9
 """Radians: dead centres so nearly half a turn apart have a line for the circle."""
 

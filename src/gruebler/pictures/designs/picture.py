@@ -25,8 +25,6 @@ from gruebler.pictures.designs.plots import burmester_plot, function_plot
 from gruebler.pictures.linkage.animation import animated_svg
 from gruebler.pictures.linkage.picture import draw_linkage
 
-__all__ = ["design_figure", "designs_figure", "designs_page"]
-
 _COLUMNS = 3
 _LETTER, _LINE = 6.5, 16.0  # pixels of a letter and of a line of a caption
 _MOST_MARKS = 12  # targets that get a name; of more every second, third, ... is shown

@@ -23,8 +23,6 @@ from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.pictures.canvas.shapes import Point
 
-__all__ = ["burmester_plot", "finite_poles", "function_plot", "output_of"]
-
 _LONGER_SIDE = 560.0  # pixels
 _FAR = 2.5  # sizes of the task from its middle: poles and pivots that are farther do not enlarge the picture
 _SAMPLES = 201

@@ -28,8 +28,6 @@ from gruebler.pictures.linkage.layers import coupler_curve_lines, drive_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.structure.messages import describe, title
 
-__all__ = ["AnimationOptions", "Scene", "animated_svg", "scene", "svg_of"]
-
 _LONGEST = 3600.0  # seconds
 
 

@@ -11,10 +11,6 @@ from gruebler.pictures.canvas.shapes import Point, moved_shape
 from gruebler.pictures.linkage.animation import AnimationOptions, Scene, scene
 from gruebler.pictures.linkage.bodies import PINS, shapes_at_pose
 
-__all__ = [
-    "animated_frames",
-]
-
 _MOST = 144  # pictures of a file
 
 

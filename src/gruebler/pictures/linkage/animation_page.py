@@ -14,10 +14,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.moving_page import PageSettings, moving_page_html
 from gruebler.pictures.linkage.animation import AnimationOptions, Scene, scene, svg_of
 
-__all__ = [
-    "animated_page",
-]
-
 
 def animated_page(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
     """An HTML page with the moving linkage, a button and a slider; options and errors are those of `animated_svg`.

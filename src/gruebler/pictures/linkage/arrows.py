@@ -13,8 +13,6 @@ from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
-__all__ = ["acceleration_arrows", "scale_bars", "velocity_arrows"]
-
 _LONGEST = 74.0  # pixels of the longest arrow
 _LEAST = 0.02  # of the longest: shorter ones are left out
 _REST = 1e-9  # sizes, for a drive of speed 1

@@ -20,19 +20,6 @@ from gruebler.pictures.canvas.symbols import JointMember, joint_sign, ticks
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 from gruebler.pictures.linkage.wheels import round_parts
 
-__all__ = [
-    "BodyPart",
-    "Slide",
-    "barrel",
-    "body_parts",
-    "corners_of",
-    "in_link",
-    "layered",
-    "pins_of",
-    "shapes_at_pose",
-    "slides",
-]
-
 FRAME, BODIES, BLOCKS, PINS = range(4)
 """Layers, from below."""
 

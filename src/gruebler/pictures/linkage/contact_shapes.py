@@ -15,8 +15,6 @@ from gruebler.mechanics.linkages.elements import (
     Wheel,
 )
 
-__all__ = ["contact_shapes"]
-
 
 def contact_shapes(linkage: Linkage) -> dict[tuple[int, str], str]:
     """For every joint that rolls or slides in a point, by number and link: a word of `symbols.CONTACTS`.

@@ -24,9 +24,6 @@ from gruebler.pictures.canvas.styles import LINES
 from gruebler.pictures.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
 from gruebler.pictures.linkage.posed_linkage import floating_link, link_nodes
 
-__all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
-
-
 _SQUARE = 460.0  # pixels of the longer side
 _NEAR = 0.03  # of the field: the smallest distance of labelled drive values
 _AROUND = 0.04  # of the field

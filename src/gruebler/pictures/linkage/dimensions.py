@@ -21,8 +21,6 @@ from gruebler.pictures.linkage.bodies import pins_of, slides
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
-__all__ = ["dimension_lines"]
-
 _OFFSETS = (21.0, 26.0, 32.0, 39.0, 47.0, 56.0, 66.0, 78.0, 92.0, 108.0, 126.0, 146.0)  # pixels to a dimension line
 _PARTS = (0.5, 0.36, 0.64)  # of a dimension line: the candidate places of its number
 _CLEAR = 4.0  # pixels around a dimension line; more does not improve a place

@@ -20,8 +20,6 @@ from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.poles import cross
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
-__all__ = ["Pole", "instant_centres", "pole_marks", "pole_numbers"]
-
 _AWAY = 1.0  # of the longer side of the linkage's reach: a pole farther outside is shown by its rays only
 _RAY = 64.0  # pixels of a ray that leads out of the picture
 _ALL = 4  # links: up to this number all poles are shown, for more the permanent ones and those against the frame

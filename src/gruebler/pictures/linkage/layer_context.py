@@ -8,8 +8,6 @@ from typing import NamedTuple
 from gruebler.pictures.canvas.shapes import Shape
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
-__all__ = ["Layer", "LayerContext"]
-
 
 class LayerContext(NamedTuple):
     """The input of a layer."""

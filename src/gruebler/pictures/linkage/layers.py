@@ -35,20 +35,6 @@ from gruebler.pictures.linkage.layer_context import Layer, LayerContext
 from gruebler.pictures.linkage.poles import centrode_lines, inflection_lines
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
-__all__ = [
-    "BELOW",
-    "LAYERS",
-    "coupler_curve_lines",
-    "curve_of",
-    "drive_arrows",
-    "drive_parts",
-    "ghost",
-    "ghosts",
-    "layer",
-    "point_names",
-]
-
-
 _SAMPLES = 720  # poses of a curve
 _CHORD, _HALVINGS = 0.01, 12  # of a curve's width and height: farther poses get others between them, so many times
 _STEP = 0.03  # between samples of a circuit, in sizes

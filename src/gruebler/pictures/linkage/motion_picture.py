@@ -16,8 +16,6 @@ from gruebler.pictures.linkage.posed_linkage import posed_along_motion
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import draw_structure
 
-__all__ = ["draw_motion"]
-
 _GHOSTS = 5
 
 

@@ -23,9 +23,6 @@ from gruebler.pictures.canvas.shapes import Point
 from gruebler.pictures.canvas.styles import LINES
 from gruebler.pictures.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
 
-__all__ = ["transfer_plot", "transmission_plot"]
-
-
 _GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three
 _NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values count as zero

@@ -40,8 +40,6 @@ from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import draw_structure
 
-__all__ = ["draw_linkage", "shown_linkage"]
-
 _MOST_GHOSTS = 60
 _AROUND = 17.0  # pixels from the middle of a block to its name
 _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))

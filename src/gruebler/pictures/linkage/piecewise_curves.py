@@ -19,8 +19,6 @@ from gruebler.pictures.canvas.axes import Axis, angles, as_text, decimals
 from gruebler.pictures.linkage.posed_linkage import drive_rows
 from gruebler.pictures.structure.messages import title
 
-__all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
-
 Between = tuple[float, float] | None
 Branch = str | Iterable[str] | None
 

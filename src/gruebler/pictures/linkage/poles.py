@@ -15,9 +15,6 @@ from gruebler.pictures.canvas.simplification import FINE, simplified
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, floating_link
 
-__all__ = ["centrode_lines", "cross", "inflection_lines"]
-
-
 _WIDE = 0.3  # of the figure's longer side: the margin in which centrodes and inflection circles are visible
 _WHOLE = 1.6  # of it: an inflection circle within this margin is drawn whole
 _SAMPLES = 1440  # points of a centrode or circle

@@ -24,9 +24,6 @@ from gruebler.mechanics.linkages.elements import Circle, Wheel
 from gruebler.pictures.canvas.shapes import Point
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["PosedLinkage", "drive_rows", "floating_link", "link_nodes", "posed_along_motion", "posed_linkage"]
-
-
 _FARTHEST = 1e9  # of drive values that are shown: beyond, an angle has lost its sense
 _PIXELS = 380.0  # for the longer side of all that the pins reach
 _WITH_WHEELS = 520.0  # for that of all that wheels reach, too

@@ -14,8 +14,6 @@ from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 from gruebler.pictures.machines.geneva_shape import GenevaShape
 
-__all__ = ["RoundPart", "round_parts"]
-
 _RIM = 9.0  # pixels: the thickness of the rim of an internal wheel
 _ARM = 0.8  # of the radius: the cross that shows the rotation of a wheel
 _STEPS = 361  # points of the contour of a cam

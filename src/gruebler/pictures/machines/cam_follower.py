@@ -10,9 +10,6 @@ from gruebler.pictures.canvas.moving_picture import Body, Shift, Turn
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.pictures.canvas.symbols import ticks
 
-__all__ = ["follower_body", "ground"]
-
-
 _ROD = 7.0  # half the width of a rod, pixels
 _BEYOND = 12.0  # pixels by which a face extends beyond its contacts
 _THICK = 9.0  # pixels: a flat face

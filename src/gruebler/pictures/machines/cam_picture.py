@@ -28,9 +28,6 @@ from gruebler.pictures.canvas.symbols import arrow_head
 from gruebler.pictures.machines.cam_follower import follower_body, ground
 from gruebler.pictures.machines.turn_diagram import beneath, running, turn_diagram
 
-__all__ = ["animate_cam", "draw_cam", "lift_diagram"]
-
-
 _PIXELS = 150.0  # from the axis to the farthest point of the cam
 _ROWS = 720  # points of the contour
 _KEYS = 180  # of a turn

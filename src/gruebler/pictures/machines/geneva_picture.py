@@ -27,9 +27,6 @@ from gruebler.pictures.canvas.symbols import arrow_head
 from gruebler.pictures.machines.geneva_shape import GenevaShape
 from gruebler.pictures.machines.turn_diagram import beneath, running, turn_diagram
 
-__all__ = ["animate_geneva", "draw_geneva", "ratio_panels"]
-
-
 _PIXELS = 360.0  # the approximate greater extent
 _KEYS = 240  # of a turn of the driver
 _TITLES = {

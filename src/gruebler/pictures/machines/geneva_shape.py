@@ -10,9 +10,6 @@ import numpy as np
 from gruebler.base.arrays import Complexes
 from gruebler.machines.geneva import Geneva
 
-__all__ = ["GenevaShape"]
-
-
 _RIM = 0.16  # around the slots of an internal wheel
 _PIN = 0.13  # of the crank: the radius of a pin, if there is space for it between the slots
 _WALL = 1.1  # pin radii: the wall of a slot at its mouth

@@ -8,9 +8,6 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes
 
-__all__ = ["toothed_outline"]
-
-
 PRESSURE = math.radians(20)
 _PLAY = 0.03  # of half a tooth at the pitch circle: flanks do not touch in the picture
 

@@ -15,8 +15,6 @@ from typing import NamedTuple
 from gruebler.machines.gears import Mesh, Train
 from gruebler.machines.gears.stages import WHEEL_PAIRS, central_links, mesh_groups, wheels_of
 
-__all__ = ["GearStage", "PlacedMesh", "StageWheel", "gear_stages"]
-
 FRAME = "frame"
 _APART = 1.7  # sums of radii: the distance of the axes of a belt
 _CLOSE = 1e-6

@@ -10,8 +10,6 @@ from fractions import Fraction
 from gruebler.base.text import message
 from gruebler.machines.gears import GearError, Train, Unit, speeds
 
-__all__ = ["TrainMotion", "train_motion"]
-
 _MOST = 100  # turns of the fastest link
 _TRAVEL = 2  # radii: the largest displacement of a rack or a load
 _WHY = {

@@ -28,8 +28,6 @@ from gruebler.pictures.machines.train_layout import GearStage, gear_stages
 from gruebler.pictures.machines.train_motion import TrainMotion, train_motion
 from gruebler.pictures.machines.train_shapes import PaintOptions, stage_bodies
 
-__all__ = ["TrainPictureOptions", "animate_train", "draw_train"]
-
 _SIZE = Point(640.0, 360.0)
 _LARGEST = 9.0  # pixels to a unit of pitch diameter 2, so that few teeth do not fill the picture
 _GAP = 46.0  # between stages

@@ -17,8 +17,6 @@ from gruebler.pictures.machines.teeth import toothed_outline
 from gruebler.pictures.machines.train_layout import FRAME, GearStage, PlacedMesh, StageWheel
 from gruebler.pictures.machines.train_motion import TrainMotion
 
-__all__ = ["PaintOptions", "stage_bodies"]
-
 Steps = tuple[Shift | Turn, ...]
 
 _RIM = 15.0  # pixels around an internal wheel

@@ -17,9 +17,6 @@ from gruebler.pictures.canvas.panels import AxisMarker, Panel, PlottedCurve, dra
 from gruebler.pictures.canvas.shapes import Point, Polylines, Shape, bounds, moved_shape
 from gruebler.pictures.canvas.styles import LINES
 
-__all__ = ["beneath", "running", "turn_diagram"]
-
-
 _PANEL = Point(460.0, 120.0)
 _GAP = 22.0  # pixels between a machine and its diagram
 

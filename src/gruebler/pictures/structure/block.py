@@ -11,8 +11,6 @@ from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.structure.messages import title
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["draw_block"]
-
 _HIGH, _LEAST = 64.0, 96.0  # pixels of a box
 _BETWEEN = 124.0
 _PADDING = 14.0

@@ -11,8 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
-__all__ = ["LayoutBodies"]
-
 
 @dataclass(frozen=True, slots=True)
 class LayoutBodies:

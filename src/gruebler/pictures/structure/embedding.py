@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-__all__ = ["Rotation", "an_embedding", "ears", "embeddings", "faces", "is_planar"]
-
 Graph = Sequence[Sequence[int]]
 """The neighbours of every vertex; no edge twice."""
 Rotation = list[list[int]]

@@ -24,8 +24,6 @@ from gruebler.structure.chain.pairs import Space
 from gruebler.structure.isomorphism import canonical_order
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["draw_contracted", "draw_graph", "draw_loops"]
-
 _NODE = 11.0
 _BIG = 6.0
 _SMALL = 3.2

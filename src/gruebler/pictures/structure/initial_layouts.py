@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from gruebler.pictures.structure.embedding import Rotation, faces
 
-__all__ = ["InitialLayout", "initial_layouts", "tutte"]
-
 Walk = tuple[int, ...]
 _SPARSE = 400  # vertices: from here on most of the matrix is zeros
 

@@ -15,8 +15,6 @@ from gruebler.pictures.structure.embedding import Rotation, an_embedding, embedd
 from gruebler.pictures.structure.initial_layouts import InitialLayout, initial_layouts, tutte
 from gruebler.pictures.structure.planarisation import PlanarisedGraph, planarised_graph
 
-__all__ = ["Layout", "lay_out"]
-
 _STARTS = 1500  # divided by the number of vertices: relaxed layouts; a chain of ten links has at most about forty
 _EMBEDDINGS = 600  # divided by the number of vertices: embeddings considered
 _CROSSED = 12  # choices of crossings that are tried

@@ -7,8 +7,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["chain_name", "describe", "title"]
-
 # The names of chains in the literature; the first of a family of inversions identifies the chain.
 _CHAINS = {
     "four-bar linkage": message("four-bar chain"),

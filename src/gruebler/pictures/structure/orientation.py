@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from gruebler.pictures.structure.layout import Layout
 
-__all__ = ["upright"]
-
 
 def upright(layout: Layout, frame: int | None) -> NDArray[np.float64]:
     """The points of the layout turned, float64[points, 2], y upward.

@@ -36,8 +36,6 @@ from gruebler.structure.chain.pairs import Alphabet, Pair, Space
 from gruebler.structure.isomorphism import canonical_order
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["PlacedChain", "chain_of", "draw_structure", "letters", "mean_scale", "paint", "place_joints"]
-
 _LENGTH = 78.0  # pixels from joint to joint, on average
 _ASIDE = 17.0  # pixels between the middle of a link and its output arrow
 _NARROW = 30.0  # pixels between a joint and another link, at least, unless the picture becomes too large

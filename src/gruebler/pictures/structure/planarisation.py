@@ -12,8 +12,6 @@ from typing import Any
 
 from gruebler.pictures.structure.embedding import is_planar
 
-__all__ = ["PlanarisedGraph", "planarised_graph"]
-
 Edge = tuple[int, int]
 _SEARCHED = 2  # crossings; the search for more takes too long
 _TRIES = 600

@@ -20,8 +20,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["draw_side_view"]
-
 _COLUMN = 38.0  # pixels between wheels along the axis, at least
 _BESIDE = 22.0  # of them for the line and the space around the name beside it
 _HEIGHT = 92.0  # between axes

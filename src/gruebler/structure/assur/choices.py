@@ -11,8 +11,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mobility import generic_mobility
 
-__all__ = ["drive_choices"]
-
 
 def drive_choices(
     chain: Chain, frame: str, *, drives: int | None = None, anywhere: bool = False

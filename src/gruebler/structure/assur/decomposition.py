@@ -25,8 +25,6 @@ from gruebler.structure.chain.pairs import Alphabet, Pair
 from gruebler.structure.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.structure.mobility import generic, overconstrained
 
-__all__ = ["Decomposition", "JointShare", "SolvedGroup", "decompose"]
-
 
 @dataclass(frozen=True)
 class SolvedGroup:

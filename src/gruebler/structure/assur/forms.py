@@ -13,8 +13,6 @@ from dataclasses import dataclass
 from gruebler.base.text import Message
 from gruebler.structure.chain.pairs import Alphabet, Pair, Space, in_alphabets, pair
 
-__all__ = ["DYADS", "GroupJoint", "class_number", "form_message", "form_name", "roman"]
-
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP is not rigid."""
 

@@ -14,8 +14,6 @@ from gruebler.structure.chain.pairs import Alphabet, Space
 from gruebler.structure.isomorphism import canonical_order, code, decode
 from gruebler.structure.mobility.placement import random_placement
 
-__all__ = ["AssurGroup", "place_name"]
-
 _SEEDS = (1, 2, 3)
 
 

@@ -17,15 +17,6 @@ from gruebler.structure.assur.groups import AssurGroup, place_name
 from gruebler.structure.assur.locking import AssurError
 from gruebler.structure.chain import Chain
 
-__all__ = [
-    "GroupRow",
-    "assur_groups",
-    "count_assur_groups",
-    "expected_seconds_of_groups",
-    "group_of_truss",
-    "group_rows",
-]
-
 _GROUP = 1.5e-5  # seconds on one core
 _INTERPRETED = 4e-3  # for a truss, if the kernel is interpreted
 

@@ -12,8 +12,6 @@ from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mobility import generic, pebble_rank
 from gruebler.structure.mobility.placement import LockedFreedom
 
-__all__ = ["AssurError", "LockedMechanism", "independent", "lock_drives", "whole_joint_locks"]
-
 
 class AssurError(GrueblerError):
     """An input without Assur groups: not planar, or not a group."""

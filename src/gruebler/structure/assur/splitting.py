@@ -15,8 +15,6 @@ from gruebler.structure.assur.matching import components, dependencies, orientat
 from gruebler.structure.chain.pairs import Pair, Space
 from gruebler.structure.mobility import pebble_rank
 
-__all__ = ["BodyGroup", "BodyJoint", "GroupSplit", "split_into_groups"]
-
 
 @dataclass(frozen=True, slots=True)
 class BodyJoint:

@@ -15,8 +15,6 @@ from gruebler.structure.atlas.parts import AtlasTask, Part, PartFile, PartWriter
 from gruebler.structure.atlas.schema import SCHEMA, TABLES, arrow_library, columns_of
 from gruebler.structure.enumeration.worker_pool import Progress, ProgressCounter, run_work
 
-__all__ = ["MANIFEST", "build", "manifest_of"]
-
 MANIFEST = "manifest.json"
 _ATLAS = "gruebler atlas"
 

@@ -21,8 +21,6 @@ from gruebler.structure.enumeration.contracted import ContractedGraph, contracte
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["ChainArrays", "Contracted", "arrays_of_chains", "chain_table"]
-
 Int32 = NDArray[np.int32]
 Int64 = NDArray[np.int64]
 

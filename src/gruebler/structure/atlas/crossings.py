@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import combinations
 
-__all__ = ["Bundle", "least_crossings"]
-
 Bundle = tuple[int, int, int]
 
 

@@ -16,8 +16,6 @@ from gruebler.structure.atlas.building import MANIFEST, build
 from gruebler.structure.atlas.parts import AtlasTask, read_part, write_parquet
 from gruebler.structure.atlas.schema import arrow_library
 
-__all__ = ["make_small_atlas"]
-
 
 def make_small_atlas(directory: Path, most: int = 10) -> None:
     """Write the small atlas, with chains of so many links at most, into a directory; files there are replaced."""

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from gruebler.structure.atlas.mechanism_kernels import MechanismMemory
 
-__all__ = ["bulk_tables", "driven_table", "mechanism_table"]
-
 _BULK_LINKS = 7  # from here on: smaller chains have names of families, and their rows are few
 _NAMED = 4  # Assur groups of more links have no names
 _GROUPS = 1 << 19  # the most kinds of groups in a part of the work

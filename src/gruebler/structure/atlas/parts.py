@@ -34,8 +34,6 @@ from gruebler.structure.type_synthesis import joint_types
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["AtlasTask", "Part", "PartFile", "PartWriter", "parts", "read_part", "write_parquet"]
-
 _SIZE = 1_000_000  # work of a piece, see `pieces.WorkPiece`: some ten thousand chains, seconds
 _DRIVES = 500_000  # driven mechanisms made at a time: half a gigabyte
 _AT_ONCE = {WorkPiece: 1, RingPiece: 1, BlockAddition: 64, MultipleJointPiece: 1}  # pieces in a part

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     import pyarrow as pa
     import pyarrow.dataset
 
-__all__ = ["LARGEST_ANSWER", "MEMORY", "SMALL", "Atlas", "open_atlas"]
-
 MEMORY = "800 MB"
 """What DuckDB may take for a query."""
 LARGEST_ANSWER = 400_000_000

@@ -13,8 +13,6 @@ from gruebler.base.errors import GrueblerError
 if TYPE_CHECKING:
     import pyarrow as pa
 
-__all__ = ["SCHEMA", "TABLES", "SchemaColumn", "arrow_library", "arrow_schema", "columns_of"]
-
 SCHEMA = 1
 """The version of the columns; a change of a column or of its meaning raises it."""
 

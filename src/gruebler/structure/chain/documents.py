@@ -11,8 +11,6 @@ from gruebler.base.errors import NotationError
 from gruebler.structure.chain import notation
 from gruebler.structure.chain.pairs import Space
 
-__all__ = ["MOST_JOINTS", "MOST_LINKS", "check_size", "links_of_code", "read_document", "read_graph6"]
-
 MOST_LINKS = 5000
 """Links of a chain in a code or a graph file: a few letters can announce any number of them."""
 MOST_JOINTS = 50_000

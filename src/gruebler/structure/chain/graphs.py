@@ -17,8 +17,6 @@ from gruebler.structure.chain.pairs import Space
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["incidence_graph", "link_graph", "read_graph"]
-
 Joints = list[tuple[str, list[str]]]
 
 

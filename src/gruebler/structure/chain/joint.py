@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from gruebler.structure.chain import notation
 from gruebler.structure.chain.pairs import Pair
 
-__all__ = ["Joint"]
-
 
 @dataclass(frozen=True, slots=True)
 class Joint:

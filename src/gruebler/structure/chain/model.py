@@ -26,8 +26,6 @@ from gruebler.structure.chain.soundness import check_connected, checked_edges, c
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["Chain"]
-
 
 class Chain:
     """Links and joints in one space.

@@ -19,18 +19,6 @@ from gruebler.base.errors import NotationError, PairError
 from gruebler.base.text import Message, message
 from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space, read_symbols
 
-__all__ = [
-    "joint_text",
-    "link_name",
-    "link_text",
-    "read_joints",
-    "renamed_links",
-    "space_of",
-    "split_links",
-    "symbols_for",
-    "write_joints",
-]
-
 _BARE = r"""[^\s()\-",:;]+"""
 _NAME = rf'(?:"(?:[^"\\]|\\.)*"|{_BARE})'
 _SYMBOL = re.compile(r"\s*[,;]?\s*([^\W\d]\w*)\s*\(\s*")

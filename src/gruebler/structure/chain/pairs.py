@@ -22,19 +22,6 @@ from types import MappingProxyType
 from gruebler.base.errors import PairError, nearest
 from gruebler.base.text import Message, joined, joined_by_or, message
 
-__all__ = [
-    "OTHER_NAMES",
-    "PAIRS",
-    "Alphabet",
-    "Closure",
-    "Contact",
-    "Pair",
-    "Space",
-    "in_alphabets",
-    "pair",
-    "read_symbols",
-]
-
 
 class Space(StrEnum):
     """The space in which the links move: a plane, a sphere about a fixed point, or three-dimensional space."""

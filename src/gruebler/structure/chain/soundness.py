@@ -12,8 +12,6 @@ from gruebler.base.text import Message, joined, message
 from gruebler.structure.chain.joint import Joint
 from gruebler.structure.chain.pairs import Pair, Space, pair
 
-__all__ = ["check_connected", "checked_edges", "checked_joints", "checked_links"]
-
 _LONGEST_NAME = 200
 _MOST_NAMES = 5
 

@@ -15,17 +15,6 @@ from collections.abc import Iterator
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.enumeration.partitions import Partition, partition_numbers, partitions_of_length
 
-__all__ = [
-    "Assortment",
-    "assortment_number",
-    "assortments",
-    "each_assortment",
-    "joint_count",
-    "largest_degree",
-    "loop_count",
-    "numbers_of",
-]
-
 Assortment = tuple[int, ...]
 """(n_2, n_3, n_4, ...): how many links have two, three, four ... joints, without zeros at the end."""
 

@@ -12,8 +12,6 @@ from gruebler.base.atomic_files import PARTIAL, atomic_file, remove_abandoned_fi
 from gruebler.base.errors import RunError
 from gruebler.base.text import reason_of
 
-__all__ = ["Checkpoint", "PieceFiles", "RunError"]
-
 _MANIFEST = "manifest.json"
 _LAYOUT = 5  # of the checkpoint directory, and how the work is divided into pieces
 

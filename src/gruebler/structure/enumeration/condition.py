@@ -18,8 +18,6 @@ from numpy.typing import NDArray
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Space
 
-__all__ = ["CLASSES", "Fractionation", "fractionation", "freedoms_of_sets", "is_constrained", "joint_masks"]
-
 Fractionation = Literal["none", "link", "joint"]
 CLASSES: tuple[Fractionation, ...] = ("none", "link", "joint")
 

@@ -20,8 +20,6 @@ from gruebler.base.errors import GrueblerError
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["MOST_LOOPS", "ContractedGraph", "contracted_graphs", "packed_graphs", "unpacked"]
-
 MOST_LOOPS = 9
 """Contracted graphs of more loops have more nodes than the kernels' 16; there are many millions of them."""
 

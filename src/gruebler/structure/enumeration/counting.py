@@ -11,8 +11,6 @@ from typing import Any
 from gruebler.structure.enumeration.assortment import Assortment, loop_count
 from gruebler.structure.enumeration.pieces import PieceCount, count_piece, pieces, run_pieces
 
-__all__ = ["ChainCount", "count_simple_chains"]
-
 
 @dataclass(frozen=True)
 class ChainCount:

@@ -14,8 +14,6 @@ from gruebler._numeric.labelling.canonical import canonical_form, relabelled
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.chain import Chain
 
-__all__ = ["MOST_LINKS", "EpicyclicCount", "EpicyclicTrain", "count_epicyclic_trains", "epicyclic_trains", "hypertrees"]
-
 Axes = tuple[tuple[int, ...], ...]
 _Masks = NDArray[np.uint64]
 _Ints = NDArray[np.int64]

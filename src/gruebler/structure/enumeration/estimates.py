@@ -14,8 +14,6 @@ from gruebler.structure.enumeration.assortment import joint_count, loop_count
 from gruebler.structure.enumeration.pieces import refuse_too_large
 from gruebler.structure.enumeration.request import Request
 
-__all__ = ["Estimate", "estimate", "expected_chains"]
-
 _Table = dict[int, tuple[int, ...]]
 
 # Chains with 1, 2, 3, ... loops, that is with F + 3, F + 5, ... links, by F.

@@ -17,8 +17,6 @@ from functools import cached_property
 from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism import code, symmetry
 
-__all__ = ["BlockAddition", "Plain", "block_additions", "fractionated_chains"]
-
 Plain = Callable[[int, int], Iterator[Chain]]
 """The chains of given links and mobility that are not fractionated, each once."""
 

@@ -18,8 +18,6 @@ from math import factorial
 from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism import symmetry
 
-__all__ = ["CountSeries", "count_fractionated", "cycle_types"]
-
 Types = Mapping[tuple[int, ...], Fraction]
 """Cycle lengths of automorphisms on the links, ascending -> number of automorphisms divided by the group's order,
 summed over chains."""

@@ -9,8 +9,6 @@ from gruebler.base.doors import door
 from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.request import Request, RequestCount
 
-__all__ = ["chains", "count_chains"]
-
 
 @door
 def chains(

@@ -21,8 +21,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.condition import joint_masks
 
-__all__ = ["grown_joints", "with_multiple_joints"]
-
 _MANY = 99  # no limit: more than a chain can have
 _AT_ONCE = 64  # chains with simple joints that are grown together
 _BLOCK = 16384  # chains in a block

@@ -8,8 +8,6 @@ from typing import NamedTuple
 from gruebler.structure.enumeration.assortment import Assortment, joint_count, largest_degree, numbers_of
 from gruebler.structure.enumeration.partitions import Partition, partition_numbers, partitions, running_sums
 
-__all__ = ["JointAssortment", "each_joint_assortment", "joint_assortment_number", "joint_assortments"]
-
 
 class JointAssortment(NamedTuple):
     """The numbers of links by degree and of joints by size."""

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import accumulate
 
-__all__ = ["Partition", "partition_numbers", "partitions", "partitions_of_length", "running_sums"]
-
 Partition = tuple[tuple[int, int], ...]
 
 

@@ -22,8 +22,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.structure.enumeration.assortment import Assortment, joint_count, loop_count
 from gruebler.structure.enumeration.contracted import MOST_LOOPS, packed_graphs
 
-__all__ = ["PieceCount", "WorkPiece", "count_piece", "list_piece", "pieces", "run_pieces", "work_of_graphs"]
-
 MOST_FREEDOMS = 24  # the kernels' products of binomial coefficients stay within 64 bits
 
 Packed = NDArray[np.int64]

@@ -12,12 +12,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.structure.enumeration.condition import CLASSES
 from gruebler.structure.enumeration.counting import ChainCount
 
-__all__ = [
-    "Request",
-    "RequestCount",
-    "RequestError",
-]
-
 _TOO_MANY = 1_000_000  # multiple joints: no chain that can be listed has as many
 
 

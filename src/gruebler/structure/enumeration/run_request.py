@@ -22,8 +22,6 @@ from gruebler.structure.enumeration.work_units import (
 )
 from gruebler.structure.enumeration.worker_pool import Progress, ProgressCounter, run_work
 
-__all__ = ["FORMATS", "run_count", "run_list"]
-
 FORMATS = ("text", "graph6", "json")
 
 # Work of a piece, see `pieces.WorkPiece`: milliseconds to count up to 7 loops, half a second beyond; some megabytes to

@@ -13,8 +13,6 @@ from typing import Any, ParamSpec, TypeVar
 from gruebler.base.errors import GrueblerError, RunError
 from gruebler.base.text import Message, message
 
-__all__ = ["DaskExecutor", "DaskScheduler"]
-
 P = ParamSpec("P")
 R = TypeVar("R")
 

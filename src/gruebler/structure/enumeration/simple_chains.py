@@ -19,8 +19,6 @@ from gruebler.structure.enumeration.assortment import loop_count
 from gruebler.structure.enumeration.contracted import ContractedGraph, pack
 from gruebler.structure.enumeration.pieces import WorkPiece, list_piece, pieces, run_pieces
 
-__all__ = ["chains_of", "edge_blocks", "graph6_blocks", "simple_chains"]
-
 _LAZY = 100_000  # work of a piece when chains are requested one by one: a few thousand chains
 _BULK = 200_000  # ... and in bulk: some ten thousand chains, a megabyte or two
 

@@ -32,18 +32,6 @@ from gruebler.structure.enumeration.simple_chains import simple_chains as plain_
 from gruebler.structure.isomorphism import orbits as orbits_of
 from gruebler.structure.isomorphism import symmetry
 
-__all__ = [
-    "PieceCounter",
-    "PieceLister",
-    "PieceListing",
-    "PieceTally",
-    "Work",
-    "add_tallies",
-    "chains_of_piece",
-    "chains_of_request",
-    "work_units",
-]
-
 _GROWN_AT_ONCE = 256  # chains with simple joints in a piece; at 12 links some ten thousand chains grow from them
 
 Edges = tuple[tuple[int, int], ...]

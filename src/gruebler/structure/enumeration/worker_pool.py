@@ -19,8 +19,6 @@ from typing import Generic, TypeVar
 
 from gruebler.base.errors import RunError
 
-__all__ = ["ProcessPools", "Progress", "ProgressCounter", "run_work"]
-
 P = TypeVar("P")
 R = TypeVar("R")
 

@@ -12,8 +12,6 @@ from gruebler.base.errors import ChainError
 from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism.colouring import ColouredGraph, DriveMark, coloured_graph
 
-__all__ = ["Permutation", "Symmetry", "orbits", "symmetry"]
-
 T = TypeVar("T", bound=Hashable)
 
 

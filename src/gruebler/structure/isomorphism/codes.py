@@ -21,8 +21,6 @@ from gruebler.base.errors import ChainError, NotationError
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.isomorphism.colouring import DriveMark, coloured_graph
 
-__all__ = ["CODE_PREFIX", "DriveMark", "MarkedChain", "canonical_order", "code", "decode"]
-
 CODE_PREFIX = "gr1:"
 
 

@@ -22,8 +22,6 @@ from gruebler.base.errors import expect
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import PAIRS
 
-__all__ = ["ColouredGraph", "DriveMark", "coloured_graph"]
-
 _FRAME, _LINK, _FIRST_JOINT = 0, 1, 2
 _INCIDENCE = 0
 _PLACE = {pair: k for k, pair in enumerate(PAIRS)}

@@ -10,8 +10,6 @@ from gruebler.base.errors import ChainError, expect
 from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism.codes import canonical_order, code
 
-__all__ = ["Isomorphism", "find_isomorphism", "is_isomorphic"]
-
 
 @dataclass(frozen=True, slots=True)
 class Isomorphism:

@@ -9,8 +9,6 @@ from gruebler.structure.mechanism.model import Mechanism
 from gruebler.structure.mobility import generic
 from gruebler.structure.mobility.placement import LockedFreedom
 
-__all__ = ["DriveReport", "check_drives"]
-
 
 @dataclass(frozen=True, slots=True)
 class DriveReport:

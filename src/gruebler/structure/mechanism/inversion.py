@@ -23,8 +23,6 @@ from gruebler.structure.isomorphism import Permutation, code, orbits, symmetry
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.model import Drive, Mechanism
 
-__all__ = ["DrivenMechanism", "driven_mechanisms", "family", "inversions"]
-
 
 @dataclass(frozen=True, slots=True)
 class DrivenMechanism:

@@ -19,8 +19,6 @@ from gruebler.structure.isomorphism import DriveMark, code, decode
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["Drive", "Mechanism"]
-
 
 @dataclass(frozen=True, slots=True)
 class Drive:

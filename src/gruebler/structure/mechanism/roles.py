@@ -7,8 +7,6 @@ from enum import StrEnum
 from gruebler.base.text import message
 from gruebler.structure.mechanism.model import Mechanism
 
-__all__ = ["Role", "roles"]
-
 
 class Role(StrEnum):
     """The role of a link, as far as the structure alone determines it."""

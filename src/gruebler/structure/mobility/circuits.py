@@ -32,8 +32,6 @@ from gruebler._numeric.modular import (
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.structure.mobility.rank import Generic
 
-__all__ = ["Overconstrained", "overconstrained"]
-
 _BUDGET = 200  # subspaces visited in one connected part of the stress space
 _LARGEST = 60  # the redundancy of a connected part up to which it is decomposed
 

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from gruebler.base.errors import ChainError
 from gruebler.structure.chain import Chain
 
-__all__ = ["Count", "count_freedoms", "counted"]
-
 
 @dataclass(frozen=True, slots=True)
 class Count:

@@ -19,8 +19,6 @@ from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility.rank import Generic
 
-__all__ = ["IdleCondition", "IdleFreedom", "between_balls", "idle_freedoms"]
-
 
 class IdleCondition(StrEnum):
     """The condition under which a freedom is idle."""

@@ -23,8 +23,6 @@ from gruebler._numeric.modular import P, Row
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Space
 
-__all__ = ["LockedFreedom", "Placement", "random_placement"]
-
 _SPATIAL = Space.SPATIAL.directions
 _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotation) + 1 (origin) + 1 (pitch)
 

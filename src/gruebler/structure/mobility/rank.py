@@ -21,8 +21,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.mobility.placement import LockedFreedom, Placement, random_placement
 from gruebler.structure.mobility.sparsity import pebble_mobility, theorem
 
-__all__ = ["Generic", "TooLargeError", "generic", "generic_mobility"]
-
 _FIRST_SEED = 20_261_121
 _SAMPLES = 3  # random motions or stresses that represent all of them
 _LARGEST = 1e9  # bytes accepted without ``large``

@@ -19,8 +19,6 @@ from gruebler.structure.mobility.counting import Count, count_freedoms
 from gruebler.structure.mobility.idle import IdleCondition, IdleFreedom, idle_freedoms
 from gruebler.structure.mobility.rank import generic
 
-__all__ = ["MobilityReport", "Verdict", "mobility_report", "verdict_word"]
-
 
 class Verdict(StrEnum):
     """The conclusion from the evidence: the first of these that applies."""

@@ -23,8 +23,6 @@ from gruebler.base.text import Message, message
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Space, pair
 
-__all__ = ["License", "pebble_mobility", "pebble_rank", "theorem"]
-
 _POINT_PAIRS = {"revolute", "rolling", "roll_slide"}
 _BARS = {
     Space.PLANAR: {"revolute": 2, "rolling": 2, "roll_slide": 1},

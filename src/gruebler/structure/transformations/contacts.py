@@ -20,8 +20,6 @@ from gruebler.structure.transformations.places import (
 )
 from gruebler.structure.transformations.steps import Step
 
-__all__ = ["replace_roll_slide", "restore_roll_slide"]
-
 _EQUIVALENTS = ("RR", "RP", "PR")
 
 

@@ -10,8 +10,6 @@ from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.transformations.places import ChainBuilder, links_at, new_link_names
 from gruebler.structure.transformations.steps import Step
 
-__all__ = ["contract", "expand"]
-
 
 def contract(chain: Chain, joint: int, links: Sequence[str] | None = None) -> Step:
     """Merge two links of a joint into one, which keeps the first name; F falls by the joint's freedoms.

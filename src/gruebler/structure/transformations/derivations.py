@@ -17,8 +17,6 @@ from gruebler.structure.transformations.dyads import insert_coupler, insert_dyad
 from gruebler.structure.transformations.groups import insert_group, remove_group
 from gruebler.structure.transformations.steps import Step
 
-__all__ = ["OPERATIONS", "Derivation", "replay"]
-
 OPERATIONS: dict[str, Callable[..., Step]] = {
     operation.__name__: operation
     for operation in (

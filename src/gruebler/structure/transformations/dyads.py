@@ -25,8 +25,6 @@ from gruebler.structure.transformations.places import (
 )
 from gruebler.structure.transformations.steps import Step
 
-__all__ = ["Insertion", "coupler_at", "dyad_at", "insert_coupler", "insert_dyad", "remove_coupler", "remove_dyad"]
-
 
 @dataclass(frozen=True, slots=True)
 class Insertion:

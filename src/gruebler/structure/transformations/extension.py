@@ -14,8 +14,6 @@ from gruebler.structure.transformations.dyads import insert_coupler, insert_dyad
 from gruebler.structure.transformations.places import Attachment, links_at
 from gruebler.structure.transformations.steps import Step
 
-__all__ = ["Extension", "extend", "grow_family"]
-
 
 @dataclass(frozen=True)
 class Extension:

@@ -18,8 +18,6 @@ from gruebler.structure.transformations.places import (
 )
 from gruebler.structure.transformations.steps import Step
 
-__all__ = ["insert_group", "remove_group"]
-
 
 def insert_group(
     chain: Chain, group: AssurGroup | str, at: Sequence[Attachment], links: Sequence[str] | None = None

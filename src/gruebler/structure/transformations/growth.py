@@ -21,8 +21,6 @@ from gruebler.structure.transformations.derivations import Derivation
 from gruebler.structure.transformations.dyads import Insertion, dyad_at
 from gruebler.structure.transformations.places import Attachment
 
-__all__ = ["Growth", "derive", "is_loop", "removable_dyads"]
-
 _BUDGET = 5_000  # chains visited
 
 

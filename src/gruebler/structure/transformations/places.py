@@ -14,18 +14,6 @@ from gruebler.base.text import Message, message
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Pair, pair
 
-__all__ = [
-    "Attachment",
-    "ChainBuilder",
-    "check_counting",
-    "check_not_on_one_link",
-    "letters_of_pairs",
-    "links_at",
-    "new_link_names",
-    "pairs_from_letters",
-    "without_links",
-]
-
 Attachment = str | int
 
 _PAIRS = {"R": "revolute", "P": "prismatic", "W": "rolling"}

@@ -11,10 +11,6 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet, pair
 from gruebler.structure.transformations.places import Attachment, pairs_from_letters
 
-__all__ = [
-    "Step",
-]
-
 _STEPS = {
     "insert_dyad": message("Dyad {form} of the links {links} between {places}."),
     "remove_dyad": message("Dyad of {links} removed."),

@@ -15,8 +15,6 @@ from gruebler.structure.chain.pairs import Pair, pair
 from gruebler.structure.isomorphism import orbits, symmetry
 from gruebler.structure.mobility import generic
 
-__all__ = ["assignments", "every_joint_moves", "joint_types"]
-
 
 def joint_types(
     chain: Chain, pairs: Mapping[str, int], *, mobility: int | None = None, conditions: bool = True

@@ -15,8 +15,6 @@ from gruebler.base.errors import ChainError
 from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism import orbits, symmetry
 
-__all__ = ["with_contacts"]
-
 
 def with_contacts(chain: Chain, number: int) -> Iterator[Chain]:
     """The chain with this number of its binary links, joined by revolutes, replaced by roll-slide joints.

@@ -6,8 +6,6 @@ from math import comb
 
 from gruebler.structure.type_synthesis.requirements import Requirements
 
-__all__ = ["expected_seconds_of_sliding", "expected_seconds_of_variants"]
-
 # Seconds on one core, measured on chains of eight and ten links.
 _CHAIN = 1e-3
 _TYPED = 2e-4

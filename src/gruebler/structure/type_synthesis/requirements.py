@@ -12,8 +12,6 @@ from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Pair, pair
 from gruebler.structure.mechanism.inversion import DrivenMechanism
 
-__all__ = ["JointLocation", "JointRequirement", "Requirements"]
-
 
 class JointLocation(StrEnum):
     """Where a joint is: at the frame, between moving links, or anywhere."""

@@ -20,8 +20,6 @@ from gruebler.structure.type_synthesis.assignment import assignments, every_join
 from gruebler.structure.type_synthesis.contacts import with_contacts
 from gruebler.structure.type_synthesis.requirements import JointLocation, Requirements
 
-__all__ = ["typed_chains", "variants"]
-
 
 def typed_chains(requirements: Requirements) -> Iterator[Chain]:
     """All typed chains with the required links, mobility and pairs, in which every joint moves.

@@ -22,8 +22,6 @@ from gruebler.structure.enumeration.work_units import chains_of_request
 from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.isomorphism import symmetry
 
-__all__ = ["count_sliding_variants", "sliding_numbers"]
-
 Int64 = NDArray[np.int64]
 
 _PRIME = 2**31 - 1

@@ -12,8 +12,6 @@ from gruebler.mechanics.screws import Freedoms, SpatialLinkage, freedoms
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility import Count, MobilityReport, counted, mobility_report
 
-__all__ = ["CheckedEntry", "WrongClaim", "check_claims"]
-
 _NONE = message("none")
 
 

@@ -24,8 +24,6 @@ from gruebler.teaching.catalog.features import AccessFeatures, access_features
 if TYPE_CHECKING:
     from gruebler.structure.atlas import Atlas
 
-__all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
-
 _SAME = ("links", "drive_joints", "drive_joints_at_frame", "output_links", "output_links_at_frame")
 _EXCHANGED = ("prismatic", "rolling", "roll_slide")  # the pairs with which the enumeration replaces revolutes
 

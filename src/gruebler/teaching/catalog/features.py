@@ -10,8 +10,6 @@ from gruebler.base.text import arity, message
 from gruebler.structure.chain.pairs import Alphabet, Pair
 from gruebler.structure.mechanism import Mechanism
 
-__all__ = ["AccessFeatures", "access_features"]
-
 
 @dataclass(frozen=True, slots=True)
 class AccessFeatures:

@@ -13,18 +13,6 @@ from gruebler.structure.chain.pairs import PAIRS, Pair, pair
 from gruebler.structure.mobility import counted
 from gruebler.teaching.catalog.claims import CheckedEntry, WrongClaim, check_claims
 
-__all__ = [
-    "Query",
-    "catalog_folder",
-    "check_all",
-    "check_entry",
-    "check_exercise",
-    "entries",
-    "entry",
-    "exercises",
-    "search",
-]
-
 
 def catalog_folder() -> Path:
     """The folder of the catalog: inside the installed package, or at the top of a source checkout."""

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from gruebler.mechanics.geometry import CouplerCurve
     from gruebler.mechanics.screws import Freedoms, SpatialLinkage
 
-__all__ = ["GuidedPoint", "MachineReport", "Partial", "machine_report"]
-
 _ROWS = 361
 _ROUNDING = 1e-9
 # A partial derivative far below one length of the machine, or one radian, for each of the same is rounding: an output

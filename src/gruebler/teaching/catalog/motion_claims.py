@@ -18,8 +18,6 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage
 
-__all__ = ["motion_lines", "wrong_motions"]
-
 _WORDS: dict[MotionKind, Message] = {
     "turns": message("turns fully"),
     "swings": message("swings"),

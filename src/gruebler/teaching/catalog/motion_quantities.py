@@ -21,8 +21,6 @@ from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
 from gruebler.mechanics.linkages import Linkage
 from gruebler.teaching.catalog.claims import WrongClaim
 
-__all__ = ["derived_numbers", "wrong_quantities"]
-
 _ROWS = 361
 _ROUNDED = 5e-3  # of the printed number
 _EXACT = 1e-9  # of the linkage's size, of a turn, of a ratio of 1

@@ -28,14 +28,6 @@ from gruebler.teaching.constructions.velocities import (
     add_yoke_velocities,
 )
 
-__all__ = [
-    "accelerations_of_four_bar",
-    "accelerations_of_inverted_slider_crank",
-    "accelerations_of_scotch_yoke",
-    "accelerations_of_slider_crank",
-    "accelerations_of_tangent_mechanism",
-]
-
 
 def _towards(arm: complex, v: complex) -> complex:
     """The normal acceleration v²/r, from the tip of the arm to its foot."""

@@ -9,19 +9,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message
 from gruebler.pictures.canvas.construction import Construction, ConstructionStep, Drawn
 
-__all__ = [
-    "Board",
-    "along",
-    "circle_through",
-    "degrees_between",
-    "line_meets_circle",
-    "lines_meet",
-    "meet_left",
-    "mirrored",
-    "parallel",
-    "turned_angle",
-]
-
 _PARALLEL = 1e-12  # sine of an angle: lines at a smaller angle do not meet on paper
 
 

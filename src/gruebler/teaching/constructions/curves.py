@@ -21,8 +21,6 @@ from gruebler.teaching.constructions.compass import (
 )
 from gruebler.teaching.constructions.given_linkages import four_bar_given
 
-__all__ = ["bobillier", "coupler_curve_by_points", "inflection_circle", "meyer_zur_capellen", "roberts_cognates"]
-
 _HELPER = cmath.rect(1.0, 0.9)  # direction of the auxiliary line of a third proportional, against the ray
 _FINE = 360
 

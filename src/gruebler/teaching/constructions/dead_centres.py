@@ -18,15 +18,6 @@ from gruebler.teaching.constructions.compass import (
     turned_angle,
 )
 
-__all__ = [
-    "central_crank_rocker",
-    "dead_centres_of_crank_rocker",
-    "dead_centres_of_slider_crank",
-    "permissible_frame",
-    "transmission_of_crank_rocker",
-    "transmission_of_slider_crank",
-]
-
 
 def _crank_rocker_given(board: Board, a: float, b: float, c: float, d: float) -> tuple[complex, complex]:
     """The step with the given lengths, the frame and the circle of the crank; returns A0 and B0."""

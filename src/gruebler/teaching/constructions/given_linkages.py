@@ -10,8 +10,6 @@ from gruebler.base.text import message
 from gruebler.pictures.canvas.construction import Dot, Segment
 from gruebler.teaching.constructions.compass import Board, line_meets_circle, lines_meet, meet_left
 
-__all__ = ["four_bar_given", "lever_given", "scotch_yoke_given", "slider_crank_given", "tangent_mechanism_given"]
-
 
 def four_bar_given(
     board: Board, a: float, b: float, c: float, d: float, phi: float

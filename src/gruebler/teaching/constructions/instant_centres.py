@@ -7,8 +7,6 @@ from gruebler.pictures.canvas.construction import Construction, Dot, DrawnLine, 
 from gruebler.teaching.constructions.compass import Board, lines_meet
 from gruebler.teaching.constructions.given_linkages import four_bar_given, slider_crank_given
 
-__all__ = ["instant_centres_of_four_bar", "instant_centres_of_slider_crank"]
-
 
 def instant_centres_of_four_bar(
     a: float = 25, b: float = 70, c: float = 40, d: float = 70, phi: float = 150

@@ -46,8 +46,6 @@ from gruebler.teaching.constructions.velocities import (
     velocities_of_tangent_mechanism,
 )
 
-__all__ = ["CONSTRUCTIONS", "ConstructionRow", "construction", "construction_forms"]
-
 Value = float | str
 Maker = Callable[..., Construction]
 

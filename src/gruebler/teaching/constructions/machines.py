@@ -22,8 +22,6 @@ from gruebler.pictures.canvas.construction import (
 )
 from gruebler.teaching.constructions.compass import Board, degrees_between, lines_meet
 
-__all__ = ["cam_profile", "geneva_drive"]
-
 
 def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
     """An outer Geneva drive: the pin enters the slot at a right angle to the crank."""

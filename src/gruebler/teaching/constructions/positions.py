@@ -9,8 +9,6 @@ from gruebler.base.text import message
 from gruebler.pictures.canvas.construction import Construction, Dot, DrawnCircle, DrawnLine, Segment
 from gruebler.teaching.constructions.compass import Board, circle_through, lines_meet
 
-__all__ = ["three_positions", "two_positions"]
-
 
 def _segments(board: Board, places: tuple[tuple[complex, complex], ...], length: float) -> None:
     board.step(

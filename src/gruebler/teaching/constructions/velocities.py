@@ -21,20 +21,6 @@ from gruebler.teaching.constructions.given_linkages import (
     tangent_mechanism_given,
 )
 
-__all__ = [
-    "VectorPlan",
-    "add_four_bar_velocities",
-    "add_lever_velocities",
-    "add_slider_crank_velocities",
-    "add_tangent_velocities",
-    "add_yoke_velocities",
-    "velocities_of_four_bar",
-    "velocities_of_inverted_slider_crank",
-    "velocities_of_scotch_yoke",
-    "velocities_of_slider_crank",
-    "velocities_of_tangent_mechanism",
-]
-
 _LONG = 1.1  # of the linkage: the longest known arrow of a polygon
 
 

@@ -10,8 +10,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.teaching.exercises.solution import Result
 from gruebler.teaching.exercises.solving import last_place
 
-__all__ = ["GivenAnswer", "read_answer", "unit_scale"]
-
 _NUMBER = re.compile(r"\s*(±?)\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d{1,2})?)\s*(.*?)\s*", re.ASCII)
 _SPELT = {"deg": "°", "degree": "°", "degrees": "°", "grad": "°", "rad/s": "1/s", "s^-1": "1/s", "rad/s²": "1/s²"}
 _UNITS = {

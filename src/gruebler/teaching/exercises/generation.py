@@ -21,8 +21,6 @@ from gruebler.structure.mobility import counted, mobility_report
 from gruebler.teaching.exercises.solution import figure
 from gruebler.teaching.exercises.solving import solve
 
-__all__ = ["KINDS", "LEVELS", "generate", "generated_from_id", "is_generated"]
-
 LEVELS = (1, 2, 3)
 Given = dict[str, float | str]
 

@@ -15,8 +15,6 @@ from gruebler.teaching.exercises.answers import GivenAnswer, read_answer
 from gruebler.teaching.exercises.solution import Mistake, Result, Value
 from gruebler.teaching.exercises.solving import scale_of, solve
 
-__all__ = ["Grade", "Mark", "ascii_key", "grade", "key_in_language", "plain_name"]
-
 _FINE = 1e-3  # relative difference of an answer that is right whatever its digits
 _NEAR = 0.02  # of one that is nearly right: intermediate results rounded
 _WORDS = {"yes": True, "ja": True, "true": True, "no": False, "nein": False, "false": False}

@@ -10,8 +10,6 @@ from gruebler.files import Exercise, read_exercise
 from gruebler.teaching.catalog import catalog_folder, exercises
 from gruebler.teaching.exercises.generation import generated_from_id, is_generated
 
-__all__ = ["all_exercises", "exercise"]
-
 
 @cache
 def all_exercises() -> dict[str, Exercise]:

@@ -22,21 +22,6 @@ from gruebler.teaching.exercises.solution import (
 )
 from gruebler.teaching.exercises.solving import Comparison, compare
 
-__all__ = [
-    "asked_text",
-    "cells_of_table",
-    "check_text",
-    "faults",
-    "lines_of_table",
-    "printed_note",
-    "printed_text",
-    "result_text",
-    "solution_text",
-    "step_lines",
-    "task_text",
-    "value_text",
-]
-
 _INDENT = "     "
 
 

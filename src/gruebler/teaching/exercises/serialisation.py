@@ -11,8 +11,6 @@ from gruebler.teaching.exercises.grading import Grade, ascii_key
 from gruebler.teaching.exercises.solution import Part, PartHeading, Solution, SolutionStep, TeachingTable, Value
 from gruebler.teaching.exercises.solving import Comparison, compare
 
-__all__ = ["grades_as_list", "solution_as_dict", "table_as_dict", "task_as_dict"]
-
 
 def task_as_dict(exercise: Exercise) -> dict[str, Any]:
     """The task without its solution."""

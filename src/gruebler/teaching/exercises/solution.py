@@ -16,24 +16,6 @@ from gruebler.base.notebook import Brief
 from gruebler.base.text import Message, Readable, message
 from gruebler.mechanics.linkages.quantities import as_finite
 
-__all__ = [
-    "Check",
-    "Mistake",
-    "Part",
-    "PartHeading",
-    "Result",
-    "Solution",
-    "SolutionBuilder",
-    "SolutionStep",
-    "TeachingTable",
-    "Value",
-    "angle",
-    "as_step",
-    "figure",
-    "fill_template",
-    "formula_number",
-]
-
 Value = float | bool | str | Readable
 """A number, yes or no, a name that is the same in all languages, or one that is not."""
 

@@ -15,8 +15,6 @@ from gruebler.files import Exercise
 from gruebler.files.catalog_records import Question
 from gruebler.teaching.exercises.solution import Result, Solution, Value, figure
 
-__all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve", "with_values"]
-
 Method = Callable[..., Solution]
 
 _THEORIES = (

@@ -22,8 +22,6 @@ from gruebler.structure.chain.pairs import OTHER_NAMES, PAIRS, Alphabet, Contact
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises.solution import TeachingTable, Value
 
-__all__ = ["TABLES", "teaching_table"]
-
 
 def joints() -> tuple[TeachingTable, ...]:
     """The kinds of joints by their freedoms (table 2.2 of the teaching documents), from the table of pairs."""

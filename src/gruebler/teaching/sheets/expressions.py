@@ -19,8 +19,6 @@ from gruebler.teaching.sheets import interval_arithmetic, surds
 from gruebler.teaching.sheets.interval_arithmetic import Bracket, PrecisionTooLowError
 from gruebler.teaching.sheets.surds import Surd
 
-__all__ = ["Expression"]
-
 _LONGEST = 300  # characters
 _DEEPEST = 30  # parentheses, signs and powers within one another
 _MOST_TIMES = 64  # exponent

@@ -9,16 +9,6 @@ from collections.abc import Callable
 from fractions import Fraction
 from math import isqrt
 
-__all__ = [
-    "OPERATIONS",
-    "Bracket",
-    "PrecisionTooLowError",
-    "interval_of_fraction",
-    "interval_pi",
-    "interval_power",
-    "interval_sqrt",
-]
-
 Bracket = tuple[int, int]
 
 

@@ -21,8 +21,6 @@ from gruebler.teaching.sheets.model import Sheet, StatedValue
 from gruebler.teaching.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
 from gruebler.teaching.sheets.picture import definition_picture, scale_picture
 
-__all__ = ["page"]
-
 _LEFT, _RIGHT = 56.0, WIDTH - 56.0
 _MIDDLE, _GAP = 372.0, 26.0
 _BODY, _LEAD = 11.0, 15.0

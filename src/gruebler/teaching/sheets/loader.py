@@ -9,8 +9,6 @@ from gruebler.teaching.catalog import catalog_folder
 from gruebler.teaching.sheets.model import Sheet
 from gruebler.teaching.sheets.records import read_sheet
 
-__all__ = ["sheet", "sheets"]
-
 
 @cache
 def sheets() -> dict[str, Sheet]:

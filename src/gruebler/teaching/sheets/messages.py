@@ -7,8 +7,6 @@ import math
 from gruebler.base.text import number, number_separator, translate
 from gruebler.teaching.sheets.model import Sheet, StatedValue
 
-__all__ = ["example_lines", "explanation_paragraphs", "typeset_number", "value_lines", "with_subscripts"]
-
 _INDICES = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _EQUALS = "\u00a0=\u00a0"  # without a break
 

@@ -29,8 +29,6 @@ from gruebler.teaching.catalog.features import AccessFeatures, access_features
 from gruebler.teaching.sheets.expressions import Expression
 from gruebler.teaching.sheets.records import CognateLength, Quantity, RockerValue, SheetRecord
 
-__all__ = ["Sheet", "SizedMechanism", "StatedValue"]
-
 _CLOSE = 1e-9  # relative: derived and exact value
 
 _EXAMPLE = {

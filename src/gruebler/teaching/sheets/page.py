@@ -9,12 +9,9 @@ from typing import Any
 from xml.sax.saxutils import escape
 
 from gruebler.pictures.canvas.figure import Figure
-from gruebler.pictures.canvas.files import suffix_of
 from gruebler.pictures.canvas.page_policy import policy_element
 from gruebler.pictures.canvas.styles import COLOURS
 from gruebler.pictures.canvas.svg import style_sheet, svg_element, svg_number, svg_text
-
-__all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "painted", "suffix_of"]
 
 WIDTH, HEIGHT = 793.7, 1122.5
 """Of A4, in pixels of 1/96 inch."""

@@ -18,8 +18,6 @@ from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.teaching.sheets.messages import with_subscripts
 from gruebler.teaching.sheets.model import Sheet
 
-__all__ = ["definition_picture", "scale_picture"]
-
 _BEYOND = 22.0  # pixels
 _DASH, _GAP = 9.0, 4.0
 _LONG, _BAND = 190.0, 26.0  # pixels of L and Δy in the picture of the definition

@@ -15,17 +15,6 @@ from gruebler.base.text import Message, Text, message
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.sheets.expressions import Expression
 
-__all__ = [
-    "CognateLength",
-    "Dimension",
-    "Guide",
-    "Quantity",
-    "RockerValue",
-    "SheetPicture",
-    "SheetRecord",
-    "read_sheet",
-]
-
 
 class Dimension(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """A length of the mechanism."""

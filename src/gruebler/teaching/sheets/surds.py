@@ -11,17 +11,6 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from math import gcd, isqrt
 
-__all__ = [
-    "OPERATIONS",
-    "Surd",
-    "rational_surd",
-    "surd_inverse",
-    "surd_power",
-    "surd_product",
-    "surd_sqrt",
-    "surd_text",
-]
-
 Surd = Mapping[int, Fraction]
 
 _LARGEST = 10**10  # under a root: its factors are found by trial

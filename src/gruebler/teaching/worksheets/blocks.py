@@ -7,9 +7,6 @@ from dataclasses import dataclass
 
 from gruebler.pictures.canvas.figure import Figure
 
-__all__ = ["AnswerLines", "Block", "Contents", "Document", "Heading", "PageBreak", "Paragraph", "Pictures", "Rows"]
-
-
 _LEGIBLE = 0.8  # names of 13 pixels are then printed with 7.8 points, the smallest texts with 6.6
 
 

@@ -16,8 +16,6 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.exercises import solve
 from gruebler.teaching.exercises.coupler_points import read_points
 
-__all__ = ["exercise_linkage", "linkage_figure"]
-
 _TWO_ROCKERS = "R(frame-first) R(first-coupler) R(coupler-second) R(frame-second); frame=frame; drive=R(frame-first)"
 
 

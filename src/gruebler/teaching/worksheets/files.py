@@ -27,8 +27,6 @@ from gruebler.teaching.worksheets.blocks import (
 )
 from gruebler.teaching.worksheets.paged import document_pages, pages_as_pdf
 
-__all__ = ["DOCUMENT_SUFFIXES", "document_bytes"]
-
 
 def document_bytes(document: Document, suffix: str) -> bytes:
     """The content of a file; `GrueblerError` for another ending, or if matplotlib is needed and missing."""

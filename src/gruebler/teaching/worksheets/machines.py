@@ -26,8 +26,6 @@ from gruebler.teaching.catalog.feature_query import entry_mechanism
 from gruebler.teaching.catalog.features import access_features
 from gruebler.teaching.worksheets.blocks import Block, Contents, Document, Heading, PageBreak, Paragraph, Pictures, Rows
 
-__all__ = ["catalog_book", "machine_document"]
-
 _POINTS = 3  # paths in one diagram
 
 

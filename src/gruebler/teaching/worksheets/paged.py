@@ -22,8 +22,6 @@ from gruebler.teaching.worksheets.blocks import (
     Rows,
 )
 
-__all__ = ["document_pages", "pages_as_pdf"]
-
 _LEFT, _RIGHT, _TOP, _BOTTOM = 60.0, WIDTH - 60.0, 86.0, HEIGHT - 66.0
 _BODY, _LEAD = 11.5, 16.0
 _SIZES = {1: 17.0, 2: 13.5, 3: 12.0}

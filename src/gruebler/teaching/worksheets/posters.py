@@ -16,8 +16,6 @@ from gruebler.structure.enumeration import chains
 from gruebler.structure.mechanism.inversion import family, inversions
 from gruebler.teaching.worksheets.joint_pictures import joint_pictures
 
-__all__ = ["POSTERS", "poster"]
-
 _MOST = {"chains": 10, "inversions": 8, "assur": 8}
 _USUAL = {"chains": 8, "inversions": 6, "assur": 6}
 

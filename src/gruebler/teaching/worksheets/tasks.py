@@ -48,8 +48,6 @@ from gruebler.teaching.worksheets.blocks import (
 )
 from gruebler.teaching.worksheets.exercise_figures import linkage_figure
 
-__all__ = ["TaskSheet", "construction_of", "exercise_figure", "solution_document", "task_sheet"]
-
 _MOST = 60
 _SPACE = {"mobility": 60.0, "grashof": 80.0, "dyad": 60.0}
 
