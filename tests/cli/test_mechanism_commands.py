@@ -55,7 +55,6 @@ def test_counts(capsys):
     [
         (["inversions", "nothing"], "no entry 'nothing'"),
         (["inversions", "vcomp", "--with-output"], "--with-output needs --drives"),
-        (["inversions", "vcomp", "--output"], "--output is now --with-output"),
         (["inversions", "vcomp", "--drives", "--number", "0"], "at least one drive"),
         (["variants"], "--links"),
         (["variants", "--links", "6", "--drive-joint", "R@wall"], "frame, moving or any"),

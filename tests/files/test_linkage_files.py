@@ -233,8 +233,6 @@ MISTAKES = [
         "[reference_pose]\ncrank = [0, 0]\n[elements]",
         "reference_pose.crank: expected [x, y, degrees], but",
     ),
-    ("[elements]", "[home]\ncrank = [0, 0]\n[elements]", "home.crank: expected [x, y, degrees], but found [0, 0]"),
-    ("[elements]", "[home]\n[reference_pose]\n[elements]", "home is the former name of reference_pose"),
     ("[elements]", "[places]\n[elements]", "expected one of elements, places, four_bar, "),
     ("[elements]", "[four_bar]", "unknown key 'four_bar.frame'"),
 ]

@@ -67,7 +67,7 @@ def _run(words: list[str], lang: str) -> int:
 
         print(f"gruebler {__version__}")
         return 0
-    chosen = command(words[0], words[1:])
+    chosen = command(words[0])
     parser = chosen.parser(lang)
     with argparse_in_language(lang):
         arguments = parser.parse_args(words[1:])

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import shlex
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from shutil import get_terminal_size
@@ -121,16 +120,6 @@ FIRST_STEPS = (
 )
 """What `gruebler` alone shows: what one can do, with a command that does it."""
 
-FORMER = {
-    "freedoms": "check {words}",
-    "derive": "extend {words} --derivation",
-    "assortments": "enumerate --links {words} --assortments",
-    "straight": "curve {words} --straight",
-    "cognates": "curve {words} --cognates",
-    "guidance": "curve --guidance {words}",
-}
-"""Former commands, and what to write instead."""
-
 
 def _commands() -> Iterator[Command]:
     for _, commands in GROUPS:
@@ -142,19 +131,11 @@ def command_names() -> list[str]:
     return [each.name for each in _commands()]
 
 
-def command(name: str, words: Sequence[str] = ()) -> Command:
-    """The command of a name; `GrueblerError` with the nearest one, or the present spelling, if there is none.
-
-    Args:
-        name: The command.
-        words: What follows it; repeated where the command is called otherwise today.
-    """
+def command(name: str) -> Command:
+    """The command of a name; `GrueblerError` with the nearest one if there is none."""
     for each in _commands():
         if each.name == name:
             return each
-    if name in FORMER:
-        old, new = shlex.join([name, *words]), FORMER[name].format(words=shlex.join(words) if words else "...")
-        raise GrueblerError("`gruebler {old}` is now `gruebler {new}`", old=old, new=new)
     raise GrueblerError(
         "there is no command {name!r}{suggestion}; see gruebler --help",
         name=name,

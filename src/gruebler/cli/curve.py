@@ -141,7 +141,6 @@ def add(parser: Parser) -> None:
         "--diameter", type=float, metavar="D", help="with --lambda or --kappa: of the inflection circle (default: 1)"
     )
     parser.add_printed(help="print an object; with --guidance and no name, a list", table=True)
-    parser.replaced("--tolerance", "--band", like=r"[-+.\de]+\s?[a-z]+")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -76,7 +76,6 @@ def add(parser: Parser) -> None:
         help="draw to scale, in the pose at these drive values, in degrees or the unit (--at=-30,20 for two drives; "
         "without a value: a typical pose)",
     )
-    parser.replaced("--pose", "--at")
     add_curves(parser)
     parser.add_argument(
         "--show",
@@ -102,7 +101,6 @@ def add(parser: Parser) -> None:
         metavar="LINK",
         help="the output link: its dead centres, transmission angle, centrodes or inflection circle are drawn",
     )
-    parser.replaced("--of", "--output")
     add_branch(parser)
     parser.add_out(help="the picture: .svg, .png or .pdf")
     parser.add_argument(

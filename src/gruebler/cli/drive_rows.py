@@ -29,7 +29,6 @@ def add_range(command: Parser) -> None:
         help="drive values in degrees or the unit; repeat it for each drive, with the same number of steps; a single "
         "number keeps a drive at rest (default: the whole motion of one drive)",
     )
-    command.replaced("--drive", "--range", like=r"[-+.,:\de]*")
 
 
 def turning_drives(linkage: Linkage) -> list[bool]:

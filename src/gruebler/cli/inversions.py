@@ -50,7 +50,6 @@ def add(parser: Parser) -> None:
     parser.add_argument("--anywhere", action="store_true", help="also drives between moving links")
     parser.add_argument("--number", type=int, default=1, metavar="D", help="number of drives (default: 1)")
     parser.add_argument("--with-output", action="store_true", help="choose an output link as well")
-    parser.replaced("--output", "--with-output")
     parser.add_argument("--text", action="store_true", help="one mechanism per line, as other commands read it")
     parser.add_argument("--count", action="store_true", help="print only the number")
     parser.add_argument("--json", action="store_true", help="print an object with count and items")

@@ -19,7 +19,6 @@ from gruebler.base.text import LANGUAGES, LOCALE, joined_by_or, message, transla
 from gruebler.cli.printed_file import TABLES
 
 _PICTURES = (".svg", ".png", ".pdf", ".html", ".gif", ".webp")
-_FILE = r".+\.[A-Za-z]\w{1,4}"
 _PLACEHOLDERS = {
     str(word): word
     for word in (
@@ -78,7 +77,6 @@ class Parser(argparse.ArgumentParser):
         self._commands: Any = None
         self._first = self
         """The parser of the whole command, for one of its actions."""
-        self._replaced: dict[str, tuple[str, str]] = {}
         self.add_argument(
             "--lang", choices=LANGUAGES, default=lang, help="language of the output (default: GRUEBLER_LANG, else en)"
         )
@@ -97,7 +95,7 @@ class Parser(argparse.ArgumentParser):
         return command
 
     def add_out(self, *, help: str, required: bool = False, endings: Sequence[str] = ()) -> None:
-        """`-o FILE`, the file to write, kept as `out`; its long form was `--output` before.
+        """`-o FILE`, the file to write, kept as `out`.
 
         Args:
             help: What is written.
@@ -106,7 +104,6 @@ class Parser(argparse.ArgumentParser):
         """
         kind = partial(_path_with_ending, endings=endings, lang=self.lang) if endings else Path
         self.add_argument("-o", "--out", type=kind, metavar="FILE", required=required, help=help)
-        self._replaced.setdefault("--output", ("--out", _FILE))
 
     def add_printed(self, *, help: str, table: bool = False, pictures: bool = False) -> None:
         """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).
@@ -134,16 +131,6 @@ class Parser(argparse.ArgumentParser):
             self.add_out(help="write into a file instead: .txt, or .json as with --json")
         self.set_defaults(written=_PICTURES if pictures else TABLES if table else ())
 
-    def replaced(self, old: str, new: str, like: str = ".*") -> None:
-        """Answer an option that has another name now by the new name.
-
-        Args:
-            old: Its former name.
-            new: What to write instead.
-            like: A regular expression for the former values; only these are answered.
-        """
-        self._replaced[old] = (new, like)
-
     def translate_placeholders(self) -> None:
         """Put what stands for values into the reader's language, once all arguments are added."""
         if self.names_of_links is None:
@@ -152,21 +139,8 @@ class Parser(argparse.ArgumentParser):
                 action.metavar = _placeholder(action.metavar, self.lang)
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As argparse; a former spelling is answered by the present one, and placeholders are translated."""
+        """As argparse; placeholders are translated."""
         self.translate_placeholders()
-        for word, following in pairwise([*(args or ()), ""]):
-            if word == "--":
-                break
-            option, equals, value = word.partition("=")
-            if option not in self._replaced:
-                continue
-            new, like = self._replaced[option]
-            value = value if equals else "" if following.startswith("--") else following
-            if re.fullmatch(like, value):
-                sign = "=" if equals else " " * bool(value)
-                self.error(
-                    translate("{old} is now {new}", self.lang, old=f"{option}{sign}{value}", new=f"{new}{sign}{value}")
-                )
         if self._commands is None:
             self._refuse_unknown_options(args or ())
         return super().parse_known_args(args, namespace)

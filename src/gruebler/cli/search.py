@@ -52,7 +52,6 @@ def add(parser: Parser) -> None:
         "--pair", action="append", default=[], metavar="P", help="symbol or name of a joint type (repeatable)"
     )
     parser.add_argument("--drive-pair", metavar="P", help="symbol or name of the type of a driven joint")
-    parser.replaced("--drive", "--drive-pair")
     parser.add_argument("--claims", action="store_true", help="only machines whose mobility differs from the count")
     parser.add_argument("--enumerate", action="store_true", help="list all structures, not only those of the catalog")
     parser.add_argument(

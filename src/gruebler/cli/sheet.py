@@ -57,7 +57,6 @@ def add(parser: Parser) -> None:
     wanted = size.add_mutually_exclusive_group(required=True)
     wanted.add_argument("--ratio", type=float, metavar="Q", help="relative deviation Q_G = band/length")
     wanted.add_argument("--band", metavar="WIDTH", help="allowed deviation across the line: 0.75mm")
-    size.replaced("--tolerance", "--band")
     listing.add_printed(help="print a list of objects")
     show.add_printed(help="print an object with all values")
     size.add_printed(help="print an object with all lengths")

@@ -125,7 +125,6 @@ def add(parser: Parser) -> None:
     )
     add_branch(parser)
     parser.add_printed(help="print an object with columns and rows", table=True)
-    parser.replaced("--drive", "--range", like=".*:.*")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -68,8 +68,6 @@ def add(parser: Parser) -> None:
     add_executor(parser)
     parser.add_argument("--yes", action="store_true", help="start even if it takes long")
     parser.add_printed(help="print an object with count and items")
-    parser.replaced("--drive", "--drive-joint")
-    parser.replaced("--output", "--output-joint", like=".*@.*")
 
 
 def run(arguments: argparse.Namespace) -> int:

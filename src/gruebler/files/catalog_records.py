@@ -225,7 +225,7 @@ def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
 
 _NO_NUMBER = message("none")
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
-    "dimensions": ("elements", "reference_pose", "home", "places", "points", "drive"),
+    "dimensions": ("elements", "reference_pose", "places", "points", "drive"),
     "screws": ("joints",),
     "claims": ("idle", "motion", "travel", "dead_centres"),
 }

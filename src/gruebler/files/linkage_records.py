@@ -112,8 +112,6 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
     unit: str
     elements: dict[str, Any] | None = None
     reference_pose: dict[str, Any] | None = None
-    home: dict[str, Any] | None = None
-    """The former name of `reference_pose`; still read."""
     places: dict[str, Any] | None = None
     four_bar: FourBarLengths | None = None
     slider_crank: SliderCrankLengths | None = None
@@ -123,7 +121,6 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
 
 _DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
 _WAYS = ("elements", "places", *_DOORS)
-_POSES = ("reference_pose", "home")
 
 
 def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
@@ -139,13 +136,10 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
             found=joined_by_and(given) if given else message("none"),
         )
     form = given[0]
-    poses = {key: pose for key in _POSES if (pose := getattr(sizes, key)) is not None}
-    if len(poses) > 1:
-        raise LinkageError("home is the former name of reference_pose: give one of them")
-    if poses and form != "elements":
+    if sizes.reference_pose is not None and form != "elements":
         raise LinkageError(
             "{key} is allowed with elements only; {form} itself decides how the linkage is assembled",
-            key=next(iter(poses)),
+            key="reference_pose",
             form=form,
         )
     if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
@@ -173,7 +167,8 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
                 "elements.{link}: expected a table of joints, but found {found}", link=link, found=_short(values)
             )
         elements[link] = _by_joint(mechanism, values, f"elements.{link}")
-    pose = next((_reference_pose(key, raw, mechanism.chain.links) for key, raw in poses.items()), None)
+    raw = sizes.reference_pose
+    pose = None if raw is None else _reference_pose(raw, mechanism.chain.links)
     with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these were degrees
         return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
 
@@ -331,10 +326,10 @@ def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]
         ) from None
 
 
-def _reference_pose(key: str, pose: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
+def _reference_pose(pose: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
     for link in pose:
-        _check_link(link, links, key)
-    return {link: Pose2D(*_numbers(raw, f"{key}.{link}", (3,))) for link, raw in pose.items()}
+        _check_link(link, links, "reference_pose")
+    return {link: Pose2D(*_numbers(raw, f"reference_pose.{link}", (3,))) for link, raw in pose.items()}
 
 
 def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
