@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-lowest test-newest torture mutants bench clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-bounds test-lowest test-newest torture mutants bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -17,6 +17,7 @@ help:
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with kernels of OpenBLAS that this processor does not choose"
 	@echo "make test-kernels all tests with compiled kernels only, then with interpreted ones; hours, not part of CI"
+	@echo "make test-bounds the tests of the kernels, compiled so that nothing beyond an array is read or written"
 	@echo "make test-lowest a broad choice of tests with the lowest versions that pyproject.toml allows"
 	@echo "make test-newest a broad choice of tests with another Python (NEWEST=python3.13) and the newest versions"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
@@ -73,13 +74,13 @@ wheel-test: $(READY)
 	build/wheel/venv/bin/python -m pip install --quiet --disable-pip-version-check \
 		"$$(ls build/wheel/*.whl)[test]"
 	cd build/wheel && NUMBA_CACHE_DIR=$(CURDIR)/src/gruebler/_numeric/__pycache__ venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
-		$(addprefix ../../tests/,cli/test_cli.py cli/test_languages.py cli/test_synthesise.py catalog documents \
-		exercises/test_tables.py sheets test_chain.py test_front_door.py)
+		$(addprefix ../../tests/,cli/test_cli.py cli/test_languages.py cli/test_synthesise.py documents structure/chain \
+		teaching/catalog teaching/exercises/test_tables.py teaching/sheets test_front_door.py)
 
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise; `make test` has those that
 # this processor chooses.
-NUMERIC := $(addprefix tests/,analysis cams fourbar geometry kinematics linkages realisation screws forces test_geneva.py \
-	synthesis/test_curves.py synthesis/test_functions.py synthesis/test_dead_centres.py synthesis/test_positions.py)
+NUMERIC := $(addprefix tests/,machines mechanics design/realisation $(addprefix design/synthesis/test_,\
+	curves.py functions.py dead_centres.py positions.py))
 test-blas: $(READY)
 	for core in $(filter-out $(shell $(BIN)/python .ci/blas_core.py 2>/dev/null),Haswell SkylakeX); do \
 		echo "OpenBLAS with the kernels for $$core"; \
@@ -91,12 +92,19 @@ test-kernels: $(READY)
 	GRUEBLER_KERNELS=compiled $(BIN)/python -m pytest -q -n 2
 	GRUEBLER_KERNELS=interpreted $(BIN)/python -m pytest -q -n 2 --longest 60
 
+# Kernels that read or write beyond an array stop with an error; compiled anew, apart from the others.
+test-bounds: $(READY)
+	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=$(CURDIR)/build/bounds GRUEBLER_KERNELS=compiled \
+		$(BIN)/python -X dev -m pytest -q tests/_numeric
+
 # What other versions of Python and of the packages could break, in a few minutes; BROAD=tests runs everything.
-BROAD := $(addprefix tests/,analysis catalog cli/test_cli.py cli/test_analyse.py cli/test_structure_commands.py fourbar \
-	isomorphism kinematics linkages mobility test_chain.py test_front_door.py)
+BROAD := $(addprefix tests/,cli/test_cli.py cli/test_analyse.py cli/test_structure_commands.py test_front_door.py \
+	$(addprefix mechanics/,analysis fourbar kinematics linkages) $(addprefix structure/,chain isomorphism mobility) \
+	teaching/catalog)
 # Environments of their own, kept in build/: another version of the compiler does not touch the kernels of .venv.
 NEWEST ?= $(PYTHON)
-EXTRAS := $(addprefix tests/,atlas/test_building.py enumeration/test_schedulers.py explorer/test_widget.py formats/test_dxf.py)
+EXTRAS := $(addprefix tests/,structure/atlas/test_building.py structure/enumeration/test_schedulers.py \
+	page/test_widget.py files/test_dxf.py)
 test-lowest: export NUMBA_CACHE_DIR = $(CURDIR)/build/lowest/kernels
 test-lowest:
 	@mkdir -p build/lowest

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import re
+import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -14,7 +16,7 @@ NAMES = frozenset({"raises", "warns", "fail", "exit"})  # of pytest
 LEAVES = (ast.Return, ast.Continue, ast.Break)
 
 # What need not assert, with the reason.
-EXCEPTIONS = {"test_doors.py::test_the_good_call_is_good": "that the call raises nothing is all that it says"}
+EXCEPTIONS = {"base/test_doors.py::test_the_good_call_is_good": "that the call raises nothing is all that it says"}
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 Helpers = frozenset[str]
@@ -127,3 +129,12 @@ def test_every_test_asserts_always() -> None:
 )
 def test_what_always_asserts(body: str, wanted: bool) -> None:
     assert always(ast.parse(body).body, frozenset({"check"})) == wanted
+
+
+def test_what_make_and_ci_run_is_there():
+    """A path that is not there would be an error of pytest only on the day when that part runs."""
+    root = FOLDER.parent
+    made = subprocess.run(["make", "-pn", "help"], cwd=root, capture_output=True, text=True, check=False).stdout
+    words = set(re.findall(r"tests/[\w/.]+", made + (root / ".ci/run").read_text(encoding="utf-8")))
+    assert {"tests/mechanics", "tests/structure/mobility", "tests/files/test_dxf.py"} <= words
+    assert sorted(word for word in words if not (root / word).exists()) == []

@@ -26,17 +26,28 @@ COPIED = ("src", "tests", "catalogs", "docs", "benchmarks", "pyproject.toml", "R
 PATIENCE = 10  # times as long as without a change; an endless loop is noticed
 
 
+def place(room: str) -> str:
+    """Where a room lies below the package: mobility, or structure/mobility, is structure/mobility."""
+    package = ROOT / "src" / "gruebler"
+    for folder in (package, *sorted(path for path in package.iterdir() if path.is_dir())):
+        if (folder / room).is_dir() or (folder / f"{room}.py").is_file():
+            return (folder / room).relative_to(package).as_posix()
+    raise SystemExit(f"there is no room {room!r} in {package}")
+
+
 def sources(room: str) -> list[Path]:
     """The files of a room, from the root."""
-    place = ROOT / "src" / "gruebler" / room
-    files = sorted(place.rglob("*.py")) if place.is_dir() else [place.with_suffix(".py")]
-    return [path.relative_to(ROOT) for path in files if path.is_file()]
+    path = ROOT / "src" / "gruebler" / place(room)
+    files = sorted(path.rglob("*.py")) if path.is_dir() else [path.with_suffix(".py")]
+    return [path.relative_to(ROOT) for path in files]
 
 
 def to_run(room: str) -> list[str]:
     """What pytest runs for a room: its tests and its doctests."""
-    own = [Path("tests", room), Path("tests", f"test_{room}.py"), Path("src", "gruebler", room)]
-    return [str(path) for path in own if (ROOT / path).exists()]
+    path = Path(place(room))
+    tests = [Path("tests", path), Path("tests", path.parent, f"test_{path.name}.py")]
+    own = [*tests, Path("src", "gruebler", path), Path("src", "gruebler", path).with_suffix(".py")]
+    return [path.as_posix() for path in own if (ROOT / path).exists()]
 
 
 def passes(copy: Path, room: str, seconds: float | None = None) -> bool:

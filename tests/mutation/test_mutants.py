@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 
+import pytest
+
 from tests.mutation.__main__ import ROOT, sources, to_run
 from tests.mutation.mutants import mutants
 
@@ -42,3 +44,6 @@ def test_the_mutants_of_a_room_are_other_programs():
             assert ast.dump(ast.parse(each.text)) != whole
     assert len(mutants((ROOT / "src/gruebler/structure/mobility/circuits.py").read_text("utf-8"))) > 20
     assert to_run("mobility") == ["tests/structure/mobility", "src/gruebler/structure/mobility"]
+    assert to_run("machines/geneva") == ["tests/machines/test_geneva.py", "src/gruebler/machines/geneva.py"]
+    with pytest.raises(SystemExit, match="there is no room 'mobilty'"):
+        to_run("mobilty")
