@@ -258,7 +258,7 @@ def test_acceleration_and_jerk_of_one_drive(capsys):
     phi, w, a, j = math.radians(30), 2 * math.pi, 3.0, 7.0
     arguments = ("--speed", "60", "--acceleration", "3", "--jerk", "7", "--at", "30")
     _, columns = table(capsys, "slider-crank:20,50", *arguments, "--point", "R(crank-coupler)")
-    judge = SliderCrank(20, 50).motion([phi], omega=w, alpha=a, jerk=j, branch=1).output
+    judge = SliderCrank(20, 50).motion([phi], omega=w, alpha=a, jerk=j, branch="+").output
     for header, wanted in {
         "v slider mm/s": judge.velocity,
         "a slider mm/s²": judge.acceleration,
@@ -271,7 +271,7 @@ def test_acceleration_and_jerk_of_one_drive(capsys):
         for axis, wanted in (("x", (pin * rates[letter]).real), ("y", (pin * rates[letter]).imag)):
             assert columns[f"R(crank-coupler) {letter}{axis} mm/s{order}"] == pytest.approx([wanted], rel=1e-12)
     _, columns = table(capsys, "slider-crank:20,50", "--speed", "0", "--acceleration", "3", "--at", "30")
-    still = SliderCrank(20, 50).motion([phi], omega=0.0, alpha=a, jerk=0.0, branch=1).output
+    still = SliderCrank(20, 50).motion([phi], omega=0.0, alpha=a, jerk=0.0, branch="+").output
     assert columns["a slider mm/s²"] == pytest.approx(still.acceleration.tolist(), rel=1e-12)
     assert "j slider mm/s³" not in columns
 

@@ -239,7 +239,7 @@ CHAINS = [
 
 
 def _antiparallel(phi: float) -> complex:
-    return complex(*FourBar(25, 70, 25, 70).motion(np.radians(phi), branch=-1).B.value)
+    return complex(*FourBar(25, 70, 25, 70).motion(np.radians(phi), branch="-").B.value)
 
 
 # Lengths by hand for each case of l_min + l_max against l' + l''

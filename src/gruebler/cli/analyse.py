@@ -31,6 +31,7 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import read_branch
 from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_in_radians
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import branch_text
 from gruebler.structure.chain.pairs import Alphabet
 
 if TYPE_CHECKING:
@@ -269,12 +270,8 @@ def _listed(arguments: argparse.Namespace) -> bool:
 
 def _others(linkage: Linkage, measures: Measures) -> list[str]:
     branches = all_branches(cached_plan(linkage), np.array([measures.start]))
-    others = [_label(branch) for branch in islice(branches, _MOST_BRANCHES) if branch != tuple(measures.branch)]
+    others = [branch_text(branch) for branch in islice(branches, _MOST_BRANCHES) if branch != tuple(measures.branch)]
     return [*others, "…"] if next(branches, None) is not None else others
-
-
-def _label(branch: Sequence[str]) -> str:
-    return "".join(branch) if set(branch) <= {"+", "-"} else ",".join(branch)
 
 
 # --- what is printed ----------------------------------------------------------------------------------
@@ -337,7 +334,7 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
             else:
                 print(translate("The direction of the slide {joint} is fixed.", lang, joint=names[name]))
     if measures.branch:
-        print(translate("Assembly mode: {branch}.", lang, branch=_label(measures.branch)))
+        print(translate("Assembly mode: {branch}.", lang, branch=branch_text(measures.branch)))
         if others := _others(linkage, measures):
             print(translate("Other assembly modes there: {others}.", lang, others=", ".join(others)))
     print()

@@ -8,21 +8,6 @@ from gruebler.cli.linkage_inputs import linkage_of_lengths
 from gruebler.cli.point_inputs import point_of
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 
-_SIGNS = {"+": 1, "1": 1, "-": -1, "-1": -1}
-
-
-def branch_sign(label: str | None) -> int:
-    """The assembly mode of a linkage given by lengths, 1 or -1.
-
-    >>> branch_sign("-"), branch_sign("1"), branch_sign(None)
-    (-1, 1, 1)
-    """
-    if label is None:
-        return 1
-    if label not in _SIGNS:
-        raise GrueblerError("--branch: expected + or -, but found {found!r}", found=label)
-    return _SIGNS[label]
-
 
 def coupler_point(size: FourBar | SliderCrank | InvertedSliderCrank, text: str) -> tuple[float, float]:
     """The coordinates of a point of the coupler: U along it from the crank, V to its left; links in any language.

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined, message, number, translate
-from gruebler.cli.coupler_inputs import branch_sign, coupler_point
+from gruebler.cli.coupler_inputs import coupler_point
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word, size_of, with_points
 from gruebler.cli.output import print_json
@@ -41,18 +41,18 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _given(
     arguments: argparse.Namespace,
-) -> tuple[FourBar | SliderCrank | InvertedSliderCrank, float, float, int, float | None]:
+) -> tuple[FourBar | SliderCrank | InvertedSliderCrank, float, float, str | None, float | None]:
     """The linkage by its lengths, the coupler point, the assembly mode, and the crank angle of the pose."""
     size = size_of(arguments.linkage)
     if size is not None:
         u, v = coupler_point(size, arguments.point)
-        return size, u, v, branch_sign(arguments.branch), _radians(arguments.at)
+        return size, u, v, arguments.branch, _radians(arguments.at)
     linkage = with_points(linkage_of_word(arguments.linkage, language_of_names(arguments))[0], [arguments.point])
     drive = _radians(arguments.at)
     if drive is None:
-        span = drive_cycle(linkage, arguments.branch).span
+        span = drive_cycle(linkage, branch=arguments.branch).span
         drive = span.low + _INSIDE * span.width
-    size, u, v, phi, branch = lever_pose(linkage, arguments.point, drive, arguments.branch)
+    size, u, v, phi, branch = lever_pose(linkage, arguments.point, drive, branch=arguments.branch)
     return size, u, v, branch, phi
 
 

@@ -7,7 +7,7 @@ import math
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import translate
-from gruebler.cli.coupler_inputs import branch_sign, coupler_point
+from gruebler.cli.coupler_inputs import coupler_point
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word, size_of
 from gruebler.cli.output import print_json
@@ -94,12 +94,12 @@ def _path(arguments: argparse.Namespace, centre: float) -> tuple[Path, str, list
     """The path of the point over crank angles, the unit of length, and the ranges of the crank."""
     turn = (centre - math.pi, centre + math.pi)
     if (size := size_of(arguments.linkage)) is not None:
-        path = coupler_path(size, *coupler_point(size, arguments.point), branch=branch_sign(arguments.branch))
+        path = coupler_path(size, *coupler_point(size, arguments.point), branch=arguments.branch)
         return path, "mm", [turn if arc.full else (arc.start, arc.end) for arc in size.limits]
     linkage, _ = linkage_of_word(arguments.linkage, language_of_names(arguments))
-    span = drive_cycle(linkage, arguments.branch).span
+    span = drive_cycle(linkage, branch=arguments.branch).span
     if not linkage.mechanism.drives[0].turning:
         raise GrueblerError("--straight needs a driven joint that turns")
     margin = _FROM_LIMITS * span.width
     ends = turn if span.full else (span.low + margin, span.high - margin)
-    return linkage_path(linkage, point_of(arguments.point), arguments.branch), linkage.unit, [ends]
+    return linkage_path(linkage, point_of(arguments.point), branch=arguments.branch), linkage.unit, [ends]

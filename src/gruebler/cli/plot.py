@@ -186,7 +186,7 @@ def _ratio(asked: _Asked) -> Figure:
     curve = tangent_windows(linkage, point, centre, branch=given.branch)
     marked = None
     if given.ratio is not None:
-        piece = piece_of_ratio(linkage_path(linkage, point, given.branch), centre, given.ratio)
+        piece = piece_of_ratio(linkage_path(linkage, point, branch=given.branch), centre, given.ratio)
         if piece is None:
             raise GrueblerError(
                 "every window about {centre:g} degrees is straighter than Q_G = {ratio:g}",

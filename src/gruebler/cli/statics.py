@@ -268,7 +268,7 @@ def _motion(
         raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
     if rows is not None:
         return move_in_radians(linkage, rows, branch=arguments.branch, order=1)
-    cycle = drive_cycle(linkage, arguments.branch)
+    cycle = drive_cycle(linkage, branch=arguments.branch)
     values = default_rows(cycle.span, shown_range, turning[0])[:, 0]
     if not cycle.span.full:
         margin = _FROM_LIMITS * cycle.span.width

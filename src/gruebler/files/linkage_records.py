@@ -42,7 +42,7 @@ class FourBarLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw
     b: float
     c: float
     d: float
-    branch: int = 1
+    branch: str = "+"
 
 
 class SliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -51,7 +51,7 @@ class SliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True
     a: float
     b: float
     e: float = 0.0
-    branch: int = 1
+    branch: str = "+"
 
 
 class InvertedSliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -60,7 +60,7 @@ class InvertedSliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fie
     a: float
     d: float
     e: float = 0.0
-    branch: int = 1
+    branch: str = "+"
 
 
 class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -178,8 +178,8 @@ def _door(
 ) -> Linkage:
     given = msgspec.structs.asdict(lengths)
     branch = given.pop("branch")
-    if branch not in (1, -1):
-        raise LinkageError("{way}.branch: expected 1 or -1, but found {branch}", way=form, branch=branch)
+    if branch not in ("+", "-"):
+        raise LinkageError("{way}.branch: expected + or -, but found {branch!r}", way=form, branch=branch)
     try:
         door: ClosedForm = _DOORS[form](**given)
     except LinkageError as error:

@@ -13,6 +13,7 @@ from gruebler.design.synthesis import function_task, minimax, synthesise_functio
 from gruebler.design.synthesis.coordination import Coordination
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.structural_error import ErrorFamily, coordination_of, largest_error
+from gruebler.mechanics.linkages.branch import branch_of_side
 
 RIGHT, HALF = np.pi / 2, np.pi / 3
 LOG_90 = FunctionLaw("log10(x)", (1, 2), HALF, RIGHT)
@@ -37,11 +38,11 @@ def errors(solution, law, x):
     with np.errstate(invalid="ignore"):
         if solution.kind == "slider-crank":
             _, b, e = solution.lengths
-            return pin.real + solution.branch * np.sqrt(b**2 - (e - pin.imag) ** 2) - wanted
+            return pin.real + solution.side * np.sqrt(b**2 - (e - pin.imag) ** 2) - wanted
         _, b, c, d = solution.lengths
         gap = d - pin
         along = (b**2 - c**2 + abs(gap) ** 2) / (2 * abs(gap))
-        far = pin + gap / abs(gap) * (along + 1j * solution.branch * np.sqrt(b**2 - along**2))
+        far = pin + gap / abs(gap) * (along + 1j * solution.side * np.sqrt(b**2 - along**2))
     return np.angle((far - d) * np.exp(-1j * wanted))
 
 
@@ -200,7 +201,8 @@ def test_what_ends_in_a_dead_centre_or_runs_away_is_no_optimum():
     assert reasons == {"it comes to a dead centre", "its lengths run away to a linkage of another kind"}
     for b in others:
         turned = np.linspace(0, LOG_90.input_swing, 20_001)
-        mu = b.solution.linkage().motion(b.solution.input_start + turned, branch=b.solution.branch).transmission_angle
+        branch = branch_of_side(b.solution.side)
+        mu = b.solution.linkage().motion(b.solution.input_start + turned, branch=branch).transmission_angle
         lengths = b.solution.lengths
         if "dead centre" in str(b.certificate.reason):
             assert np.degrees(mu.min()) < 0.6
@@ -233,7 +235,7 @@ def test_the_length_of_the_frame_changes_nothing():
 def test_negative_numbers_are_links_turned_by_half_a_turn(signs):
     """Beyond infinite length: the linkage of such numbers has the error of the equation, by the formulas above."""
     best = found(LOG_60, "angle", 5)[0]
-    family = ErrorFamily("four-bar", best.solution.branch, LOG_60)
+    family = ErrorFamily("four-bar", best.solution.side, LOG_60)
     numbers = family.numbers_of(best.solution) * [*signs, 1, 1, 1]
     x = np.linspace(1, 2, 50)
     for third in (-0.4, 0.0, 0.3):

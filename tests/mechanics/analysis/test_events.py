@@ -155,7 +155,7 @@ length = st.floats(0.2, 5)
 
 def check_centres(size: object, closed: object, branch: str) -> None:
     """Both dead centres of the general path against a closed form of branch +1; the other is its mirror image."""
-    course = drive_cycle(size.linkage(), branch)
+    course = drive_cycle(size.linkage(), branch=branch)
     found = dead_centres(course, find_output(course.linkage))
     assert sorted(centre.side for centre in found) == ["inner", "outer"]
     for side in ("inner", "outer"):
@@ -196,7 +196,7 @@ def test_dead_centres_of_inverted_slider_cranks(d: float, share: float) -> None:
 
 def test_the_left_branch_of_a_slider_crank() -> None:
     size = SliderCrank(1.7, 6, 1.5)
-    course = drive_cycle(size.linkage(), "-")
+    course = drive_cycle(size.linkage(), branch="-")
     found = dead_centres(course, find_output(course.linkage))
     # turned by half a turn: s(phi, e) on branch - is -s(pi - phi, e) on branch +
     for centre in found:
@@ -320,7 +320,7 @@ def test_a_six_bar_that_dwells() -> None:
 
 @pytest.mark.parametrize("branch", ["+", "-"])
 def test_change_points_of_a_parallelogram(branch: str) -> None:
-    course = drive_cycle(FourBar(25, 70, 25, 70).linkage(), branch)
+    course = drive_cycle(FourBar(25, 70, 25, 70).linkage(), branch=branch)
     assert [np.exp(1j * point.drive) for point in change_points(course)] == pytest.approx([1, -1], abs=1e-10)
     assert change_points(drive_cycle(FourBar(25, 70, 40, 70).linkage())) == ()
 

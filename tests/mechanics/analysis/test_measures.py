@@ -89,7 +89,7 @@ def test_transfer_functions_of_the_worked_example() -> None:
         ("+", 0.4785205278035138, 0.45135747093926994),
         ("-", -0.6938783961347902, 0.53925729838085616),
     ):
-        course = drive_cycle(FourBar(25, 70, 40, 70).linkage(), branch)
+        course = drive_cycle(FourBar(25, 70, 40, 70).linkage(), branch=branch)
         output, at = find_output(course.linkage), np.array([55 * DEGREE])
         assert transfer_function(course, output, at, 1)[0] == pytest.approx(first, rel=1e-8)
         assert transfer_function(course, output, at, 2)[0] == pytest.approx(second, rel=1e-8)

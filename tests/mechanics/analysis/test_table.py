@@ -37,7 +37,7 @@ def test_rates_in_time_follow_from_those_by_the_drive():
     """v = s' ω, a = s'' ω² + s' α, j = s''' ω³ + 3 s'' ω α + s' q, as the closed form of the slider-crank has them."""
     w, a, q = 3.0, 2.0, -5.0
     found = table(rates=(w, a, q))
-    judge = SIZE.motion(np.radians(found["R(frame-crank)"]), omega=w, alpha=a, jerk=q, branch=1).output
+    judge = SIZE.motion(np.radians(found["R(frame-crank)"]), omega=w, alpha=a, jerk=q, branch="+").output
     for name, values in (("v", judge.velocity), ("a", judge.acceleration), ("j", judge.jerk)):
         assert found[f"{name} slider"] == pytest.approx(values, rel=1e-9, abs=1e-8)
 
@@ -76,7 +76,7 @@ def test_a_motion_of_any_speed_has_the_same_derivatives_by_the_drive():
     driven = move(SIZE.linkage(), path, speed=speed, acceleration=acceleration).table()
     for name in ("slider", "slider′", "slider′′"):
         assert driven[name] == pytest.approx(plain[name], rel=1e-12, abs=1e-9)
-    judge = SIZE.motion(path, omega=speed, alpha=acceleration, branch=1).output
+    judge = SIZE.motion(path, omega=speed, alpha=acceleration, branch="+").output
     assert driven["v slider"] == pytest.approx(judge.velocity, rel=1e-9, abs=1e-8)
     assert driven["a slider"] == pytest.approx(judge.acceleration, rel=1e-9, abs=1e-8)
     assert not {"v slider", "a slider"} & {column.name for column in plain}

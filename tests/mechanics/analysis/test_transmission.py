@@ -30,10 +30,10 @@ SIZES = [
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("branch", [1, -1])
-def test_along_the_motion(size: FourBar | SliderCrank | InvertedSliderCrank, branch: int) -> None:
+@pytest.mark.parametrize("branch", ["+", "-"])
+def test_along_the_motion(size: FourBar | SliderCrank | InvertedSliderCrank, branch: str) -> None:
     phi = from_degrees(0, 360, 1)
-    motion = move(size.linkage(), phi, order=2, branch="+" if branch > 0 else "-")
+    motion = move(size.linkage(), phi, order=2, branch=branch)
     closed = size.motion(phi, branch=branch)
     assert transmission_angle(motion) == pytest.approx(closed.transmission_angle, abs=1e-12)
     assert deviation_angle(motion) == pytest.approx(closed.deviation_angle, abs=1e-12)
@@ -42,7 +42,7 @@ def test_along_the_motion(size: FourBar | SliderCrank | InvertedSliderCrank, bra
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("branch", "+-")
 def test_extremes(size: FourBar | SliderCrank | InvertedSliderCrank, branch: str) -> None:
-    course = drive_cycle(size.linkage(), branch)
+    course = drive_cycle(size.linkage(), branch=branch)
     found = measure_transmission(course, find_output(course.linkage))
     assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest.mu, abs=1e-12)
     dense = size.motion(np.linspace(0, 2 * math.pi, 100_001)).transmission_angle
@@ -55,11 +55,11 @@ def test_extremes(size: FourBar | SliderCrank | InvertedSliderCrank, branch: str
 def test_the_closed_form_gives_the_same_values(size: FourBar | SliderCrank | InvertedSliderCrank) -> None:
     closed = size.transmission_angle
     for branch in "+-":
-        course = drive_cycle(size.linkage(), branch)
+        course = drive_cycle(size.linkage(), branch=branch)
         found = measure_transmission(course, find_output(course.linkage))
         assert found.legs == closed.legs
         assert found.largest.mu == pytest.approx(closed.largest.mu, abs=1e-12)
-    by_drive = drive_cycle(size.linkage(), "+").at(np.array([extreme.drive for extreme in closed.extremes]), 2)
+    by_drive = drive_cycle(size.linkage(), branch="+").at(np.array([extreme.drive for extreme in closed.extremes]), 2)
     assert transmission_angle(by_drive) == pytest.approx([extreme.mu for extreme in closed.extremes], abs=1e-9)
 
 

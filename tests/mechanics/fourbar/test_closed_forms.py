@@ -11,11 +11,13 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar.four_bar import FourBar
 from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
 from gruebler.mechanics.fourbar.slider_crank import SliderCrank
+from gruebler.mechanics.linkages.branch import branch_side
 
 length = st.floats(0.5, 10)
 offset = st.one_of(st.just(0.0), st.floats(0.01, 6), st.floats(-6, -0.01))
 angle = st.floats(0, 2 * math.pi)
-branch = st.sampled_from([1, -1])
+branch = st.sampled_from("+-")
+OTHER = {"+": "-", "-": "+"}
 four_bars = st.builds(FourBar, length, length, length, length)
 slider_cranks = st.builds(SliderCrank, length, length, offset)
 inverted = st.builds(InvertedSliderCrank, length, length, offset)
@@ -37,7 +39,7 @@ def test_four_bar_loops_close_on_the_right_side(four_bar, branch):
     assert np.allclose(np.abs(b - a)[ok], four_bar.b, atol=1e-7)
     assert np.allclose(b[ok], (four_bar.d + four_bar.c * np.exp(1j * motion.output.value))[ok], atol=1e-12)
     side = np.imag((b - a)[ok] * np.conj(four_bar.d - a)[ok])
-    assert (side * branch >= -1e-7).all()
+    assert (side * branch_side(branch) >= -1e-7).all()
     to_a, to_b0 = (a - b)[ok], (four_bar.d - b)[ok]
     cosine = np.real(to_a * np.conj(to_b0)) / (four_bar.b * four_bar.c)
     assert np.allclose(np.cos(motion.mu[ok]), cosine, atol=1e-6)
@@ -50,7 +52,7 @@ def test_slider_crank_loops_close_on_the_right_side(slider_crank, branch):
     ok = motion.assembled
     assert np.allclose(np.abs(b - a)[ok], slider_crank.b, atol=1e-7)
     assert np.allclose(b[ok], motion.output.value[ok] + 1j * slider_crank.e, atol=1e-12)
-    assert (branch * np.real(b - a)[ok] >= -1e-12).all()
+    assert (branch_side(branch) * np.real(b - a)[ok] >= -1e-12).all()
     assert np.allclose(np.cos(motion.mu[ok]), np.imag(a - b)[ok] / slider_crank.b, atol=1e-9)
 
 
@@ -61,7 +63,7 @@ def test_inverted_slider_crank_guides_pass_b0_at_their_offset(linkage, branch):
     unit = np.exp(1j * motion.coupler.value)
     assert np.allclose((foot - a)[ok], (motion.displacement.value * unit)[ok], atol=1e-9)
     assert np.allclose((linkage.d - foot)[ok] / unit[ok], 1j * linkage.e, atol=1e-9)
-    assert (motion.displacement.value[ok] * branch >= 0).all()
+    assert (motion.displacement.value[ok] * branch_side(branch) >= 0).all()
     assert np.allclose(np.exp(1j * motion.output.value)[ok], -unit[ok], atol=1e-12)
 
 
@@ -120,7 +122,10 @@ def test_rates_are_derivatives(linkage, phi, omega, alpha, jerk, branch, point):
 
 @given(four_bars, branch)
 def test_the_mirror_image_is_the_other_branch(four_bar, branch):
-    motion, image = four_bar.motion(DENSE, branch=branch), four_bar.motion(-DENSE, omega=-1, branch=-branch)
+    motion, image = (
+        four_bar.motion(DENSE, branch=branch),
+        four_bar.motion(-DENSE, omega=-1, branch=OTHER[branch]),
+    )
     flip = np.array([1, -1])
     for track, other in ((motion.A, image.A), (motion.B, image.B)):
         for order in range(4):
@@ -133,7 +138,7 @@ def test_slider_crank_mirrored_in_both_axes(slider_crank, branch):
     motion = slider_crank.motion(DENSE, branch=branch)
     upside = SliderCrank(slider_crank.a, slider_crank.b, -slider_crank.e).motion(-DENSE, omega=-1, branch=branch)
     assert np.allclose(motion.output.value, upside.output.value, equal_nan=True)
-    backwards = slider_crank.motion(np.pi - DENSE, omega=-1, branch=-branch)
+    backwards = slider_crank.motion(np.pi - DENSE, omega=-1, branch=OTHER[branch])
     near = np.abs(motion.transmission_angle) < 1e-3
     for order in range(4):
         gap = np.where(near, 0, motion.output[order] + backwards.output[order])
@@ -146,7 +151,10 @@ def test_scaling_of_lengths_and_of_time(linkage, unit, speed, branch):
     phi = np.linspace(0.05, 6.2, 97)
     sizes = {name: getattr(linkage, name) for name in linkage.__slots__}
     larger = type(linkage)(**{name: unit * size for name, size in sizes.items()})
-    motion, other = linkage.motion(phi, branch=branch), larger.motion(phi, omega=speed, branch=branch)
+    motion, other = (
+        linkage.motion(phi, branch=branch),
+        larger.motion(phi, omega=speed, branch=branch),
+    )
     clear = np.nan_to_num(motion.transmission_angle) > 0.1
     factor = unit if isinstance(linkage, SliderCrank) else 1
     for order in range(4):
@@ -231,13 +239,13 @@ def test_the_way_leads_back_to_the_crank_angle(slider_crank, phi):
     gaps = np.abs(np.angle(np.exp(1j * (found - phi))))
     assert gaps.min() < 1e-5
     for back in found:
-        ways = [float(slider_crank.motion(back, branch=b).output.value) for b in (1, -1)]
+        ways = [float(slider_crank.motion(back, branch=b).output.value) for b in "+-"]
         assert min(abs(way - float(motion.output.value)) for way in ways) < 1e-4
 
 
 @given(four_bars)
 def test_output_limits_are_the_crank_limits_of_the_reversed_four_bar(four_bar):
-    both = [four_bar.motion(DENSE, branch=b) for b in (1, -1)]
+    both = [four_bar.motion(DENSE, branch=b) for b in "+-"]
     reached = np.concatenate([m.output.value[m.assembled] for m in both])
     assert all(
         any(
@@ -288,7 +296,7 @@ def test_scott_russell_draws_a_line_and_shapes_are_kept():
 
 @pytest.mark.parametrize("linkage", [FourBar(2, 5, 4, 5), SliderCrank(2, 5), InvertedSliderCrank(2, 5)])
 def test_wrong_calls_of_motion(linkage):
-    with pytest.raises(LinkageError, match=r"branch must be \+1 or -1, not 0"):
+    with pytest.raises(LinkageError, match=r"expected \+ or -, but found 0"):
         linkage.motion(0, branch=0)
     for wrong in (math.nan, [0, math.inf], "east", None, 1j):
         with pytest.raises(LinkageError, match="phi must be finite numbers"):

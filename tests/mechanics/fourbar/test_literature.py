@@ -199,7 +199,7 @@ CROSSED = {
 }
 
 
-@pytest.mark.parametrize(("branch", "figures"), [(1, OPEN), (-1, CROSSED)])
+@pytest.mark.parametrize(("branch", "figures"), [("+", OPEN), ("-", CROSSED)])
 def test_3_6_2_velocities_and_accelerations(branch, figures):
     motion = FourBar(a=25, b=70, c=40, d=70).motion(math.radians(55), omega=10, branch=branch)
     assert motion.A.value == near((14.339410908776154, 20.478801107224793))
@@ -217,8 +217,8 @@ def test_3_6_2_velocities_and_accelerations(branch, figures):
 @pytest.mark.parametrize(
     ("branch", "rates"),
     [
-        (1, (3.62577234130548, -1.583234356747855, -6.326626801261231, -37.7103456668183)),
-        (-1, (0.6988342931342503, 5.9078409911875855, -15.275095614360728, 16.10862325119635)),
+        ("+", (3.62577234130548, -1.583234356747855, -6.326626801261231, -37.7103456668183)),
+        ("-", (0.6988342931342503, 5.9078409911875855, -15.275095614360728, 16.10862325119635)),
     ],
 )
 def test_3_6_2_counted_from_the_other_side(branch, rates):

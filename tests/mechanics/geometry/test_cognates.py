@@ -11,6 +11,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.geometry import cognate_sizes, cognates, coupler_sextic, parallel_motion, slider_cognates
 from gruebler.mechanics.kinematics import from_degrees, move
+from gruebler.mechanics.linkages.branch import branch_of_side
 
 LENGTHS = st.floats(1, 6)
 PLACES = st.floats(-6, 6)
@@ -30,7 +31,7 @@ def four_bars(draw):
     start, end = bar.limits[0]
     phi = start + (end - start) * np.linspace(0.1, 0.9, 33)
     side = draw(SIDES)
-    assume(bar.motion(phi, branch=side).transmission_angle.min() > 0.05)
+    assume(bar.motion(phi, branch=branch_of_side(side)).transmission_angle.min() > 0.05)
     return bar, u, v, phi, side
 
 
@@ -38,15 +39,15 @@ def four_bars(draw):
 def test_three_cognates_trace_one_curve(drawn):
     """Each moves by its own closed form, its crank turning like the link of the given four-bar that it follows."""
     bar, u, v, phi, side = drawn
-    motion = bar.motion(phi, branch=side)
-    first, second, third = cognates(bar, u, v, branch=side, phi=phi[16])
+    motion = bar.motion(phi, branch=branch_of_side(side))
+    first, second, third = cognates(bar, u, v, branch=branch_of_side(side), phi=phi[16])
     curve = first.trace(motion)
     turned = motion.coupler.value - motion.coupler.value[16]
     for other, change in ((second, turned), (third, turned), (third.reversed(), phi - phi[16])):
-        branches = [other.trace(other.size.motion(other.phi + change, branch=branch)) for branch in (1, -1)]
+        branches = [other.trace(other.size.motion(other.phi + change, branch=branch)) for branch in "+-"]
         gaps = np.abs(np.array(branches) - curve)
         assert gaps.min(axis=0).max() < 1e-6
-        assert gaps[0 if other.branch == 1 else 1, 16] < 1e-6
+        assert gaps[0 if other.branch == "+" else 1, 16] < 1e-6
         assert abs(other.point - curve[16]) < 1e-11
     reverse = third.reversed()
     driven = reverse.trace(reverse.size.motion(reverse.phi + phi - phi[16], branch=reverse.branch))
@@ -61,7 +62,7 @@ def lengths(size):
 def test_cognates_of_cognates_are_the_three(drawn):
     """The second's second and the third's third are the given one; the other ones are the remaining of the three."""
     bar, u, v, phi, side = drawn
-    first, second, third = cognates(bar, u, v, branch=side, phi=phi[16])
+    first, second, third = cognates(bar, u, v, branch=branch_of_side(side), phi=phi[16])
     again = cognates(second.size, second.u, second.v, branch=second.branch, phi=second.phi)
     back, other = again[1], again[2].reversed()
     assert np.allclose(lengths(back.size), lengths(first.size))
@@ -73,7 +74,7 @@ def test_cognates_of_cognates_are_the_three(drawn):
 def test_one_sextic(drawn):
     """The equations of the three curves are one equation, each in the coordinates of its own frame line."""
     bar, u, v, phi, side = drawn
-    given_, second, third = cognates(bar, u, v, branch=side, phi=phi[16])
+    given_, second, third = cognates(bar, u, v, branch=branch_of_side(side), phi=phi[16])
     points = np.array([0.3 + 0.2j, -1.0 + 2.0j, 4.0 - 1.5j, 2.0 + 5.0j])
     values = coupler_sextic(bar, u, v).value(points)
     for other in (second, third):
@@ -109,7 +110,7 @@ def test_linkages_that_move(side):
     """Moved by the general solver from their homes, all three stay on the curve."""
     bar = FourBar(25, 70, 40, 70)
     sextic = coupler_sextic(bar, 45, 40)
-    for one in cognates(bar, 45, 40, branch=side, phi=1.0):
+    for one in cognates(bar, 45, 40, branch=branch_of_side(side), phi=1.0):
         linkage = one.linkage()
         at_home = np.angle(one.pins[1] - one.pivot)
         motion = move(linkage, at_home + np.linspace(0, 0.3, 20), order=1)
@@ -118,7 +119,7 @@ def test_linkages_that_move(side):
         distance = sextic.value(motion.complex_point("K")) / np.abs(sextic.gradient(motion.complex_point("K")))
         assert np.abs(distance).max() < 1e-9
         for link, like in zip(("crank", "coupler", "rocker"), one.turns_with, strict=True):
-            given_ = bar.motion(1.0, branch=side)
+            given_ = bar.motion(1.0, branch=branch_of_side(side))
             speeds = dict(
                 zip(("crank", "coupler", "rocker"), (given_.crank, given_.coupler, given_.output), strict=True)
             )
@@ -132,14 +133,14 @@ def test_slider_cognates(a, b, e, u, v, side):
     assume(slider.limits and min(math.hypot(u, v), math.hypot(u - b, v)) > 0.3)
     start, end = slider.limits[0]
     phi = start + (end - start) * np.linspace(0.1, 0.9, 17)
-    motion = slider.motion(phi, branch=side)
+    motion = slider.motion(phi, branch=branch_of_side(side))
     assume(motion.transmission_angle.min() > 0.05)
-    first, second = slider_cognates(slider, u, v, branch=side, phi=phi[8])
+    first, second = slider_cognates(slider, u, v, branch=branch_of_side(side), phi=phi[8])
     curve = first.trace(motion)
     turned = motion.coupler.value - motion.coupler.value[8]
-    branches = [second.trace(second.size.motion(second.phi + turned, branch=branch)) for branch in (1, -1)]
+    branches = [second.trace(second.size.motion(second.phi + turned, branch=branch)) for branch in "+-"]
     assert np.abs(np.array(branches) - curve).min(axis=0).max() < 1e-6
-    assert abs(branches[0 if second.branch == 1 else 1][8] - curve[8]) < 1e-6
+    assert abs(branches[0 if second.branch == "+" else 1][8] - curve[8]) < 1e-6
 
 
 @pytest.mark.parametrize("v", [5e-324, -5e-324, 2.2e-309, 1e-300])
@@ -209,8 +210,8 @@ def test_wrong_calls():
         cognates(FourBar(1, 1, 1, 9), 1, 1)
     with pytest.raises(LinkageError, match="crank angle 180 degrees"):
         cognates(FourBar(60, 30, 30, 70), 1, 1, phi=math.pi)
-    with pytest.raises(LinkageError, match="branch must be"):
-        cognates(bar, 1, 1, branch=2)
+    with pytest.raises(LinkageError, match=r"expected \+ or -"):
+        cognates(bar, 1, 1, branch="2")
     with pytest.raises(LinkageError, match="c must be positive, not -1"):
         cognate_sizes(1, 1, [-1, 2], 1, 1, 1)
     with pytest.raises(LinkageError, match="one shape"):
@@ -229,9 +230,9 @@ def test_wrong_calls():
 def test_linkages_of_which_a_link_does_not_turn(bar, branch, still):
     """The parallelogram, and kites with coincident joints: a cognate could not be driven. The other modes have them."""
     with pytest.raises(LinkageError, match=f"the {still}"):
-        cognates(bar, 2, 1, branch=branch)
-    first, second, _ = cognates(bar, 2, 1, branch=-branch)
-    around = bar.motion(first.phi + np.linspace(-0.2, 0.2, 5), branch=-branch)
+        cognates(bar, 2, 1, branch=branch_of_side(branch))
+    first, second, _ = cognates(bar, 2, 1, branch=branch_of_side(-branch))
+    around = bar.motion(first.phi + np.linspace(-0.2, 0.2, 5), branch=branch_of_side(-branch))
     turn = around.coupler.value - around.coupler.value[2]
     other = second.size.motion(second.phi + turn, branch=second.branch)
     assert abs(second.trace(other) - first.trace(around)).max() < 1e-9
@@ -241,4 +242,4 @@ def test_linkages_of_which_a_link_does_not_turn(bar, branch, still):
 def test_the_slider_that_stands_still():
     with pytest.raises(LinkageError, match="the slider stands still"):
         slider_cognates(SliderCrank(2, 2), 2, 1)  # beyond the change point at 90 degrees
-    assert slider_cognates(SliderCrank(2, 2), 2, 1, branch=-1)[1].size == SliderCrank(5**0.5, 5**0.5)
+    assert slider_cognates(SliderCrank(2, 2), 2, 1, branch="-")[1].size == SliderCrank(5**0.5, 5**0.5)

@@ -152,7 +152,7 @@ def test_construction_laws(ratio, phi0, diameter):
     foot = diameter * math.sin(angle)  # where the ray meets the inflection circle
     assert math.isclose(abs(a) ** 2, abs(abs(a) - foot) * lever.size.a, rel_tol=1e-9)
     linkage = lever.size.linkage({"K": (lever.u, lever.v)})
-    motion = move(linkage, made.phi, speed=1, branch="+" if lever.branch > 0 else "-")
+    motion = move(linkage, made.phi, speed=1, branch=lever.branch)
     circle = inflection_circle(motion, "coupler")
     k = motion.complex_point("K")[0]
     turned = (b0 - a0) / abs(b0 - a0)

@@ -8,6 +8,7 @@ from numpy.polynomial.polynomial import polyval2d
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.geometry import coupler_sextic
+from gruebler.mechanics.linkages.branch import branch_of_side
 
 from .test_cognates import four_bars
 
@@ -17,7 +18,7 @@ def test_it_vanishes_on_both_branches(drawn):
     bar, u, v, phi, _ = drawn
     sextic = coupler_sextic(bar, u, v)
     for side in (1, -1):
-        x, y = bar.motion(phi, branch=side).point(u, v).value.T
+        x, y = bar.motion(phi, branch=branch_of_side(side)).point(u, v).value.T
         large = np.maximum(np.hypot(x, y), max(bar.a, bar.b, bar.c, bar.d, abs(u), abs(v)))
         assert np.all(np.abs(sextic.value(x + 1j * y)) < 1e-11 * (2 * large) ** 6)
 

@@ -187,11 +187,11 @@ def test_crane_guide_of_the_documents():
 @pytest.mark.parametrize(
     ("bar", "point", "branch", "middle", "ends", "height"),
     [  # 000/003, section 3.5.4: Chebyshev's 4 : 5 : 5 : 2 and Roberts's frame 2, coupler 1, legs 1; the widest height
-        (FourBar(5, 2, 5, 4), (1, 0), -1, 2, (1.37516174991033, 2.6241191173403196), 4.004996748207649),
+        (FourBar(5, 2, 5, 4), (1, 0), "-", 2, (1.37516174991033, 2.6241191173403196), 4.004996748207649),
         (
             FourBar(1, 1, 1, 2),
             (0.5, -(0.75**0.5)),
-            1,
+            "+",
             1,
             (1.3338547011032014, 0.6665918352267932),
             -0.009998991355327336,

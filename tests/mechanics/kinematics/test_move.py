@@ -32,9 +32,8 @@ def judged(linkage, closed, output, branch, tolerance):
     """Every pose and rate of the general solver against the closed forms, where they are well conditioned."""
     phi = from_degrees(0, 360, 5)
     motion = move(linkage, phi, speed=3.0, acceleration=-2.0, jerk=5.0, branch=branch, order=3)
-    sign = 1 if branch == "+" else -1
     rows = len(motion)
-    judge = closed.motion(phi[:rows], omega=3.0, alpha=-2.0, jerk=5.0, branch=sign)
+    judge = closed.motion(phi[:rows], omega=3.0, alpha=-2.0, jerk=5.0, branch=branch)
     assume(rows and np.abs(motion.roots).min() > 1e-3)  # closed forms keep their side behind a change point
     sound = np.abs(motion.roots[:, 0]) > 0.05
     assume(sound.any())

@@ -93,5 +93,5 @@ def test_rows_beside_a_limit_have_the_rates_of_the_closed_form(which):
     motion = move(four_bar.linkage(), phi, branch="+", order=1)
     assert motion.stop.reason == "limit"
     assert motion.unbounded == ()
-    rates = four_bar.motion(phi[: len(motion)], branch=1).output.velocity
+    rates = four_bar.motion(phi[: len(motion)], branch="+").output.velocity
     assert motion.angular("rocker") == pytest.approx(rates, rel=1e-8, abs=1e-9)

@@ -316,7 +316,7 @@ def reaches(values, length, positions):
         pin = complex(x, y)
         phi = np.angle((pin - a0) / (b0 - a0))
         ends = []
-        for branch in (1, -1):
+        for branch in "+-":
             joint = complex(*size.motion(float(phi), branch=branch).B.value)
             ends.append(a0 + joint * (b0 - a0) / abs(b0 - a0))
         wanted = pin + length * np.exp(1j * radians(angle))

@@ -383,7 +383,7 @@ RATES = {
 VECTORS = ("vA", "vBA", "vB", "aA", "aBA_n", "aBA_t", "aB_n", "aB_t", "aB")
 
 
-@pytest.mark.parametrize(("way", "branch"), [("open", 1), ("crossed", -1)])
+@pytest.mark.parametrize(("way", "branch"), [("open", "+"), ("crossed", "-")])
 def test_velocities_of_section_3_6_2(way, branch):
     reference = C[way]
     solution = velocities.four_bar(25, 70, 40, 70, phi=55, omega=10, branch=branch)
@@ -393,7 +393,7 @@ def test_velocities_of_section_3_6_2(way, branch):
         assert name.replace("_", "") == key.replace("_", "")
         assert (x, y) == pytest.approx(reference[key], **CLOSE)
         assert size == pytest.approx(reference[f"abs_{key}"], **CLOSE)
-    if branch == 1:
+    if branch == "+":
         assert solve(exercise("3.6.2"))["v_B"] == solution["v_B"]
 
 

@@ -18,6 +18,7 @@ from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import branch_of_side
 
 _SMALL = 1e-9  # a length smaller than this part of the frame (or of the travel) is none
 
@@ -34,8 +35,8 @@ class Coordination:
     """The crank angle of the first pair."""
     output_start: float
     """The angle or travel of the output in the first pair."""
-    branch: int
-    """The assembly branch of the first pair."""
+    side: int
+    """The side of the first pair: 1 on the branch ``+``, -1 on ``-``."""
 
     def linkage(self) -> FourBar | SliderCrank | InvertedSliderCrank:
         """The linkage by its usual lengths."""
@@ -95,7 +96,7 @@ class Minimax:
         """The linkage in the position where the interval begins, on its branch."""
         solution = self.solution
         own = solution.linkage().linkage(unit=unit)
-        start = move_in_radians(own, [solution.input_start], branch="+" if solution.branch > 0 else "-")
+        start = move_in_radians(own, [solution.input_start], branch=branch_of_side(solution.side))
         return own.with_reference_pose(start.pose(0))
 
     def to_json(self) -> dict[str, Any]:
@@ -107,7 +108,7 @@ class Minimax:
             "lengths": list(solution.lengths),
             "input_start": float(np.degrees(solution.input_start)),
             "output_start": solution.output_start * unit,
-            "branch": solution.branch,
+            "branch": branch_of_side(solution.side),
             "error": self.error * unit,
             "start_error": self.start_error * unit,
             "optimum": shown.optimum,
@@ -258,11 +259,11 @@ def as_coordination(kind: str, signed: tuple[float, ...], phi: float, output: fl
         b, c, d = signed[1:]
         rocker = output + (np.pi if c < 0 else 0.0)
         gap = d + c * np.exp(1j * output) - point
-        branch = 1 if np.imag(np.conj(d - point) * gap) >= 0 else -1
-        return Coordination(kind, (abs(a), b, abs(c), d), crank, rocker, branch)
+        side = 1 if np.imag(np.conj(d - point) * gap) >= 0 else -1
+        return Coordination(kind, (abs(a), b, abs(c), d), crank, rocker, side)
     if kind == "slider-crank":
-        branch = 1 if output - point.real >= 0 else -1
-        return Coordination(kind, (abs(a), signed[1], signed[2]), crank, output, branch)
+        side = 1 if output - point.real >= 0 else -1
+        return Coordination(kind, (abs(a), signed[1], signed[2]), crank, output, side)
     # The guide has the direction psi; B0 lies on it towards the block for branch +1.
     d, e = signed[1:]
     displacement = float(np.real((d - point) * np.exp(-1j * output)))

@@ -41,7 +41,7 @@ class CurveAtlas:
     kind: FourBarKind
     rows: Reals
     """(unknowns, linkages)"""
-    branch: Reals
+    side: Reals
     phi: Reals
     """(linkages, places) crank angles of places evenly along the curve."""
     z: Complexes
@@ -77,13 +77,13 @@ def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
     w = reach * (0.5 + 2.0 * np.sqrt(fourth) * np.exp(2j * np.pi * fifth))
     rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
     rows = rows[:, _turns(kind, rows)]
-    branch = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)
+    side = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)
     phi = np.linspace(0, 2 * np.pi, 2 * PLACES + 1)
-    z = curve_points(kind, rows[:, :, None], phi[None, :], branch[:, None]).z
+    z = curve_points(kind, rows[:, :, None], phi[None, :], side[:, None]).z
     good = np.isfinite(z).all(axis=1)
-    rows, branch, z = rows[:, good], branch[good], z[good]
+    rows, side, z = rows[:, good], side[good], z[good]
     at = evenly_along(z, phi)
-    return CurveAtlas(kind, rows, branch, at, curve_points(kind, rows[:, :, None], at, branch[:, None]).z)
+    return CurveAtlas(kind, rows, side, at, curve_points(kind, rows[:, :, None], at, side[:, None]).z)
 
 
 class _Start(NamedTuple):
@@ -92,7 +92,7 @@ class _Start(NamedTuple):
     gap: float
     """What the best similarity leaves, relative to the target's spread."""
     row: Reals
-    branch: float
+    side: float
     phi: Reals
     """(points,) crank angles of the target's points, in the plane."""
 
@@ -108,10 +108,10 @@ def _placed(book: CurveAtlas, match: CurveMatch) -> _Start:
     n = match.number
     row = _transformed(book.kind, book.rows[:, n], match.turn, match.shift)
     angle = drive_angles(book.phi[n], match.at) + float(np.angle(match.turn))
-    branch = float(book.branch[n])
+    side = float(book.side[n])
     if match.mirrored:
-        row, angle, branch = _mirrored(book.kind, row), -angle, -branch
-    return _Start(match.gap, row, branch, angle)
+        row, angle, side = _mirrored(book.kind, row), -angle, -side
+    return _Start(match.gap, row, side, angle)
 
 
 def _transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) -> Reals:
@@ -146,7 +146,7 @@ class Fit:
 
     kind: FourBarKind
     row: Reals
-    branch: float
+    side: float
     phi: Reals
     """(points,) crank angles, in the plane."""
     error: float
@@ -226,7 +226,7 @@ def _timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: in
         wanted, turned = (np.conj(target), -(timing - timing[0])) if mirrored else (target, timing - timing[0])
         for begin in 2 * np.pi * np.arange(24) / 24:
             angles = begin + turned
-            w = curve_points(kind, book.rows[:, :, None], angles[None, :], book.branch[:, None]).z
+            w = curve_points(kind, book.rows[:, :, None], angles[None, :], book.side[:, None]).z
             mean = w.mean(axis=1)
             inner = np.conj(w - mean[:, None]) @ wanted
             spread = np.sum(np.abs(w - mean[:, None]) ** 2, axis=1)
@@ -235,10 +235,10 @@ def _timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: in
                 turn = complex(inner[n] / spread[n])
                 middle = np.conj(z.mean()) if mirrored else z.mean()
                 row = _transformed(kind, book.rows[:, n], turn, complex(middle - turn * mean[n]))
-                phi, branch = angles + float(np.angle(turn)), float(book.branch[n])
+                phi, side = angles + float(np.angle(turn)), float(book.side[n])
                 if mirrored:
-                    row, phi, branch = _mirrored(kind, row), -phi, -branch
-                starts.append(_Start(1 - float(likeness[n]), row, branch, phi))
+                    row, phi, side = _mirrored(kind, row), -phi, -side
+                starts.append(_Start(1 - float(likeness[n]), row, side, phi))
     starts.sort(key=lambda start: start.gap)
     return starts[:number]
 
@@ -254,14 +254,14 @@ def _improved(
         return []
     rows = np.array([start.row for start in starts]).T  # (unknowns, starts)
     phi = np.array([start.phi for start in starts])
-    branch = np.array([start.branch for start in starts])
+    side = np.array([start.side for start in starts])
     if kind is SLIDER_CRANK:
-        branch = _slider_branches(rows, phi, branch, z)
+        side = _slider_branches(rows, phi, side, z)
     damping = np.full(len(starts), 1e-3)
-    cost = _cost(kind, rows, phi, branch, z, turning=turning)
+    cost = _cost(kind, rows, phi, side, z, turning=turning)
     unknowns = len(kind.unknowns)
     for _ in range(_STEPS):
-        curve = curve_points(kind, rows[:, :, None], phi, branch[:, None], slopes=True)
+        curve = curve_points(kind, rows[:, :, None], phi, side[:, None], slopes=True)
         rest = curve.z - z
         if timing is None:
             normal = 1j * curve.by_crank / np.maximum(np.abs(curve.by_crank), 1e-12)
@@ -286,7 +286,7 @@ def _improved(
             trial_phi = phi + np.clip(np.nan_to_num(along), -0.3, 0.3)
         else:
             trial_phi = phi + step[:, -1:]
-        trial = _cost(kind, trial_rows, trial_phi, branch, z, turning=turning)
+        trial = _cost(kind, trial_rows, trial_phi, side, z, turning=turning)
         better = trial < cost
         rows = np.where(better, trial_rows, rows)
         phi = np.where(better[:, None], trial_phi, phi)
@@ -297,18 +297,18 @@ def _improved(
         if not (((gain > 1e-10 * cost) | (damping < 1e5)) & ~met).any() or (met.any() and len(z) > unknowns):
             break
     errors = np.sqrt(cost / len(z))
-    return [Fit(kind, rows[:, n], float(branch[n]), phi[n], float(errors[n])) for n in np.flatnonzero(errors < np.inf)]
+    return [Fit(kind, rows[:, n], float(side[n]), phi[n], float(errors[n])) for n in np.flatnonzero(errors < np.inf)]
 
 
-def _slider_branches(rows: Reals, phi: Reals, branch: Reals, z: Complexes) -> Reals:
+def _slider_branches(rows: Reals, phi: Reals, side: Reals, z: Complexes) -> Reals:
     """The branch that lies nearer to the target: a mirror image may or may not change it."""
-    costs = [_cost(SLIDER_CRANK, rows, phi, sign * np.ones_like(branch), z, turning=False) for sign in (1.0, -1.0)]
+    costs = [_cost(SLIDER_CRANK, rows, phi, sign * np.ones_like(side), z, turning=False) for sign in (1.0, -1.0)]
     return np.where(costs[0] <= costs[1], 1.0, -1.0)
 
 
-def _cost(kind: FourBarKind, rows: Reals, phi: Reals, branch: Reals, z: Complexes, *, turning: bool) -> Reals:
+def _cost(kind: FourBarKind, rows: Reals, phi: Reals, side: Reals, z: Complexes, *, turning: bool) -> Reals:
     """The sum of squared distances of each start; infinite where it cannot be assembled or a length is not positive."""
-    w = curve_points(kind, rows[:, :, None], phi, branch[:, None]).z
+    w = curve_points(kind, rows[:, :, None], phi, side[:, None]).z
     cost = np.sum(np.abs(w - z) ** 2, axis=1)
     lengths = rows[[kind.unknowns.index(name) for name in ("a", "b", "c") if name in kind.unknowns]]
     bad = ~np.isfinite(cost) | (lengths < 1e-3).any(axis=0) | (np.abs(rows) > 100).any(axis=0)
@@ -431,7 +431,7 @@ def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:
     phi = float(fit.phi[0])
     pivot = complex(r["a0x"], r["a0y"])
     pin = pivot + r["a"] * complex(np.exp(1j * phi))
-    point = complex(curve_points(fit.kind, fit.row[:, None], fit.phi[:1], fit.branch).z[0])
+    point = complex(curve_points(fit.kind, fit.row[:, None], fit.phi[:1], fit.side).z[0])
     theta = (point - pin) / complex(r["u"], r["v"])
     far = pin + r["b"] * theta
     own = GuidingDyad("RR", pin, pivot)

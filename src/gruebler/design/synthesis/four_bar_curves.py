@@ -40,7 +40,7 @@ class CurvePoints(NamedTuple):
 
 
 def curve_points(
-    kind: FourBarKind, rows: Reals, phi: Reals, branch: Reals | float, *, slopes: bool = False
+    kind: FourBarKind, rows: Reals, phi: Reals, side: Reals | float, *, slopes: bool = False
 ) -> CurvePoints:
     """Coupler points of linkages at crank angles.
 
@@ -48,7 +48,7 @@ def curve_points(
         kind: `FOUR_BAR` or `SLIDER_CRANK`.
         rows: (unknowns, ...) numbers of the linkages, to be spread over the angles by numpy's rules.
         phi: (..., angles).
-        branch: +1 or -1, for each linkage.
+        side: +1 or -1, for each linkage.
         slopes: whether the derivatives by the sizes are wanted.
 
     Cost: about 0.1 us a point, 0.5 us with derivatives.
@@ -63,14 +63,14 @@ def curve_points(
             gap = far - pin
             f = np.abs(gap)
             along = (b * b - r["c"] ** 2 + f * f) / (2 * f)
-            across = branch * np.sqrt(b * b - along * along)
+            across = side * np.sqrt(b * b - along * along)
             theta = gap / f * (along + 1j * across) / b
             rocker = (pin + b * theta - far) / r["c"]
             normal = np.conj(rocker)  # the rocker's pin cannot move along the rocker
         else:
             slide = np.exp(1j * r["angle"])
             height = r["h"] - np.imag(np.conj(slide) * pin)
-            along = branch * np.sqrt(b * b - height * height)
+            along = side * np.sqrt(b * b - height * height)
             theta = slide * (along + 1j * height) / b
             normal = -1j * np.conj(slide)
         w = r["u"] + 1j * r["v"]

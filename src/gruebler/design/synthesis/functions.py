@@ -181,7 +181,7 @@ _SAME_OPTIMUM = 1e-4  # relative: optima are flat, so that two searches for one 
 
 def _same_optimum(first: Minimax, second: Minimax) -> bool:
     own, other = first.solution, second.solution
-    if (own.kind, own.branch) != (other.kind, other.branch):
+    if (own.kind, own.side) != (other.kind, other.side):
         return False
     turn = np.exp(1j * own.input_start) - np.exp(1j * other.input_start)
     gaps = np.abs(np.subtract(own.lengths, other.lengths))

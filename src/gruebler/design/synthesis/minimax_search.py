@@ -15,6 +15,7 @@ from gruebler.base.text import Message, message
 from gruebler.design.synthesis.coordination import Coordination, Minimax, MinimaxCertificate
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.structural_error import ErrorFamily
+from gruebler.mechanics.linkages.branch import branch_of_side
 
 _REGION = 0.1
 """The region for which a certificate says by how much the error may still fall: parts of the numbers, and radians."""
@@ -81,7 +82,7 @@ def minimax(start: Coordination, law: FunctionLaw, *, steps: int = 200) -> Minim
     >>> best.error < best.start_error, best.certificate.optimum, best.certificate.alternations
     (True, True, 6)
     """
-    search = _Search(ErrorFamily(start.kind, start.branch, law))
+    search = _Search(ErrorFamily(start.kind, start.side, law))
     place = search.at(search.family.numbers_of(start))
     if place is None:
         raise SynthesisError("the linkage from which the search is to begin cannot be assembled throughout")
@@ -313,7 +314,7 @@ class _Search:
         solution = self.family.linkage_of(place.numbers)
         assert solution is not None
         x = np.concatenate([place.x, self.family.samples])
-        motion = solution.linkage().motion(self.family.inputs(place.numbers, x), branch=solution.branch)
+        motion = solution.linkage().motion(self.family.inputs(place.numbers, x), branch=branch_of_side(solution.side))
         if np.nanmin(motion.transmission_angle) < _DEAD_CENTRE:
             return message("it comes to a dead centre")
         if stopped is not None or stationary:

@@ -62,7 +62,7 @@ def structural_error(solution: Coordination, law: FunctionLaw, x: ArrayLike) -> 
     The linkage starts as its first precision pair says. Raises `SynthesisError` for inverted slider-cranks.
     Cost: 50 us and 0.1 us a point.
     """
-    family = ErrorFamily(solution.kind, solution.branch, law)
+    family = ErrorFamily(solution.kind, solution.side, law)
     return family.unit * family.errors(family.numbers_of(solution), np.atleast_1d(np.asarray(x, np.float64)))
 
 
@@ -76,7 +76,7 @@ def largest_error(solution: Coordination, law: FunctionLaw) -> float:
     >>> round(largest_error(linkage, law), 6) >= round(float(np.abs(structural_error(linkage, law, 0.3))[0]), 6)
     True
     """
-    family = ErrorFamily(solution.kind, solution.branch, law)
+    family = ErrorFamily(solution.kind, solution.side, law)
     return family.unit * family.largest(family.numbers_of(solution))
 
 
@@ -85,7 +85,7 @@ def error_extremes(solution: Coordination, law: FunctionLaw) -> Reals:
 
     Empty if the linkage cannot be assembled throughout.
     """
-    family = ErrorFamily(solution.kind, solution.branch, law)
+    family = ErrorFamily(solution.kind, solution.side, law)
     return family.extremes(family.numbers_of(solution))[0]
 
 
@@ -100,7 +100,7 @@ class ErrorFamily:
     """
 
     kind: str
-    branch: int
+    side: int
     """+1 or -1: which of the two outputs that solve the equation."""
     law: FunctionLaw
 
@@ -149,7 +149,7 @@ class ErrorFamily:
         lengths = tuple(float(v if self.kind == "four-bar" else self.unit * v) for v in linkage.lengths)
         start = self.unit * (linkage.output_start + float(numbers[4]) - output)
         turned = np.sign(numbers[0] * numbers[1]) if self.kind == "four-bar" else 1
-        return replace(linkage, lengths=lengths, output_start=start, branch=self.branch * int(turned))
+        return replace(linkage, lengths=lengths, output_start=start, side=self.side * int(turned))
 
     def inputs(self, numbers: Reals, x: Reals) -> Reals:
         """The crank angles at x."""
@@ -170,9 +170,9 @@ class ErrorFamily:
                 w = k1 - c - 1j * s
                 cosine = (k2 * c - k3) / np.abs(w)
                 cosine = np.where(np.abs(cosine) < 1 + _ROUNDING, np.clip(cosine, -1, 1), np.nan)
-                output = np.angle(w) + self.branch * np.arccos(cosine)
+                output = np.angle(w) + self.side * np.arccos(cosine)
                 return np.asarray(wanted + np.angle(np.exp(1j * (output - wanted))))
-            return np.asarray(k1 * c / 2 + self.branch * np.sqrt((k1 * c / 2) ** 2 + k2 * s + k3))
+            return np.asarray(k1 * c / 2 + self.side * np.sqrt((k1 * c / 2) ** 2 + k2 * s + k3))
 
     def errors(self, numbers: Reals, x: Reals) -> Reals:
         """(x,) the outputs less those wanted, in radians or parts of the wanted travel; NaN where there is none."""

@@ -28,6 +28,7 @@ from gruebler.mechanics.kinematics.reference_pose import ReferencePose, pose_at_
 from gruebler.mechanics.kinematics.root_finding import FunctionSamples, bracketed_root
 from gruebler.mechanics.kinematics.solve import cached_plan, motion_from_rows, move_in_radians
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch, branch_labels
 
 _CELLS = 360  # of the first grid
 _LEVELS = 16  # how often a cell is halved where the motion bends: to 3e-7 of a turning drive
@@ -250,7 +251,7 @@ def _limit_error(motion: Motion, from_end: Reals) -> float:
     return error if abs(error) < from_end[0] else 0.0
 
 
-def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> DriveCycle:
+def drive_cycle(linkage: Linkage, *, branch: Branch = None) -> DriveCycle:
     """The course of a linkage with one drive.
 
     It is begun at the linkage's reference pose, else at drive value 0 or the first multiple of 5 degrees (for a slide:
@@ -313,7 +314,7 @@ class PathCycle(DriveCycle):
         return _rows(motion, 1 + np.argsort(order_of, kind="stable"))
 
 
-def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCycle:
+def path_cycle(linkage: Linkage, path: ArrayLike, *, branch: Branch = None) -> PathCycle:
     """The course of a linkage along a straight path of its drives, (rows, drives), from the first row to the last.
 
     Raises `LinkageError` if the drives do not move, or if the linkage cannot be moved to the end of the path.
@@ -360,9 +361,9 @@ def _rows(motion: Motion, rows: np.ndarray) -> Motion:
     )
 
 
-def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
+def _begun(plan: Plan, branch: Branch) -> Motion:
     """One row on the branch, well assembled if there is one."""
-    labels = branch if branch is None or isinstance(branch, str) else tuple(branch)
+    labels = branch_labels(branch)
     branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     best, margin = None, 0.0
     for value in _candidates(plan):

@@ -23,7 +23,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import degrees, isfinite, pi
 from typing import Any
@@ -69,6 +69,7 @@ from gruebler.mechanics.analysis.transmission import (
 from gruebler.mechanics.fourbar.extremes import StrokeTimes
 from gruebler.mechanics.kinematics.root_finding import sample_function
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 
 _UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
@@ -357,7 +358,7 @@ def measures(
     linkage: LinkageLike,
     speed_rpm: float | None = None,
     *,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     output: str | None = None,
 ) -> Measures:
     """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
@@ -381,7 +382,7 @@ def measures(
     linkage = as_linkage(linkage)
     looked_at = find_output(linkage, output)
     speed = _speed(speed_rpm)
-    cycle = drive_cycle(linkage, branch)
+    cycle = drive_cycle(linkage, branch=branch)
     if speed is not None and not cycle.turning_drive:
         raise LinkageError("a speed in revolutions per minute needs a turning drive; this linkage has a sliding one")
     span = cycle.span

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import pi
@@ -14,6 +14,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.circuits import Circuit, Quantity, circuit
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.mechanism.roles import Role
@@ -63,7 +64,7 @@ class DriveRange:
 
 
 @door_that_raises(LinkageError)
-def rotatability(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> tuple[Rotatability, ...]:
+def rotatability(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> tuple[Rotatability, ...]:
     """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
 
     They turn fully if there is a net turn over the closed circuit, or if the relative angle takes all values. The
@@ -81,7 +82,7 @@ def rotatability(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | N
     return tuple(_row(traced, *which) for which in _pairs(traced.linkage))
 
 
-def _circuit(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None) -> Circuit:
+def _circuit(linkage: LinkageLike | Circuit, branch: Branch) -> Circuit:
     if not isinstance(linkage, Circuit):
         return circuit(linkage, branch=branch)
     if branch is not None:
@@ -123,7 +124,7 @@ def _quantity(joint: int, links: tuple[str, str], freedom: str) -> Quantity:
 
 
 @door_that_raises(LinkageError)
-def motion_roles(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, Role]:
+def motion_roles(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> dict[str, Role]:
     """The role of each link from its real motion; `gruebler.structure.mechanism.roles` knows the structure only.
 
     At the frame a link with a turning joint is a crank if it turns fully, else a rocker; one with a slide is a slider;
@@ -149,7 +150,7 @@ def motion_roles(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | N
     return roles
 
 
-def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, bool]:
+def slide_directions(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> dict[str, bool]:
     """Each slide by its name: whether its direction turns against the frame (German: *Schleifengelenk*).
 
     >>> from gruebler.mechanics.fourbar import InvertedSliderCrank, SliderCrank
@@ -166,7 +167,7 @@ def slide_directions(linkage: LinkageLike | Circuit, branch: str | Iterable[str]
 
 
 @door_that_raises(LinkageError)
-def drive_range(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> DriveRange:
+def drive_range(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> DriveRange:
     """How far the drive can be moved, both ways, without passing a limit.
 
     >>> from gruebler.mechanics.fourbar import FourBar

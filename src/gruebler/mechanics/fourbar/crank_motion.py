@@ -48,7 +48,8 @@ class CrankMotion:
     """The joint of coupler and output."""
     mu: Reals
     """The angle between coupler and output in 0..pi, not folded."""
-    branch: int
+    side: int
+    """1 on the branch ``+``, -1 on ``-``."""
     reason: Message | None
     """Why some pose is not assembled or some rate not determined; None if all are."""
 

@@ -32,8 +32,9 @@ from gruebler.mechanics.fourbar.extremes import (
     triangle_angle,
 )
 from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, LinkageType, grashof, turning_ranges, types_along
+from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
-from gruebler.mechanics.linkages.quantities import as_branch, as_finite, as_lengths, as_positive, given_and_missing
+from gruebler.mechanics.linkages.quantities import as_finite, as_lengths, as_positive, given_and_missing
 from gruebler.structure.mechanism import Mechanism
 
 
@@ -223,7 +224,7 @@ class FourBar:
         omega: npt.ArrayLike = 1.0,
         alpha: npt.ArrayLike = 0.0,
         jerk: npt.ArrayLike = 0.0,
-        branch: int = 1,
+        branch: Branch = None,
     ) -> CrankMotion:
         """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
 
@@ -235,7 +236,7 @@ class FourBar:
         (4.785205278, 25.805259492)
         """
         a, b, c, d = self.a, self.b, self.c, self.d
-        side = as_branch(branch)
+        side = branch_side(branch)
         crank = crank_rates(phi, omega, alpha, jerk)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             to_b0 = d - a * np.exp(1j * crank.value)
@@ -266,7 +267,7 @@ class FourBar:
             A=CrankRates(*map(points, joint_a)),
             B=CrankRates(*map(points, joint_b)),
             mu=mu,
-            branch=side,
+            side=side,
             reason=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
         )
 

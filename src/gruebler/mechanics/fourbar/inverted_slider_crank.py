@@ -34,8 +34,9 @@ from gruebler.mechanics.fourbar.extremes import (
 )
 from gruebler.mechanics.fourbar.grashof import LinkageType
 from gruebler.mechanics.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation
+from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
-from gruebler.mechanics.linkages.quantities import as_branch, as_eccentricity, as_finite, as_lengths, as_positive
+from gruebler.mechanics.linkages.quantities import as_eccentricity, as_finite, as_lengths, as_positive
 from gruebler.structure.mechanism import Mechanism
 
 
@@ -149,7 +150,7 @@ class InvertedSliderCrank:
         omega: npt.ArrayLike = 1.0,
         alpha: npt.ArrayLike = 0.0,
         jerk: npt.ArrayLike = 0.0,
-        branch: int = 1,
+        branch: Branch = None,
     ) -> InvertedMotion:
         """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
 
@@ -163,7 +164,7 @@ class InvertedSliderCrank:
         array([ 87.265956, -27.662798])
         """
         a, d, e = self.a, self.d, self.e
-        side = as_branch(branch)
+        side = branch_side(branch)
         crank = crank_rates(phi, omega, alpha, jerk)
         slack = 64 * np.finfo(float).eps * (a + d + abs(e))
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
@@ -188,7 +189,7 @@ class InvertedSliderCrank:
             A=CrankRates(*map(points, joint_a)),
             B=CrankRates(b0 - foot[0], *(-rate for rate in foot[1:])),
             mu=mu,
-            branch=side,
+            side=side,
             reason=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
             displacement=block,
         )

@@ -8,6 +8,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar.four_bar import FourBar
 from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
 from gruebler.mechanics.fourbar.slider_crank import SliderCrank
+from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
 
@@ -20,7 +21,7 @@ _LETTER = {"revolute": "R", "prismatic": "P"}
 def linkage_on_mechanism(
     form: str,
     lengths: ClosedForm,
-    branch: int,
+    branch: Branch,
     mechanism: Mechanism | None,
     *,
     unit: str,
@@ -43,7 +44,7 @@ def linkage_on_mechanism(
         sides = {rank[side] for side in own.mechanism.chain.joints[number].links}
         joint_number = next(k for k, joint in enumerate(mechanism.chain.joints) if set(joint.links) == sides)
         elements[rank[link]][joint_number] = element
-    places = None if mechanism is own.mechanism and branch == 1 else _home(lengths, branch)
+    places = None if mechanism is own.mechanism and branch_side(branch) == 1 else _home(lengths, branch)
     reference_pose = None if places is None else dict(zip(loop, places, strict=True))
     return Linkage(mechanism, elements, unit=unit, reference_pose=reference_pose, outputs=outputs or ())
 
@@ -74,7 +75,7 @@ def _loop(mechanism: Mechanism, form: str) -> tuple[str, ...]:
     )
 
 
-def _home(door: ClosedForm, branch: int) -> tuple[tuple[float, float, float], ...] | None:
+def _home(door: ClosedForm, branch: Branch) -> tuple[tuple[float, float, float], ...] | None:
     """Where frame, crank, coupler and output lie in one position, away from dead centres; None if there is none."""
     if not door.limits:
         return None

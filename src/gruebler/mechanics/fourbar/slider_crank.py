@@ -32,10 +32,10 @@ from gruebler.mechanics.fourbar.extremes import (
 )
 from gruebler.mechanics.fourbar.grashof import LinkageType
 from gruebler.mechanics.fourbar.slider_crank_types import SLIDER_CRANK_TYPES, offset_relation
+from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import (
     FloatArray,
-    as_branch,
     as_eccentricity,
     as_finite,
     as_lengths,
@@ -277,7 +277,7 @@ class SliderCrank:
         omega: npt.ArrayLike = 1.0,
         alpha: npt.ArrayLike = 0.0,
         jerk: npt.ArrayLike = 0.0,
-        branch: int = 1,
+        branch: Branch = None,
     ) -> CrankMotion:
         """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
 
@@ -290,7 +290,7 @@ class SliderCrank:
         (-248.657931, -1143.345966)
         """
         a, b, e = self.a, self.b, self.e
-        side = as_branch(branch)
+        side = branch_side(branch)
         crank = crank_rates(phi, omega, alpha, jerk)
         slack = 64 * np.finfo(float).eps * (a + b + abs(e))
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
@@ -315,7 +315,7 @@ class SliderCrank:
             A=CrankRates(*map(points, joint_a)),
             B=CrankRates(*(points(s + (1j * e if k == 0 else 0j)) for k, s in enumerate(output))),
             mu=mu,
-            branch=side,
+            side=side,
             reason=cannot_assemble(self.limits, missing, np.zeros_like(missing), np.isnan(output.velocity) & ~missing),
         )
 

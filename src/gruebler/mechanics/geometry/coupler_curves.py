@@ -28,6 +28,7 @@ from gruebler.mechanics.geometry.path_events import (
 )
 from gruebler.mechanics.geometry.point_path import PointPath, point_path
 from gruebler.mechanics.geometry.sampling import PathPolygon, path_area, path_length, path_polygon
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike
 from gruebler.mechanics.linkages.quantities import as_finite
@@ -156,7 +157,7 @@ def coupler_curve(
     linkage: LinkageLike,
     point: PointLike,
     *,
-    branch: str | None = None,
+    branch: Branch = None,
     tolerance: float | None = None,
     drives: ArrayLike | None = None,
 ) -> CouplerCurve:
@@ -180,5 +181,5 @@ def coupler_curve(
     >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
     [80.56, 147.1, 212.9, 279.44]
     """
-    trail = point_path(as_linkage(linkage), point, branch, drives)
+    trail = point_path(as_linkage(linkage), point, branch=branch, drives=drives)
     return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

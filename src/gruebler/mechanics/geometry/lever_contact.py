@@ -19,7 +19,8 @@ from gruebler.base.text import Message, message
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.linkages.quantities import as_branch, as_finite
+from gruebler.mechanics.linkages.branch import Branch, branch_of_side, branch_side
+from gruebler.mechanics.linkages.quantities import as_finite
 
 _ORDER = 9
 _ZERO = 1e-9  # of the linkage's size, or of what a coefficient may be: smaller ones are roundings
@@ -46,17 +47,18 @@ class LeverPose(NamedTuple):
     v: float
     phi: float
     """The crank's angle against A0B0."""
-    branch: int
+    branch: str
+    """``+`` or ``-``."""
 
 
-def lever_pose(linkage: Linkage, point: str, drive: float, branch: str | None = None) -> LeverPose:
+def lever_pose(linkage: Linkage, point: str, drive: float, *, branch: Branch = None) -> LeverPose:
     """A four-bar or a central inverted slider-crank (joints in the order A0, A, B, B0), wherever its frame lies.
 
     Raises `LinkageError` for other linkages, and a drive value that is out of reach.
 
     >>> pose = lever_pose(FourBar(25, 70, 40, 70).linkage({"K": (45, 40)}), "K", 1.0)
     >>> round(pose.size.c, 9), round(pose.u, 9), round(pose.phi, 9), pose.branch
-    (40.0, 45.0, 1.0, 1)
+    (40.0, 45.0, 1.0, '+')
     """
     motion = move(linkage, drive, branch=branch)
     if not motion.complete:
@@ -78,13 +80,13 @@ def lever_pose(linkage: Linkage, point: str, drive: float, branch: str | None = 
     arm = (complex(motion.complex_point(point)[0]) - a) / along * abs(along)
     phi = math.atan2(crank.imag, crank.real)
     if not b:
-        return LeverPose(InvertedSliderCrank(abs(a - a0), abs(b0 - a0)), arm.real, arm.imag, phi, 1)
+        return LeverPose(InvertedSliderCrank(abs(a - a0), abs(b0 - a0)), arm.real, arm.imag, phi, "+")
     size = FourBar(abs(a - a0), abs(along), abs(b[0] - b0), abs(b0 - a0))
-    return LeverPose(size, arm.real, arm.imag, phi, 1 if ((b0 - a).conjugate() * along).imag >= 0 else -1)
+    return LeverPose(size, arm.real, arm.imag, phi, branch_of_side(((b0 - a).conjugate() * along).imag))
 
 
 def lever_contact(
-    size: FourBar | InvertedSliderCrank, u: float, v: float, phi: float, *, branch: int = 1
+    size: FourBar | InvertedSliderCrank, u: float, v: float, phi: float, *, branch: Branch = None
 ) -> LeverContact:
     """The contact of a coupler point's path with its tangent at a crank angle.
 
@@ -98,7 +100,7 @@ def lever_contact(
     >>> found.points, round(abs(found.coefficient) * 1e4, 9)
     (6, 1.550067728)
     """
-    side, angle, arm = as_branch(branch), as_finite("phi", phi), complex(as_finite("u", u), as_finite("v", v))
+    side, angle, arm = branch_side(branch), as_finite("phi", phi), complex(as_finite("u", u), as_finite("v", v))
     where = message("at the crank angle {angle:g} degrees", angle=math.degrees(angle))
     crank = size.a * np.exp(1j * angle) * 1j ** np.arange(_ORDER) / np.cumprod([1.0, *range(1, _ORDER)])
     to_b0 = -crank

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.geometry.lever_contact import LeverContact, lever_contact
+from gruebler.mechanics.linkages.branch import branch_of_side
 from gruebler.mechanics.linkages.quantities import as_finite, as_positive
 
 _LEAST, _MOST = 0.501, 1.4999  # lambda: towards 0.5 links grow beyond all bounds, towards 1.5 they shrink to nothing
@@ -26,7 +27,7 @@ class CouplerLever:
     size: FourBar
     u: float
     v: float
-    branch: int = 1
+    branch: str = "+"
 
     @property
     def k(self) -> float:
@@ -93,7 +94,7 @@ class SymmetricRocker:
         arm = (self.point - a) / along
         size = FourBar(abs(a - a0), abs(b - a), abs(b - b0), abs(b0 - a0))
         side = ((b0 - a).conjugate() * (b - a)).imag
-        return CouplerLever(size, arm.real, arm.imag, 1 if side >= 0 else -1)
+        return CouplerLever(size, arm.real, arm.imag, branch_of_side(side))
 
     @property
     def phi(self) -> float:

@@ -14,6 +14,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import Brief
 from gruebler.mechanics.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.points import PointLike, point_name
 
 _CELLS = 360  # of the first grid, for each turn
@@ -109,7 +110,7 @@ def _by_parameter(z: list[Complexes], first: Reals, second: Reals) -> Complexes:
 
 
 def point_path(
-    linkage: Linkage, point: PointLike, branch: str | None = None, drives: ArrayLike | None = None
+    linkage: Linkage, point: PointLike, *, branch: Branch = None, drives: ArrayLike | None = None
 ) -> PointPath:
     """The path of a point (`Linkage.points_named`) of a linkage with one drive, or along a path of its drives.
 
@@ -121,7 +122,7 @@ def point_path(
     shown = repr(point_name(point))
     if not places:
         raise LinkageError("the point {point} lies on the frame {frame!r}: it has no path", point=shown, frame=frame)
-    cycle = drive_cycle(linkage, branch) if drives is None else path_cycle(linkage, drives, branch)
+    cycle = drive_cycle(linkage, branch=branch) if drives is None else path_cycle(linkage, drives, branch=branch)
     trail = PointPath(cycle, places[-1])
     if np.abs(trail.at(trail.grid, 1)[1]).max() <= _STILL * trail.size:
         raise LinkageError("the point {point} does not move: it has no path", point=shown)

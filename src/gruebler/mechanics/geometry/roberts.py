@@ -14,6 +14,7 @@ from gruebler.base.text import Message, message
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch, branch_of_side
 from gruebler.mechanics.linkages.quantities import as_finite, as_numbers
 from gruebler.structure.mechanism import Mechanism
 
@@ -65,14 +66,14 @@ class Cognate:
         return self.pins[0]
 
     @property
-    def branch(self) -> int:
+    def branch(self) -> str:
         """The assembly branch in the reference pose.
 
         It may change along the curve unless the crank turns with the given crank.
         """
         _, a, b, *end = self.pins
         side = ((end[0] - a).conjugate() * (b - a)).imag if end else (self.turn.conjugate() * (b - a)).real
-        return 1 if side >= 0 else -1
+        return branch_of_side(side)
 
     @property
     def point(self) -> complex:
@@ -160,7 +161,7 @@ def cognate_sizes(
 
 
 def cognates(
-    four_bar: FourBar, u: float, v: float, *, branch: int = 1, phi: float | None = None
+    four_bar: FourBar, u: float, v: float, *, branch: Branch = None, phi: float | None = None
 ) -> tuple[Cognate, Cognate, Cognate]:
     """The three Roberts-Chebyshev cognates of a four-bar with a coupler point (u from A along AB, v to the left).
 
@@ -199,7 +200,7 @@ def cognates(
 
 
 def slider_cognates(
-    slider: SliderCrank, u: float, v: float, *, branch: int = 1, phi: float | None = None
+    slider: SliderCrank, u: float, v: float, *, branch: Branch = None, phi: float | None = None
 ) -> tuple[Cognate, Cognate]:
     """The two cognates of a slider-crank: the given one, and that on the same pivot with its path turned.
 
@@ -219,7 +220,7 @@ def slider_cognates(
 
 
 def parallel_motion(
-    four_bar: FourBar, u: float, v: float, *, branch: int = 1, phi: float | None = None, unit: str = "mm"
+    four_bar: FourBar, u: float, v: float, *, branch: Branch = None, phi: float | None = None, unit: str = "mm"
 ) -> Linkage:
     """A six-bar whose link ``platform`` translates: each of its points, such as K, traces the given coupler curve.
 
@@ -243,7 +244,7 @@ def parallel_motion(
 
 
 def _pose(
-    size: FourBar | SliderCrank, u: float, v: float, branch: int, phi: float | None
+    size: FourBar | SliderCrank, u: float, v: float, branch: Branch, phi: float | None
 ) -> tuple[complex, complex, complex, complex]:
     """A, B, K in the reference pose, and the coupler triangle's shape (K - A)/(B - A)."""
     arm = complex(as_finite("u", u), as_finite("v", v))

@@ -12,6 +12,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.geometry.straight import Path, PathPiece, linkage_path, longest_piece, path_piece
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.points import PointLike, point_name
 from gruebler.mechanics.linkages.quantities import as_finite, as_positive
 
@@ -84,7 +85,7 @@ def tangent_windows(
     point: PointLike,
     centre: float,
     *,
-    branch: str | None = None,
+    branch: Branch = None,
     ratios: tuple[float, float] = (1e-6, 0.02),
 ) -> RatioCurve:
     """Q_G and L over the windows about a crank angle, against the path's tangent there.
@@ -108,7 +109,7 @@ def tangent_windows(
     middle = move_in_radians(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
     if not len(middle):
         raise LinkageError("{reason}", reason=middle.reason)
-    path, tangent = linkage_path(linkage, point, branch), float(np.angle(middle.complex_point(point, 1)[0]))
+    path, tangent = linkage_path(linkage, point, branch=branch), float(np.angle(middle.complex_point(point, 1)[0]))
     width = 2 * np.pi
     for _ in range(2):  # first the range of the windows, then that range finely
         curve = ratio_curve(path, Window(centre - width / 2, centre, centre + width / 2, tangent))

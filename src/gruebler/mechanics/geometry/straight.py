@@ -13,6 +13,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.points import PointLike
 from gruebler.mechanics.linkages.quantities import as_finite, as_positive
 
@@ -43,7 +44,9 @@ class PathPiece:
         return self.band / self.length if self.length else math.inf
 
 
-def coupler_path(size: FourBar | SliderCrank | InvertedSliderCrank, u: float, v: float, branch: int = 1) -> Path:
+def coupler_path(
+    size: FourBar | SliderCrank | InvertedSliderCrank, u: float, v: float, *, branch: Branch = None
+) -> Path:
     """The path of a coupler point over crank angles, in closed form; NaN where it cannot be assembled."""
 
     def at(phi: Reals) -> Complexes:
@@ -53,7 +56,7 @@ def coupler_path(size: FourBar | SliderCrank | InvertedSliderCrank, u: float, v:
     return at
 
 
-def linkage_path(linkage: Linkage, point: PointLike, branch: str | None = None) -> Path:
+def linkage_path(linkage: Linkage, point: PointLike, *, branch: Branch = None) -> Path:
     """The path of a named point of any linkage with one drive, over the drive's values.
 
     The path raises `LinkageError` where the linkage cannot be moved all the way.

@@ -25,6 +25,7 @@ from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians, starting_configuration
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
+from gruebler.mechanics.linkages.branch import Branch, branch_labels
 
 if TYPE_CHECKING:
     from gruebler._numeric.motion.batch import DesignPoses
@@ -56,7 +57,7 @@ class Motions(Brief):
     """Poses of many designs along one path; NaN in rows that a design does not reach."""
 
     designs: Designs
-    branch: str | None
+    branch: tuple[str, ...] | None
     drives: Reals
     """(rows, drives)"""
     links: tuple[str, ...]
@@ -240,7 +241,7 @@ def move_many(
     speed: ArrayLike | None = None,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-    branch: str | None = None,
+    branch: Branch = None,
     order: int | None = None,
     links: Sequence[str] | None = None,
     threads: int | None = None,
@@ -286,6 +287,7 @@ def move_many(
             raise LinkageError(
                 "there is no link {link!r}; the links are {links}", link=link, links=", ".join(chain.links)
             )
+    labels = branch_labels(branch)
     shape = (count, len(kept), len(path))
     poses = DesignPoses(
         np.empty((upto + 1, *shape), np.complex128),
@@ -293,12 +295,12 @@ def move_many(
         np.empty((upto, *shape)),
         np.empty(count, np.int64),
     )
-    _run(batch, path, speeds, _starts(batch, path, branch), np.array([chain.index(k) for k in kept]), poses, threads)
+    _run(batch, path, speeds, _starts(batch, path, labels), np.array([chain.index(k) for k in kept]), poses, threads)
     places, turns, rates = poses.places.swapaxes(2, 3), poses.turns.swapaxes(1, 2), poses.rates.swapaxes(2, 3)
-    return Motions(batch, branch, path, kept, places, turns, rates, poses.reached)
+    return Motions(batch, labels, path, kept, places, turns, rates, poses.reached)
 
 
-def _starts(designs: Designs, path: Reals, branch: str | None) -> tuple[Reals, Reals]:
+def _starts(designs: Designs, path: Reals, branch: Branch) -> tuple[Reals, Reals]:
     """Signs and unknowns at the first row; NaN for a design that cannot be assembled there."""
     plan, count = designs.plan, len(designs)
     labels = read_branch(plan, branch)

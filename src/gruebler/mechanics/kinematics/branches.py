@@ -11,9 +11,6 @@ dyad, the number of the mode (from 1) for a larger group.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +19,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics.plan import Dyad, HigherGroup, Plan
+from gruebler.mechanics.linkages.branch import Branch, branch_labels, branch_text
 from gruebler.structure.chain.pairs import in_alphabets
 
 _SAME = 1e-6  # sizes and radians: a pose so near to an assembly mode is in it, as modes that are nearer count as one
@@ -37,15 +35,14 @@ def labelled_groups(plan: Plan) -> tuple[Dyad | HigherGroup, ...]:
     return tuple(part for part in plan.parts if (part.branching if isinstance(part, Dyad) else not part.contacts))
 
 
-def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ...]:
+def read_branch(plan: Plan, branch: Branch) -> tuple[str, ...]:
     """The labels of a text such as ``+-`` or ``+,2,-``; `LinkageError` says what is expected."""
     parts = labelled_groups(plan)
-    default = tuple("+" if isinstance(part, Dyad) else "1" for part in parts)
-    if branch is None:
-        return default
-    text = branch if isinstance(branch, str) else ",".join(branch)
-    labels = re.findall(r"[+-]|\d+", text)
-    if "".join(labels) != re.sub(r"[\s,]", "", text) or len(labels) != len(parts):
+    labels = branch_labels(branch)
+    if labels is None:
+        return tuple("+" if isinstance(part, Dyad) else "1" for part in parts)
+    if len(labels) != len(parts):
+        text = branch_text(labels)
         if not parts:
             raise LinkageError("this linkage has one assembly mode and an empty branch; found {branch!r}", branch=text)
         labels_of = [
@@ -64,7 +61,7 @@ def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ..
                 group=_name(plan, part),
                 label=label,
             )
-    return tuple(labels)
+    return labels
 
 
 def _name(plan: Plan, part: Dyad | HigherGroup) -> Message:

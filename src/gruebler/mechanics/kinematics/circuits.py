@@ -7,7 +7,7 @@ others; nothing of the Assur decomposition is used on the way. docs/theory/circu
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
@@ -33,6 +33,7 @@ from gruebler.mechanics.kinematics.poses import Poses
 from gruebler.mechanics.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike
 
@@ -282,7 +283,7 @@ _OPEN = {
 def circuit(
     linkage: LinkageLike,
     *,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     drive: float | None = None,
     step: float = 0.1,
     most: float = 1000.0,
@@ -341,9 +342,7 @@ def circuit(
     return Circuit(linkage, system, traced, turned)
 
 
-def _start(
-    linkage: Linkage, system: ClosureSystem, branch: str | Iterable[str] | None, drive: float | None
-) -> tuple[Reals, Reals]:
+def _start(linkage: Linkage, system: ClosureSystem, branch: Branch, drive: float | None) -> tuple[Reals, Reals]:
     """A pose and its tangent."""
     lower = system.lower
     if lower.reference_pose is not None and branch is None and drive is None:
@@ -396,9 +395,7 @@ def _trial_values(lower: Linkage) -> Iterator[float]:
         yield reach * (2 * ((part + 0.637) % 1) - 1)
 
 
-def _assembled(
-    linkage: Linkage, system: ClosureSystem, value: float, branch: str | Iterable[str] | None
-) -> Reals | None:
+def _assembled(linkage: Linkage, system: ClosureSystem, value: float, branch: Branch) -> Reals | None:
     """The pose at a drive value, or None."""
     try:
         motion = move_in_radians(linkage, [value], branch=branch)

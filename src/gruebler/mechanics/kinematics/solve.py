@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 
@@ -27,6 +27,7 @@ from gruebler.mechanics.kinematics.motion import Motion, Stop, joint_openings
 from gruebler.mechanics.kinematics.plan import Dyad, HigherGroup, Plan, plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose, check_reference, pose_at_reference
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch, branch_text
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 
 _OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
@@ -48,7 +49,7 @@ def move(
     speed: ArrayLike | None = None,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     order: int | None = None,
 ) -> Motion:
     """Move a linkage along a path of its drives.
@@ -90,7 +91,7 @@ def move_in_radians(
     speed: ArrayLike | None = None,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     order: int | None = None,
 ) -> Motion:
     """`move` where the drive values cannot be degrees, however far apart they are."""
@@ -117,7 +118,7 @@ def move_in_radians(
     return replace(motion, **at_change._asdict(), speeds=speeds[:, : len(motion)])
 
 
-def starting_configuration(plan: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:
+def starting_configuration(plan: Plan, first: Reals, branch: Branch) -> tuple[Reals, Reals]:
     """Signs of dyads and unknowns of larger groups at the first row."""
     if not plan.wheels and (branch is not None or plan.lower.reference_pose is None or not labelled_groups(plan)):
         return starting_state(plan, read_branch(plan, branch), first)
@@ -259,7 +260,7 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
     row = drive_path(plan, drives)[:1]
     warn_of_path(plan, row)
     modes = all_branches(plan, row[0])
-    return ["".join(labels) if set(labels) <= {"+", "-"} else ",".join(labels) for labels in modes]
+    return [branch_text(labels) for labels in modes]
 
 
 def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:

@@ -92,13 +92,6 @@ def as_numbers(name: str, value: npt.ArrayLike) -> FloatArray:
     return numbers.astype(np.float64)
 
 
-def as_branch(branch: object) -> int:
-    """One of the two ways to assemble: +1 or -1."""
-    if isinstance(branch, (int, np.integer)) and not isinstance(branch, bool) and branch in {1, -1}:
-        return int(branch)
-    raise LinkageError("branch must be +1 or -1, not {branch!r}", branch=branch)
-
-
 def given_and_missing(**lengths: float | None) -> tuple[dict[str, float], str]:
     """The lengths that are given, checked, and the name of the one that is not.
 

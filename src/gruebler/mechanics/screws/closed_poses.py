@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import cos, inf, sin
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.linkages import Line, Linkage, Pin
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.screws.closing import CLOSED, RANK, Closing, JointFrames
@@ -29,7 +30,7 @@ _GOOD = 0.01  # a smallest singular value, for each unknown, with which the sear
 
 
 def closed_pose(
-    linkage: Linkage | SpatialLinkage, at: Sequence[float] | None = None, branch: str | Iterable[str] | None = None
+    linkage: Linkage | SpatialLinkage, at: Sequence[float] | None = None, branch: Branch = None
 ) -> tuple[Closing, Reals]:
     """The closing conditions of a linkage and a pose: at drive values, else its reference pose, else a regular one.
 
@@ -105,7 +106,7 @@ def _centred(closing: Closing, pose: Reals) -> Reals:
     return moved
 
 
-def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: str | Iterable[str] | None) -> Reals:
+def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: Branch) -> Reals:
     """The pose at drive values, as `move` finds it; with redundant constraints followed from the reference pose."""
     drives = linkage.mechanism.drives
     if at is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite
@@ -16,6 +16,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import Brief
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.screws.closed_poses import closed_pose
 from gruebler.mechanics.screws.finite_mobility import FiniteMobility, finite_mobility
@@ -221,7 +222,7 @@ def freedoms(
     linkage: LinkageLike | SpatialLinkage,
     *,
     at: float | Sequence[float] | None = None,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     tolerance: float = 1e-8,
 ) -> Freedoms:
     """Mobility with dimensions at a pose, and what of it is a motion.

@@ -6,7 +6,7 @@ the error.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import TypedDict, Unpack
@@ -18,6 +18,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import plural, translate
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike, each_point
 from gruebler.pictures.canvas.figure import MARGIN, Figure, svg_document
@@ -34,7 +35,7 @@ _LONGEST = 3600.0  # seconds
 class AnimationOptions(TypedDict, total=False):
     """Arguments of `scene` besides the linkage."""
 
-    branch: str | Iterable[str] | None
+    branch: Branch
     between: tuple[float, float] | None
     drives: ArrayLike | None
     curves: Sequence[PointLike]
@@ -69,7 +70,7 @@ class Scene:
 def scene(
     linkage: LinkageLike,
     *,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     between: tuple[float, float] | None = None,
     drives: ArrayLike | None = None,
     curves: Sequence[PointLike] = (),

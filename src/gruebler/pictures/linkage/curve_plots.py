@@ -14,6 +14,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import decimal_sign_in, message, translate
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike, each_point, place_of
 from gruebler.pictures.canvas.axes import Axis, Scale, decimals
@@ -21,7 +22,7 @@ from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.pictures.canvas.shapes import Point
 from gruebler.pictures.canvas.styles import LINES
-from gruebler.pictures.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
+from gruebler.pictures.linkage.piecewise_curves import Between, PlotRun, plot_run
 from gruebler.pictures.linkage.posed_linkage import floating_link, link_nodes
 
 _SQUARE = 460.0  # pixels of the longer side

@@ -15,13 +15,14 @@ from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.analysis.events import natural_speed, stops
 from gruebler.mechanics.analysis.outputs import Output, find_output
 from gruebler.mechanics.analysis.transmission import measure_transmission
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.pictures.canvas.axes import Axis, angles, decimals
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import AxisMarker, Band, DwellMarker, Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.pictures.canvas.shapes import Point
 from gruebler.pictures.canvas.styles import LINES
-from gruebler.pictures.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
+from gruebler.pictures.linkage.piecewise_curves import Between, PlotRun, plot_run
 
 _GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three

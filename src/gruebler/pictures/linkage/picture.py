@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import cos, degrees, pi, sin
@@ -11,6 +11,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import message, number, number_separator, plural, translate
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike, each_point
 from gruebler.pictures.canvas.axes import as_text
@@ -66,7 +67,7 @@ def draw_linkage(
     linkage: LinkageLike,
     drive: float | Sequence[float] | None = None,
     *,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     between: tuple[float, float] | None = None,
     curves: Sequence[PointLike] = (),
     show: Sequence[str] = (),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,13 +13,13 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import number, translate
 from gruebler.mechanics.analysis.drive_cycle import DriveCycle, drive_cycle
 from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.pictures.canvas.axes import Axis, angles, as_text, decimals
 from gruebler.pictures.linkage.posed_linkage import drive_rows
 from gruebler.pictures.structure.messages import title
 
 Between = tuple[float, float] | None
-Branch = str | Iterable[str] | None
 
 ROWS = 720
 """Poses of a turn, or of the range."""
@@ -117,7 +116,7 @@ def plot_run(linkage: LinkageLike, order: int, branch: Branch, between: Between,
     linkage = as_linkage(linkage)
     if not linkage.mechanism.drives:
         raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
-    cycle = drive_cycle(linkage, branch)
+    cycle = drive_cycle(linkage, branch=branch)
     drives = drive_rows(cycle, between, ROWS)
     if between is None and cycle.span.full:
         drives = drives - drives[0]

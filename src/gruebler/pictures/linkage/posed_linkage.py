@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -19,6 +19,7 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
 from gruebler.mechanics.linkages import Linkage, LinkPoint, Pin
+from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.elements import Circle, Wheel
 from gruebler.pictures.canvas.shapes import Point
@@ -115,7 +116,7 @@ def posed_linkage(
     linkage: LinkageLike,
     drive: float | Sequence[float] | None = None,
     *,
-    branch: str | Iterable[str] | None = None,
+    branch: Branch = None,
     between: tuple[float, float] | None = None,
     drives: ArrayLike | None = None,
 ) -> PosedLinkage:
@@ -140,14 +141,14 @@ def posed_linkage(
                 warn_of_degrees(name, _of_drive(given, k, len(linkage.mechanism.drives)))
     plan = cached_plan(linkage)
     if drives is not None:
-        along = path_cycle(linkage, drives, branch)
+        along = path_cycle(linkage, drives, branch=branch)
         path = along.at(np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2, 0)
         return PosedLinkage(
             along.lower_linkage, along, along.at(np.array([1 / 3]), 2), path, _scale(along.lower_linkage, path)
         )
     if len(linkage.mechanism.drives) == 1:
         try:
-            cycle = drive_cycle(linkage, branch)
+            cycle = drive_cycle(linkage, branch=branch)
         except LinkageError as error:
             return _one_position(linkage, values, branch, error)
         path = cycle.at(drive_rows(cycle, between), 0)
@@ -167,9 +168,7 @@ def _posed(pose: Motion) -> PosedLinkage:
     return PosedLinkage(pose.lower_linkage, None, pose, pose, _scale(pose.lower_linkage, pose))
 
 
-def _one_position(
-    linkage: Linkage, values: Reals | None, branch: str | Iterable[str] | None, error: LinkageError
-) -> PosedLinkage:
+def _one_position(linkage: Linkage, values: Reals | None, branch: Branch, error: LinkageError) -> PosedLinkage:
     """The pose of a linkage that cannot move, at the given value or at the first possible one; else its error."""
     candidates = values.reshape(1, -1) if values is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
     turning = linkage.mechanism.drives[0].turning

@@ -119,7 +119,7 @@ def watt_linkage(
         "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
     )
     values = from_degrees(start, stop, as_step(step))
-    motion = size.motion(values - tilt, branch=-1)
+    motion = size.motion(values - tilt, branch="-")
     if not motion.complete:
         raise LinkageError("the left rocker cannot reach these angles: {reason}", reason=motion.message)
     local = motion.point(coupler / 2).value
@@ -143,7 +143,7 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left_
     from scipy.optimize import brentq
 
     side = size.a / 600
-    path = coupler_path(size, coupler / 2, 0, branch=-1)
+    path = coupler_path(size, coupler / 2, 0, branch="-")
 
     def at(t: float) -> complex:
         return left_pivot + complex(path(np.array([t - tilt]))[0]) * cmath.exp(1j * tilt)
@@ -160,7 +160,7 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left_
     builder.find("stroke", name, "F_y2 - F_y1", high - low, symbol="H", F_y1=low, F_y2=high)
     builder.keep("t_low", message("rocker at the lower end"), degrees(ends[0]), unit="°")
     builder.keep("t_high", message("rocker at the upper end"), degrees(ends[1]), unit="°")
-    contact = lever_contact(size, coupler / 2, 0, -tilt, branch=-1)
+    contact = lever_contact(size, coupler / 2, 0, -tilt, branch="-")
     name = message("points that path and tangent have in common in the middle")
     builder.keep("n", name, contact.points)
     builder.say(
@@ -241,7 +241,7 @@ def double_rocker(
     builder.table(PATH, ("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
     ends = radians(start) - tilt, radians(stop) - tilt
     _add_strip(builder, size, coupler_path(size, a - ac, 0), ends, frame)
-    _check_piece(builder, path_piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", "+"), *ends))
+    _check_piece(builder, path_piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", branch="+"), *ends))
     _check_limits(builder, size)
     check_path(builder, size.linkage({"C": (a - ac, 0)}), values - tilt, local, "+")
     return builder.done()

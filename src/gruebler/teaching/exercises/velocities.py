@@ -12,6 +12,7 @@ from gruebler.base.text import message
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.linkages.branch import branch_side
 from gruebler.mechanics.linkages.quantities import as_finite
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, figure
 
@@ -25,7 +26,7 @@ _TURNED = message("The sign says in which sense: positive is counter-clockwise, 
 
 
 def four_bar(
-    a: float, b: float, c: float, d: float, phi: float, omega: float, branch: float = 1, unit: str = "mm"
+    a: float, b: float, c: float, d: float, phi: float, omega: float, branch: str = "+", unit: str = "mm"
 ) -> Solution:
     """Velocity and acceleration of the joint B of a four-bar at a crank angle, crank at constant speed (rad/s).
 
@@ -36,8 +37,8 @@ def four_bar(
     size = FourBar(a, b, c, d)
     if as_finite("omega", omega) == 0:
         raise LinkageError("at ω = 0 nothing moves: give an angular velocity")
-    side = 1 if branch >= 0 else -1
-    pose = size.motion(radians(phi), branch=side)
+    side = branch_side(branch)
+    pose = size.motion(radians(phi), branch=branch)
     if not pose.complete:
         raise LinkageError(pose.message)
     builder = SolutionBuilder(unit)
@@ -50,7 +51,7 @@ def four_bar(
     )
     rates = _four_bar_rates(builder, size, (phi, theta, psi), omega)
     _four_bar_accelerations(builder, size, (phi, theta, psi), (omega, *rates))
-    moved = move_in_radians(size.linkage(), [radians(phi)], speed=omega, branch="+" if side > 0 else "-")
+    moved = move_in_radians(size.linkage(), [radians(phi)], speed=omega, branch=branch)
     _add_vectors(builder, moved)
     _check_four_bar(builder, size, moved, phi)
     return builder.done()
