@@ -28,6 +28,7 @@ WINGS = {
             "documents",
             "doors",
             "events",
+            "immutable",
             "notebook",
         },
         {"columns", "jets"},

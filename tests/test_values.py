@@ -11,8 +11,11 @@ import importlib
 import inspect
 import itertools
 import math
+import os
 import pickle
 import pkgutil
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -23,6 +26,7 @@ import gruebler as gr
 from gruebler.base.arrays import same
 from gruebler.base.columns import Column
 from gruebler.base.errors import LinkageError
+from gruebler.base.immutable import Immutable
 from gruebler.design.synthesis import DeadCentreTask
 from gruebler.machines.cams import Roller, read_lift
 from gruebler.machines.gears import Mesh
@@ -217,22 +221,89 @@ def test_every_class_of_the_front_door_is_among_them():
     assert classes_there - set(PAIRS) == {"UnitWarning"}  # a warning is a kind, not a value
 
 
-@pytest.mark.parametrize(
-    ("value", "name"),
-    [
-        (gr.Chain.parse("R(0-1) R(1-2) R(2-0)"), "links"),
-        (FOUR_BAR.linkage().mechanism, "frame"),
-        (FOUR_BAR.linkage(), "unit"),
-    ],
-)
+LIKE_CHAINS = [
+    (gr.Chain.parse("R(0-1) R(1-2) R(2-0)"), "links"),
+    (FOUR_BAR.linkage().mechanism, "frame"),
+    (FOUR_BAR.linkage({"K": (30, 20)}), "unit"),
+    (WINCH, "places"),
+]
+"""One value of each class that is immutable in the way of a chain, and one of its fields."""
+
+
+@pytest.mark.parametrize(("value", "name"), LIKE_CHAINS)
 def test_chain_mechanism_and_linkage_are_immutable_alike(value, name):
+    assert isinstance(value, Immutable)
     assert copy.copy(value) is value
     assert copy.deepcopy([value])[0] is value
-    with pytest.raises(AttributeError, match="does not change"):
-        setattr(value, name, "x")
-    with pytest.raises(AttributeError, match="does not change"):
-        delattr(value, name)
-    assert getattr(value, name)
+    before = getattr(value, name)
+    for field in (name, "unheard_of", "_hash"):
+        with pytest.raises(dataclasses.FrozenInstanceError):
+            setattr(value, field, "x")
+        with pytest.raises(dataclasses.FrozenInstanceError):
+            delattr(value, field)
+    assert getattr(value, name) is before
+
+
+def test_every_class_that_is_immutable_in_this_way_is_tried():
+    assert {type(value) for value, _ in LIKE_CHAINS} == {each for each in CLASSES if Immutable in each.__bases__}
+
+
+@pytest.mark.parametrize(("value", "name"), LIKE_CHAINS)
+def test_the_hash_is_computed_once(value, name, monkeypatch):
+    fresh = pickle.loads(pickle.dumps(value))
+    asked = []
+    identity = type(value)._identity
+    monkeypatch.setattr(type(value), "_identity", lambda self: asked.append(1) or identity(self))
+    assert len({hash(fresh) for _ in range(3)}) == 1
+    assert fresh == value
+    assert len({fresh, value}) == 1
+    assert sum(asked) <= 2  # once each
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_a_pickle_holds_fields_and_no_hash(protocol):
+    """The hash of a text differs from process to process: one taken along would lose the value in every set."""
+    for value, _ in LIKE_CHAINS:
+        hash(value)
+        assert set(value.__getstate__()) == {field.name for field in dataclasses.fields(value)}
+        again = pickle.loads(pickle.dumps(value, protocol))
+        assert not {"_hash", "_key"} & set(vars(again))
+        assert again == value
+    linkage = pickle.loads(pickle.dumps(LIKE_CHAINS[2][0], protocol))
+    for mapping in (linkage.elements, linkage.points, linkage.reference_pose or linkage.points):
+        with pytest.raises(TypeError):
+            mapping["K"] = None
+
+
+def test_a_pickle_of_another_process_is_found_in_a_set():
+    script = (
+        "import pickle, sys; import gruebler as gr; value = gr.FourBar(25, 70, 40, 70).linkage(); hash(value); "
+        "sys.stdout.buffer.write(pickle.dumps(value))"
+    )
+    environment = os.environ | {"PYTHONHASHSEED": "123"}
+    other = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, check=True)
+    assert pickle.loads(other.stdout) in {FOUR_BAR.linkage()}
+
+
+def test_the_same_numbers_in_two_classes_are_not_equal():
+    @dataclasses.dataclass(frozen=True, eq=False)
+    class Left(Immutable):
+        number: int
+
+        def _identity(self):
+            return (self.number,)
+
+    @dataclasses.dataclass(frozen=True, eq=False)
+    class Right(Immutable):
+        number: int
+
+        def _identity(self):
+            return (self.number,)
+
+    assert Left(1) != Right(1)
+    assert Left(1) == Left(1)
+    assert Left(1) != Left(2)
+    assert Left(1) != (1,)
 
 
 def test_arrays_are_compared_by_what_they_hold():

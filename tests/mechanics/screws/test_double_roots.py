@@ -115,7 +115,7 @@ def test_several_drives_are_followed_together():
 
 def test_home_screws_with_several_drives():
     text = "R(0-1) R(0-2) R(1-3) R(2-3) R(3-4) R(3-5) R(4-6) R(5-6); frame=0; drive=R(0-1); drive=R(3-4)"
-    made = SpatialLinkage(Mechanism.parse(text), m.drafting().joints)
+    made = SpatialLinkage(Mechanism.parse(text), m.drafting().places)
     found = freedoms(made, at=[0.2, -0.3])
     assert [joint_value(found.instant.closing, found.instant.pose, k) for k in (0, 4)] == pytest.approx([0.2, -0.3])
     assert found.mobility == 2

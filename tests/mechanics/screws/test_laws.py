@@ -60,7 +60,7 @@ def test_another_frame_and_another_order(name):
     chain = linkage.mechanism.chain
     here = freedoms(linkage)
     for frame in chain.links[1:3]:
-        other = SpatialLinkage(Mechanism(chain, frame), linkage.joints)
+        other = SpatialLinkage(Mechanism(chain, frame), linkage.places)
         found = freedoms(other)
         assert (found.instant.mobility, found.mobility) == (here.instant.mobility, here.mobility)
         assert found.instant.redundant == here.instant.redundant

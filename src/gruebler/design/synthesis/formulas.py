@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError, nearest
+from gruebler.base.immutable import settle
 
 _LONGEST = 300  # characters
 _DEEPEST = 40  # operations within one another
@@ -59,7 +60,7 @@ class Formula:
                 "the function {function!r} cannot be read; write for example log10(x)", function=self.text
             ) from None
         self._check(tree, 0)
-        object.__setattr__(self, "tree", tree)
+        settle(self, tree=tree)
 
     def _check(self, node: ast.AST, depth: int) -> None:
         if depth > _DEEPEST:

@@ -15,6 +15,7 @@ import numpy as np
 from gruebler.base.angles import warn_of_degrees
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import SynthesisError
+from gruebler.base.immutable import settle
 from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 
@@ -101,15 +102,14 @@ class PositionTask:
 
     def __post_init__(self) -> None:
         rows = _rows(self, "positions", 3)
-        object.__setattr__(self, "positions", rows)
-        for name in ("moving_pivots", "fixed_pivots"):
-            object.__setattr__(self, name, _rows(self, name, 2))
+        settle(self, positions=rows)
+        settle(self, **{name: _rows(self, name, 2) for name in ("moving_pivots", "fixed_pivots")})
         if len(rows) < 2:
             raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
         if (self.moving_pivots or self.fixed_pivots) and len(rows) > 4:
             raise SynthesisError("pivots can be chosen for two to four positions, not for {count}", count=len(rows))
         places = _numbers(self, "curve_parameters")
-        object.__setattr__(self, "curve_parameters", places)
+        settle(self, curve_parameters=places)
         if places and len(rows) != 4:
             raise SynthesisError(
                 "{key}: Burmester's curves belong to four positions, not to {count}",
@@ -177,14 +177,14 @@ class PathTask:
 
     def __post_init__(self) -> None:
         rows = _rows(self, "points", 2)
-        object.__setattr__(self, "points", rows)
+        settle(self, points=rows)
         pivots = _rows(self, "fixed_pivots", 2)
-        object.__setattr__(self, "fixed_pivots", pivots)
+        settle(self, fixed_pivots=pivots)
         free = enumerate(_entries(self, "angles"))
         angles = tuple(None if a is None else _number(a, _numbered("angles", k)) for k, a in free)
-        object.__setattr__(self, "angles", angles)
+        settle(self, angles=angles)
         timing = _numbers(self, "crank_angles")
-        object.__setattr__(self, "crank_angles", timing)
+        settle(self, crank_angles=timing)
         if len(rows) < 2:
             raise SynthesisError("points: expected at least two, but found {count}", count=len(rows))
         for name, values in (("angles", angles), ("crank_angles", timing)):
@@ -265,8 +265,7 @@ class FunctionTask:
     """The function whose values at Chebyshev's spacing the pairs are; `function_task` makes such a task."""
 
     def __post_init__(self) -> None:
-        for name in ("inputs", "outputs"):
-            object.__setattr__(self, name, _numbers(self, name))
+        settle(self, **{name: _numbers(self, name) for name in ("inputs", "outputs")})
         if len(self.inputs) != len(self.outputs):
             raise SynthesisError(
                 "a function task needs as many inputs as outputs, but found {inputs} inputs and {outputs} outputs",
@@ -345,7 +344,7 @@ class DeadCentreTask:
                     names=joined_by_and(names),
                     present=joined_by_and(present) if present else message("none"),
                 )
-            object.__setattr__(self, present[0], _number(getattr(self, present[0]), present[0]))
+            settle(self, **{present[0]: _number(getattr(self, present[0]), present[0])})
         if self.swing is not None and not 0 < self.swing < pi:
             raise SynthesisError(
                 "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",

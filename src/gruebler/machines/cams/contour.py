@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.immutable import settle
 from gruebler.base.text import message
 from gruebler.machines.cams.follower import Flat, Follower, Roller
 from gruebler.machines.cams.laws import CamError, finite_array
@@ -117,7 +118,7 @@ class ArcContour:
     arcs: tuple[ContourArc, ...]
 
     def __init__(self, arcs: Iterable[ContourArc]) -> None:
-        object.__setattr__(self, "arcs", tuple(ContourArc(float(s), complex(c), float(r)) for s, c, r in arcs))
+        settle(self, arcs=tuple(ContourArc(float(s), complex(c), float(r)) for s, c, r in arcs))
         if not self.arcs:
             raise CamError("a contour has at least one arc")
         for arc in self.arcs:

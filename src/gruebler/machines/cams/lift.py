@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import nearest
+from gruebler.base.immutable import settle
 from gruebler.base.text import message
 from gruebler.machines.cams.extremes import Function, extremes
 from gruebler.machines.cams.laws import CamError, MotionLaw, boundary_law, finite_array, motion_law
@@ -97,7 +98,7 @@ class Lift:
     segments: tuple[LiftSegment, ...]
 
     def __init__(self, segments: Iterable[LiftSegment]) -> None:
-        object.__setattr__(self, "segments", tuple(segments))
+        settle(self, segments=tuple(segments))
         if not self.segments:
             raise CamError("a lift has at least one part")
         turn = sum(segment.angle for segment in self.segments)

@@ -17,6 +17,7 @@ from types import MappingProxyType
 from gruebler.base import notebook
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.immutable import settle
 from gruebler.base.text import Message, message
 from gruebler.machines.gears.rational import Elimination, Row, rational_echelon
 
@@ -132,8 +133,8 @@ class Mesh:
                 raise GearError(
                     "wheel on {name}: {kind} takes a positive size, not {size}", name=name, kind=self.kind, size=size
                 )
-        object.__setattr__(self, "size_a", exact_number(self.size_a, self.a))
-        object.__setattr__(self, "size_b", exact_number(self.size_b, self.b))
+        settle(self, size_a=exact_number(self.size_a, self.a))
+        settle(self, size_b=exact_number(self.size_b, self.b))
         if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
             raise GearError("an internal wheel (minus) is larger than the wheel in it: {mesh}", mesh=self)
         if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
@@ -192,7 +193,7 @@ class Train:
     meshes: tuple[Mesh, ...]
 
     def __init__(self, meshes: Iterable[Mesh]) -> None:
-        object.__setattr__(self, "meshes", tuple(meshes))
+        settle(self, meshes=tuple(meshes))
         if not self.meshes:
             raise GearError("a gear train has at least one mesh")
         self.units()

@@ -13,6 +13,7 @@ from gruebler.base import notebook
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
+from gruebler.base.immutable import settle
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -56,8 +57,7 @@ class FourBar:
     d: float
 
     def __post_init__(self) -> None:
-        for name, value in as_lengths(a=self.a, b=self.b, c=self.c, d=self.d).items():
-            object.__setattr__(self, name, value)
+        settle(self, **as_lengths(a=self.a, b=self.b, c=self.c, d=self.d))
 
     @classmethod
     def central(

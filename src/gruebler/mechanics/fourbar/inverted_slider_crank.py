@@ -14,6 +14,7 @@ from gruebler.base import notebook
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
+from gruebler.base.immutable import settle
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankRates,
@@ -59,9 +60,8 @@ class InvertedSliderCrank:
     e: float = 0.0
 
     def __post_init__(self) -> None:
-        for name, value in as_lengths(a=self.a, d=self.d).items():
-            object.__setattr__(self, name, value)
-        object.__setattr__(self, "e", as_eccentricity(self.e, self.a, self.d))
+        settle(self, **as_lengths(a=self.a, d=self.d))
+        settle(self, e=as_eccentricity(self.e, self.a, self.d))
 
     @classmethod
     def for_time_ratio(cls, time_ratio: float, *, d: float) -> InvertedSliderCrank:

@@ -13,6 +13,7 @@ from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
+from gruebler.base.immutable import settle
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -86,9 +87,8 @@ class SliderCrank:
     e: float = 0.0
 
     def __post_init__(self) -> None:
-        for name, value in as_lengths(a=self.a, b=self.b).items():
-            object.__setattr__(self, name, value)
-        object.__setattr__(self, "e", as_eccentricity(self.e, self.a, self.b))
+        settle(self, **as_lengths(a=self.a, b=self.b))
+        settle(self, e=as_eccentricity(self.e, self.a, self.b))
 
     @classmethod
     def from_ratio(cls, *, a: float, ratio: float, e: float = 0.0) -> SliderCrank:

@@ -3,33 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from math import hypot, pi
+from math import hypot
 from types import MappingProxyType
 from typing import Any
 
 from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
-from gruebler.base.errors import LinkageError, nearest
-from gruebler.base.text import Message, message
+from gruebler.base.errors import LinkageError
+from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.linkages.drawing import taken_apart
 from gruebler.mechanics.linkages.elements import (
-    CENTRED,
     INVERSE,
     CamDisc,
     Element,
-    Line,
     LinkPoint,
     NonCircular,
     Pin,
     Pose2D,
     RoundElement,
-    check_elements_fit,
-    read_element,
 )
 from gruebler.mechanics.linkages.points import PointLike, points_of
-from gruebler.mechanics.linkages.wheels import check_wheels, resolve_wheels
+from gruebler.mechanics.linkages.soundness import checked_elements, checked_link, checked_points, checked_pose
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Mechanism
 
@@ -37,7 +33,8 @@ NEAR_REFERENCE = 0.05
 """Sizes and radians: a closed position farther away is not the reference pose that was meant."""
 
 
-class Linkage:
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Linkage(Immutable):
     """A planar mechanism with the dimensions of its links. Immutable, and checked when it is constructed.
 
     Every link has coordinates of its own; those of the frame are the coordinates of the plane. The drive value of a
@@ -68,8 +65,6 @@ class Linkage:
     70.0
     """
 
-    __slots__ = ("__dict__", "elements", "mechanism", "outputs", "points", "reference_pose", "unit")
-
     mechanism: Mechanism
     elements: Mapping[tuple[int, str], Element]
     points: Mapping[str, LinkPoint]
@@ -88,65 +83,20 @@ class Linkage:
         reference_pose: Mapping[str, tuple[float, float, float]] | None = None,
         outputs: Iterable[str] = (),
     ) -> None:
-        chain = mechanism.chain
-        if chain.space is not Space.PLANAR:
-            raise LinkageError("only planar mechanisms have dimensions; this one is {space}", space=chain.space)
-        checked: dict[tuple[int, str], Element] = {}
-        names = chain.joint_names()
-        for link, by_joint in elements.items():
-            for joint, raw in by_joint.items():
-                number = chain.joint_number(joint, LinkageError)
-                if link not in chain.joints[number].links:
-                    raise LinkageError("{joint} is not a joint of {link!r}", joint=chain.joint_title(number), link=link)
-                checked[number, link] = read_element(raw, f"{link}, {names[number]}")
-        self._check_joints(mechanism, checked)
-        checked = resolve_wheels(mechanism, checked)
-        check_wheels(mechanism, checked)
-        named = {
-            name: _named(mechanism, name, *place) if len(place) == 3 else _refuse_point(name)
-            for name, place in (points or {}).items()
-        }
-        for name in named:
-            if name in chain.links or chain.find_joint(name) is not None:
-                raise LinkageError("the point {name!r} has the name of a link or joint", name=name)
-        for link in outputs:
-            _link(mechanism, link, "outputs")
-        object.__setattr__(self, "mechanism", mechanism)
-        object.__setattr__(self, "elements", MappingProxyType(checked))
-        object.__setattr__(self, "points", MappingProxyType(named))
-        object.__setattr__(self, "unit", unit)
-        object.__setattr__(
+        if mechanism.chain.space is not Space.PLANAR:
+            raise LinkageError(
+                "only planar mechanisms have dimensions; this one is {space}", space=mechanism.chain.space
+            )
+        pose = None if reference_pose is None else MappingProxyType(checked_pose(mechanism, reference_pose))
+        settle(
             self,
-            "reference_pose",
-            None if reference_pose is None else MappingProxyType(_checked_pose(mechanism, reference_pose)),
+            mechanism=mechanism,
+            elements=MappingProxyType(checked_elements(mechanism, elements)),
+            points=MappingProxyType(checked_points(mechanism, points or {})),
+            unit=unit,
+            reference_pose=pose,
+            outputs=tuple(checked_link(mechanism, link, "outputs") for link in outputs),
         )
-        object.__setattr__(self, "outputs", tuple(outputs))
-
-    @staticmethod
-    def _check_joints(mechanism: Mechanism, elements: Mapping[tuple[int, str], Element]) -> None:
-        names = mechanism.chain.joint_names()
-        for number, joint in enumerate(mechanism.chain.joints):
-            for link in joint.links:
-                if (number, link) not in elements:
-                    raise LinkageError(
-                        "{joint} has no dimensions on {link!r}", joint=mechanism.chain.joint_title(number), link=link
-                    )
-            check_elements_fit(joint.pair, names[number], {link: elements[number, link] for link in joint.links})
-        if any(isinstance(element, CENTRED) for element in elements.values()):
-            return  # shafts on one axis
-        for link in mechanism.chain.links:
-            pins = [(n, e) for (n, owner), e in elements.items() if owner == link and isinstance(e, Pin)]
-            for k, (n, pin) in enumerate(pins):
-                for m, other in pins[:k]:
-                    size = max(hypot(pin.x, pin.y), hypot(other.x, other.y), 1e-300)
-                    if hypot(pin.x - other.x, pin.y - other.y) <= 1e-12 * size or pin == other:
-                        raise LinkageError(
-                            "on {link!r} the points of {joint} and {other} coincide: a link needs a length "
-                            "(turning joints of several links at one place are written as one, such as R(a-b-c))",
-                            link=link,
-                            joint=mechanism.chain.joint_title(m),
-                            other=mechanism.chain.joint_title(n),
-                        )
 
     @classmethod
     @door_that_raises(LinkageError)
@@ -173,7 +123,7 @@ class Linkage:
         (2.0, 1.5707963267948966)
         """
         elements, seen, pose = taken_apart(mechanism, places, points or {})
-        return Linkage(mechanism, elements, seen, unit=unit, reference_pose=pose, outputs=tuple(outputs))
+        return cls(mechanism, elements, seen, unit=unit, reference_pose=pose, outputs=outputs)
 
     # --- what it is ----------------------------------------------------------------------------------
 
@@ -347,34 +297,11 @@ class Linkage:
 
     # --- a value -------------------------------------------------------------------------------------
 
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a linkage does not change; build another one instead of setting {name!r}")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a linkage does not change; {name!r} stays")
-
-    def __copy__(self) -> Linkage:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Linkage:
-        return self
-
-    @cached_property
-    def _key(self) -> tuple[object, ...]:
+    def _identity(self) -> tuple[object, ...]:
         reference = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
         points = tuple(sorted(self.points.items(), key=lambda named: named[0]))
         elements = tuple(sorted(self.elements.items()))
         return self.mechanism.written_form, elements, points, self.unit, reference, self.outputs
-
-    @cached_property
-    def _hash(self) -> int:
-        return hash(self._key)
-
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, Linkage) else NotImplemented
-
-    def __hash__(self) -> int:
-        return self._hash
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
@@ -382,50 +309,3 @@ class Linkage:
 
     def __repr__(self) -> str:
         return f"<linkage {self.mechanism.text()}>"
-
-    def __reduce__(self) -> tuple[object, ...]:
-        reference = None if self.reference_pose is None else {k: tuple(p) for k, p in self.reference_pose.items()}
-        points = {n: (p.link, p.x, p.y) for n, p in self.points.items()}
-        return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, reference, self.outputs)
-
-
-def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, reference_pose: Any, outputs: Any) -> Linkage:
-    return Linkage(mechanism, elements, points, unit=unit, reference_pose=reference_pose, outputs=outputs)
-
-
-def _link(mechanism: Mechanism, link: str, where: str | Message) -> str:
-    if link not in mechanism.chain.links:
-        known = mechanism.chain.links
-        raise LinkageError(
-            "{where}: there is no link {link!r}{suggestion}; links are {known}",
-            where=where,
-            link=link,
-            suggestion=nearest(str(link), known),
-            known=", ".join(known),
-        )
-    return link
-
-
-def _named(mechanism: Mechanism, name: str, link: str, x: float, y: float) -> LinkPoint:
-    pin = read_element([x, y], message("the point {name!r}", name=name))
-    return LinkPoint(_link(mechanism, link, message("the point {name!r}", name=name)), pin.x, pin.y)
-
-
-def _refuse_point(name: str) -> LinkPoint:
-    raise LinkageError("the point {name!r} needs a link and two coordinates", name=name)
-
-
-def _checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
-    poses = {}
-    for link in mechanism.chain.links:
-        if link not in poses_given and link != mechanism.frame:
-            raise LinkageError("reference pose: the position of {link!r} is missing", link=link)
-        line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), message("reference pose, {link}", link=link))
-        if not isinstance(line, Line):
-            raise LinkageError("reference pose, {link}: expected x, y and an angle", link=link)
-        poses[link] = Pose2D(line.x, line.y, line.angle)
-    for link in poses_given:
-        _link(mechanism, link, message("reference pose"))
-    if any(abs(v) > 1e-12 for v in (*poses[mechanism.frame][:2], poses[mechanism.frame].angle % (2 * pi))):
-        raise LinkageError("reference pose: the frame lies at 0, 0, 0; its coordinates are those of the plane")
-    return poses

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
+from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Mechanism
@@ -19,9 +20,8 @@ from gruebler.structure.mechanism import Mechanism
 _ORTHOGONAL = 1e-9  # by how much a rotation matrix may miss its transpose as inverse: nine digits were written
 
 
-@door_that_raises(LinkageError)
-@dataclass(frozen=True, eq=True)
-class SpatialLinkage:
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class SpatialLinkage(Immutable):
     """A mechanism and where its joints lie in one position, its reference pose; planar, spherical or spatial.
 
     The links need no coordinates of their own: in the reference pose all of them have those of the frame. The joints
@@ -44,29 +44,28 @@ class SpatialLinkage:
     """
 
     mechanism: Mechanism
-    joints: Mapping[str | int, object] | tuple[JointPlace, ...]
-    unit: str = "mm"
+    places: tuple[JointPlace, ...]
+    """The joints in the reference pose, in the order of the chain."""
+    unit: str
 
-    def __post_init__(self) -> None:
-        chain = self.mechanism.chain
+    @door_that_raises(LinkageError)
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        joints: Mapping[str | int, object] | tuple[JointPlace, ...],
+        unit: str = "mm",
+    ) -> None:
+        chain = mechanism.chain
         names = chain.joint_names()
-        given = self.joints if isinstance(self.joints, Mapping) else dict(enumerate(self.joints))
+        given = joints if isinstance(joints, Mapping) else dict(enumerate(joints))
         raw: dict[int, object] = {}
         for key, value in given.items():
             raw[chain.joint_number(key, LinkageError)] = value
         for number, name in enumerate(names):
             if number not in raw:
                 raise LinkageError("{name} has no place", name=name)
-        joint_places = tuple(
-            read_place(raw[number], joint.pair, chain.space, names[number]) for number, joint in enumerate(chain.joints)
-        )
-        object.__setattr__(self, "joints", joint_places)
-
-    @property
-    def places(self) -> tuple[JointPlace, ...]:
-        """The joints in the reference pose, in the order of the chain."""
-        assert isinstance(self.joints, tuple)
-        return self.joints
+        places = tuple(read_place(raw[k], joint.pair, chain.space, names[k]) for k, joint in enumerate(chain.joints))
+        settle(self, mechanism=mechanism, places=places, unit=unit)
 
     @cached_property
     def centre(self) -> Reals:
@@ -122,8 +121,8 @@ class SpatialLinkage:
         ]
         return SpatialLinkage(self.mechanism, tuple(places), self.unit)
 
-    def __hash__(self) -> int:
-        return hash((self.mechanism, self.joints, self.unit))
+    def _identity(self) -> tuple[object, ...]:
+        return self.mechanism, self.places, self.unit
 
     def __repr__(self) -> str:
         return f"<{self.mechanism.chain.space} linkage {self.mechanism.text()}>"

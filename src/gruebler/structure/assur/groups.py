@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from gruebler._numeric.modular import echelon
+from gruebler.base.immutable import settle
 from gruebler.structure.assur.forms import DYADS, GroupJoint, class_number, form_name
 from gruebler.structure.assur.locking import AssurError
 from gruebler.structure.assur.splitting import BodyJoint, split_into_groups
@@ -44,7 +45,7 @@ class AssurGroup:
     def known(cls, chain: Chain) -> AssurGroup:
         """The group of a chain without a check, such as a group's chain with other names."""
         group = object.__new__(cls)
-        object.__setattr__(group, "chain", chain)
+        settle(group, chain=chain)
         return group
 
     @classmethod

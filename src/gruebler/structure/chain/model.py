@@ -10,12 +10,14 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import ChainError, GrueblerError, NotationError, expect, nearest
+from gruebler.base.immutable import Immutable, settle
 from gruebler.base.text import message
 from gruebler.structure.chain import graphs, notation
 from gruebler.structure.chain.documents import read_document, read_graph6
@@ -27,7 +29,8 @@ if TYPE_CHECKING:
     import networkx as nx
 
 
-class Chain:
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Chain(Immutable):
     """Links and joints in one space.
 
     Args:
@@ -52,10 +55,8 @@ class Chain:
     True
     """
 
-    __slots__ = ("__dict__", "joints", "links", "space")
-
-    links: tuple[str, ...]
     joints: tuple[Joint, ...]
+    links: tuple[str, ...]
     space: Space
 
     def __init__(
@@ -70,9 +71,7 @@ class Chain:
         named = tuple(dict.fromkeys(link for j in checked for link in j.links))
         declared = named if links is None else checked_links(links, named, checked)
         check_connected(declared, checked)
-        object.__setattr__(self, "links", declared)
-        object.__setattr__(self, "joints", checked)
-        object.__setattr__(self, "space", checked_space)
+        settle(self, joints=checked, links=declared, space=checked_space)
 
     # --- reading and writing -------------------------------------------------------------------------
 
@@ -156,30 +155,8 @@ class Chain:
         """The structure picture, for notebooks."""
         return notebook.svg_of(self) if notebook.svg_of else None
 
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a chain does not change; build another one instead of setting {name!r}")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a chain does not change; {name!r} stays")
-
-    @cached_property
-    def _key(self) -> tuple[Space, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]:
+    def _identity(self) -> tuple[object, ...]:
         return self.space, tuple(sorted(self.links)), tuple(sorted(j.key for j in self.joints))
-
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, Chain) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return _rebuilt, (self.joints, self.links, self.space)
-
-    def __copy__(self) -> Chain:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Chain:
-        return self
 
     # --- counts ------------------------------------------------------------------------------------
 
@@ -388,7 +365,3 @@ class Chain:
         `from_networkx` takes the graph back.
         """
         return graphs.incidence_graph(self.links, self.joints, {"space": str(self.space)})
-
-
-def _rebuilt(joints: tuple[Joint, ...], links: tuple[str, ...], space: Space) -> Chain:
-    return Chain(joints, links=links, space=space)

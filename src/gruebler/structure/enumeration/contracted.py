@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.immutable import settle
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -51,7 +52,7 @@ class ContractedGraph:
 
     def __post_init__(self) -> None:
         whole = sorted(((min(u, v), max(u, v), k) for u, v, k in self.bundles), key=lambda b: (b[1], b[0]))
-        object.__setattr__(self, "bundles", tuple(whole))
+        settle(self, bundles=tuple(whole))
         _check(self)
 
     @property
@@ -164,7 +165,7 @@ def unpacked(rows: Packed) -> ContractedGraph:
         (u, v, numbers[u] >> 4 * v & 15) for v in range(len(numbers)) for u in range(v) if numbers[u] >> 4 * v & 15
     )
     graph = object.__new__(ContractedGraph)
-    object.__setattr__(graph, "bundles", bundles)
+    settle(graph, bundles=bundles)
     return graph
 
 

@@ -9,6 +9,7 @@ from numbers import Integral
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.immutable import settle
 from gruebler.structure.enumeration.condition import CLASSES
 from gruebler.structure.enumeration.counting import ChainCount
 
@@ -44,7 +45,7 @@ class Request:
             value = getattr(self, name)
             if not isinstance(value, Integral) or isinstance(value, bool):
                 raise RequestError("{name} is a whole number, not {found!r}", name=name, found=value)
-            object.__setattr__(self, name, int(value))
+            settle(self, **{name: int(value)})
         if self.links < 3:
             raise RequestError("a chain has at least three links, not {links}", links=self.links)
         if self.mobility < 0:
@@ -56,7 +57,7 @@ class Request:
                 "fractionated is none, link, joint or all, not {fractionated!r}", fractionated=self.fractionated
             )
         if self.assortment is not None:
-            object.__setattr__(self, "assortment", _assortment(self.assortment, self.links))
+            settle(self, assortment=_assortment(self.assortment, self.links))
         fewest, most = self.joints_range
         if most is not None and fewest > most:
             raise RequestError(

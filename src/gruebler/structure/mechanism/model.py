@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import ChainError, NotationError
+from gruebler.base.immutable import Immutable, settle
 from gruebler.base.text import joined_by_and
 from gruebler.structure.chain import Chain, graphs, notation
 from gruebler.structure.chain.pairs import Alphabet
@@ -34,7 +35,8 @@ class Drive:
         return self.direction.startswith("R")
 
 
-class Mechanism:
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Mechanism(Immutable):
     """A chain, its frame and its drives: an immutable value, checked when it is constructed.
 
     Args:
@@ -52,8 +54,6 @@ class Mechanism:
     R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston); frame=frame; drive=R(frame-crank)
     """
 
-    __slots__ = ("chain", "drives", "frame")
-
     chain: Chain
     frame: str
     drives: tuple[Drive, ...]
@@ -66,9 +66,7 @@ class Mechanism:
         for k, key in enumerate(keys):
             if key in keys[:k]:
                 raise ChainError("the drive {drive} is named twice", drive=_drive_text(chain, checked[k]))
-        object.__setattr__(self, "chain", chain)
-        object.__setattr__(self, "frame", frame)
-        object.__setattr__(self, "drives", checked)
+        settle(self, chain=chain, frame=frame, drives=checked)
 
     @classmethod
     @door_that_raises(ChainError)
@@ -219,27 +217,7 @@ class Mechanism:
         """The structure picture, for notebooks."""
         return notebook.svg_of(self) if notebook.svg_of else None
 
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a mechanism does not change; build another one instead of setting {name!r}")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a mechanism does not change; {name!r} stays")
-
-    def __copy__(self) -> Mechanism:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Mechanism:
-        return self
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Mechanism):
-            return NotImplemented
-        return self._key() == other._key()
-
-    def __hash__(self) -> int:
-        return hash(self._key())
-
-    def _key(self) -> tuple[object, ...]:
+    def _identity(self) -> tuple[object, ...]:
         at_joint: dict[int, set[tuple[str, frozenset[str]]]] = {}
         for d in self.drives:
             at_joint.setdefault(d.joint, set()).add((d.direction, frozenset(d.between)))
@@ -249,9 +227,6 @@ class Mechanism:
             for k, drives in at_joint.items()
         )
         return self.chain, self.frame, frozenset(driven.items())
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return Mechanism, (self.chain, self.frame, self.drives)
 
 
 def _split_marks(text: str) -> list[str]:

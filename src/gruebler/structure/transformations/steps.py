@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from gruebler.base.immutable import settle
 from gruebler.base.text import listed, message, translate
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet, pair
@@ -45,7 +46,7 @@ class Step:
     """The new chain."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "where", dict(self.where))
+        settle(self, where=dict(self.where))
 
     def __hash__(self) -> int:
         return hash((self.kind, self.before, self.chain))

@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from gruebler.base.errors import LinkageError
+from gruebler.base.immutable import settle
 from gruebler.base.text import Message, message
 from gruebler.teaching.sheets import interval_arithmetic, surds
 from gruebler.teaching.sheets.interval_arithmetic import Bracket, PrecisionTooLowError
@@ -66,9 +67,9 @@ class Expression:
                 longest=_LONGEST,
                 found=description,
             )
-        object.__setattr__(self, "steps", tuple(_Reader(self.text).whole()))
-        object.__setattr__(self, "value", _nearest(self.text, self.steps))
-        object.__setattr__(self, "exact", _exactly(self.steps))
+        settle(self, steps=tuple(_Reader(self.text).whole()))
+        settle(self, value=_nearest(self.text, self.steps))
+        settle(self, exact=_exactly(self.steps))
 
     def __str__(self) -> str:
         return self.text
