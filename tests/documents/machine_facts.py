@@ -432,7 +432,7 @@ def _translates(record: Entry, moved: Motion, link: str, full: bool) -> bool:
 def _way(record: Entry, moved: Motion, link: str) -> NDArray[np.float64]:
     """The way of a link that slides on the frame."""
     joints = record.chain().joints
-    on_frame = (k for k, each in enumerate(joints) if each.pair.is_prismatic and {link, record.frame} == {*each.links})
+    on_frame = (k for k, each in enumerate(joints) if each.pair.is_sliding and {link, record.frame} == {*each.links})
     way: NDArray[np.float64] = moved.displacement(next(on_frame))
     return way
 

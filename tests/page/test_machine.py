@@ -99,7 +99,7 @@ def test_the_centre_of_a_wheel_goes_around_those_that_it_meshes_with(tmp_path):
             free = [k for k, _ in enumerate(linkage.mechanism.drives)]
             motion = move(other, [[later["drives"][k] for k in free]] if len(free) > 1 else [later["drives"][0]])
             for k, joint in enumerate(linkage.mechanism.chain.joints):
-                if joint.pair.is_revolute:
+                if joint.pair.is_turning:
                     np.testing.assert_allclose(motion.point(names[k])[0], later["joints"][k], atol=1e-7 * other.size)
             for link, (x, y) in zip(linkage.mechanism.chain.links, later["turns"], strict=True):
                 assert abs(np.exp(1j * motion.angle(link)[0]) - complex(x, y)) < 1e-7, (name, link)

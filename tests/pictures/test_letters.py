@@ -76,7 +76,7 @@ def test_german_pictures_have_german_letters(name):
     assert letters_of(draw_structure(mechanism, lang="de").svg()) == german_of(joints if in_space else ())
     assert letters_of(draw_structure(mechanism, symbols=True, lang="de").svg()) == german_of(joints)
     assert letters_of(draw_loops(mechanism, lang="de").svg()) == german_of(joints if in_space else ())
-    other = [joint for joint in joints if in_space or not joint.pair.is_revolute]
+    other = [joint for joint in joints if in_space or not joint.pair.is_turning]
     assert letters_of(draw_graph(mechanism, lang="de").svg()) == german_of(other)
 
 

@@ -42,7 +42,7 @@ class BodyTree:
             for far in joint.links:
                 if held.find(far) != held.find(centre):
                     held.unite(centre, far)
-                    edges.append((1 if joint.pair.is_prismatic else 2, number, centre, far))
+                    edges.append((1 if joint.pair.is_sliding else 2, number, centre, far))
         sets = DisjointSets(mechanism.chain.links)
         self.tree: dict[str, list[tuple[int, str]]] = {link: [] for link in mechanism.chain.links}
         self.closing: list[tuple[int, str, str]] = []

@@ -132,7 +132,7 @@ def _to_edges(chain: Chain, left_out: list[Message]) -> str:
         names = {link: str(number) for number, link in enumerate(chain.links)}
         left_out.append(message("names of links"))
     return "".join(
-        " ".join([*(names[link] for link in joint.links), *[joint.pair.name] * (not joint.pair.is_revolute)]) + "\n"
+        " ".join([*(names[link] for link in joint.links), *[joint.pair.name] * (not joint.pair.is_turning)]) + "\n"
         for joint in chain.joints
     )
 
@@ -175,7 +175,7 @@ def _check_simple(chain: Chain, form: str, *, revolute: bool = False) -> None:
         raise GrueblerError(
             "the {form} holds planar chains with simple joints only, not {chain}", form=form, chain=chain
         )
-    if revolute and not all(joint.pair.is_revolute for joint in chain.joints):
+    if revolute and not all(joint.pair.is_turning for joint in chain.joints):
         raise GrueblerError("the {form} holds revolute joints only, not {chain}", form=form, chain=chain)
 
 
@@ -228,7 +228,7 @@ def _to_sparse6(chain: Chain) -> str:
 def _plain_graph(chain: Chain, form: str) -> nx.MultiGraph:
     import networkx
 
-    if any(joint.count != 1 or not joint.pair.is_revolute for joint in chain.joints):
+    if any(joint.count != 1 or not joint.pair.is_turning for joint in chain.joints):
         raise GrueblerError(
             "{form} holds chains with simple revolute joints only, not {chain}", form=form, chain=chain.text()
         )

@@ -240,7 +240,7 @@ def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object
     pins = {k: raw for k, raw in places.items() if isinstance(raw, tuple) and len(raw) == 2}
     for number, joint in enumerate(chain.joints):
         raw = places.get(number)
-        if not joint.pair.is_prismatic or mechanism.frame in joint.links or not isinstance(raw, tuple):
+        if not joint.pair.is_sliding or mechanism.frame in joint.links or not isinstance(raw, tuple):
             continue
         angle = raw[2] if len(raw) == 3 else 0.0
         on = [[k for k in pins if isinstance(k, int) and link in chain.joints[k].links] for link in joint.links]

@@ -128,7 +128,7 @@ class _Model(BodyTree):
             if drive.joint == number and {child, above} == set(drive.between):
                 self.driven[k] = (plain, 1 if child == self.lower.reference(k)[1] else -1)
                 motor = f' armature="{self._inertia(drive)!r}"'
-        if joint.pair.is_revolute:
+        if joint.pair.is_turning:
             return f'<joint name={name} type="hinge" axis="0 0 1" pos="{self.position(element.x, element.y)}"{motor}/>'
         angle = direction(element)
         return f'<joint name={name} type="slide" axis="{cos(angle)!r} {sin(angle)!r} 0"{motor}/>'

@@ -73,7 +73,7 @@ class _Robot(BodyTree):
         poses = self.lower.required_pose
         x, y = poses[above].to_local(*poses[child].put(element.x, element.y))
         turn = poses[child].angle - poses[above].angle
-        turning = joint.pair.is_revolute
+        turning = joint.pair.is_turning
         name = f"{self.names[number]} {child}" if again else self.names[number]
         angle = 0.0 if turning else direction(element)
         axis = "0 0 1" if turning else f"{cos(angle)!r} {sin(angle)!r} 0"

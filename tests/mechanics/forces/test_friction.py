@@ -338,7 +338,7 @@ def sense(motion, joint, shift=1e-6):
         )
         line = moved.turns[:, moved.link_index(first)] * np.exp(1j * getattr(near, "angle", 0.0))
         ways.append((gap / line).real)
-    later, sooner = ways if linkage.mechanism.chain.joints[joint].pair.is_prismatic else angles
+    later, sooner = ways if linkage.mechanism.chain.joints[joint].pair.is_sliding else angles
     return np.sign(later - sooner)
 
 
@@ -354,10 +354,10 @@ def put_back(motion, loads, friction, rounds):
             near, far = linkage.elements[number, first], linkage.elements[number, second]
             along = motion.turns[:, motion.link_index(first)] * np.exp(1j * getattr(near, "angle", 0.0))
             pressed = held.force(number, second) @ [1, 1j]
-            size = np.abs((np.conj(along) * pressed).imag) if joint.pair.is_prismatic else np.abs(pressed)
+            size = np.abs((np.conj(along) * pressed).imag) if joint.pair.is_sliding else np.abs(pressed)
             rubbing = size * friction.coefficient * senses[number]
             for link, end, sign in ((second, far, -1), (first, near, 1)):
-                if joint.pair.is_prismatic:
+                if joint.pair.is_sliding:
                     force, point = sign * rubbing * along, LinkPoint(link, end.x, end.y)
                     forces[point] = forces.get(point, 0.0) + np.stack([force.real, force.imag], axis=1)
                 else:
@@ -393,13 +393,13 @@ def free_bodies(held, loads, point, moment_on):
         for number, joint in enumerate(chain.joints):
             if link not in joint.links:
                 continue
-            later = joint.links[1] if joint.pair.is_prismatic else link
+            later = joint.links[1] if joint.pair.is_sliding else link
             end = linkage.element(number, later)
             at = motion.complex_point(LinkPoint(later, end.x, end.y))
             mine = held.force(number, link) @ [1, 1j]
             for k, drive in enumerate(linkage.mechanism.drives):
                 sign = -1 if link == linkage.reference(k)[0] else 1
-                if drive.joint == number and joint.pair.is_prismatic:
+                if drive.joint == number and joint.pair.is_sliding:
                     line = linkage.element(number, linkage.reference(k)[0])
                     along = motion.turns[:, motion.link_index(linkage.reference(k)[0])] * np.exp(1j * line.angle)
                     mine = mine + sign * held.drive[:, k] * along
@@ -640,7 +640,7 @@ def test_a_block_in_a_guide():
     """The inverted slider-crank: the normal force is what friction acts on, and the pin of its block rubs too."""
     guide = InvertedSliderCrank(25, 60).linkage()
     chain = guide.mechanism.chain
-    number = next(k for k, joint in enumerate(chain.joints) if joint.pair.is_prismatic)
+    number = next(k for k, joint in enumerate(chain.joints) if joint.pair.is_sliding)
     motion, loads = move(guide, [0.7, 0.9]), Loads(moments={chain.links[-1]: 100})
     held = statics(motion, loads, 0.3)
     line = motion.turns[:, motion.link_index(chain.joints[number].links[0])]

@@ -6,7 +6,8 @@ import pytest
 
 from gruebler.base.errors import PairError
 from gruebler.base.text import error_in_language
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Space, pair, read_symbols
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Space, pair
+from gruebler.structure.chain.symbols import read_symbols
 
 # Table 2.2 of the seeds as reconstructed: German symbol -> f in space (f = sum of the indices, W counts 1).
 TABLE_2_2 = {
@@ -42,6 +43,32 @@ def test_every_row_of_the_seeds_table_is_there_with_its_freedoms(symbol, f):
     for row in rows:
         assert row.f(Space.SPATIAL) == f == indices(symbol)
         assert row.u(Space.SPATIAL) == 6 - f
+
+
+# The motion directions in each space, as the seeds list them (2.5 and 2.6 for the plane and the sphere): what the rows
+# state as one motion must give these.
+LISTED = {
+    "revolute": {"planar": "Rz", "spherical": "Rz", "spatial": "Rz"},
+    "prismatic": {"planar": "Tx", "spatial": "Tx"},
+    "helical": {"spatial": "Hz"},
+    "rolling": {"planar": "Rz", "spherical": "Rz"},
+    "cylindrical": {"spatial": "Rz Tz"},
+    "roll_slide": {"planar": "Rz Tx", "spherical": "Rz Ry", "spatial": "Rz Tx"},  # slipping round the sphere's centre
+    "double_slide": {"planar": "Tx Ty", "spatial": "Tx Ty"},
+    "universal": {"spatial": "Rx Ry"},
+    "spherical": {"spatial": "Rx Ry Rz"},
+    "planar": {"spatial": "Rz Tx Ty"},
+    "ball_groove": {"spatial": "Ry Rz Tx"},
+    "ball_cylinder": {"spatial": "Rx Ry Rz Tx"},
+    "cylinder_plane": {"spatial": "Ry Rz Tx Tz"},
+    "double_cylindrical": {"spatial": "Rx Ry Tx Ty"},
+    "ball_plane": {"spatial": "Rx Ry Rz Tx Tz"},
+}
+
+
+@pytest.mark.parametrize("name", LISTED)
+def test_the_freedoms_in_each_space_follow_from_the_motion(name):
+    assert {str(s): " ".join(f) for s, f in pair(name).freedoms.items()} == LISTED[name]
 
 
 IN_SPACES = [(p, space) for p in PAIRS for space in p.freedoms]

@@ -63,7 +63,7 @@ class LayoutProgram:
             tuple(
                 k
                 for k, joint in enumerate(self.mechanism.chain.joints)
-                if link in joint.links and (joint.pair.is_revolute or slots.get(k, link) != link)
+                if link in joint.links and (joint.pair.is_turning or slots.get(k, link) != link)
             )
             for link in self.mechanism.chain.links
         )
@@ -71,14 +71,14 @@ class LayoutProgram:
     @cached_property
     def slides(self) -> tuple[int, ...]:
         """The joints that have a direction."""
-        return tuple(k for k, j in enumerate(self.mechanism.chain.joints) if not j.pair.is_revolute)
+        return tuple(k for k, j in enumerate(self.mechanism.chain.joints) if not j.pair.is_turning)
 
     @cached_property
     def blocks(self) -> dict[int, tuple[int, ...]]:
         """For each slide the pins (one or two) that its line goes through: those of links with one pin besides it."""
         chain, blocks = self.mechanism.chain, {}
         for k in self.slides:
-            if not chain.joints[k].pair.is_prismatic:
+            if not chain.joints[k].pair.is_sliding:
                 continue
             pins = []
             for link in chain.joints[k].links:
@@ -183,7 +183,7 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
     """
     chain = mechanism.chain
     check_drawable(chain)
-    slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.is_roll_slide)
+    slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.rolls_and_slides)
     solving_plan = plan(Linkage.from_drawing(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
     split = []
     for number, joint in enumerate(chain.joints):
@@ -220,7 +220,7 @@ def joint_places(
     owner = dict(slots)
     for number, joint in enumerate(mechanism.chain.joints):
         x, y, angle = (float(v) for v in drawing[number])
-        line = () if joint.pair.is_revolute else (angle,)
+        line = () if joint.pair.is_turning else (angle,)
         places[number] = (x, y, *line, *([owner[number]] if number in owner else []))
     return places
 

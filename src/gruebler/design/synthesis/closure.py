@@ -105,7 +105,7 @@ class DesignClosure:
         ]
         sides = [[joint[side] for joint in joints] for side in (0, 1)]
         self._bodies = [np.array([self.column.get(key[1], self.frame_column) // 3 for key in keys]) for keys in sides]
-        self._slides = np.flatnonzero([chain.joints[number].pair.is_prismatic for (number, _), _ in joints])
+        self._slides = np.flatnonzero([chain.joints[number].pair.is_sliding for (number, _), _ in joints])
         starts = [np.array([self.start[key] for key in keys], np.int64) for keys in sides]
         self._starts = starts
         self._lines = [start[self._slides] + 2 for start in starts]
@@ -136,7 +136,7 @@ class DesignClosure:
                 continue
             joint = chain.joints[drive.joint]
             own, far = (self._line(q, p, drive.joint, link) for link in (first, other))
-            assert joint.pair.is_prismatic
+            assert joint.pair.is_sliding
             columns.append(np.real(np.conj(own[1]) * (far[0] - own[0])))
         return np.stack(columns, axis=1)
 

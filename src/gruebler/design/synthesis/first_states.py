@@ -329,7 +329,7 @@ def _slide(closure: DesignClosure, output: str) -> tuple[int, str]:
     number = next(
         n
         for n, joint in enumerate(mechanism.chain.joints)
-        if joint.pair.is_prismatic and {output, mechanism.frame} <= set(joint.links)
+        if joint.pair.is_sliding and {output, mechanism.frame} <= set(joint.links)
     )
     return number, mechanism.frame
 

@@ -105,7 +105,7 @@ def output_links(mechanism: Mechanism, travel: bool) -> tuple[str, ...]:
     held = [
         [link for link in joint.links if link != frame]
         for joint in mechanism.chain.joints
-        if frame in joint.links and (joint.pair.is_prismatic if travel else joint.pair.is_revolute)
+        if frame in joint.links and (joint.pair.is_sliding if travel else joint.pair.is_turning)
     ]
     return tuple(dict.fromkeys(link for links in held for link in links if travel or link not in driven))
 

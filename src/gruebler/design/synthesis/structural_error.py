@@ -36,7 +36,7 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
     """
     linkage = design.linkage
     chain, reference_pose = linkage.mechanism.chain, linkage.reference_pose
-    if reference_pose is None or any(not joint.pair.is_revolute for joint in chain.joints[:3]):
+    if reference_pose is None or any(not joint.pair.is_turning for joint in chain.joints[:3]):
         return None
     places = [
         complex(*reference_pose[link].put(linkage.elements[number, link].x, linkage.elements[number, link].y))

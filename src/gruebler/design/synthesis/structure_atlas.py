@@ -59,7 +59,7 @@ def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
     chain, frame = mechanism.chain, mechanism.frame
     if len(mechanism.drives) != 1 or frame not in chain.joints[mechanism.drives[0].joint].links:
         return None
-    if any(not joint.pair.is_revolute or len(joint.links) != 2 for joint in chain.joints):
+    if any(not joint.pair.is_turning or len(joint.links) != 2 for joint in chain.joints):
         return None
     try:
         order = decompose(mechanism)

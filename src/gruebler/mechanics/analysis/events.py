@@ -267,7 +267,7 @@ def _driving_point(cycle: DriveCycle, output: Output) -> tuple[str, complex] | N
         if not own:
             continue
         inner = [(n, m) for n, m in group.joints if not m.outer and own[0] in m.links]
-        if len(inner) != 1 or not inner[0][1].pair.is_revolute:
+        if len(inner) != 1 or not inner[0][1].pair.is_turning:
             return None
         number = inner[0][0]
         body = (*group.bodies[own[0]], *group.carried[own[0]])

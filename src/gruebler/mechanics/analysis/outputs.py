@@ -77,6 +77,6 @@ def _default(linkage: Linkage) -> str:
 
 def _slide_at_frame(mechanism: Mechanism, link: str) -> int | None:
     for number, joint in enumerate(mechanism.chain.joints):
-        if joint.pair.is_prismatic and set(joint.links) == {link, mechanism.frame}:
+        if joint.pair.is_sliding and set(joint.links) == {link, mechanism.frame}:
             return number
     return None

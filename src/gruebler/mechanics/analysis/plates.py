@@ -118,7 +118,7 @@ def plates_of(motion: Motion) -> Plates:
 
     for number, joint in enumerate(chain.joints):
         elements = {link: lower.elements[number, link] for link in joint.links if link not in blocks}
-        if joint.pair.is_revolute:
+        if joint.pair.is_turning:
             slide = next((blocks[link] for link in joint.links if link in blocks), None)
             add({link: complex(pin.x, pin.y) for link, pin in elements.items()}, slide)
         elif number not in blocks.values():

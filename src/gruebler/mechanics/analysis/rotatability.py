@@ -162,7 +162,7 @@ def slide_directions(linkage: LinkageLike | Circuit, *, branch: Branch = None) -
     return {
         name: float(np.ptp(traced.angle(joint.links[0]))) > _STEADY
         for name, joint in zip(chain.joint_names(), chain.joints, strict=True)
-        if joint.pair.is_prismatic
+        if joint.pair.is_sliding
     }
 
 

@@ -53,7 +53,7 @@ def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
             )
         for second in joint.links[1:]:
             first = chain.links.index(joint.links[0])
-            connections.append(JointConnection(number, first, chain.links.index(second), joint.pair.is_prismatic))
+            connections.append(JointConnection(number, first, chain.links.index(second), joint.pair.is_sliding))
     return tuple(connections)
 
 

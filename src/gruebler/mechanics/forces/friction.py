@@ -217,7 +217,7 @@ def _contacts(motion: Motion, friction: Friction) -> tuple[RubbingContact, ...]:
     centres = {mechanism.chain.joint_number(name, LinkageError): link for name, link in friction.guide_on.items()}
     sleeves = {mechanism.chain.joint_number(name, LinkageError) for name in friction.sleeves}
     for number in {*centres, *sleeves}:
-        if not mechanism.chain.joints[number].pair.is_prismatic:
+        if not mechanism.chain.joints[number].pair.is_sliding:
             raise LinkageError("{joint} is not a slide of two links", joint=mechanism.chain.joint_title(number))
     contacts = []
     for k, connection in enumerate(joint_connections(motion)):
@@ -266,7 +266,7 @@ def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, kind: 
             continue
         number = chain.joint_number(joint, LinkageError)
         pair = chain.joints[number].pair
-        if kind and not (pair.is_revolute or pair.is_roll_slide if kind == "Rz" else not pair.is_revolute):
+        if kind and not (pair.is_turning or pair.rolls_and_slides if kind == "Rz" else not pair.is_turning):
             raise LinkageError(
                 "{name}: {joint} does not turn on a pin" if kind == "Rz" else "{name}: {joint} does not slide",
                 name=name,

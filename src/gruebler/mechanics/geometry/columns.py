@@ -96,4 +96,4 @@ def _floating(linkage: Linkage) -> list[str]:
 def _pivoted(linkage: Linkage, link: str) -> bool:
     """Whether a link is the frame, or turns about a point of it."""
     frame, joints = linkage.mechanism.frame, linkage.mechanism.chain.joints
-    return link == frame or any(j.pair.is_revolute and {link, frame} <= set(j.links) for j in joints)
+    return link == frame or any(j.pair.is_turning and {link, frame} <= set(j.links) for j in joints)

@@ -117,7 +117,7 @@ def _conditions(lower: Linkage) -> list[_Condition]:
             )
         for other in joint.links[1:]:
             ends = _ends(lower, number, joint.links[0], other)
-            kinds = ("pin",) if joint.pair.is_revolute else ("angle", "across")
+            kinds = ("pin",) if joint.pair.is_turning else ("angle", "across")
             conditions += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
     drive = lower.mechanism.drives[0]
     first, second = lower.reference(0)

@@ -139,7 +139,7 @@ def crank_length(linkage: Linkage) -> float:
     if len(drives) == 1 and drives[0].turning:
         driven, link = drives[0].joint, linkage.reference(0)[1]
         for number, joint in enumerate(linkage.mechanism.chain.joints):
-            if number != driven and link in joint.links and joint.pair.is_revolute:
+            if number != driven and link in joint.links and joint.pair.is_turning:
                 length = linkage.length(link, driven, number)
                 if length > 0:
                     return length

@@ -151,7 +151,7 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
         ends = [(number, link) for link in joint.links]
         owners = [-1 if link == frame else bodies.index(link) for link in joint.links]
         if number not in wheels:
-            kind = PIN if joint.pair.is_revolute else SLIDE
+            kind = PIN if joint.pair.is_turning else SLIDE
             rows += [
                 _Row(kind, (owners[0], b), (_at(lower, ends[0]), _at(lower, e)))
                 for b, e in zip(owners[1:], ends[1:], strict=True)

@@ -67,7 +67,7 @@ def contact_conditions(
             assert isinstance(first, Wheel)
             raw = Condition(MESH, sides, owners, (*rolling_factors(first, second), 0.0))
         conditions.append(_phased(lower, keys, raw))
-    if pair.is_rolling or isinstance(second, Circle):
+    if pair.rolls or isinstance(second, Circle):
         assert isinstance(second, RoundElement)
         if isinstance(first, Line):
             offset = second.radius * side_of(lower, keys, sides)

@@ -208,7 +208,7 @@ def _open_contact(motion: Motion, number: int) -> float:
         return _open_curve(motion, number) / linkage.size
     assert isinstance(other_element, RoundElement)
     gap = _point_at(motion, b, other_element.x, other_element.y) - _point_at(motion, a, element.x, element.y)
-    touching = chain.joints[number].pair.is_rolling or isinstance(other_element, Circle)
+    touching = chain.joints[number].pair.rolls or isinstance(other_element, Circle)
     if isinstance(element, Line):
         gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, element.angle))
         radius = np.copysign(other_element.radius, gap.imag)
@@ -274,7 +274,7 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
         ) / linkage.size
         if isinstance(element, Line):
             line = motion.turns[:, motion.link_index(first)] * rect(1, element.angle)
-            if not joint.pair.is_double_slide:
+            if not joint.pair.slides_two_ways:
                 openings = np.maximum(openings, np.abs((np.conj(line) * gap).imag))
             if isinstance(other_element, Line):
                 openings = np.maximum(

@@ -349,7 +349,7 @@ class _Planner:
             for element, body in sides[1:]:
                 both, owners = (sides[0][0], element), (sides[0][1], body)
                 if member.pair.is_basic:
-                    conditions.append(Condition(PIN if member.pair.is_revolute else SLIDE, both, owners))
+                    conditions.append(Condition(PIN if member.pair.is_turning else SLIDE, both, owners))
                 else:
                     try:
                         conditions += contact_conditions(self.lower, member.pair, self.keys, both, owners)

@@ -196,15 +196,15 @@ class ReferenceConditions:
 
     def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:
         first, other = links
-        if joint.pair.is_revolute:
+        if joint.pair.is_turning:
             yield self._way(x, number, links, 1 + 0j, "")
             yield self._way(x, number, links, 1j, "")
             return
         lined = first if isinstance(self.linkage.elements[number, first], Line) else other
         along = self._line(x, number, lined)
-        if not joint.pair.is_double_slide:
+        if not joint.pair.slides_two_ways:
             yield self._way(x, number, links, 1j * along, lined)
-        if not joint.pair.is_roll_slide:
+        if not joint.pair.rolls_and_slides:
             turned = self._line(x, number, other) * self._line(x, number, first).conjugate()
             yield phase(turned), self._turn(first, other)
 
@@ -302,7 +302,7 @@ def _bar(linkage: Linkage, number: int, link: str) -> float | None:
     """The direction of a link with two pins on it, from the other pin to this one; None if it has other joints."""
     joints = linkage.mechanism.chain.joints
     ends = [n for n, joint in enumerate(joints) if link in joint.links]
-    if len(ends) != 2 or any(not joints[n].pair.is_revolute for n in ends) or link == linkage.mechanism.frame:
+    if len(ends) != 2 or any(not joints[n].pair.is_turning for n in ends) or link == linkage.mechanism.frame:
         return None
     here = linkage.elements[number, link]
     there = linkage.elements[next(n for n in ends if n != number), link]
@@ -385,7 +385,7 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
         kind = joint.pair
         for _release in (release for release in chosen if release.joint == number):
             here = members.pop(_release.link)
-            if _release.pair is not None and joint.pair.is_revolute:
+            if _release.pair is not None and joint.pair.is_turning:
                 block = f"block {names[number]} {_release.link}"
                 members[block] = Pin(0, 0)
                 elements[block] = {}

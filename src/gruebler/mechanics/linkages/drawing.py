@@ -79,7 +79,7 @@ def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) ->
                     slot=slot,
                 )
         element = read_element(raw, names[number])
-        if joint.pair.is_roll_slide and slot is None:
+        if joint.pair.rolls_and_slides and slot is None:
             raise LinkageError(
                 "{joint}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
                 joint=chain.joint_title(number),

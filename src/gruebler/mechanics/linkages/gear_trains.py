@@ -212,7 +212,7 @@ def train_of(linkage: Linkage) -> Train:
         first, second = elements[number, a], elements[number, b]
         joint = mechanism.chain.joint_title(number)
         if isinstance(first, Wheel) and isinstance(second, Wheel) and number in held:
-            rolling = mechanism.chain.joints[number].pair.is_rolling
+            rolling = mechanism.chain.joints[number].pair.rolls
             kind = {"open": "belt", "crossed": "crossed"}.get(first.belt, "friction" if rolling else "gear")
             meshes.append(Mesh(names[a], names[b], _size(first), _size(second), names[held[number].link], kind))
         elif {type(first), type(second)} == {Wheel, Line}:
@@ -243,7 +243,7 @@ def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
     guides = {
         link: element.angle
         for k, other in enumerate(chain.joints)
-        if other.pair.is_prismatic and frame in other.links
+        if other.pair.is_sliding and frame in other.links
         for link in other.links
         for element in [linkage.elements[k, frame]]
         if link != frame and isinstance(element, Line)
@@ -252,7 +252,7 @@ def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
         (
             link
             for k, other in enumerate(chain.joints)
-            if other.pair.is_revolute and a in other.links and _same_place(linkage.elements[k, a], wheel)
+            if other.pair.is_turning and a in other.links and _same_place(linkage.elements[k, a], wheel)
             for link in other.links
             if link == frame or link in guides
         ),

@@ -89,7 +89,7 @@ def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
     idle = redundant_wheels(mechanism, elements) | {
         n for n in held if all(isinstance(elements[n, link], Circle) for link in wheels[n])
     }
-    eased = {n for n in held if n not in idle and joints[n].pair.is_rolling}
+    eased = {n for n in held if n not in idle and joints[n].pair.rolls}
     kinds = ("roll_slide", "double_slide")
     return [n for n, joint in enumerate(joints) if joint.pair.name in kinds and n not in wheels], idle, eased
 
@@ -115,7 +115,7 @@ def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element,
     joint = linkage.mechanism.chain.joints[number]
     first, second = joint.links
     element, other_element = linkage.elements[number, first], linkage.elements[number, second]
-    if joint.pair.is_roll_slide:
+    if joint.pair.rolls_and_slides:
         slotted, pinned = (first, second) if isinstance(element, Line) else (second, first)
         line, pin = (element, other_element) if isinstance(element, Line) else (other_element, element)
         assert isinstance(line, Line)

@@ -119,7 +119,7 @@ def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tup
 
     for first, e in centres.items():
         for second, f in centres.items():
-            joined = first[0] == second[0] and mechanism.chain.joints[first[0]].pair.is_revolute
+            joined = first[0] == second[0] and mechanism.chain.joints[first[0]].pair.is_turning
             near = hypot(e.x - f.x, e.y - f.y) <= _SAME * max(abs(e.x), abs(e.y), abs(f.x), abs(f.y))
             if joined or (first[1] == second[1] and near):
                 merge(first, second)
@@ -180,9 +180,9 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             continue
         assert isinstance(first, RoundElement)
         assert isinstance(second, RoundElement)
-        _check_pair(name, joint.pair.is_rolling, first, second)
+        _check_pair(name, joint.pair.rolls, first, second)
         apart = abs(first.radius + second.radius)
-        touching = joint.pair.is_rolling or isinstance(first, Circle)
+        touching = joint.pair.rolls or isinstance(first, Circle)
         if number in held and touching and abs(held[number].distance - apart) > _SAME * apart:
             raise LinkageError(
                 "{name}: the centres are {distance:.12g} apart on {link!r}, but the radii make {apart:.12g}",

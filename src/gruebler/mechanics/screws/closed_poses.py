@@ -62,7 +62,7 @@ def _planar(linkage: Linkage) -> Closing:
         for other in joint.links[1:]:
             element, other_element = linkage.elements[number, first], linkage.elements[number, other]
             radii = (inf if isinstance(element, Line) else 0.0, inf if isinstance(other_element, Line) else 0.0)
-            place = JointPlace(radii=radii if joint.pair.is_roll_slide else None)
+            place = JointPlace(radii=radii if joint.pair.rolls_and_slides else None)
             ends = _frame(element, size), _frame(other_element, size)
             ties.append(JointFrames(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
     return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
@@ -156,7 +156,7 @@ def _driven(closing: Closing, reference: Reals, at: Sequence[float], size: float
     _check_count(at, len(mechanism.drives))
     joints, values = [drive.joint for drive in mechanism.drives], []
     for joint, value in zip(joints, at, strict=True):
-        if mechanism.chain.joints[joint].pair.is_revolute:
+        if mechanism.chain.joints[joint].pair.is_turning:
             now = joint_value(closing, reference, joint)
             values.append(now + (value - now + np.pi) % (2 * np.pi) - np.pi)
         else:

@@ -20,7 +20,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.joint_places import JointPlace
-from gruebler.structure.chain.pairs import Pair, Space
+from gruebler.structure.chain.pairs import Freedom, Pair, Space
 
 Bent = Callable[[Reals], tuple[float, Reals]]
 """From E to the value of a row and its derivatives by the entries of E, (4, 4)."""
@@ -31,17 +31,16 @@ Row = Reals | Bent
 def joint_rows(pair: Pair, space: Space, place: JointPlace) -> list[Row]:
     """The rows of a joint, u of them."""
     free = pair.freedoms[space]
-    if space is Space.PLANAR and pair.is_roll_slide:
-        return _contact(place)
-    if space is Space.PLANAR and pair.is_rolling:
-        return [_touch(*_radii(place)), _arcs(*_radii(place), 0.0)]
-    if space is Space.SPHERICAL and pair.is_higher:
-        touch, arcs = _cone_touch(*_radii(place)), _cone_arcs(*_radii(place))
-        return [touch, arcs] if pair.is_rolling else [touch if place.pressure is None else arcs]
-    rows: list[Row] = _turns([d[1] for d in free if d[0] in "RH"], space)
+    if pair.has_contours and space is not Space.SPATIAL:
+        on_sphere = space is Space.SPHERICAL
+        touch, arcs = (_cone_touch, _cone_arcs) if on_sphere else (_touch, _arcs)
+        if pair.rolls:
+            return [touch(*_radii(place)), arcs(*_radii(place))]
+        return [_cone_contact(place) if on_sphere else _contact(place)]
+    rows: list[Row] = _turns([freedom.axis for freedom in free if freedom.turns], space)
     for direction in space.directions:
-        if direction[0] == "T" and direction not in free:
-            rows += _shift(direction, pair, place)
+        if direction.travels and direction not in free:
+            rows.append(_shift(direction, pair, place))
     return rows
 
 
@@ -58,7 +57,7 @@ def _entry(i: int, j: int, weight: float = 1.0) -> Reals:
 
 def _turns(free: list[str], space: Space) -> list[Row]:
     """The rows that take turns away; ``free`` are the axes about which turning stays possible."""
-    turning = [d[1] for d in space.directions if d[0] == "R"]
+    turning = [direction.axis for direction in space.directions if direction.turns]
     taken = [axis for axis in turning if axis not in free]
     place = "xyz".index
     if len(free) == 1:
@@ -72,14 +71,15 @@ def _turns(free: list[str], space: Space) -> list[Row]:
     return rows
 
 
-def _shift(direction: str, pair: Pair, place: JointPlace) -> list[Row]:
-    if direction == "Tz" and pair.is_helical:
-        return [_screw(place.pitch)]
-    if direction == "Tz" and pair.name == "double_cylindrical":
-        return [_crossed]
-    if direction == "Ty" and pair.is_roll_slide:
+def _shift(direction: Freedom, pair: Pair, place: JointPlace) -> Row:
+    """The row that takes a shift away."""
+    if any(freedom.has_pitch and freedom.travel == direction for freedom in pair.motion):
+        return _screw(place.pitch)
+    if pair.has_body_between:
+        return _crossed
+    if pair.has_contours and direction is Freedom.TRAVEL_Y:
         return _contact(place)
-    return [_entry("xyz".index(direction[1]), 3)]
+    return _entry("xyz".index(direction.axis), 3)
 
 
 def _screw(pitch: float) -> Bent:
@@ -105,9 +105,9 @@ def _crossed(e: Reals) -> tuple[float, Reals]:
 # --- round contacts in a plane: y goes from the first centre (0, -r) to the second (0, s) --------------------------
 
 
-def _contact(place: JointPlace) -> list[Row]:
+def _contact(place: JointPlace) -> Row:
     first, second = _radii(place)
-    return [_touch(first, second) if place.pressure is None else _arcs(first, second, place.pressure)]
+    return _touch(first, second) if place.pressure is None else _arcs(first, second, place.pressure)
 
 
 def _touch(r: float, s: float) -> Bent:
@@ -139,7 +139,7 @@ def _touch_flat(r: float, s: float) -> Bent:
     return on_first if r == inf else on_second
 
 
-def _arcs(r: float, s: float, pressure: float) -> Bent:
+def _arcs(r: float, s: float, pressure: float = 0.0) -> Bent:
     """The way by which two pitch circles, or the base circles of involute teeth, have slipped on each other."""
     centre, sign = np.array([0.0, s, 0.0, 1.0]), np.sign(r + s)
     base = abs(r + s) * cos(pressure)
@@ -169,6 +169,10 @@ def _arcs(r: float, s: float, pressure: float) -> Bent:
 
 def _cones(r: float, s: float) -> tuple[Reals, Reals]:
     return np.array([0.0, -sin(r), cos(r)]), np.array([0.0, sin(s), cos(s)])
+
+
+def _cone_contact(place: JointPlace) -> Row:
+    return _cone_touch(*_radii(place)) if place.pressure is None else _cone_arcs(*_radii(place))
 
 
 def _cone_touch(r: float, s: float) -> Bent:

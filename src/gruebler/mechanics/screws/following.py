@@ -20,7 +20,7 @@ def joint_value(closing: Closing, pose: Reals, joint: int) -> float:
     """The turn about z of a turning joint, else the way along x (prismatic) in sizes; 0 in the reference pose."""
     k = next(k for k, tie in enumerate(closing.ties) if tie.joint == joint)
     e = closing.seen(pose)[k]
-    if closing.mechanism.chain.joints[joint].pair.is_prismatic:
+    if closing.mechanism.chain.joints[joint].pair.is_sliding:
         return float(e[0, 3])
     return float(np.arctan2(e[1, 0], e[0, 0]))
 
@@ -72,7 +72,7 @@ def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: 
 
 def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals) -> Reals:
     chain = closing.mechanism.chain
-    turns = np.array([chain.joints[joint].pair.is_revolute for joint in joints])
+    turns = np.array([chain.joints[joint].pair.is_turning for joint in joints])
     drivers = [_driving_row(closing, joint) for joint in joints]
     for _ in range(30):
         value, by_twist = closing.linearised(pose)
@@ -95,7 +95,7 @@ def _driving_row(closing: Closing, joint: int) -> Callable[[Reals], Reals]:
     """The derivative of the joint's value by the motion: its axis as a functional of the relative twist."""
     k = next(k for k, tie in enumerate(closing.ties) if tie.joint == joint)
     tie = closing.ties[k]
-    turns = closing.mechanism.chain.joints[joint].pair.is_revolute
+    turns = closing.mechanism.chain.joints[joint].pair.is_turning
 
     def row(pose: Reals) -> Reals:
         frame = pose[tie.first] @ tie.on_first

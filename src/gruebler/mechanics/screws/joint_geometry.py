@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,10 +39,11 @@ class JointGeometry:
         ties = {tie.joint: tie for tie in reversed(closing.ties)}
         self.frames = np.array([pose[ties[k].first] @ ties[k].on_first for k in range(len(self.chain.joints))])
         self.places = [ties[k].place for k in range(len(self.chain.joints))]
-
-    def kinds(self, *names: str) -> list[int]:
-        """The joints of these pairs."""
-        return [k for k, joint in enumerate(self.chain.joints) if joint.pair.name in names]
+        pairs = [joint.pair for joint in self.chain.joints]
+        self.turning = [k for k, pair in enumerate(pairs) if pair.is_turning]
+        self.rolling = [k for k, pair in enumerate(pairs) if pair.rolls]
+        self.contours = [k for k, pair in enumerate(pairs) if pair.has_contours]
+        self.crosses = [k for k, pair in enumerate(pairs) if pair.is_cross]
 
     def at(self, joint: int) -> Reals:
         """The point of a joint."""
@@ -56,9 +57,9 @@ class JointGeometry:
         """Whether the joint's axis passes through a point."""
         return bool(np.linalg.norm(np.cross(self.axis(joint, name), point - self.at(joint))) < SAME)
 
-    def between(self, pair: str, a: str, b: str) -> Iterator[int]:
-        """The joints of a pair that join two links."""
-        return (k for k in self.kinds(pair) if {a, b} <= set(self.chain.joints[k].links))
+    def between(self, joints: Iterable[int], a: str, b: str) -> Iterator[int]:
+        """Those of these joints that join two links."""
+        return (k for k in joints if {a, b} <= set(self.chain.joints[k].links))
 
     def stressed(self, joints: list[int]) -> bool:
         """Whether all these joints hold redundant constraints."""

@@ -17,29 +17,6 @@ Vector = tuple[float, float, float]
 
 _SQUARE = 1e-9  # axes that should be at right angles may miss it by so much
 
-# Which of its axes a pair needs, in each space. The freedoms of `gruebler.structure.chain.pairs` are in these axes.
-_NEEDED: dict[Space, dict[str, str]] = {
-    Space.PLANAR: {"revolute": "", "prismatic": "x", "double_slide": "", "rolling": "y", "roll_slide": "y"},
-    Space.SPHERICAL: {"revolute": "z", "rolling": "yz", "roll_slide": "yz"},
-    Space.SPATIAL: {
-        "revolute": "z",
-        "prismatic": "x",
-        "helical": "z",
-        "cylindrical": "z",
-        "roll_slide": "yz",
-        "double_slide": "z",
-        "universal": "xy",
-        "spherical": "",
-        "planar": "z",
-        "ball_groove": "yz",
-        "ball_cylinder": "x",
-        "cylinder_plane": "yz",
-        "double_cylindrical": "xy",
-        "ball_plane": "y",
-    },
-}
-_ROUND = ("rolling", "roll_slide")
-
 
 @dataclass(frozen=True, slots=True)
 class JointPlace:
@@ -94,7 +71,7 @@ def read_place(raw: object, pair: Pair, space: Space, where: str) -> JointPlace:
 
 
 def _fitting(place: JointPlace, pair: Pair, space: Space, where: str) -> None:
-    needed = _NEEDED[space][pair.name]
+    needed = pair.axes[space]
     present = "".join(axis for axis in "xyz" if getattr(place, axis) is not None)
     turned = space is Space.PLANAR and bool(set(present) & set("xy"))
     enough = needed in present or turned if len(needed) < 2 else len(present) >= 2
@@ -108,9 +85,9 @@ def _fitting(place: JointPlace, pair: Pair, space: Space, where: str) -> None:
     joint_axes(place, space, where)
     if space is Space.SPHERICAL and any(place.at):
         raise LinkageError("{where}: on a sphere every joint is at its centre, the origin", where=where)
-    if place.pitch and not pair.is_helical:
+    if place.pitch and not pair.has_pitch:
         raise LinkageError("{where}: a {pair} joint has no pitch", where=where, pair=pair.title)
-    if pair.name not in _ROUND:
+    if not pair.has_contours:
         if place.radii is not None or place.pressure is not None:
             raise LinkageError(
                 "{where}: a {pair} joint has no radii and no pressure angle", where=where, pair=pair.title
@@ -135,7 +112,7 @@ def _check_contact(place: JointPlace, pair: Pair, space: Space, where: str) -> N
             first=first,
             second=second,
         )
-    toothed = pair.is_rolling or place.pressure is not None
+    toothed = pair.rolls or place.pressure is not None
     if toothed and not isfinite(first + second):
         raise LinkageError(
             "{where}: wheels that roll on each other need finite radii, not {first:g} and {second:g}",
@@ -143,7 +120,7 @@ def _check_contact(place: JointPlace, pair: Pair, space: Space, where: str) -> N
             first=first,
             second=second,
         )
-    if place.pressure is not None and (pair.is_rolling or not abs(place.pressure) < 1.5):
+    if place.pressure is not None and (pair.rolls or not abs(place.pressure) < 1.5):
         raise LinkageError(
             "{where}: a pressure angle, below 1.5 radians, is for the teeth of a roll_slide joint", where=where
         )

@@ -16,7 +16,7 @@ from gruebler.structure.chain.pairs import Space
 def bennett(s: JointGeometry) -> Iterator[Reason]:
     """Four skew axes, opposite links equal, length over sine of the twist the same for all, no offsets."""
     ring = s.ring()
-    if ring is None or len(ring) != 4 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
+    if ring is None or len(ring) != 4 or s.turning != sorted(ring) or s.chain.space is not Space.SPATIAL:
         return
     bars = [_bar(s, ring[k], ring[(k + 1) % 4]) for k in range(4)]
     if any(bar is None for bar in bars):
@@ -44,7 +44,7 @@ def _bar(s: JointGeometry, first: int, second: int) -> tuple[float, float, tuple
 def bricard(s: JointGeometry) -> Iterator[Reason]:
     """Six turning joints in a loop that a half-turn, or a mirror, takes to itself: Bricard's movable octahedra."""
     ring = s.ring()
-    if ring is None or len(ring) != 6 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
+    if ring is None or len(ring) != 6 or s.turning != sorted(ring) or s.chain.space is not Space.SPATIAL:
         return
     bars = [_bar(s, ring[k], ring[(k + 1) % 6]) for k in range(6)]
     feet = np.array([bar[2] for bar in bars if bar is not None])
@@ -72,7 +72,7 @@ def _maps(points: Reals, images: Reals, sense: int) -> bool:
 def sarrus(s: JointGeometry) -> Iterator[Reason]:
     """Six axes in a loop, three and three parallel."""
     ring = s.ring()
-    if ring is None or len(ring) != 6 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
+    if ring is None or len(ring) != 6 or s.turning != sorted(ring) or s.chain.space is not Space.SPATIAL:
         return
     for k in range(3):
         turned = ring[k:] + ring[:k]
@@ -95,9 +95,9 @@ class Hooke:
 
 def _hookes_joints(s: JointGeometry) -> Iterator[Hooke]:
     """The cross joints, and the crosses that are links: two turning joints whose axes meet and are not parallel."""
-    for k in s.kinds("universal"):
+    for k in s.crosses:
         yield Hooke(s.at(k), frozenset(s.chain.joints[k].links), (k,))
-    turning = s.kinds("revolute")
+    turning = s.turning
     for link in s.chain.links:
         joints = [k for k, joint in enumerate(s.chain.joints) if link in joint.links]
         if len(joints) != 2 or not set(joints) <= set(turning) or any(len(s.chain.joints[k].links) > 2 for k in joints):
@@ -116,7 +116,7 @@ def cardan(s: JointGeometry) -> Iterator[Reason]:
     hookes = [
         (j, hooke)
         for hooke in _hookes_joints(s)
-        for j in s.kinds("revolute")
+        for j in s.turning
         if j not in hooke.joints and set(s.chain.joints[j].links) & hooke.shafts and s.on_axis(j, hooke.centre)
     ]
     reasons = []

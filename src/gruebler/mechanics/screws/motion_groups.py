@@ -53,13 +53,8 @@ def screws_of(closing: Closing, pose: Reals, joint: int) -> Reals:
     tie = next(tie for tie in closing.ties if tie.joint == joint)
     frame = pose[tie.first] @ tie.on_first
     screws = []
-    for direction in chain.joints[joint].pair.freedoms[chain.space]:
-        twist = np.zeros(6)
-        k = "xyz".index(direction[1])
-        twist[k + 3 * (direction[0] == "T")] = 1.0
-        if direction[0] == "H":
-            twist[k + 3] = tie.place.pitch
-        screws.append(adjoint(frame) @ twist)
+    for freedom in chain.joints[joint].pair.freedoms[chain.space]:
+        screws.append(adjoint(frame) @ np.array(freedom.twist(tie.place.pitch)))
     return np.array(screws)
 
 

@@ -21,8 +21,6 @@ from gruebler.structure.mobility import counted
 
 _ROUNDING = 1e-14  # of a point, in sizes
 
-_ROUND = ("roll_slide", "rolling")
-
 Recogniser = Callable[[JointGeometry], Iterator[Reason]]
 
 
@@ -102,13 +100,13 @@ def _pole(s: JointGeometry) -> Iterator[Reason]:
 def _is_bar(s: JointGeometry, link: str, ends: tuple[str, ...]) -> bool:
     """Whether a link has two turning joints of two links, one with each of the ends."""
     joints = [s.chain.joints[k] for k in _joints(s, (link,))]
-    turning = all(j.pair.is_revolute and len(j.links) == 2 for j in joints)
+    turning = all(j.pair.is_turning and len(j.links) == 2 for j in joints)
     return turning and sorted(name for j in joints for name in j.links if name != link) == sorted(ends)
 
 
 def _coaxial(s: JointGeometry) -> Iterator[Reason]:
     """Turning joints of one link, among those with redundant constraints, that lie on each other."""
-    turning = [k for k in s.kinds("revolute") if k in s.instant.redundant and s.chain.space is Space.PLANAR]
+    turning = [k for k in s.turning if k in s.instant.redundant and s.chain.space is Space.PLANAR]
     for k, j in itertools.combinations(turning, 2):
         shared = set(s.chain.joints[k].links) & set(s.chain.joints[j].links)
         if shared and np.linalg.norm(s.at(k) - s.at(j)) < SAME:
@@ -157,7 +155,7 @@ def _congruent(s: JointGeometry, first: tuple[str, ...], second: tuple[str, ...]
 def _pins(s: JointGeometry, part: tuple[str, ...]) -> Reals:
     """The points of a part's pins and balls, else of all its joints; (points, 3)."""
     joints = _joints(s, part)
-    pins = [k for k in joints if s.chain.joints[k].pair.is_revolute or s.chain.joints[k].pair.is_spherical] or joints
+    pins = [k for k in joints if s.chain.joints[k].pair.is_turning or s.chain.joints[k].pair.is_ball] or joints
     return np.array([s.at(k) for k in pins])
 
 
@@ -185,12 +183,12 @@ def _planets(s: JointGeometry) -> Iterator[Reason]:
     """Equal wheels on one carrier that mesh with the same wheels."""
     sorts: dict[object, list[str]] = {}
     for link in s.chain.links:
-        met = sorted(_meeting(s, k, link) for k in _joints(s, (link,)))
-        if sum(1 for pair, *_ in met if pair in _ROUND) >= 2:
-            sorts.setdefault(tuple(met), []).append(link)
+        joints = _joints(s, (link,))
+        if sum(k in s.contours for k in joints) >= 2:
+            sorts.setdefault(tuple(sorted(_meeting(s, k, link) for k in joints)), []).append(link)
     frame = s.closing.mechanism.frame
     groups = [alike for alike in sorts.values() if len(alike) > 1]
-    riding = [alike for alike in groups if not any(True for _ in s.between("revolute", frame, alike[0]))]
+    riding = [alike for alike in groups if not any(True for _ in s.between(s.turning, frame, alike[0]))]
     for alike in riding or groups:
         joints = [k for link in alike for k in _joints(s, (link,))]
         if any(k in s.instant.redundant for k in joints):
@@ -207,10 +205,10 @@ def _meeting(s: JointGeometry, joint: int, link: str) -> tuple[str, tuple[str, .
 
 def _centres(s: JointGeometry) -> Iterator[Reason]:
     """Wheels that roll on each other and touch on the line of their bearings' centres."""
-    for k in s.kinds("rolling"):
+    for k in s.rolling:
         a, b = s.chain.joints[k].links
         for c in s.chain.links:
-            bearings = [next(s.between("revolute", c, x), None) for x in (a, b)]
+            bearings = [next(s.between(s.turning, c, x), None) for x in (a, b)]
             if None in bearings or k not in s.instant.redundant or s.chain.space is not Space.PLANAR:
                 continue
             if all(s.on_axis(k, s.at(j), "y") for j in bearings if j is not None):
@@ -220,9 +218,9 @@ def _centres(s: JointGeometry) -> Iterator[Reason]:
 def _locking(s: JointGeometry) -> Iterator[Reason]:
     """Several contacts of a link whose normals pass through its bearing: they hold the other link and not this one."""
     for a, b in itertools.permutations(s.chain.links, 2):
-        contacts = [k for k in s.between("roll_slide", a, b) if s.places[k].pressure is None]
+        contacts = [k for k in s.between(s.contours, a, b) if k not in s.rolling and s.places[k].pressure is None]
         for c in s.chain.links:
-            bearing = next(s.between("revolute", a, c), None) if c not in (a, b) else None
+            bearing = next(s.between(s.turning, a, c), None) if c not in (a, b) else None
             if bearing is None or len(contacts) < 2 or not s.stressed(contacts):
                 continue
             if all(s.on_axis(k, s.at(bearing), "y") for k in contacts):
@@ -232,7 +230,7 @@ def _locking(s: JointGeometry) -> Iterator[Reason]:
 def _line(s: JointGeometry) -> Iterator[Reason]:
     """All redundant joints on one line: a stretched or folded position."""
     joints = sorted(s.instant.redundant)
-    if s.chain.space is not Space.PLANAR or any(not s.chain.joints[k].pair.is_revolute for k in joints):
+    if s.chain.space is not Space.PLANAR or any(not s.chain.joints[k].pair.is_turning for k in joints):
         return
     points = np.array([s.at(k) for k in joints])
     spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)

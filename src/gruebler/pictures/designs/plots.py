@@ -99,7 +99,7 @@ def _link_lines(design: Design) -> list[list[tuple[str, complex]]]:
     names = iter((("A₀", "A"), ("B₀", "B")))
     chain = linkage.mechanism.chain
     for side in [link for link in chain.links if link not in (linkage.mechanism.frame, "coupler")]:
-        own = [(n, joint) for n, joint in enumerate(chain.joints) if side in joint.links and joint.pair.is_revolute]
+        own = [(n, joint) for n, joint in enumerate(chain.joints) if side in joint.links and joint.pair.is_turning]
         fixed_name, moving_name = next(names)
         line = []
         for number, joint in own:
@@ -137,7 +137,7 @@ def output_of(design: Design, inputs: Reals) -> Reals:
     slides = [
         number
         for number, joint in enumerate(linkage.mechanism.chain.joints)
-        if joint.pair.is_prismatic and {link, linkage.mechanism.frame} <= set(joint.links)
+        if joint.pair.is_sliding and {link, linkage.mechanism.frame} <= set(joint.links)
     ]
     outputs = np.full(len(inputs), np.nan)
     order = np.argsort(inputs)

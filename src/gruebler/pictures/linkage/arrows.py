@@ -64,7 +64,7 @@ def _moving_points(posed: PosedLinkage) -> list[LinkPoint]:
     lower, mechanism = posed.lower, posed.lower.mechanism
     places = list(lower.points.values())
     for number, joint in enumerate(mechanism.chain.joints):
-        if joint.pair.is_revolute and mechanism.frame not in joint.links:
+        if joint.pair.is_turning and mechanism.frame not in joint.links:
             e = lower.elements[number, joint.links[0]]
             places.append(LinkPoint(joint.links[0], e.x, e.y))
     return places

@@ -67,7 +67,7 @@ class Slide:
 def slides(posed: PosedLinkage) -> tuple[Slide, ...]:
     """The sliding joints, with the travel of their blocks on the path of the linkage."""
     chain = posed.lower.mechanism.chain
-    return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.is_prismatic)
+    return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.is_sliding)
 
 
 def _slide(posed: PosedLinkage, number: int) -> Slide:
@@ -336,7 +336,7 @@ def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
     lower = posed.lower
     parts, marked = [], set()
     for number, joint in enumerate(lower.mechanism.chain.joints):
-        if not joint.pair.is_revolute:
+        if not joint.pair.is_turning:
             continue
         link = min(joint.links, key=lambda member: member != lower.mechanism.frame)
         seen = ((member, lower.elements[number, member]) for member in joint.links)

@@ -31,7 +31,7 @@ def contact_shapes(linkage: Linkage) -> dict[tuple[int, str], str]:
         if not joint.pair.is_higher or len(joint.links) != 2:
             continue
         first, second = (linkage.elements[number, link] for link in joint.links)
-        rolls = joint.pair.is_rolling
+        rolls = joint.pair.rolls
         for link, element, other in zip(joint.links, (first, second), (second, first), strict=True):
             shapes[number, link] = _shape(element, other, rolls=rolls)
     return shapes

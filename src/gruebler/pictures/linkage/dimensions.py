@@ -83,7 +83,7 @@ def _sides(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
     """From pin to pin along a line, or around a polygon; from pins within a polygon to its two nearest corners."""
     linkage = posed.linkage
     joints = linkage.mechanism.chain.joints
-    nodes = [e for (n, owner), e in linkage.elements.items() if owner == link and joints[n].pair.is_revolute]
+    nodes = [e for (n, owner), e in linkage.elements.items() if owner == link and joints[n].pair.is_turning]
     points = [point for point in linkage.points.values() if point.link == link]
     places = list(dict.fromkeys([*(complex(e.x, e.y) for e in nodes), *(complex(p.x, p.y) for p in points)]))
     flat = 1e-6 * linkage.size
@@ -105,10 +105,10 @@ def _beside(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]
     joints = linkage.mechanism.chain.joints
     link_elements = [(n, e) for (n, owner), e in linkage.elements.items() if owner == link]
     for number, line in link_elements:
-        if isinstance(line, Line) and joints[number].pair.is_prismatic:
+        if isinstance(line, Line) and joints[number].pair.is_sliding:
             start, along = complex(line.x, line.y), cmath.rect(1.0, line.angle)
             for other, e in link_elements:
-                if joints[other].pair.is_revolute:
+                if joints[other].pair.is_turning:
                     pin = complex(e.x, e.y)
                     foot = start + ((pin - start) * along.conjugate()).real * along
                     if abs(foot - pin) > 1e-6 * linkage.size:

@@ -65,15 +65,15 @@ def _permanent(posed: PosedLinkage) -> Iterator[Pole]:
         for first, second in itertools.combinations([link for link in joint.links if link in links], 2):
             element = posed.lower.elements[number, first]
             at = complex(posed.pose.complex_point(LinkPoint(first, element.x, element.y))[0])
-            if joint.pair.is_revolute:
+            if joint.pair.is_turning:
                 yield Pole((first, second), at, permanent=True)
-            elif joint.pair.is_prismatic and isinstance(element, Line):
+            elif joint.pair.is_sliding and isinstance(element, Line):
                 across = cmath.rect(1.0, float(posed.pose.angle(first)[0]) + element.angle) * 1j
                 pins = [
                     complex(posed.pose.complex_point(LinkPoint(link, e.x, e.y))[0])
                     for link in (second, first)
                     for (k, owner), e in posed.lower.elements.items()
-                    if owner == link and k != number and posed.lower.mechanism.chain.joints[k].pair.is_revolute
+                    if owner == link and k != number and posed.lower.mechanism.chain.joints[k].pair.is_turning
                 ]
                 yield Pole((first, second), pins[0] if pins else at, across, permanent=True)
 

@@ -83,7 +83,7 @@ def draw_graph(structure: Chain | Mechanism, *, lang: str = "en", name: str = ""
     for joint, path in zip(joints, drawn.paths, strict=True):
         closed = len(joint.links) > 2
         shapes.append(Polylines((path,), "area" if closed else "edge", closed))
-        if not joint.pair.is_revolute or chain.space is not Space.PLANAR:
+        if not joint.pair.is_turning or chain.space is not Space.PLANAR:
             a, b = path[len(path) // 2 - 1], path[len(path) // 2]
             middle = a.plus(b.minus(a), 0.5).plus(b.minus(a).unit.across, 9.0)
             shapes.append(TextShape(middle, letters(joint.pair, lang), "note"))

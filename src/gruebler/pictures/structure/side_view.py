@@ -56,7 +56,7 @@ def draw_side_view(structure: Chain | Mechanism, *, lang: str = "en", name: str 
     chain = chain_of(structure)
     frame = structure.frame if isinstance(structure, Mechanism) else None
     axes = _axes(chain, frame)
-    columns = [_wheels(chain, axes, joint.links) for joint in chain.joints if not joint.pair.is_revolute]
+    columns = [_wheels(chain, axes, joint.links) for joint in chain.joints if not joint.pair.is_turning]
     for link in chain.links:
         own = [k for k, axis in enumerate(axes) if link in axis]
         if len(own) > 1:
@@ -69,10 +69,10 @@ def draw_side_view(structure: Chain | Mechanism, *, lang: str = "en", name: str 
 
 
 def _axes(chain: Chain, frame: str | None) -> list[tuple[str, ...]]:
-    axes = [joint.links for joint in chain.joints if joint.pair.is_revolute]
-    gears = [joint for joint in chain.joints if not joint.pair.is_revolute]
+    axes = [joint.links for joint in chain.joints if joint.pair.is_turning]
+    gears = [joint for joint in chain.joints if not joint.pair.is_turning]
     tree = sum(len(axis) - 1 for axis in axes) == chain.n - 1
-    wheels = all(joint.pair.is_roll_slide and joint.count == 1 for joint in gears)
+    wheels = all(joint.pair.rolls_and_slides and joint.count == 1 for joint in gears)
     if not tree or not wheels or chain.space is not Space.PLANAR:
         raise GrueblerError("a side view shows planar gear trains: turning joints without a loop, and gear joints (G)")
     central = {link: (link == frame, joints) for link, joints in chain.degrees.items()}

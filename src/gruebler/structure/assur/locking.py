@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.assur.splitting import BodyJoint
-from gruebler.structure.chain.pairs import Space, pair
+from gruebler.structure.chain.pairs import Space
 from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mobility import generic, pebble_rank
 from gruebler.structure.mobility.placement import LockedFreedom
@@ -31,15 +31,6 @@ class LockedMechanism:
     def counted(self) -> int:
         """Freedoms minus constraints; 0 if the drives are as many as needed."""
         return 3 * (len(self.bodies) - 1) - sum(j.constraints * (len(j.bodies) - 1) for j in self.joints)
-
-
-# A pair of two freedoms, one of which is locked, leaves another pair.
-_LEFT = {
-    ("roll_slide", "Rz"): "prismatic",
-    ("roll_slide", "Tx"): "rolling",
-    ("double_slide", "Tx"): "prismatic",
-    ("double_slide", "Ty"): "prismatic",
-}
 
 
 def lock_drives(mechanism: Mechanism) -> LockedMechanism:
@@ -70,7 +61,7 @@ def lock_drives(mechanism: Mechanism) -> LockedMechanism:
         if len(members) > 1:
             effective_pair = joint.pair
             if number in partial:
-                effective_pair = pair(_LEFT[joint.pair.name, partial[number].direction])
+                effective_pair = joint.pair.left_without(partial[number].direction)
             joints.append(BodyJoint(number, effective_pair, members))
     return LockedMechanism(tuple(tuple(body) for body in bodies.values()), tuple(joints), clean)
 
@@ -82,7 +73,7 @@ def independent(mechanism: Mechanism, locked: LockedMechanism) -> bool:
     """
     if not locked.clean:
         return False
-    if all(len(j.bodies) == 2 and (j.pair.is_revolute or j.pair.is_higher) for j in locked.joints):
+    if all(len(j.bodies) == 2 and (j.pair.turns_in_plane) for j in locked.joints):
         edges = [(j.bodies[0], j.bodies[1]) for j in locked.joints for _ in range(j.constraints)]
         return pebble_rank(len(locked.bodies), edges, 3, 3) == len(edges)
     locks = [LockedFreedom(d.joint, d.direction, d.between) for d in mechanism.drives]

@@ -1,12 +1,17 @@
 """The table of joint kinds: the relative motions that each allows two links, and how it is written.
 
-A pair is described by its *freedoms*: motion directions in the joint's own axes. ``Rz`` is a turn about
-the z axis, ``Tx`` a shift along x, ``Hz`` a screw about z (one freedom that turns and shifts at once).
-A space has ``b`` motion directions; a pair with ``f`` freedoms takes away ``u = b - f`` of them.
+A pair is described by its *motion*, a list of freedoms in the joint's own axes. ``Rz`` is a turn about the z axis,
+``Tx`` a shift along x, ``Hz`` a screw about z (one freedom that turns and shifts at once). What is left of them in a
+plane, on a sphere and in space follows from the space. A space has ``b`` motion directions; a pair with ``f``
+freedoms takes away ``u = b - f`` of them.
+
+A new kind is a row of `PAIRS`. Whatever the library asks of a pair is a property that follows from its row
+(`Pair.is_turning`, `Pair.rolls`, `Pair.keeps_directions`); no code outside compares names of pairs
+(`tests/structure/chain/test_kinds.py`). Its elements and its pictures are one row more in each of their tables.
 
 Symbols belong to an alphabet because the same letter means different pairs: ``S`` is the German
 *Schubgelenk* (prismatic) and the international spherical pair. A text is therefore read as a whole, in one
-alphabet (`read_symbols`); the full name of a pair, English or German, is valid everywhere.
+alphabet (`gruebler.structure.chain.symbols`); the full name of a pair, English or German, is valid everywhere.
 
 Source: table 2.2 of the teaching documents 000 and 003, reconstructed against ISO 3952; the planar pairs from
 their sections 2.5 and 2.6.
@@ -14,13 +19,71 @@ their sections 2.5 and 2.6.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
 from types import MappingProxyType
 
 from gruebler.base.errors import PairError, nearest
-from gruebler.base.text import Message, joined, joined_by_or, message
+from gruebler.base.text import Message, joined, message
+
+
+class Freedom(StrEnum):
+    """One freedom of a joint: a turn about an axis of the joint, a travel along one, or a screw."""
+
+    TURN_X = "Rx"
+    TURN_Y = "Ry"
+    TURN_Z = "Rz"
+    TRAVEL_X = "Tx"
+    TRAVEL_Y = "Ty"
+    TRAVEL_Z = "Tz"
+    SCREW_X = "Hx"
+    SCREW_Y = "Hy"
+    SCREW_Z = "Hz"
+
+    @property
+    def axis(self) -> str:
+        """The axis about which it turns or along which it travels: ``x``, ``y`` or ``z``."""
+        return self[1]
+
+    @property
+    def turns(self) -> bool:
+        """Whether it turns the links against each other, so that its value is an angle: a turn or a screw."""
+        return not self.travels
+
+    @property
+    def travels(self) -> bool:
+        """Whether it shifts the links without turning them, so that its value is a length."""
+        return self[0] == "T"
+
+    @property
+    def has_pitch(self) -> bool:
+        """Whether it couples a turn with a travel along the same axis."""
+        return self[0] == "H"
+
+    @property
+    def turn(self) -> Freedom:
+        """The turn about its axis."""
+        return Freedom("R" + self.axis)
+
+    @property
+    def travel(self) -> Freedom:
+        """The travel along its axis."""
+        return Freedom("T" + self.axis)
+
+    def twist(self, pitch: float = 0.0) -> tuple[float, ...]:
+        """Its screw as a twist: three components of the turn, three of the shift, in the joint's axes.
+
+        >>> Freedom.SCREW_Z.twist(0.5)
+        (0.0, 0.0, 1.0, 0.0, 0.0, 0.5)
+        """
+        along = 1.0 if self.travels else pitch if self.has_pitch else 0.0
+        return tuple(
+            value if axis == self.axis else 0.0 for value in (float(self.turns), along) for axis in ("x", "y", "z")
+        )
+
+    def __repr__(self) -> str:
+        return repr(str(self))
 
 
 class Space(StrEnum):
@@ -36,9 +99,19 @@ class Space(StrEnum):
         return len(self.directions)
 
     @property
-    def directions(self) -> tuple[str, ...]:
+    def directions(self) -> tuple[Freedom, ...]:
         """The motion directions of a free link, in the order used for twists everywhere."""
         return _DIRECTIONS[self]
+
+    def seen(self, freedom: Freedom) -> Freedom:
+        """What a freedom of a joint is in this space.
+
+        On a sphere the joint's z axis points away from the centre, so that the travel along x is a turn about y.
+
+        >>> Space.SPHERICAL.seen(Freedom.TRAVEL_X)
+        'Ry'
+        """
+        return _ON_SPHERE.get(freedom, freedom) if self is Space.SPHERICAL else freedom
 
     @property
     def adjective(self) -> Message:
@@ -52,10 +125,14 @@ class Space(StrEnum):
 
 
 _DIRECTIONS = {
-    Space.PLANAR: ("Rz", "Tx", "Ty"),
-    Space.SPHERICAL: ("Rx", "Ry", "Rz"),
-    Space.SPATIAL: ("Rx", "Ry", "Rz", "Tx", "Ty", "Tz"),
+    Space.PLANAR: (Freedom.TURN_Z, Freedom.TRAVEL_X, Freedom.TRAVEL_Y),
+    Space.SPHERICAL: (Freedom.TURN_X, Freedom.TURN_Y, Freedom.TURN_Z),
+    Space.SPATIAL: (
+        *(Freedom.TURN_X, Freedom.TURN_Y, Freedom.TURN_Z),
+        *(Freedom.TRAVEL_X, Freedom.TRAVEL_Y, Freedom.TRAVEL_Z),
+    ),
 }
+_ON_SPHERE = {Freedom.TRAVEL_X: Freedom.TURN_Y, Freedom.TRAVEL_Y: Freedom.TURN_X}
 
 
 _ADJECTIVES = {
@@ -124,7 +201,7 @@ def in_alphabets(write: Callable[[Alphabet], str]) -> SymbolText:
     return SymbolText("", {alphabet: write(alphabet) for alphabet in Alphabet})
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Pair:
     """One row of the table. Compared and hashed by its name."""
 
@@ -133,58 +210,113 @@ class Pair:
     german: str
     symbols: Mapping[Alphabet, str]
     """The symbol in each alphabet that has one."""
-    freedoms: Mapping[Space, tuple[str, ...]]
-    """The motion directions, for each space in which the pair exists."""
+    motion: tuple[Freedom, ...]
+    """What the second link can do against the first, in the joint's axes."""
+    axes: Mapping[Space, str]
+    """For each space in which the pair exists, those of the joint's axes that its place must name."""
     contact: Contact
     closures: tuple[Closure, ...]
     """The closures used in practice, the usual one first."""
-    is_group: bool
+    other_names: tuple[str, ...] = ()
+    """Further German names."""
+    is_group: bool = False
     """Whether relative motions compose to motions of the same kind, so that more than two links can share it."""
+    freedoms: Mapping[Space, tuple[Freedom, ...]] = field(init=False)
+    """The motion directions, for each space in which the pair exists: what its motion is there."""
 
-    @property
-    def is_revolute(self) -> bool:
-        """Whether it is the turning pair."""
-        return self.name == "revolute"
+    def __post_init__(self) -> None:
+        freedoms = {space: tuple(map(space.seen, self.motion)) for space in self.axes}
+        object.__setattr__(self, "freedoms", MappingProxyType(freedoms))
 
-    @property
-    def is_prismatic(self) -> bool:
-        """Whether it is the sliding pair."""
-        return self.name == "prismatic"
-
-    @property
-    def is_basic(self) -> bool:
-        """Whether it turns or slides: the pairs of the linkages that are solved; others are replaced by these."""
-        return self.is_revolute or self.is_prismatic
-
-    @property
-    def is_rolling(self) -> bool:
-        """Whether it rolls without slip."""
-        return self.name == "rolling"
-
-    @property
-    def is_roll_slide(self) -> bool:
-        """Whether it rolls and slides, as a pin in a slot does."""
-        return self.name == "roll_slide"
-
-    @property
-    def is_double_slide(self) -> bool:
-        """Whether it slides along two lines of a plane."""
-        return self.name == "double_slide"
-
-    @property
-    def is_helical(self) -> bool:
-        """Whether it is a screw."""
-        return self.name == "helical"
-
-    @property
-    def is_spherical(self) -> bool:
-        """Whether it is a ball in a socket."""
-        return self.name == "spherical"
+    # --- what a pair does; each follows from its motion and its contact ------------------------------------------
 
     @property
     def is_higher(self) -> bool:
         """Whether its elements touch in a line or a point; in the plane what rolls, or rolls and slides."""
         return self.contact is Contact.HIGHER
+
+    @property
+    def is_lower(self) -> bool:
+        """Whether its elements touch in a surface."""
+        return self.contact is Contact.LOWER
+
+    @property
+    def is_turning(self) -> bool:
+        """Whether it is a turning pair: a pin or hinge, whose links turn about one axis and do nothing else."""
+        return self.is_lower and self.motion == (Freedom.TURN_Z,)
+
+    @property
+    def is_sliding(self) -> bool:
+        """Whether it is a sliding pair: its links travel along one line and do nothing else."""
+        return self.is_lower and self.motion == (Freedom.TRAVEL_X,)
+
+    @property
+    def is_basic(self) -> bool:
+        """Whether it turns or slides: the pairs of the linkages that are solved; others are replaced by these."""
+        return self.is_turning or self.is_sliding
+
+    @property
+    def rolls(self) -> bool:
+        """Whether two contours roll on each other without slip."""
+        return self.is_higher and self.motion == (Freedom.TURN_Z,)
+
+    @property
+    def rolls_and_slides(self) -> bool:
+        """Whether two contours roll and slide on each other: teeth, cams, pins in slots."""
+        return self.is_higher and self.motion == (Freedom.TURN_Z, Freedom.TRAVEL_X)
+
+    @property
+    def has_contours(self) -> bool:
+        """Whether two contours touch, as wheels and cams do.
+
+        >>> [p.name for p in PAIRS if p.has_contours]
+        ['rolling', 'roll_slide']
+        """
+        return self.rolls or self.rolls_and_slides
+
+    @property
+    def slides_two_ways(self) -> bool:
+        """Whether it slides along two lines of a plane."""
+        return self.is_lower and self.motion == (Freedom.TRAVEL_X, Freedom.TRAVEL_Y)
+
+    @property
+    def guides(self) -> bool:
+        """Whether it guides a slider: surfaces travel along each other and turn about no other line than they travel.
+
+        >>> [p.name for p in PAIRS if p.guides]
+        ['prismatic', 'cylindrical', 'double_slide']
+        """
+        ways = {freedom.axis for freedom in self.motion if freedom.travels}
+        return self.is_lower and bool(ways) and {f.axis for f in self.motion if f.turns} <= ways
+
+    @property
+    def has_pitch(self) -> bool:
+        """Whether it couples a turn with a travel, as a screw does."""
+        return any(freedom.has_pitch for freedom in self.motion)
+
+    @property
+    def is_ball(self) -> bool:
+        """Whether it turns about every axis through one point, as a ball in a socket does."""
+        return self.is_lower and self.motion == (Freedom.TURN_X, Freedom.TURN_Y, Freedom.TURN_Z)
+
+    @property
+    def is_cross(self) -> bool:
+        """Whether it turns about two axes that meet, as a Hooke's joint does."""
+        return self.is_lower and self.motion == (Freedom.TURN_X, Freedom.TURN_Y)
+
+    @property
+    def has_body_between(self) -> bool:
+        """Whether its links touch a body between them and not each other."""
+        return self.contact is Contact.COMPOUND
+
+    @property
+    def turns_in_plane(self) -> bool:
+        """Whether its links can turn against each other in a plane.
+
+        >>> [p.name for p in PAIRS if p.turns_in_plane]
+        ['revolute', 'rolling', 'roll_slide']
+        """
+        return Freedom.TURN_Z in self.freedoms.get(Space.PLANAR, ())
 
     @property
     def keeps_directions(self) -> bool:
@@ -193,16 +325,34 @@ class Pair:
         >>> [p.name for p in PAIRS if p.keeps_directions]
         ['prismatic', 'double_slide']
         """
-        return all(direction.startswith("T") for freedoms in self.freedoms.values() for direction in freedoms)
+        return not any(freedom.turns for freedom in self.motion)
 
     @property
-    def slides_along_one_line(self) -> bool:
-        """Whether it slides along one line, and along none across it.
+    def lower_pairs(self) -> tuple[Pair, ...]:
+        """The turning and sliding pairs that do the same one after the other, one for each freedom; else none.
 
-        >>> [p.name for p in PAIRS if p.slides_along_one_line and Space.PLANAR in p.freedoms]
-        ['prismatic', 'roll_slide']
+        What rolls without slip is not replaced, nor what has screws.
+
+        >>> pair("roll_slide").lower_pairs, pair("rolling").lower_pairs
+        ((<pair revolute>, <pair prismatic>), ())
         """
-        return {d for freedoms in self.freedoms.values() for d in freedoms if not d.startswith("R")} == {"Tx"}
+        if self.rolls or self.has_pitch:
+            return ()
+        return tuple(_TURNING if freedom.turns else _SLIDING for freedom in self.motion)
+
+    def left_without(self, freedom: str) -> Pair:
+        """The pair that is left when one freedom is locked; of two that move alike the one that touches alike.
+
+        >>> pair("roll_slide").left_without("Rz"), pair("roll_slide").left_without("Tx")
+        (<pair prismatic>, <pair rolling>)
+
+        Raises `PairError` if the table has no such pair.
+        """
+        left = sorted(f.travels for f in self.motion if f != freedom)
+        alike = [p for p in PAIRS if sorted(f.travels for f in p.motion) == left and not p.has_pitch]
+        if not alike or freedom not in self.motion:
+            raise PairError("no pair is known that is a {name} without {freedom}", name=self.title, freedom=freedom)
+        return min(alike, key=lambda p: p.contact is not self.contact)
 
     @property
     def title(self) -> PairTitle:
@@ -257,103 +407,175 @@ class Pair:
         return self.symbols.get(alphabet, self.name if alphabet is Alphabet.INTERNATIONAL else self.german)
 
 
-def _row(
-    name: str,
-    german: str,
-    symbols: tuple[str, str],
-    freedoms: dict[Space, str],
-    contact: Contact,
-    closures: tuple[Closure, ...],
-    is_group: bool = False,
-) -> Pair:
-    letters = {a: s for a, s in zip((Alphabet.GERMAN, Alphabet.INTERNATIONAL), symbols, strict=True) if s}
-    return Pair(
-        name,
-        german,
-        MappingProxyType(letters),
-        MappingProxyType({space: tuple(d.split()) for space, d in freedoms.items()}),
-        contact,
-        closures,
-        is_group,
-    )
+def _symbols(german: str, international: str = "") -> Mapping[Alphabet, str]:
+    both = {Alphabet.GERMAN: german, Alphabet.INTERNATIONAL: international}
+    return MappingProxyType({alphabet: symbol for alphabet, symbol in both.items() if symbol})
+
+
+def _motion(freedoms: str) -> tuple[Freedom, ...]:
+    return tuple(map(Freedom, freedoms.split()))
 
 
 _PLANE, _SPHERE, _SPACE = Space.PLANAR, Space.SPHERICAL, Space.SPATIAL
 _LOWER, _HIGHER = Contact.LOWER, Contact.HIGHER
 _FORM, _FORCE, _MATERIAL = Closure.FORM, Closure.FORCE, Closure.MATERIAL
 
-# name, German name, (German symbol, international symbol), freedoms by space, contact, closures, group?
 PAIRS: tuple[Pair, ...] = (
-    _row(
-        "revolute",
-        "Drehgelenk",
-        ("D", "R"),
-        {_PLANE: "Rz", _SPHERE: "Rz", _SPACE: "Rz"},
-        _LOWER,
-        (_FORM, _MATERIAL),
+    Pair(
+        name="revolute",
+        german="Drehgelenk",
+        symbols=_symbols("D", "R"),
+        motion=_motion("Rz"),
+        axes={_PLANE: "", _SPHERE: "z", _SPACE: "z"},
+        contact=_LOWER,
+        closures=(_FORM, _MATERIAL),
         is_group=True,
     ),
-    _row(
-        "prismatic",
-        "Schubgelenk",
-        ("S", "P"),
-        {_PLANE: "Tx", _SPACE: "Tx"},
-        _LOWER,
-        (_FORM, _FORCE, _MATERIAL),
+    Pair(
+        name="prismatic",
+        german="Schubgelenk",
+        symbols=_symbols("S", "P"),
+        motion=_motion("Tx"),
+        axes={_PLANE: "x", _SPACE: "x"},
+        contact=_LOWER,
+        closures=(_FORM, _FORCE, _MATERIAL),
+        other_names=("Schleifengelenk",),  # a slide whose direction turns
         is_group=True,
     ),
-    _row("helical", "Schraubgelenk", ("W", "H"), {_SPACE: "Hz"}, _LOWER, (_FORM,), is_group=True),
-    _row("rolling", "Wälzgelenk", ("W", "W"), {_PLANE: "Rz", _SPHERE: "Rz"}, _HIGHER, (_FORCE,)),
-    _row("cylindrical", "Drehschubgelenk", ("DS", "C"), {_SPACE: "Rz Tz"}, _LOWER, (_FORM,), is_group=True),
-    _row(
-        "roll_slide",
-        "Gleitwälzgelenk",
-        ("G", "G"),
-        {_PLANE: "Rz Tx", _SPHERE: "Rz Rx", _SPACE: "Rz Tx"},
-        _HIGHER,
-        (_FORM, _FORCE),
-    ),
-    _row(
-        "double_slide",
-        "Doppelschubgelenk",
-        ("S2", ""),
-        {_PLANE: "Tx Ty", _SPACE: "Tx Ty"},
-        _LOWER,
-        (_FORM, _FORCE),
+    Pair(
+        name="helical",
+        german="Schraubgelenk",
+        symbols=_symbols("W", "H"),
+        motion=_motion("Hz"),
+        axes={_SPACE: "z"},
+        contact=_LOWER,
+        closures=(_FORM,),
         is_group=True,
     ),
-    _row("universal", "Kreuzgelenk", ("D2", "U"), {_SPACE: "Rx Ry"}, _LOWER, (_FORM,)),
-    _row("spherical", "Kugelgelenk", ("D3", "S"), {_SPACE: "Rx Ry Rz"}, _LOWER, (_FORM,), is_group=True),
-    _row("planar", "Plattengelenk", ("DS2", "E"), {_SPACE: "Rz Tx Ty"}, _LOWER, (_FORCE, _FORM), is_group=True),
-    _row("ball_groove", "Kugelrillengelenk", ("D2S", ""), {_SPACE: "Ry Rz Tx"}, _HIGHER, (_FORM,)),
-    _row("ball_cylinder", "Kugelrohrgelenk", ("D3S", ""), {_SPACE: "Rx Ry Rz Tx"}, _HIGHER, (_FORM,)),
-    _row(
-        "cylinder_plane",
-        "Zylinderflächengelenk",
-        ("D2S2", ""),
-        {_SPACE: "Ry Rz Tx Tz"},
-        _HIGHER,
-        (_FORCE,),
+    Pair(
+        name="rolling",
+        german="Wälzgelenk",
+        symbols=_symbols("W", "W"),
+        motion=_motion("Rz"),
+        axes={_PLANE: "y", _SPHERE: "yz"},
+        contact=_HIGHER,
+        closures=(_FORCE,),
     ),
-    _row(
-        "double_cylindrical",
-        "Doppeldrehschubgelenk",
-        ("D2S2", ""),
-        {_SPACE: "Rx Ry Tx Ty"},
-        Contact.COMPOUND,
-        (_FORM,),
+    Pair(
+        name="cylindrical",
+        german="Drehschubgelenk",
+        symbols=_symbols("DS", "C"),
+        motion=_motion("Rz Tz"),
+        axes={_SPACE: "z"},
+        contact=_LOWER,
+        closures=(_FORM,),
+        is_group=True,
     ),
-    _row("ball_plane", "Kugelflächengelenk", ("D3S2", ""), {_SPACE: "Rx Ry Rz Tx Tz"}, _HIGHER, (_FORCE,)),
+    Pair(
+        name="roll_slide",
+        german="Gleitwälzgelenk",
+        symbols=_symbols("G", "G"),
+        motion=_motion("Rz Tx"),
+        axes={_PLANE: "y", _SPHERE: "yz", _SPACE: "yz"},
+        contact=_HIGHER,
+        closures=(_FORM, _FORCE),
+        other_names=("Rollgleitgelenk",),
+    ),
+    Pair(
+        name="double_slide",
+        german="Doppelschubgelenk",
+        symbols=_symbols("S2"),
+        motion=_motion("Tx Ty"),
+        axes={_PLANE: "", _SPACE: "z"},
+        contact=_LOWER,
+        closures=(_FORM, _FORCE),
+        is_group=True,
+    ),
+    Pair(
+        name="universal",
+        german="Kreuzgelenk",
+        symbols=_symbols("D2", "U"),
+        motion=_motion("Rx Ry"),
+        axes={_SPACE: "xy"},
+        contact=_LOWER,
+        closures=(_FORM,),
+    ),
+    Pair(
+        name="spherical",
+        german="Kugelgelenk",
+        symbols=_symbols("D3", "S"),
+        motion=_motion("Rx Ry Rz"),
+        axes={_SPACE: ""},
+        contact=_LOWER,
+        closures=(_FORM,),
+        is_group=True,
+    ),
+    Pair(
+        name="planar",
+        german="Plattengelenk",
+        symbols=_symbols("DS2", "E"),
+        motion=_motion("Rz Tx Ty"),
+        axes={_SPACE: "z"},
+        contact=_LOWER,
+        closures=(_FORCE, _FORM),
+        is_group=True,
+    ),
+    Pair(
+        name="ball_groove",
+        german="Kugelrillengelenk",
+        symbols=_symbols("D2S"),
+        motion=_motion("Ry Rz Tx"),
+        axes={_SPACE: "yz"},
+        contact=_HIGHER,
+        closures=(_FORM,),
+    ),
+    Pair(
+        name="ball_cylinder",
+        german="Kugelrohrgelenk",
+        symbols=_symbols("D3S"),
+        motion=_motion("Rx Ry Rz Tx"),
+        axes={_SPACE: "x"},
+        contact=_HIGHER,
+        closures=(_FORM,),
+    ),
+    Pair(
+        name="cylinder_plane",
+        german="Zylinderflächengelenk",
+        symbols=_symbols("D2S2"),
+        motion=_motion("Ry Rz Tx Tz"),
+        axes={_SPACE: "yz"},
+        contact=_HIGHER,
+        closures=(_FORCE,),
+    ),
+    Pair(
+        name="double_cylindrical",
+        german="Doppeldrehschubgelenk",
+        symbols=_symbols("D2S2"),
+        motion=_motion("Rx Ry Tx Ty"),
+        axes={_SPACE: "xy"},
+        contact=Contact.COMPOUND,
+        closures=(_FORM,),
+    ),
+    Pair(
+        name="ball_plane",
+        german="Kugelflächengelenk",
+        symbols=_symbols("D3S2"),
+        motion=_motion("Rx Ry Rz Tx Tz"),
+        axes={_SPACE: "y"},
+        contact=_HIGHER,
+        closures=(_FORCE,),
+    ),
 )
+_TURNING = next(p for p in PAIRS if p.is_turning)
+_SLIDING = next(p for p in PAIRS if p.is_sliding)
 
 _BY_NAME = {p.name: p for p in PAIRS}
-OTHER_NAMES = MappingProxyType({"Rollgleitgelenk": "roll_slide", "Schleifengelenk": "prismatic"})
-"""Further German names that table 2.2 and section 2.6 use; a *Schleifengelenk* is a slide whose direction turns."""
-_BY_FULL_NAME = (
+BY_FULL_NAME = MappingProxyType(
     {p.name: p for p in PAIRS}
     | {p.german.casefold(): p for p in PAIRS}
-    | {name.casefold(): _BY_NAME[other] for name, other in OTHER_NAMES.items()}
+    | {name.casefold(): p for p in PAIRS for name in p.other_names}
 )
+"""The pair of each full name, German ones in lower case."""
 
 
 def pair(name: str) -> Pair:
@@ -368,138 +590,7 @@ def pair(name: str) -> Pair:
 
     Raises `PairError` for any other name, with the nearest known name.
     """
-    row = _BY_NAME.get(name) or _BY_FULL_NAME.get(name.replace("-", "_").casefold())
+    row = _BY_NAME.get(name) or BY_FULL_NAME.get(name.replace("-", "_").casefold())
     if row is None:
-        raise PairError("unknown pair {name!r}{suggestion}", name=name, suggestion=nearest(name, _BY_FULL_NAME))
+        raise PairError("unknown pair {name!r}{suggestion}", name=name, suggestion=nearest(name, BY_FULL_NAME))
     return row
-
-
-def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:
-    """The pair that each symbol of one text means, with all symbols read in one alphabet.
-
-    Full names, English or German, are valid in either alphabet. A set of symbols is accepted if only one
-    alphabet has it, or if both give it the same meaning; a set that mixes alphabets, or that has two valid
-    readings, raises an error that states both readings.
-
-    >>> read_symbols(["D", "S"], Space.PLANAR)
-    {'D': <pair revolute>, 'S': <pair prismatic>}
-    >>> read_symbols(["S"], Space.SPATIAL)
-    Traceback (most recent call last):
-        ...
-    gruebler.base.errors.PairError: 'S' is ambiguous: prismatic in the German alphabet, spherical in the
-    international one; write the full name (prismatic or spherical) or add a joint that only one alphabet has
-    """
-    distinct_symbols = list(dict.fromkeys(symbols))
-    named = {s: _BY_FULL_NAME[s.casefold()] for s in distinct_symbols if s.casefold() in _BY_FULL_NAME}
-    letters = [s for s in distinct_symbols if s not in named]
-    _refuse_unknown(letters)
-    readings = {a: r for a in Alphabet if (r := _reading(letters, a, space)) is not None}
-    if not readings:
-        raise _mixed(letters)
-    sound = {a: r for a, r in readings.items() if all(len(meanings) > 0 for meanings in r.values())}
-    if not sound:
-        raise _impossible(readings, space)
-    distinct: list[dict[str, tuple[Pair, ...]]] = []
-    for reading in sound.values():
-        if reading not in distinct:
-            distinct.append(reading)
-    if len(distinct) > 1:
-        raise _two_alphabets(*distinct)
-    for symbol, meanings in distinct[0].items():
-        if len(meanings) > 1:
-            raise PairError(
-                "{symbol!r} is ambiguous: {meanings}; write the full name",
-                symbol=symbol,
-                meanings=joined_by_or([f"{p.name} ({p.german})" for p in meanings]),
-            )
-    return named | {symbol: meanings[0] for symbol, meanings in distinct[0].items()}
-
-
-def _meanings(symbol: str, alphabet: Alphabet) -> tuple[Pair, ...]:
-    return tuple(p for p in PAIRS if p.symbols.get(alphabet) == symbol)
-
-
-def _reading(letters: list[str], alphabet: Alphabet, space: Space) -> dict[str, tuple[Pair, ...]] | None:
-    """The pairs of this space that each symbol may mean; None if the alphabet lacks one of the symbols."""
-    if not all(_meanings(s, alphabet) for s in letters):
-        return None
-    return {s: tuple(p for p in _meanings(s, alphabet) if space in p.freedoms) for s in letters}
-
-
-def _refuse_unknown(letters: list[str]) -> None:
-    known = {s for p in PAIRS for s in p.symbols.values()}
-    for symbol in letters:
-        if symbol not in known:
-            raise PairError(
-                "unknown joint symbol {symbol!r}{suggestion}; the symbols are {international} (international) and "
-                "{german} (German), or the full name of a pair",
-                symbol=symbol,
-                suggestion=nearest(symbol, (*known, *_BY_FULL_NAME)),
-                international=", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols})),
-                german=", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS)),
-            )
-
-
-def _mixed(letters: list[str]) -> PairError:
-    german, international = (
-        joined(_symbol_meaning(s, _meanings(s, alphabet)) for s in letters)
-        for alphabet in (Alphabet.GERMAN, Alphabet.INTERNATIONAL)
-    )
-    return PairError(
-        "the symbols mix two alphabets (German: {german}; international: {international}); write all joints in one of "
-        "them",
-        german=german,
-        international=international,
-    )
-
-
-def _symbol_meaning(symbol: str, pairs: tuple[Pair, ...]) -> Message:
-    if not pairs:
-        return message("{symbol} is unknown", symbol=symbol)
-    return message("{symbol} = {pairs}", symbol=symbol, pairs=joined_by_or([p.title for p in pairs]))
-
-
-def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Space) -> PairError:
-    alphabet, reading = next(iter(readings.items()))
-    symbol = next(s for s, meanings in reading.items() if not meanings)
-    meaning = _meanings(symbol, alphabet)[0]
-    others = {
-        p.name: p.symbol(alphabet)
-        for a in Alphabet
-        if a not in readings
-        for p in _meanings(symbol, a)
-        if space in p.freedoms
-    }
-    other_alphabet = message("; if {name} is meant, as {symbol!r} means in the other alphabet, write {right!r}")
-    hints = [
-        other_alphabet.filled(name=pair(name).title, symbol=symbol, right=replacement)
-        for name, replacement in others.items()
-    ]
-    freedom = len(next(iter(meaning.freedoms.values())))
-    return PairError(
-        "{symbol!r} is the {name} pair ({german}, f = {freedom}), which {space} chains do not have: "
-        "their joints have at most f = {greatest_freedom} and are {pairs}{hints}",
-        symbol=symbol,
-        name=meaning.name,
-        german=meaning.german,
-        freedom=freedom,
-        space=space.adjective,
-        greatest_freedom=space.greatest_freedom,
-        pairs=", ".join(
-            p.name if p.symbol(alphabet) == p.name else f"{p.symbol(alphabet)} ({p.name})"
-            for p in PAIRS
-            if space in p.freedoms
-        ),
-        hints=joined(hints, ""),
-    )
-
-
-def _two_alphabets(german: dict[str, tuple[Pair, ...]], international: dict[str, tuple[Pair, ...]]) -> PairError:
-    symbol = next(s for s in german if german[s] != international[s])
-    return PairError(
-        "{symbol!r} is ambiguous: {german} in the German alphabet, {international} in the international one; write "
-        "the full name ({german} or {international}) or add a joint that only one alphabet has",
-        symbol=symbol,
-        german=joined_by_or([p.title for p in german[symbol]]),
-        international=joined_by_or([p.title for p in international[symbol]]),
-    )

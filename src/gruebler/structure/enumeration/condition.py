@@ -49,7 +49,7 @@ def is_constrained(chain: Chain, mobility: int) -> bool:
     >>> is_constrained(four_bar, 1), is_constrained(four_bar.with_joint("revolute", ["0", "2"]), -1)
     (True, False)
     """
-    if chain.space is not Space.PLANAR or any(not joint.pair.is_revolute for joint in chain.joints):
+    if chain.space is not Space.PLANAR or any(not joint.pair.is_turning for joint in chain.joints):
         return False
     joints = joint_masks(chain)
     if min(chain.degrees.values()) < 2 or any((a & b).bit_count() > 1 for a, b in combinations(joints, 2)):

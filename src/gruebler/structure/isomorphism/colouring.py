@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import compared_by_value
 from gruebler.base.errors import expect
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import PAIRS
+from gruebler.structure.chain.pairs import PAIRS, Freedom
 
 _FRAME, _LINK, _FIRST_JOINT = 0, 1, 2
 _INCIDENCE = 0
 _PLACE = {pair: k for k, pair in enumerate(PAIRS)}
 _FIRST_MARK = _FIRST_JOINT + 2 * len(PAIRS)
-_DIRECTIONS = ("", *(kind + axis for kind in "RTH" for axis in "xyz"))
+_DIRECTIONS = ("", *Freedom)
 
 
 @dataclass(frozen=True, slots=True)

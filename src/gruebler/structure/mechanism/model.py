@@ -14,7 +14,7 @@ from gruebler.base.errors import ChainError, NotationError
 from gruebler.base.immutable import Immutable, settle
 from gruebler.base.text import joined_by_and
 from gruebler.structure.chain import Chain, graphs, notation
-from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.chain.pairs import Alphabet, Freedom
 from gruebler.structure.isomorphism import DriveMark, code, decode
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ class Drive:
     @property
     def turning(self) -> bool:
         """Whether it turns the links against each other: its values are angles, else lengths."""
-        return self.direction.startswith("R")
+        return Freedom(self.direction).turns
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)

@@ -48,16 +48,16 @@ def roles(mechanism: Mechanism) -> dict[str, Role]:
     named = {}
     for link in chain.links:
         joints = {k: j for k, j in enumerate(chain.joints) if link in j.links}
-        at_frame = {k: j.pair.name for k, j in joints.items() if frame in j.links}
-        contacts = {"rolling", "roll_slide"} & {j.pair.name for j in joints.values()}
+        at_frame = {k: j.pair for k, j in joints.items() if frame in j.links}
+        touches = any(j.pair.has_contours for j in joints.values())
         if link == frame:
             role = Role.FRAME
-        elif any(name == "revolute" and (k, link) in driven for k, name in at_frame.items()):
+        elif any(pair.is_turning and (k, link) in driven for k, pair in at_frame.items()):
             role = Role.CRANK
-        elif any(name in {"prismatic", "double_slide", "cylindrical"} for name in at_frame.values()):
+        elif any(pair.guides for pair in at_frame.values()):
             role = Role.SLIDER
-        elif "revolute" in at_frame.values():
-            role = Role.ROLLER if contacts else Role.ROCKER
+        elif any(pair.is_turning for pair in at_frame.values()):
+            role = Role.ROLLER if touches else Role.ROCKER
         else:
             role = Role.COUPLER
         named[link] = role

@@ -71,10 +71,10 @@ def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple
 
     Each part with the numbers of its two balls. Cost O(joint elements).
     """
-    balls = [k for k, joint in enumerate(chain.joints) if joint.pair.is_spherical]
+    balls = [k for k, joint in enumerate(chain.joints) if joint.pair.is_ball]
     sets = DisjointSets(chain.links)
     for joint in chain.joints:
-        if not joint.pair.is_spherical:
+        if not joint.pair.is_ball:
             for other in joint.links[1:]:
                 sets.unite(joint.links[0], other)
     members = {sets.find(links[0]): links for links in sets.classes()}
@@ -111,5 +111,7 @@ def _rank(rows: Iterable[tuple[int, ...]], most: int) -> int:
 
 
 def _may_be_roller(rank: Generic, joints: list[int], frame: str) -> bool:
-    by_pair = {rank.chain.joints[k].pair.name: rank.chain.joints[k] for k in joints}
-    return len(joints) == 2 and set(by_pair) == {"revolute", "roll_slide"} and frame not in by_pair["revolute"].links
+    own = [rank.chain.joints[k] for k in joints]
+    pins = [joint for joint in own if joint.pair.is_turning]
+    touching = [joint for joint in own if joint.pair.rolls_and_slides]
+    return len(own) == 2 and len(pins) == len(touching) == 1 and frame not in pins[0].links

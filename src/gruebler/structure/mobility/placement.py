@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.modular import P, Row
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.pairs import Freedom, Space
 
 _SPATIAL = Space.SPATIAL.directions
 _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotation) + 1 (origin) + 1 (pitch)
@@ -72,7 +72,7 @@ def random_placement(chain: Chain, seed: int, locks: Sequence[LockedFreedom] = (
                 owners.append((number, first, other, k))
     for lock in locks:
         first, other = (chain.index(link) for link in lock.between)
-        functional = frames.unit(lock.joint, lock.direction.replace("H", "R"))
+        functional = frames.unit(lock.joint, _without_pitch(Freedom(lock.direction)))
         rows.append(_row(functional, first, other, b))
         owners.append((lock.joint, first, other, len(functionals[lock.joint])))
     return Placement(rows, b * (chain.n - 1), owners, functionals)
@@ -86,6 +86,11 @@ def _row(functional: tuple[int, ...], first: int, other: int, b: int) -> Row:
     if other:
         row |= {k: v for k, v in enumerate(functional, b * (other - 1)) if v}
     return row
+
+
+def _without_pitch(freedom: Freedom) -> Freedom:
+    """The direction by which a freedom is measured: of a screw its turn."""
+    return freedom.turn if freedom.turns else freedom
 
 
 class _Frames:
@@ -105,11 +110,11 @@ class _Frames:
         )
         self._units = {}
         """For each direction the functional of every joint's own axes, read in the base frame."""
-        for k, (turn, shift) in enumerate((("Rx", "Tx"), ("Ry", "Ty"), ("Rz", "Tz"))):
+        for k, turn in enumerate(Space.SPHERICAL.directions):
             axis = [row[k] % P for row in rotation]
             moment = [(origin[i - 2] * axis[i - 1] - origin[i - 1] * axis[i - 2]) % P for i in range(3)]
             self._units[turn] = self._rows(axis, [np.zeros_like(w)] * 3)
-            self._units[shift] = self._rows(moment, axis)
+            self._units[turn.travel] = self._rows(moment, axis)
 
     def _draw(self, random: Random) -> tuple[int, ...]:
         """A quaternion w, x, y, z and an origin, random as far as the space allows."""
@@ -125,27 +130,29 @@ class _Frames:
         return w, x, y, z, number(), number(), 0 if planar else number()
 
     def _pitch(self, joint: Joint, random: Random) -> int:
-        return random.randrange(1, P) if "Hz" in joint.pair.freedoms[self.space] else 0
+        return random.randrange(1, P) if joint.pair.has_pitch else 0
 
     def _rows(self, moment: list[NDArray[np.int64]], force: list[NDArray[np.int64]]) -> list[tuple[int, ...]]:
         whole = dict(zip(_SPATIAL, (*moment, *force), strict=True))
         return list(zip(*(whole[d].tolist() for d in self.space.directions), strict=True))
 
-    def unit(self, number: int, direction: str) -> tuple[int, ...]:
+    def unit(self, number: int, direction: Freedom) -> tuple[int, ...]:
         """The functional of one direction of a joint's own axes, read in the base frame."""
         return self._units[direction][number]
 
     def constraints(self, number: int, joint: Joint) -> list[tuple[int, ...]]:
         """The functionals that vanish on the joint's freedoms."""
         freedoms = joint.pair.freedoms[self.space]
+        free = {_without_pitch(freedom) for freedom in freedoms}
+        coupled = {freedom.travel for freedom in freedoms if freedom.has_pitch}
         vanishing = []
         for direction in self.space.directions:
-            if direction in freedoms or (direction == "Rz" and "Hz" in freedoms):
+            if direction in free:
                 continue
             functional = self.unit(number, direction)
-            if direction == "Tz" and "Hz" in freedoms:
+            if direction in coupled:
                 pitch = self._pitches[number]
-                turn = self.unit(number, "Rz")
+                turn = self.unit(number, direction.turn)
                 functional = tuple((a - pitch * b) % P for a, b in zip(functional, turn, strict=True))
             vanishing.append(functional)
         return vanishing

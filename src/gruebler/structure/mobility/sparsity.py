@@ -21,14 +21,14 @@ from dataclasses import dataclass
 from gruebler.base.errors import ChainError
 from gruebler.base.text import Message, message
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Space, pair
+from gruebler.structure.chain.pairs import Pair, Space
 
-_POINT_PAIRS = {"revolute", "rolling", "roll_slide"}
-_BARS = {
-    Space.PLANAR: {"revolute": 2, "rolling": 2, "roll_slide": 1},
-    Space.SPHERICAL: {"revolute": 2, "rolling": 2, "roll_slide": 1},
-    Space.SPATIAL: {"revolute": 5, "ball_plane": 1},
-}
+
+def _is_bars(pair: Pair, space: Space) -> bool:
+    """Whether a theorem takes the pair for as many bars as it takes motions away."""
+    if space is Space.SPATIAL:
+        return pair.is_turning or pair.u(space) == 1
+    return not pair.keeps_directions
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,15 +52,14 @@ def theorem(chain: Chain) -> License:
     >>> bool(theorem(Chain.parse("R(0-1) R(1-2) R(2-3) P(3-0)")))
     False
     """
-    bars = _BARS[chain.space]
-    outside = sorted({j.pair.name for j in chain.joints} - set(bars))
+    outside = sorted({j.pair for j in chain.joints if not _is_bars(j.pair, chain.space)}, key=lambda p: p.name)
     if outside:
         return License(
             False,
             False,
             message(
                 "no theorem covers {pair} joints in {space} chains",
-                pair=pair(outside[0]).title,
+                pair=outside[0].title,
                 space=chain.space.adjective,
             ),
         )
@@ -93,8 +92,8 @@ def pebble_mobility(chain: Chain, *, points: bool | None = None) -> int:
     if use_points:
         vertices, edges = _point_graph(chain)
         return 2 * vertices - 3 - pebble_rank(vertices, edges, 2, 3)
-    b, bars = chain.space.b, _BARS[chain.space]
-    edges = [(chain.index(j.links[0]), chain.index(j.links[1])) for j in chain.joints for _ in range(bars[j.pair.name])]
+    space, b = chain.space, chain.space.b
+    edges = [(chain.index(j.links[0]), chain.index(j.links[1])) for j in chain.joints for _ in range(j.pair.u(space))]
     return b * (chain.n - 1) - pebble_rank(chain.n, edges, b, b)
 
 
@@ -104,7 +103,7 @@ def _point_graph(chain: Chain) -> tuple[int, list[tuple[int, int]]]:
     edges = []
     vertices = 0
     for joint in chain.joints:
-        if joint.pair.is_revolute or joint.pair.is_rolling:
+        if joint.pair.u(chain.space) == 2:
             for link in joint.links:
                 points[link].append(vertices)
             vertices += 1

@@ -41,7 +41,7 @@ def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | 
     if letters not in _EQUIVALENTS:
         raise TransformationError("a roll-slide joint is replaced by RR, RP or PR, not by {pairs!r}", pairs=pairs)
     a, *rest = links_at(chain, joint)
-    if not chain.joints[joint].pair.is_roll_slide:
+    if not chain.joints[joint].pair.rolls_and_slides:
         raise TransformationError("{joints} is not a roll-slide joint", joints=chain.joints[joint])
     (name,) = new_link_names(chain, 1, None if link is None else [link])
     builder = ChainBuilder(chain)

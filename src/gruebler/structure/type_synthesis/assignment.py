@@ -50,7 +50,7 @@ def joint_types(
 
 def assignments(chain: Chain, kinds: Mapping[Pair, int]) -> Iterator[Chain]:
     """Every assignment of the pairs to simple revolute joints, one for each orbit under the chain's symmetry."""
-    places = [k for k, joint in enumerate(chain.joints) if joint.pair.is_revolute and joint.count == 1]
+    places = [k for k, joint in enumerate(chain.joints) if joint.pair.is_turning and joint.count == 1]
     for kind, number in kinds.items():
         if number < 0:
             raise ChainError("the number of {name} joints is 0 or more, not {number}", name=kind.name, number=number)

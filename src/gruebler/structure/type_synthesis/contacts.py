@@ -50,7 +50,7 @@ def _neighbours(chain: Chain, link: str) -> list[str]:
     return [
         other
         for joint in chain.joints_of(link)
-        if joint.pair.is_revolute and joint.count == 1
+        if joint.pair.is_turning and joint.count == 1
         for other in joint.links
         if other != link
     ]

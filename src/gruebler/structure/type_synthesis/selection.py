@@ -49,7 +49,7 @@ def _typed(chain: Chain, requirements: Requirements) -> Iterator[Chain]:
     """The typed chains that one chain of revolutes gives."""
     kinds = {pair("prismatic"): requirements.prismatic, pair("rolling"): requirements.rolling}
     for touching in with_contacts(chain, requirements.roll_slide):
-        if sum(kinds.values()) > sum(j.pair.is_revolute and j.count == 1 for j in touching.joints):
+        if sum(kinds.values()) > sum(j.pair.is_turning and j.count == 1 for j in touching.joints):
             continue
         for typed in assignments(touching, {k: number for k, number in kinds.items() if number}):
             if requirements.assortment in (None, typed.assortment) and (

@@ -77,7 +77,7 @@ def sliding_numbers(chain: Chain) -> tuple[int, ...]:
     from gruebler._numeric.compiling import for_work
     from gruebler.structure.type_synthesis.sliding_kernels import count_sliding
 
-    if chain.space is not Space.PLANAR or not all(joint.pair.is_revolute for joint in chain.joints):
+    if chain.space is not Space.PLANAR or not all(joint.pair.is_turning for joint in chain.joints):
         raise ChainError("{chain}: expected a planar chain of turning joints", chain=chain)
     loops = _loops(chain)
     columns = _ordered(loops)

@@ -121,7 +121,7 @@ def _kind(moved: Motion, link: str, full: bool) -> MotionKind:
 def _slides_on_frame(linkage: Linkage, link: str) -> bool:
     mechanism = linkage.mechanism
     return any(
-        joint.pair.is_prismatic and mechanism.frame in joint.links and link in joint.links
+        joint.pair.is_sliding and mechanism.frame in joint.links and link in joint.links
         for joint in mechanism.chain.joints
     )
 

@@ -142,7 +142,7 @@ def _structures(level: int) -> list[Chain]:
 
 def _with_pairs(random: Random, chain: Chain, kind: str, number_: int) -> Chain:
     """The chain with some of its simple revolutes replaced by another pair."""
-    places = [k for k, joint in enumerate(chain.joints) if joint.pair.is_revolute and joint.count == 1]
+    places = [k for k, joint in enumerate(chain.joints) if joint.pair.is_turning and joint.count == 1]
     chosen = set(random.sample(places, min(number_, len(places))))
     joints = [(kind if k in chosen else joint.pair.name, joint.links) for k, joint in enumerate(chain.joints)]
     return Chain(joints, links=chain.links)

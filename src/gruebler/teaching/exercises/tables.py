@@ -18,7 +18,7 @@ from gruebler.mechanics.analysis import motion_roles
 from gruebler.mechanics.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import OTHER_NAMES, PAIRS, Alphabet, Contact, Pair, Space
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Pair, Space
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises.solution import TeachingTable, Value
 
@@ -80,13 +80,12 @@ def _connections() -> TeachingTable:
 
 def _joint_row(kind: Pair) -> tuple[Value, ...]:
     spatial, planar = (kind.freedoms.get(space) for space in (Space.SPATIAL, Space.PLANAR))
-    others = [name for name, pair in OTHER_NAMES.items() if pair == kind.name]
     return (
         str(len(spatial)) if spatial else "-",
         str(6 - len(spatial)) if spatial else "-",
         str(len(planar)) if planar else "-",
         in_every_language(lambda lang: kind.symbols.get(Alphabet.of_language(lang), "-")),
-        Text(kind.name.replace("_", " "), ", ".join((kind.german, *others))),
+        Text(kind.name.replace("_", " "), ", ".join((kind.german, *kind.other_names))),
         _CONTACTS[kind.contact],
         joined(_CLOSURES[closure.value] for closure in kind.closures),
     )
