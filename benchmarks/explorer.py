@@ -80,7 +80,7 @@ def main() -> None:
                 page.mouse.move(x + 14 * (k % 40 - 20) / 20, y + 9 * (k % 56 - 28) / 28)
             page.mouse.up()
             work, beats = page.evaluate("[gruebler.motion.frames, window.beats]")
-            cycle = page.evaluate("gruebler.motion.machine.cycle.values.length")
+            cycle = page.evaluate("gruebler.motion.linkage.cycle.values.length")
             print(f"{name:22} {cycle} poses: work {shown(work)}, frame to frame {shown(beats[1:])}, {len(work)} frames")
             page.close()
         browser.close()

@@ -95,7 +95,7 @@ export class App implements Page {
   }
 
   get shown(): Model {
-    return this.motion.machine.model;
+    return this.motion.linkage.model;
   }
 
   private get linkable(): boolean {
@@ -130,7 +130,7 @@ export class App implements Page {
 
   /** The name of the mechanism in the language of the page. */
   private get name(): string {
-    const model = this.motion.machine?.model;
+    const model = this.motion.linkage?.model;
     return model?.names[currentLanguage()] ?? model?.name ?? "";
   }
 
@@ -248,12 +248,12 @@ export class App implements Page {
   }
 
   private shared(): Shared {
-    const { machine } = this.motion;
+    const { active, drives, model } = this.motion.linkage;
     return {
-      document: machine.document(),
-      name: machine.model.name,
-      source: machine.model.source,
-      drive: machine.drives[machine.active] ?? 0,
+      document: this.motion.document(),
+      name: model.name,
+      source: model.source,
+      drive: drives[active] ?? 0,
     };
   }
 
@@ -298,7 +298,7 @@ export class App implements Page {
   }
 
   private async openShared(shared: Shared): Promise<void> {
-    const { model } = this.motion.machine;
+    const { model } = this.motion.linkage;
     const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(shared.document[key]);
     if (["joints", "frame", "drives", "links"].every(same)) this.motion.openDocument(shared.document, shared.drive);
     else if (this.backend.present) {

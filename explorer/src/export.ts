@@ -2,13 +2,12 @@
 
 import { h } from "./dom";
 import { t } from "./language";
-import type { Machine } from "./machine";
-import { chainText } from "./model";
+import { chainText, type LinkageDocument } from "./model";
 import type { Page } from "./view";
 
 /** What is taken away. */
 export interface Exported {
-  readonly machine: Machine;
+  document(): LinkageDocument;
   /** The picture as an SVG file. */
   picture(): string;
   /** The curves as CSV. */
@@ -22,25 +21,25 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-export function exportPanel(page: Page, motion: Exported): HTMLElement {
-  const stem = () => (motion.machine.model.source || motion.machine.model.name || "linkage").replace(/[^\w-]+/g, "_");
+export function exportPanel(page: Page, shown: Exported): HTMLElement {
+  const stem = () => (page.shown.source || page.shown.name || "linkage").replace(/[^\w-]+/g, "_");
   const save = (suffix: string, type: string, content: string | Blob) =>
     download(`${stem()}.${suffix}`, content instanceof Blob ? content : new Blob([content], { type }));
   const button = (text: string, act: () => void) => h("button", { class: "plain", onclick: act }, text);
   const own = [
-    button("SVG", () => save("svg", "image/svg+xml", motion.picture())),
-    button("PNG", () => void png(motion.picture()).then((blob) => save("png", "image/png", blob))),
-    button("CSV", () => save("csv", "text/csv", motion.table())),
-    button("JSON", () => save("json", "application/json", JSON.stringify(motion.machine.document(), null, 1))),
+    button("SVG", () => save("svg", "image/svg+xml", shown.picture())),
+    button("PNG", () => void png(shown.picture()).then((blob) => save("png", "image/png", blob))),
+    button("CSV", () => save("csv", "text/csv", shown.table())),
+    button("JSON", () => save("json", "application/json", JSON.stringify(shown.document(), null, 1))),
   ];
   const served = page.served
     ? ["TOML", "GIF", "HTML", "PDF"].map((kind) =>
         button(kind, () => {
           page
             .ask<{ base64: string; type: string }>("export", {
-              document: motion.machine.document(),
+              document: shown.document(),
               kind: kind.toLowerCase(),
-              name: motion.machine.model.name,
+              name: page.shown.name,
             })
             .then(
               ({ base64, type }) =>
@@ -54,7 +53,7 @@ export function exportPanel(page: Page, motion: Exported): HTMLElement {
         }),
       )
     : [];
-  const { model } = motion.machine;
+  const model = page.shown;
   const [reader, measured] = ["from gruebler.files import read_linkage", "print(gr.measures(linkage).explain())"];
   const word = model.source || `${stem()}.toml`;
   return h(

@@ -6,10 +6,15 @@
 import { App } from "./app";
 import { type HostModel, SocketModel, StillModel } from "./host";
 
+export { documentOf } from "./document";
+export { Dragging } from "./dragging";
 export { Kernel } from "./kernel";
 export { packed, unpacked } from "./link";
-export { Machine } from "./machine";
+export { Linkage } from "./linkage";
+export * as measures from "./measures";
 export { programOf } from "./program";
+export { turn } from "./rows";
+export { linesOf } from "./shapes";
 
 function render({ model, el }: { model: HostModel; el: HTMLElement }): () => void {
   const app = new App(model, el);

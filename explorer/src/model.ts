@@ -10,6 +10,12 @@ export interface ElementRecord {
   angle: number;
 }
 
+export interface DriveRecord {
+  name: string;
+  turning: boolean;
+  joint: number;
+}
+
 export interface PointRecord {
   name: string;
   link: number;
@@ -77,7 +83,7 @@ export interface Model {
   joints: { name: string; pair: string; links: number[] }[];
   elements: ElementRecord[];
   points: PointRecord[];
-  drives: { name: string; turning: boolean; joint: number }[];
+  drives: DriveRecord[];
   program: ProgramRecord;
   sources: number[];
   reference: { drives: number[][]; bodies: number[][]; windings: number[][] };

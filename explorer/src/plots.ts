@@ -1,142 +1,125 @@
-/** Small plots over the drive, linked with it by a cursor. */
+/** The plots of a linkage over its drive. */
 
-import { svg } from "./dom";
-import { number } from "./language";
+import { type Cycle, TURN, wrapped } from "./cycle";
+import { h } from "./dom";
+import { currentLanguage, t } from "./language";
+import type { Linkage } from "./linkage";
+import { output, outputAlong, transmission } from "./measures";
+import type { OutputRecord } from "./model";
+import { Plot, type Series } from "./plot";
+import { place } from "./rows";
 
-export interface Series {
-  title: string;
-  values: Float64Array;
-  colour: string;
-  /** Below this value the ground is shaded. */
-  floor?: number;
+/** The rows of a cycle in the order in which they are plotted, with their drive values. */
+export interface Lap {
+  drives: Float64Array;
+  rows: number[];
 }
 
-const WIDTH = 300;
-const HEIGHT = 128;
-const LEFT = 44,
-  RIGHT = 8,
-  TOP = 20,
-  BOTTOM = 18;
+const SMALL = 40; // degrees: transmission angles below are shaded
 
-export class Plot {
-  readonly element = svg("svg", {
-    class: "plot",
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    role: "img",
-    preserveAspectRatio: "none",
-  });
-  private readonly curve = svg("path", { class: "curve" });
-  private readonly band = svg("rect", { class: "band", x: LEFT, width: WIDTH - LEFT - RIGHT, height: 0 });
-  private readonly zero = svg("path", { class: "axis" });
-  private readonly cursor = svg("path", { class: "cursor" });
-  private readonly here = svg("circle", { class: "here", r: 3 });
-  private readonly title = svg("text", { class: "title", x: LEFT, y: 13 });
-  private readonly texts = [0, 1, 2, 3].map(() => svg("text"));
-  private drives: Float64Array = new Float64Array(0);
-  private domain: [number, number] = [0, 1];
-  private series: Series | null = null;
-  private low = 0;
-  private high = 1;
+export class Plots {
+  readonly element = h("div", {});
+  parts: { plot: Plot; make: (rows: number[]) => Series }[] = [];
+  private lap: { cycle: Cycle; drives: Float64Array; values: Float64Array } | null = null;
 
-  constructor(
-    private readonly unit: number,
-    pick: (drive: number) => void,
-  ) {
-    const frame = svg("path", {
-      class: "axis",
-      d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}`,
-      fill: "none",
-    });
-    this.element.append(this.band, frame, this.zero, this.curve, this.cursor, this.here, this.title, ...this.texts);
-    const at = (event: PointerEvent) => {
-      const box = this.element.getBoundingClientRect();
-      const part = (((event.clientX - box.left) / box.width) * WIDTH - LEFT) / (WIDTH - LEFT - RIGHT);
-      const [first, last] = this.domain;
-      pick(first + Math.max(0, Math.min(1, part)) * (last - first));
-    };
-    this.element.addEventListener("pointerdown", (event) => {
-      this.element.setPointerCapture(event.pointerId);
-      at(event);
-    });
-    this.element.addEventListener("pointermove", (event) => event.buttons && at(event));
+  constructor(private readonly pick: (drive: number) => void) {}
+
+  /** The plots anew: of another linkage, with other points, in another language. */
+  arrange(linkage: Linkage): void {
+    const { drive, model, sizes } = linkage;
+    const record = model.outputs[0];
+    const series = record ? outputSeries(linkage, record) : [];
+    for (const { name, link, at } of sizes.points)
+      series.push((rows) => ({
+        title: t("Speed of {name} by the drive", { name }),
+        colour: "--ink",
+        values: along(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
+      }));
+    const unit = drive?.turning ? TURN / 360 : 1;
+    this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick), make }));
+    const note = record?.note[currentLanguage()];
+    const notes = note ? [h("p", { class: "note" }, note)] : [];
+    this.element.replaceChildren(...this.parts.map(({ plot }) => plot.element), ...notes);
+    this.draw(linkage);
   }
 
-  show(drives: Float64Array, series: Series, domain: [number, number]): void {
-    this.drives = drives;
-    this.domain = domain;
-    this.series = series;
-    const finite = Array.from(series.values)
-      .filter(Number.isFinite)
-      .sort((a, b) => a - b);
-    let low = finite[0] ?? 0,
-      high = finite[finite.length - 1] ?? 1;
-    const core = [
-      finite[Math.floor(0.02 * finite.length)] ?? low,
-      finite[Math.floor(0.98 * (finite.length - 1))] ?? high,
-    ] as const;
-    const wide = core[1] - core[0];
-    if (high > core[1] + 3 * wide) high = core[1] + wide; // next to limits rates grow without bound
-    if (low < core[0] - 3 * wide) low = core[0] - wide;
-    if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 1, high + 1];
-    const room = 0.06 * (high - low);
-    [this.low, this.high] = [low - room, high + room];
-    let d = "",
-      on = false;
-    series.values.forEach((value, k) => {
-      if (!Number.isFinite(value) || value > this.high + 10 * wide || value < this.low - 10 * wide) on = false;
-      else {
-        const y = Math.max(TOP - 4, Math.min(HEIGHT - BOTTOM + 4, this.y(value)));
-        d += `${on ? "L" : "M"}${this.x(drives[k]!).toFixed(1)} ${y.toFixed(1)}`;
-        on = true;
-      }
-    });
-    this.curve.setAttribute("d", d);
-    this.curve.style.stroke = `var(${series.colour})`;
-    this.zero.setAttribute(
-      "d",
-      this.low < 0 && this.high > 0 ? `M${LEFT} ${this.y(0).toFixed(1)}H${WIDTH - RIGHT}` : "",
-    );
-    const floor = series.floor;
-    const shaded =
-      floor === undefined ? 0 : Math.max(0, Math.min(HEIGHT - BOTTOM - TOP, HEIGHT - BOTTOM - this.y(floor)));
-    this.band.setAttribute("height", shaded.toFixed(1));
-    this.band.setAttribute("y", (HEIGHT - BOTTOM - shaded).toFixed(1));
-    this.title.textContent = series.title;
-    this.element.setAttribute("aria-label", series.title);
-    const text = (k: number, x: number, y: number, anchor: string, content: string) => {
-      this.texts[k]!.setAttribute("x", String(x));
-      this.texts[k]!.setAttribute("y", String(y));
-      this.texts[k]!.setAttribute("text-anchor", anchor);
-      this.texts[k]!.textContent = content;
-    };
-    const rounded = (value: number) => (Math.abs(value) < 1e-9 * (high - low) ? 0 : value);
-    text(0, LEFT - 4, TOP + 8, "end", number(rounded(high), 3));
-    text(1, LEFT - 4, HEIGHT - BOTTOM - 1, "end", number(rounded(low), 3));
-    text(2, LEFT, HEIGHT - 4, "start", number(domain[0] / this.unit, 4));
-    text(3, WIDTH - RIGHT, HEIGHT - 4, "end", number(domain[1] / this.unit, 4));
+  draw({ active, cycle, drives }: Linkage): void {
+    if (cycle.values.length < 2) return;
+    const lap = lapOf(cycle);
+    for (const { plot, make } of this.parts) {
+      plot.show(lap.drives, make(lap.rows), cycle.full ? [0, TURN * cycle.turns] : [cycle.low, cycle.high]);
+      plot.at(wrapped(cycle, drives[active]!));
+    }
   }
 
+  /** Put the cursor to a drive value. */
   at(drive: number): void {
-    const { drives, series } = this;
-    if (!series || drives.length < 2) return;
-    let row = drives.findIndex((one) => one >= drive);
-    if (row < 0) row = drives.length - 1;
-    const x = this.x(drive);
-    this.cursor.setAttribute("d", `M${x.toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`);
-    const value = series.values[row]!;
-    this.here.setAttribute("cx", x.toFixed(1));
-    this.here.setAttribute(
-      "cy",
-      (Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.y(value))) : -9).toFixed(1),
-    );
+    for (const { plot } of this.parts) plot.at(drive);
   }
 
-  private x(drive: number): number {
-    const [first, last] = this.domain;
-    return LEFT + ((drive - first) / (last - first || 1)) * (WIDTH - LEFT - RIGHT);
+  /** The angle of the output in the pose that is shown, in the lap in which it is plotted. */
+  plottedAngle(linkage: Linkage, value: number): number {
+    const { active, cycle } = linkage;
+    if (this.lap?.cycle !== cycle) {
+      const { drives, rows } = lapOf(cycle);
+      this.lap = { cycle, drives, values: outputAlong(linkage, rows) };
+    }
+    const { drives, values } = this.lap;
+    const drive = wrapped(cycle, linkage.drives[active] ?? 0);
+    let low = 0;
+    let high = drives.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (drives[middle]! <= drive) low = middle;
+      else high = middle;
+    }
+    return value + TURN * Math.round((values[low]! - value) / TURN);
   }
+}
 
-  private y(value: number): number {
-    return HEIGHT - BOTTOM - ((value - this.low) / (this.high - this.low)) * (HEIGHT - BOTTOM - TOP);
-  }
+/** The rows of full turns from 0 on, the first of them once more at the end; of a range as they are. */
+export function lapOf(cycle: Cycle): Lap {
+  const { full, turns, values } = cycle;
+  const count = values.length;
+  if (!full) return { drives: values, rows: Array.from({ length: count }, (_, row) => row) };
+  const at = (row: number) => wrapped(cycle, values[row]!);
+  const rows = Array.from({ length: count - 1 }, (_, row) => row).sort((a, b) => at(a) - at(b));
+  const first = rows[0]!;
+  return { drives: Float64Array.from([...rows.map(at), TURN * turns + at(first)]), rows: [...rows, first] };
+}
+
+function along(rows: number[], f: (row: number) => number): Float64Array {
+  return Float64Array.from(rows, f);
+}
+
+function degrees(angle: number): number {
+  return (angle * 360) / TURN;
+}
+
+function outputSeries(linkage: Linkage, record: OutputRecord): ((rows: number[]) => Series)[] {
+  const turning = record.joint === null;
+  const name = linkage.linkName(record.link);
+  const derivative = (rows: number[], k: 1 | 2) => along(rows, (row) => output(linkage, linkage.cycle.rows, row)[k]);
+  const angle: (rows: number[]) => Series = (rows) => ({
+    title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${linkage.model.unit}]`),
+    colour: "--motion",
+    values: outputAlong(linkage, rows).map((value) => (turning ? degrees(value) : value)),
+  });
+  const velocity: (rows: number[]) => Series = (rows) => ({
+    title: t("Its velocity by the drive"),
+    colour: "--green",
+    values: derivative(rows, 1),
+  });
+  const acceleration: (rows: number[]) => Series = (rows) => ({
+    title: t("Its acceleration by the drive"),
+    colour: "--purple",
+    values: derivative(rows, 2),
+  });
+  const mu: (rows: number[]) => Series = (rows) => ({
+    title: `${t("Transmission angle")} [°]`,
+    colour: "--accent",
+    floor: SMALL,
+    values: along(rows, (row) => degrees(transmission(linkage, linkage.cycle.rows, row))),
+  });
+  return [angle, velocity, acceleration, ...(record.legs.length ? [mu] : [])];
 }

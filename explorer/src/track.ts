@@ -1,10 +1,8 @@
 /** The slider of the drive: where it may go, where the output turns back, where the transmission is worst. */
 
+import { type Cycle, TURN, wrapped } from "./cycle";
 import { h, svg } from "./dom";
 import { angle, number, t } from "./language";
-import type { Cycle } from "./machine";
-
-const TURN = 2 * Math.PI;
 
 export class Track {
   readonly element: HTMLElement;
@@ -48,22 +46,9 @@ export class Track {
   ): void {
     this.cycle = cycle;
     this.unit = turning ? TURN / 360 : 1;
-    const room = cycle.full ? 0 : 1e-7 * (cycle.high - cycle.low);
-    let [low, high] = [cycle.low + room, cycle.high - room];
-    if (between && !cycle.full) {
-      const shift = turning ? TURN * Math.round((low + high - between[0] - between[1]) / 2 / TURN) : 0;
-      const wanted: [number, number] = [Math.max(low, between[0] + shift), Math.min(high, between[1] + shift)];
-      if (wanted[1] > wanted[0]) [low, high] = wanted;
-    }
-    if (cycle.full) {
-      low = 0;
-      high = TURN * cycle.turns;
-    }
+    const [low, high] = limitsOf(cycle, turning, between);
     this.limits = [low, high];
-    const width = high - low;
-    if (cycle.full) [this.from, this.to] = [low, high];
-    else if (turning && width < TURN) [this.from, this.to] = [(low + high) / 2 - Math.PI, (low + high) / 2 + Math.PI];
-    else [this.from, this.to] = [low - 0.12 * (width || 1), high + 0.12 * (width || 1)];
+    [this.from, this.to] = shownRange(this.limits, cycle.full, turning);
     const parts: SVGElement[] = [];
     const x = (value: number) => `${((value - this.from) / (this.to - this.from)) * 100}%`;
     const line = (a: number, b: number, style: string) =>
@@ -74,7 +59,7 @@ export class Track {
       if (cycle.stops[1]) line(high, this.to, "hatched");
     }
     line(low, high, "free");
-    const wrap = (value: number) => this.wrapped(value);
+    const wrap = (value: number) => wrapped(cycle, value);
     const mark = (value: number, style: string, d: string, title: string) => {
       const here = wrap(value);
       if (here < this.from || here > this.to) return;
@@ -113,17 +98,28 @@ export class Track {
     this.element.setAttribute("aria-valuemax", String(high / this.unit));
   }
 
-  /** A drive value as it is shown: of full turns the one from 0 on. */
-  wrapped(value: number): number {
-    if (!this.cycle?.full) return value;
-    const period = this.cycle.turns * TURN;
-    const rest = ((value % period) + period) % period;
-    return period - rest < 1e-6 ? 0 : rest;
-  }
-
   set(value: number): void {
-    const here = this.wrapped(value);
+    const here = this.cycle ? wrapped(this.cycle, value) : value;
     this.knob.setAttribute("cx", `${Math.max(0, Math.min(1, (here - this.from) / (this.to - this.from))) * 100}%`);
     this.element.setAttribute("aria-valuenow", (here / this.unit).toFixed(3));
   }
+}
+
+/** The drive values that are played: the range, or the part of it that the mechanism is used in. */
+export function limitsOf(cycle: Cycle, turning: boolean, between: [number, number] | null): [number, number] {
+  if (cycle.full) return [0, TURN * cycle.turns];
+  const room = 1e-7 * (cycle.high - cycle.low);
+  const [low, high] = [cycle.low + room, cycle.high - room];
+  if (!between) return [low, high];
+  const shift = turning ? TURN * Math.round((low + high - between[0] - between[1]) / 2 / TURN) : 0;
+  const wanted: [number, number] = [Math.max(low, between[0] + shift), Math.min(high, between[1] + shift)];
+  return wanted[1] > wanted[0] ? wanted : [low, high];
+}
+
+/** The drive values from end to end of the slider: a turn, or somewhat more than the limits. */
+export function shownRange([low, high]: [number, number], full: boolean, turning: boolean): [number, number] {
+  if (full) return [low, high];
+  const width = high - low;
+  if (turning && width < TURN) return [(low + high) / 2 - Math.PI, (low + high) / 2 + Math.PI];
+  return [low - 0.12 * (width || 1), high + 0.12 * (width || 1)];
 }

@@ -115,7 +115,7 @@ class Tab:
 
     def open(self, address: str) -> "Tab":
         self.page.goto(address)
-        self.until("window.gruebler?.motion?.machine !== undefined")
+        self.until("window.gruebler?.motion?.linkage !== undefined")
         return self
 
     def middle(self, selector: str) -> tuple[float, float]:

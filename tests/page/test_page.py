@@ -14,8 +14,8 @@ from gruebler.page.links import SharedLinkage, link_of, read_link
 from gruebler.page.model import model_of
 from gruebler.teaching.catalog import entries
 
-LEAST = "gruebler.motion.machine.leastTransmission().mu"
-CURVE = "JSON.stringify(Array.from(gruebler.motion.machine.cycle.rows.places.slice(0, 4000)))"
+LEAST = "gruebler.motion.found.least.mu"
+CURVE = "JSON.stringify(Array.from(gruebler.motion.linkage.cycle.rows.places.slice(0, 4000)))"
 
 
 @pytest.fixture(scope="module")
@@ -29,11 +29,11 @@ def test_the_single_file_is_small_moves_and_asks_for_nothing(tab, single_file):
     assert single_file.stat().st_size < 300_000
     page = tab().open(single_file.as_uri())
     assert page.requests == [single_file.as_uri()]
-    drive = page.page.evaluate("gruebler.motion.machine.drives[0]")
+    drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
     page.page.keyboard.press("Space")
     page.page.wait_for_timeout(500)
     page.page.keyboard.press("Space")
-    assert abs(page.page.evaluate("gruebler.motion.machine.drives[0]") - drive) > 0.05
+    assert abs(page.page.evaluate("gruebler.motion.linkage.drives[0]") - drive) > 0.05
     before, curve = page.page.evaluate(LEAST), page.page.evaluate(CURVE)
     place = page.middle('[data-joint="R(coupler-rocker)"] .joint')
     page.drag(place, (-60, 20), (-140, 10))
@@ -43,7 +43,7 @@ def test_the_single_file_is_small_moves_and_asks_for_nothing(tab, single_file):
     end = page.middle('[data-joint="R(coupler-rocker)"] .joint')
     assert end == pytest.approx((place[0] - 200, place[1] + 30), abs=2)
     # what the page shows of the dragged linkage is what the library finds of it
-    dragged = linkage_from_json(json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.machine.document())")))
+    dragged = linkage_from_json(json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())")))
     found = measures(dragged).transmission
     assert found is not None
     assert found.smallest.mu == pytest.approx(after, abs=1e-6)
@@ -66,7 +66,7 @@ def test_joints_lengths_and_points_without_a_mouse(tab, single_file):
     field = page.page.locator('[data-panel="sizes"] input').nth(1)
     field.fill("22,5")
     field.press("Enter")
-    crank = page.page.evaluate("gruebler.motion.machine.lengths()[1].value")
+    crank = page.page.evaluate("gruebler.motion.dragging.lengths()[1].value")
     assert crank == pytest.approx(22.5)
     field.fill("-3")
     field.press("Enter")
@@ -74,17 +74,17 @@ def test_joints_lengths_and_points_without_a_mouse(tab, single_file):
     field.fill("500")
     field.press("Enter")
     assert "zusammenbauen" in page.page.locator(".message").inner_text()
-    assert page.page.evaluate("gruebler.motion.machine.lengths()[1].value") == pytest.approx(22.5)
+    assert page.page.evaluate("gruebler.motion.dragging.lengths()[1].value") == pytest.approx(22.5)
     page.page.locator('[aria-label^="Koppelpunkt"]').click()
     page.page.mouse.click(*page.middle('[data-joint="R(crank-coupler)"] .joint'))
-    assert page.page.evaluate("gruebler.motion.machine.points.length") == 2
+    assert page.page.evaluate("gruebler.motion.linkage.sizes.points.length") == 2
 
 
 def test_where_the_range_ends_the_page_says_it_as_the_library_does(tab, tmp_path):
     path = tmp_path / "rocker.html"
     assert main(["explore", "four-bar:50,70,40,70", "-o", str(path)]) == 0
     page = tab().open(path.as_uri())
-    low, high = page.page.evaluate("[gruebler.motion.machine.cycle.low, gruebler.motion.machine.cycle.high]")
+    low, high = page.page.evaluate("[gruebler.motion.linkage.cycle.low, gruebler.motion.linkage.cycle.high]")
     from gruebler.mechanics.kinematics import move
 
     end = move(FourBar(50, 70, 40, 70).linkage(), np.radians(np.arange(60, 361)))
@@ -97,7 +97,7 @@ def test_where_the_range_ends_the_page_says_it_as_the_library_does(tab, tmp_path
 
 
 PLOTTED = """(() => {
-    const { drives, series } = gruebler.motion.plotParts[0].plot;
+    const { drives, series } = gruebler.motion.plots.parts[0].plot;
     return { drives: [...drives], values: [...series.values] };
 })()"""
 OUTPUT = "gruebler.motion.facts.querySelector('dd').textContent"
@@ -114,15 +114,15 @@ def test_output_angles_are_told_in_the_lap_in_which_they_are_plotted(tab, tmp_pa
         page.drag(page.middle('[data-joint="R(frame-rocker)"] .joint'), way)
         plotted = page.page.evaluate(PLOTTED)
         drives, values = np.array(plotted["drives"]), np.array(plotted["values"])
-        machine = "gruebler.motion.machine"
+        cycle = "gruebler.motion.linkage.cycle"
         document = json.loads(
-            page.page.evaluate(f"JSON.stringify({machine}.document({machine}.cycle.rows, {machine}.cycle.home))")
+            page.page.evaluate(f"JSON.stringify(gruebler.motion.document({cycle}.rows, {cycle}.home))")
         )
         found = measures(linkage_from_json(document))
-        cycle = page.page.evaluate(f"[{machine}.cycle.full, {machine}.cycle.low, {machine}.cycle.high]")
-        assert cycle[0] == found.span.full
+        full, *ends = page.page.evaluate(f"[{cycle}.full, {cycle}.low, {cycle}.high]")
+        assert full == found.span.full
         if not found.span.full:
-            assert cycle[1:] == pytest.approx([found.span.low, found.span.high], abs=1e-5)
+            assert ends == pytest.approx([found.span.low, found.span.high], abs=1e-5)
         for centre in found.dead_centres:
             assert np.interp(centre.drive, drives, values) == pytest.approx(np.degrees(centre.output), abs=0.5)
         low, high = drives[0], drives[-1]
@@ -140,12 +140,12 @@ def test_a_link_is_the_same_linkage_elsewhere(tab, single_file):
     address = page.page.evaluate("location.href")
     assert re.search(r"#1\.[\w-]+\.[0-9a-f]{8}$", address)
     other = tab().open(address)
-    other.until("gruebler.motion.machine.document().elements !== undefined")
+    other.until("gruebler.motion.document().elements !== undefined")
     other.page.wait_for_timeout(300)
-    sizes = "gruebler.motion.machine.lengths().map((one) => one.value)"
+    sizes = "gruebler.motion.dragging.lengths().map((one) => one.value)"
     assert other.page.evaluate(sizes) == pytest.approx(page.page.evaluate(sizes), rel=1e-12)
-    assert other.page.evaluate("gruebler.motion.machine.drives[0]") == pytest.approx(
-        page.page.evaluate("gruebler.motion.machine.drives[0]"), abs=1e-9
+    assert other.page.evaluate("gruebler.motion.linkage.drives[0]") == pytest.approx(
+        page.page.evaluate("gruebler.motion.linkage.drives[0]"), abs=1e-9
     )
     # Python reads it, and writes what the page reads
     shared = read_link(address)
@@ -162,7 +162,7 @@ def test_a_link_is_the_same_linkage_elsewhere(tab, single_file):
     ):
         page.page.goto("about:blank")
         page.page.goto(wrong)
-        page.until("window.gruebler?.motion?.machine !== undefined")
+        page.until("window.gruebler?.motion?.linkage !== undefined")
         page.page.wait_for_timeout(300)
         assert words in page.page.locator(".message").inner_text()
 
@@ -188,20 +188,20 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     view.locator('.chain-picture [data-joint^="P("]').first.wait_for()
     assert view.locator('[data-fact="counted"]').inner_text() == "F = 1"
     view.locator('[data-act="realise"]').click()
-    page.until("gruebler.motion.machine.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
+    page.until("gruebler.motion.linkage.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
     view.wait_for_timeout(300)
-    before, curve = view.evaluate("gruebler.motion.machine.leastTransmission()?.mu"), view.evaluate(CURVE)
+    before, curve = view.evaluate("gruebler.motion.found.least?.mu"), view.evaluate(CURVE)
     joints = view.evaluate(
-        "gruebler.motion.machine.model.joints.flatMap((j, k) => gruebler.motion.machine.draggable(k) ? [j.name] : [])"
+        "gruebler.motion.linkage.model.joints.flatMap((j, k) => gruebler.motion.dragging.draggable(k) ? [j.name] : [])"
     )
     page.drag(page.middle(f'.stage [data-joint="{joints[-1]}"] .joint'), (0, -20), (8, -10))
     assert view.evaluate(CURVE) != curve
-    after = view.evaluate("gruebler.motion.machine.leastTransmission()?.mu")
+    after = view.evaluate("gruebler.motion.found.least?.mu")
     assert before is None or after != before
     view.wait_for_timeout(400)
     other = tab().open(view.evaluate("location.href"))
-    other.until("gruebler.motion.machine.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
-    sizes = "gruebler.motion.machine.lengths().map((one) => one.value)"
+    other.until("gruebler.motion.linkage.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
+    sizes = "gruebler.motion.dragging.lengths().map((one) => one.value)"
     assert other.page.evaluate(sizes) == pytest.approx(view.evaluate(sizes), rel=1e-9)
 
 
@@ -222,7 +222,7 @@ def test_errors_of_a_text_stand_at_their_place(tab, server):
 def test_every_planar_machine_plays_without_an_error(tab, single_file):
     page = tab().open(single_file.as_uri())
     machines = [e for e in entries().values() if e.dimensions is not None and e.space == "planar"]
-    pose = "JSON.stringify([...gruebler.motion.machine.pose.turns, ...gruebler.motion.machine.pose.places])"
+    pose = "JSON.stringify([...gruebler.motion.linkage.pose.turns, ...gruebler.motion.linkage.pose.places])"
     for machine in machines:
         page.page.evaluate("(model) => gruebler.open(model)", model_of(machine.linkage(), name=machine.name))
         page.page.evaluate(f"window.before = {pose}")
@@ -246,7 +246,7 @@ def test_the_catalog_and_the_exercises(tab, server):
     view.locator('[data-id="wiper"]').wait_for()
     page.until("gruebler.views.catalog.element.querySelectorAll('.card').length === 1")
     view.locator('[data-id="wiper"]').click()
-    page.until("gruebler.motion.machine.model.source === 'wiper'")
+    page.until("gruebler.motion.linkage.model.source === 'wiper'")
     assert "Scheibenwischer" in view.locator("header h1").inner_text()
     view.click('[data-view="exercises"]')
     view.locator("[data-answer]").first.wait_for()
@@ -272,7 +272,7 @@ def test_a_server_that_goes_and_comes_back(tab, server):
     page.until("!gruebler.message.hidden")
     assert "connection" in page.page.locator(".message").inner_text()
     page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, 10))
-    sizes = page.page.evaluate("gruebler.motion.machine.lengths().map((one) => one.value)")
+    sizes = page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")
     page.page.evaluate("void gruebler.ask('catalog', {words: 'wiper'}).then((found) => (window.late = found))")
     given_up = """() => {
         const request = gruebler.ask("catalog", {words: "hood"});
@@ -284,7 +284,7 @@ def test_a_server_that_goes_and_comes_back(tab, server):
     server.start()
     assert page.until("window.late")[0]["id"] == "wiper"
     page.until("gruebler.message.hidden")
-    assert page.page.evaluate("gruebler.motion.machine.lengths().map((one) => one.value)") == sizes
+    assert page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)") == sizes
     page.errors[:] = [e for e in page.errors if "WebSocket" not in e]
 
 
@@ -342,8 +342,8 @@ def test_a_four_bar_through_points_that_are_clicked(tab, server):
     page.page.click('[data-act="synthesise"]')
     page.page.locator('[data-list="designs"] .card').first.wait_for(timeout=100_000)
     page.page.locator('[data-list="designs"] .card').first.click()
-    page.until("gruebler.motion.machine.model.name.startsWith('A design')")
-    document = json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.machine.document())"))
+    page.until("gruebler.motion.linkage.model.name.startsWith('A design')")
+    document = json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())"))
     design = linkage_from_json(document)
     (name,) = design.points
     path = move(design, np.linspace(0, 2 * np.pi, 721)).point(name)
@@ -361,14 +361,14 @@ def test_all_assembly_modes_of_a_larger_group(tab, server, tmp_path):
     page.page.locator('[data-panel="modes"] summary').click()
     page.page.click('[data-act="modes"]')
     page.page.locator('[data-panel="modes"] [data-mode="1"]').wait_for()
-    drive = page.page.evaluate("gruebler.motion.machine.drives[0]")
+    drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
     from gruebler.mechanics.kinematics import move
     from gruebler.mechanics.kinematics.solve import assembly_modes
 
     labels = assembly_modes(linkage, drive)
     shown = page.page.locator('[data-panel="modes"] [data-mode]')
     assert shown.evaluate_all("all => all.map((e) => e.dataset.mode)") == labels
-    places = "gruebler.motion.machine.model.joints.map((_, k) => gruebler.motion.machine.jointAt(k))"
+    places = "gruebler.motion.linkage.model.joints.map((_, k) => gruebler.motion.linkage.jointAt(k))"
     for k, label in enumerate(labels):
         if k:
             page.page.click('[data-act="modes"]')
@@ -390,7 +390,7 @@ def test_drives_that_are_not_at_the_frame(tab, server):
     root = "document.querySelector('.gruebler-explorer').shadowRoot"
     page.until(f"{root}.querySelector('textarea').value.includes('drive=R(crank-coupler)')")
     page.page.click('[data-act="realise"]')
-    page.until("gruebler.motion.machine.drive?.name === 'R(crank-coupler)'", 60)
+    page.until("gruebler.motion.linkage.drive?.name === 'R(crank-coupler)'", 60)
 
 
 def test_links_have_the_names_of_the_language(tab, server):
@@ -401,7 +401,7 @@ def test_links_have_the_names_of_the_language(tab, server):
     names = page.page.locator(".stage text.name").all_text_contents()
     assert sorted(names) == ["Koppel", "Kurbel", "Schwinge"]
     assert "Schwinge Koppel – Gestell" in page.page.locator('[data-panel="sizes"]').inner_text()
-    assert "rocker" in page.page.evaluate("JSON.stringify(gruebler.motion.machine.document())")
+    assert "rocker" in page.page.evaluate("JSON.stringify(gruebler.motion.document())")
     page.page.locator("header select").select_option("en")
     page.until(f"{root}.querySelector('.side').textContent.includes('The output rocker swings')")
     assert sorted(page.page.locator(".stage text.name").all_text_contents()) == ["coupler", "crank", "rocker"]

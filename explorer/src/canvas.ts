@@ -1,0 +1,136 @@
+/** The canvas under the picture: grid, curves of points, centrodes, hodographs. */
+
+import type { Linkage } from "./linkage";
+import { pole } from "./measures";
+import type { PointRecord } from "./model";
+import { origin, type Pair, place, turn } from "./rows";
+import { ownColour, type Shown } from "./shown";
+import type { Viewport } from "./viewport";
+
+const DASHES = [6, 4];
+const FARTHEST = 1e5; // pixels: what is farther off is not drawn
+
+export class Painter {
+  constructor(
+    private readonly pen: CanvasRenderingContext2D,
+    private readonly viewport: Viewport,
+    /** The value of a variable of the style sheet. */
+    private readonly colour: (name: string) => string,
+  ) {}
+
+  paint(linkage: Linkage, shown: Shown): void {
+    const { pen, viewport } = this;
+    const ratio = pen.canvas.width / viewport.width;
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, viewport.width, viewport.height);
+    if (shown.grid) this.paintGrid();
+    const { points } = linkage.sizes;
+    const { rows, values } = linkage.cycle;
+    if (shown.curves)
+      points.forEach((point, number) => {
+        this.trace(values.length, ownColour(number), 2, (row) =>
+          viewport.screen(...place(rows, row, point.link, ...point.at)),
+        );
+      });
+    if (rows.order < 1) return;
+    if (shown.hodographs) this.paintHodographs(linkage);
+    if (shown.poles) this.paintCentrodes(linkage, shown.link);
+  }
+
+  /** A line through places in pixels; null interrupts it. */
+  private trace(count: number, colour: string, width: number, at: (row: number) => Pair | null): void {
+    const { pen, viewport } = this;
+    pen.strokeStyle = this.colour(colour);
+    pen.lineWidth = width;
+    pen.beginPath();
+    let last: Pair | null = null;
+    for (let row = 0; row < count; row++) {
+      const here = at(row);
+      if (!here || !(Math.abs(here[0]) + Math.abs(here[1]) <= FARTHEST)) {
+        last = null;
+        continue;
+      }
+      // a step far beyond the picture leads through infinity, to the other end of an asymptote
+      const near = 2 * (viewport.width + viewport.height);
+      if (last && Math.hypot(here[0] - last[0], here[1] - last[1]) < near) pen.lineTo(...here);
+      else pen.moveTo(...here);
+      last = here;
+    }
+    pen.stroke();
+  }
+
+  /** The curves of the pole of a link, in the plane and on the link. */
+  private paintCentrodes(linkage: Linkage, link: number): void {
+    const { viewport } = this;
+    const { rows, values } = linkage.cycle;
+    this.trace(values.length, "--green", 1.4, (row) => {
+      const found = pole(linkage, rows, row, link);
+      return found && viewport.screen(found.x, found.y);
+    });
+    this.pen.setLineDash(DASHES);
+    this.trace(values.length, "--purple", 1.4, (row) => {
+      const found = pole(linkage, rows, row, link);
+      if (!found) return null;
+      const [c, s] = turn(rows, row, link);
+      const [x, y] = origin(rows, row, link);
+      const [dx, dy] = [found.x - x, found.y - y];
+      return viewport.screen(...place(linkage.pose, 0, link, c * dx + s * dy, c * dy - s * dx));
+    });
+    this.pen.setLineDash([]);
+  }
+
+  /** The velocities of all named points, drawn from one place in the corner: their ends trace the hodographs. */
+  private paintHodographs(linkage: Linkage): void {
+    const { pen, viewport } = this;
+    const { points } = linkage.sizes;
+    const { rows, values } = linkage.cycle;
+    const velocity = (point: PointRecord, row: number) => place(rows, row, point.link, ...point.at, 1);
+    const reach = 0.16 * Math.min(viewport.width, viewport.height);
+    const [x, y] = [reach + 16, viewport.height - reach - 16];
+    const fastest = points.map((point) => {
+      const speeds = Array.from(values, (_, row) => Math.hypot(...velocity(point, row)));
+      return Math.max(0, ...speeds.filter(Number.isFinite));
+    });
+    const most = Math.max(...fastest, 1e-12 * linkage.size);
+    const end = ([u, v]: Pair): Pair => [x + (reach * u) / most, y - (reach * v) / most];
+    points.forEach((point, number) => {
+      this.trace(values.length, ownColour(number), 1.4, (row) => end(velocity(point, row)));
+      pen.beginPath();
+      pen.moveTo(x, y);
+      pen.lineTo(...end(place(linkage.pose, 0, point.link, ...point.at, 1)));
+      pen.stroke();
+    });
+    pen.fillStyle = this.colour("--ink");
+    pen.beginPath();
+    pen.arc(x, y, 2.5, 0, 7);
+    pen.fill();
+  }
+
+  private paintGrid(): void {
+    const { pen, viewport } = this;
+    const { width, height } = viewport;
+    const step = gridStep(70 / viewport.scale);
+    pen.strokeStyle = this.colour("--grid");
+    pen.lineWidth = 1;
+    pen.beginPath();
+    const [left, top] = viewport.world(0, 0);
+    const [right, bottom] = viewport.world(width, height);
+    for (let k = Math.ceil(left / step); k * step <= right; k++) {
+      const x = Math.round(viewport.screen(k * step, 0)[0]) + 0.5;
+      pen.moveTo(x, 0);
+      pen.lineTo(x, height);
+    }
+    for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
+      const y = Math.round(viewport.screen(0, k * step)[1]) + 0.5;
+      pen.moveTo(0, y);
+      pen.lineTo(width, y);
+    }
+    pen.stroke();
+  }
+}
+
+/** The least of 1, 2, 5 times a power of ten that is not below a length. */
+export function gridStep(wanted: number): number {
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  return [1, 2, 5, 10].map((m) => m * power).find((value) => value >= wanted)!;
+}

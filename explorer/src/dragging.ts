@@ -1,0 +1,235 @@
+/** What a reader may do to the sizes: take joints elsewhere, give two joints of a link another distance. */
+
+import type { Rows } from "./kernel";
+import { type Linkage, Refused } from "./linkage";
+import { placeBlocks, readState } from "./reading";
+import { direction, move, oneRow, type Pair, putOrigin, putTurn, turn } from "./rows";
+import type { Cylinder } from "./sizes";
+import { type Mesh, meshesOf, onCircle, type Pivot, pivotOf, setPhases, shiftWheel } from "./wheels";
+
+/** The distance of two elements of a link. */
+export interface Length {
+  link: number;
+  first: number;
+  second: number;
+  value: number;
+}
+
+const LONGEST = 1e9;
+
+export class Dragging {
+  /** Of each joint: whether its place is given by what touches there. */
+  private readonly locked: readonly boolean[];
+  /** Of each link: the two pins between which its x axis runs, if it does. */
+  private readonly axes: readonly (Pair | null)[];
+  private readonly meshes: readonly Mesh[];
+  /** Of each joint that is the centre of a wheel which can be moved around another one. */
+  private readonly pivots: readonly (Pivot | null)[];
+
+  constructor(private readonly linkage: Linkage) {
+    const { model, sizes } = linkage;
+    const held = model.joints.map((_, joint) => this.touches(joint));
+    // an axis goes with those of wheels at the same place of its link
+    const withWheel = (k: number) => (m: number) =>
+      m !== k && held[sizes.element(m).joint]! && sizes.is(m, "pin") && sizes.together(k, m);
+    const carried = (k: number) => sizes.elementsOn(sizes.element(k).link).some(withWheel(k));
+    this.locked = held.map((one, joint) => one || sizes.elementsOf(joint).some(carried));
+    this.axes = model.links.map((_, link) => this.axisOf(link));
+    this.meshes = meshesOf(linkage);
+    this.pivots = model.joints.map((_, joint) => pivotOf(linkage, this.meshes, joint));
+  }
+
+  /** Where wheels, cams and the like touch, places are not free. */
+  private touches(joint: number): boolean {
+    const { sizes } = this.linkage;
+    const mine = sizes.elementsOf(joint);
+    if (!mine.some((k) => sizes.is(k, "pin"))) return true;
+    if (mine.some((k) => sizes.is(k, "round"))) return true;
+    const atRound = (k: number) => (other: number) => sizes.is(other, "round") && sizes.together(k, other);
+    return mine.some((k) => sizes.elementsOn(sizes.element(k).link).some(atRound(k)));
+  }
+
+  private axisOf(link: number): Pair | null {
+    const { model, sizes } = this.linkage;
+    if (link === model.frame || link >= model.own) return null;
+    const pins = sizes.elementsOn(link).filter((k) => sizes.is(k, "pin"));
+    const first = pins.find((k) => Math.hypot(...sizes.xy(k)) <= sizes.near);
+    const other = pins.find((k) => {
+      const [x, y] = sizes.xy(k);
+      return k !== first && x > sizes.near && Math.abs(y) <= sizes.near;
+    });
+    return first === undefined || other === undefined ? null : [first, other];
+  }
+
+  draggable(joint: number): boolean {
+    return !this.locked[joint] || this.pivots[joint] !== null;
+  }
+
+  /** Where a joint comes to when it is dragged to a place. */
+  permitted(joint: number, x: number, y: number): Pair {
+    const pivot = this.pivots[joint];
+    return pivot ? onCircle(this.linkage, pivot, joint, x, y) : [x, y];
+  }
+
+  // --- joints --------------------------------------------------------------------------------------------------------
+
+  /**
+   * Take a joint to a place in the plane. All other joints stay where they are: the links of this joint change.
+   * The centre of a wheel goes around those that it meshes with.
+   */
+  dragJoint(joint: number, toX: number, toY: number): void {
+    if (!this.draggable(joint)) return;
+    const { linkage } = this;
+    const { model, sizes } = linkage;
+    const pose = oneRow(linkage.pose, 0);
+    const pivot = this.pivots[joint];
+    const [x, y] = this.permitted(joint, toX, toY);
+    const cylinders = model.joints.map((_, k) => sizes.cylinder(k)).filter((found) => found !== null);
+    const kept = new Set(cylinders.flatMap(([, , one, two]) => [one, two]));
+    linkage.change(() => {
+      if (pivot) shiftWheel(linkage, pose, pivot.wheel, joint, x, y);
+      for (const k of sizes.elementsOf(joint)) {
+        if (!kept.has(k) && sizes.element(k).link !== pivot?.wheel) this.moveElement(k, x, y, cylinders);
+      }
+      for (const cylinder of cylinders) this.straighten(pose, cylinder, joint, x, y);
+      for (const [link, axis] of this.axes.entries()) if (axis) this.align(pose, link, axis);
+      linkage.writeSizes();
+      placeBlocks(linkage, pose);
+      readState(linkage, pose);
+      setPhases(linkage, this.meshes, pose);
+    });
+  }
+
+  private moveElement(k: number, x: number, y: number, cylinders: readonly Cylinder[]): void {
+    const { linkage } = this;
+    const { model, sizes } = linkage;
+    const { joint, link } = sizes.element(k);
+    const [u, v] = linkage.toLocal(link, x, y);
+    if (sizes.is(k, "line")) {
+      sizes.shiftLine(k, u, v);
+      return;
+    }
+    const before = sizes.xy(k);
+    sizes.put(k, u, v);
+    if (link === model.frame) return;
+    // a slide through the pin goes on through it, on both of its links
+    for (const m of sizes.elementsOn(link)) {
+      if (!sizes.is(m, "line") || sizes.element(m).joint === joint) continue;
+      if (Math.abs(sizes.leftOf(m, ...before)) > sizes.near) continue;
+      if (cylinders.some(([one, two]) => one === m || two === m)) continue;
+      for (const other of sizes.elementsOf(sizes.element(m).joint)) {
+        if (!sizes.is(other, "line")) continue;
+        sizes.shiftLine(other, ...linkage.toLocal(sizes.element(other).link, x, y));
+      }
+    }
+  }
+
+  /** A cylinder whose end is dragged keeps its links, and turns into the line of its pins. */
+  private straighten(pose: Rows, cylinder: Cylinder, dragged: number, x: number, y: number): void {
+    const { linkage } = this;
+    const { sizes } = linkage;
+    const [one, two, pinOne, pinTwo] = cylinder;
+    const moved = (pin: number) => sizes.element(pin).joint === dragged;
+    if (!moved(pinOne) && !moved(pinTwo)) return;
+    const endAt = (pin: number): Pair => (moved(pin) ? [x, y] : linkage.elementAt(pin));
+    const ends = [endAt(pinOne), endAt(pinTwo)] as const;
+    const dx = ends[1][0] - ends[0][0];
+    const dy = ends[1][1] - ends[0][1];
+    for (const [line, pin, end] of [
+      [one, pinOne, ends[0]],
+      [two, pinTwo, ends[1]],
+    ] as const) {
+      const { link } = sizes.element(line);
+      const [lx, ly] = direction(pose, 0, link, sizes.line(line));
+      const along = lx * dx + ly * dy < 0 ? -1 : 1;
+      const angle = Math.atan2(along * dy, along * dx) - sizes.angles[line]!;
+      putTurn(pose, link, Math.cos(angle), Math.sin(angle));
+      const [rx, ry] = direction(pose, 0, link, sizes.xy(pin));
+      putOrigin(pose, link, end[0] - rx, end[1] - ry);
+    }
+  }
+
+  /** Give a link its x axis back, from pin to pin; nothing moves in the plane. */
+  private align(pose: Rows, link: number, [first, other]: Pair): void {
+    const { sizes } = this.linkage;
+    const [x, y] = sizes.xy(first);
+    const [ox, oy] = sizes.xy(other);
+    const dx = ox - x;
+    const dy = oy - y;
+    const length = Math.hypot(dx, dy);
+    if (!(length > 0) || (x === 0 && y === 0 && dy === 0 && dx > 0)) return;
+    const c = dx / length;
+    const s = dy / length;
+    const to = (u: number, v: number): Pair => [c * (u - x) + s * (v - y), c * (v - y) - s * (u - x)];
+    for (const k of sizes.elementsOn(link)) {
+      sizes.put(k, ...to(...sizes.xy(k)));
+      if (!sizes.is(k, "pin")) sizes.angles[k]! -= Math.atan2(s, c);
+    }
+    sizes.put(first, 0, 0);
+    sizes.put(other, length, 0);
+    for (const point of sizes.points) if (point.link === link) point.at = to(...point.at);
+    const [tx, ty] = turn(pose, 0, link);
+    move(pose, link, tx * x - ty * y, tx * y + ty * x);
+    putTurn(pose, link, tx * c - ty * s, tx * s + ty * c);
+  }
+
+  // --- lengths -------------------------------------------------------------------------------------------------------
+
+  /** The sizes that a panel shows: for each link the distances of its joints, for slides of the frame their angle. */
+  lengths(): Length[] {
+    const { model, sizes } = this.linkage;
+    const out: Length[] = [];
+    for (let link = 0; link < model.own; link++) {
+      const mine = sizes.elementsOn(link).filter((k) => !sizes.is(k, "round"));
+      // each joint against the first two of its link: these distances fix the link
+      for (let j = 1; j < mine.length; j++)
+        for (let i = 0; i < Math.min(j, 2); i++) {
+          const length = this.length(link, mine[i]!, mine[j]!);
+          if (length) out.push(length);
+        }
+    }
+    return out;
+  }
+
+  /** The distance of two elements of a link, null where it is no size. */
+  private length(link: number, first: number, second: number): Length | null {
+    const { model, sizes } = this.linkage;
+    const lines = [first, second].filter((k) => sizes.is(k, "line"));
+    if (lines.length === 2) return null;
+    let value: number;
+    if (lines.length) {
+      const [line, pin] = this.lineFirst(first, second);
+      value = Math.abs(sizes.leftOf(line, ...sizes.xy(pin)));
+      if (value < sizes.near && link !== model.frame) return null;
+    } else value = sizes.gap(first, second);
+    if (this.locked[sizes.element(first).joint] && this.locked[sizes.element(second).joint]) return null;
+    return { link, first, second, value };
+  }
+
+  private lineFirst(first: number, second: number): Pair {
+    return this.linkage.sizes.is(first, "line") ? [first, second] : [second, first];
+  }
+
+  /** Give two joints of a link another distance: the second moves on the line through both. */
+  setLength(first: number, second: number, length: number): void {
+    if (!(length >= 0) || !(length < LONGEST)) throw new Refused(null);
+    const { sizes } = this.linkage;
+    const goal = new Float64Array(sizes.at);
+    if (sizes.is(first, "line") || sizes.is(second, "line")) {
+      const [line, pin] = this.lineFirst(first, second);
+      const off = sizes.leftOf(line, ...sizes.xy(pin));
+      const more = (off < 0 ? -length : length) - off;
+      const [c, s] = sizes.line(line);
+      goal[2 * line]! += s * more;
+      goal[2 * line + 1]! -= c * more;
+    } else {
+      if (length < sizes.near) throw new Refused(null);
+      const [x, y] = sizes.xy(first);
+      const [u, v] = sizes.xy(second);
+      const now = Math.hypot(u - x, v - y);
+      goal[2 * second] = x + ((u - x) / now) * length;
+      goal[2 * second + 1] = y + ((v - y) / now) * length;
+    }
+    this.linkage.changeSlowly(goal);
+  }
+}

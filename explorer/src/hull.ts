@@ -1,0 +1,50 @@
+/** Convex hulls and distances, in pixels or in the plane. */
+
+import type { Pair } from "./rows";
+
+/** The corners of the convex hull, in order. */
+export function convexHull(points: readonly (readonly [number, number])[]): Pair[] {
+  const different = new Map(points.map(([x, y]) => [`${x},${y}`, [x, y] as Pair]));
+  const sorted = [...different.values()].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  if (sorted.length < 3) return sorted;
+  return [...half(sorted), ...half([...sorted].reverse())];
+}
+
+/** One side of the hull of sorted points, without its last. */
+function half(list: readonly Pair[]): Pair[] {
+  const out: Pair[] = [];
+  for (const p of list) {
+    while (out.length > 1) {
+      const [ax, ay] = out[out.length - 2]!;
+      const [bx, by] = out[out.length - 1]!;
+      if ((bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0) break;
+      out.pop();
+    }
+    out.push(p);
+  }
+  return out.slice(0, -1);
+}
+
+/** How far a point is from a convex polygon: 0 within it. */
+export function toHull(hull: readonly Pair[], x: number, y: number): number {
+  if (inside(hull, x, y)) return 0;
+  return Math.min(...hull.map((p, k) => toSegment(x, y, p, hull[(k + 1) % hull.length]!)));
+}
+
+function inside(hull: readonly Pair[], x: number, y: number): boolean {
+  return (
+    hull.length > 2 &&
+    hull.every(([ax, ay], k) => {
+      const [bx, by] = hull[(k + 1) % hull.length]!;
+      return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
+    })
+  );
+}
+
+function toSegment(x: number, y: number, [ax, ay]: Pair, [bx, by]: Pair): number {
+  const dx = bx - ax;
+  const dy = by - ay;
+  const d = dx * dx + dy * dy;
+  const part = d ? Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / d)) : 0;
+  return Math.hypot(x - ax - part * dx, y - ay - part * dy);
+}

@@ -1,0 +1,318 @@
+/** A linkage on the page: its sizes, its pose, its cycle; how it is solved and moved. */
+
+import { type Cycle, findCycle, type Stop, stopOf, TURN } from "./cycle";
+import { Kernel, type Rows, type State } from "./kernel";
+import { currentLanguage } from "./language";
+import type { DriveRecord, Model, PointRecord } from "./model";
+import { Code, type Program, programOf } from "./program";
+import { leastRoot, oneRow, origin, type Pair, picked, place, stateAt, turn } from "./rows";
+import { Sizes } from "./sizes";
+
+/** Below this root a row is no place from which to go on. */
+const NEAR_CHANGE = 1e-5;
+
+export interface Snapshot {
+  at: number[];
+  angles: number[];
+  points: PointRecord[];
+  drives: number[];
+  signs: number[];
+  unknowns: number[];
+}
+
+/** Why a change was refused. */
+export class Refused extends Error {
+  constructor(readonly stop: Stop | null) {
+    super("refused");
+  }
+}
+
+export class Linkage {
+  readonly sizes: Sizes;
+  readonly program: Program;
+  /** All drive values, held ones of idle rollers behind the others. */
+  readonly drives: Float64Array;
+  readonly state: State;
+  /** The pose that is shown: one row with velocities and accelerations for speed 1 of the active drive. */
+  pose: Rows;
+  active = 0;
+  cycle: Cycle;
+  /** Whether it has wheels, whose turns are counted. */
+  readonly wheels: boolean;
+  private readonly kernel: Kernel;
+  /** Of each element of the plan: its direction against that of its element in the linkage. */
+  private readonly offsets: Float64Array;
+
+  constructor(readonly model: Model) {
+    const p = programOf(model.program);
+    this.program = p;
+    this.kernel = new Kernel(p);
+    this.sizes = new Sizes(model, p.size);
+    this.offsets = Float64Array.from(model.sources, (source, k) => {
+      const angle = Math.atan2(p.lines[2 * k + 1]!, p.lines[2 * k]!);
+      return angle - (source < 0 ? 0 : this.sizes.angles[source]!);
+    });
+    this.drives = Float64Array.from(model.start.drives);
+    this.state = {
+      signs: Float64Array.from(model.start.signs),
+      unknowns: Float64Array.from(model.start.unknowns),
+    };
+    this.wheels = model.elements.some((e) => e.kind === "round");
+    this.pose = this.solve();
+    this.cycle = findCycle(this);
+  }
+
+  // --- what it is ----------------------------------------------------------------------------------------------------
+
+  /** About how large it is. */
+  get size(): number {
+    return this.sizes.unit;
+  }
+
+  get drive(): DriveRecord | null {
+    return this.model.drives[this.active] ?? null;
+  }
+
+  /** What a link is called in the reader's language. */
+  linkName(link: number): string {
+    return this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!;
+  }
+
+  /** Links by their names in the linkage, as the reader calls them. */
+  linkList(links: readonly string[]): string {
+    return links.map((name) => this.linkName(this.model.links.indexOf(name)) ?? name).join(", ");
+  }
+
+  /** Where an element lies in the plane. */
+  elementAt(k: number, rows = this.pose, row = 0): Pair {
+    return place(rows, row, this.sizes.element(k).link, ...this.sizes.xy(k));
+  }
+
+  /** Where a joint lies: its pin, else the point of its line on the link that moves. */
+  jointAt(joint: number, rows = this.pose, row = 0): Pair {
+    const { sizes, model } = this;
+    const mine = sizes.elementsOf(joint);
+    const pin = mine.find((k) => sizes.is(k, "pin"));
+    const moving = mine.find((k) => sizes.element(k).link !== model.frame);
+    return this.elementAt(pin ?? moving ?? mine[0]!, rows, row);
+  }
+
+  /** Where a place in the plane lies on a link. */
+  toLocal(link: number, x: number, y: number): Pair {
+    const [c, s] = turn(this.pose, 0, link);
+    const [ox, oy] = origin(this.pose, 0, link);
+    const dx = x - ox;
+    const dy = y - oy;
+    return [c * dx + s * dy, c * dy - s * dx];
+  }
+
+  // --- solving -------------------------------------------------------------------------------------------------------
+
+  /** The pose of the drive values; `reached` is 0 if there is none. */
+  solve(state = this.state): Rows {
+    return this.kernel.run(this.drives, state, 2, this.speeds(1));
+  }
+
+  /** Tell the plan the sizes. */
+  writeSizes(): void {
+    const { points, lines } = this.program;
+    this.model.sources.forEach((source, k) => {
+      if (source < 0) return;
+      [points[2 * k], points[2 * k + 1]] = this.sizes.xy(source);
+      const angle = this.sizes.angles[source]! + this.offsets[k]!;
+      lines[2 * k] = Math.cos(angle);
+      lines[2 * k + 1] = Math.sin(angle);
+    });
+  }
+
+  /** Speed 1 of the active drive, no acceleration. */
+  private speeds(count: number): Float64Array[] {
+    const D = this.program.drives;
+    const one = new Float64Array(count * D);
+    for (let row = 0; row < count; row++) if (D) one[row * D + this.active] = 1;
+    return [one, new Float64Array(count * D)];
+  }
+
+  /** Rows along values of the active drive, from a state at the first value; a slide stops where it is shortest. */
+  runAlong(values: Float64Array, state: State, order: number): Rows {
+    const D = this.program.drives;
+    const rows: number[] = [];
+    const asked: number[] = [];
+    const special = this.shortest();
+    values.forEach((value, row) => {
+      if (row > 0) {
+        const last = values[row - 1]!;
+        const way = Math.sign(value - last);
+        rows.push(...special.filter((s) => (s - last) * (s - value) < 0).sort((a, b) => (a - b) * way));
+      }
+      asked.push(rows.length);
+      rows.push(value);
+    });
+    const path = new Float64Array(rows.length * D);
+    rows.forEach((value, row) => {
+      for (let d = 0; d < D; d++) path[row * D + d] = d === this.active ? value : this.drives[d]!;
+    });
+    const found = this.kernel.run(path, state, order, this.speeds(rows.length));
+    return asked.length === rows.length ? found : picked(found, asked, rows, values);
+  }
+
+  /** Where the driven slide brings the two joints of its body nearest; there steps could pass a limit unseen. */
+  private shortest(): number[] {
+    if (this.model.shortest.length === 0) return [];
+    const { lines, links, operations, points } = this.program;
+    const out: number[] = [];
+    for (const operation of operations) {
+      if (operation[0] !== Code.PUSH || operation[1] !== this.active) continue;
+      const [, , near, far, sign] = operation as [number, number, number, number, number];
+      const [lx, ly] = [lines[2 * near]!, lines[2 * near + 1]!];
+      const [fx, fy] = [lines[2 * far]!, lines[2 * far + 1]!];
+      const tx = lx * fx + ly * fy;
+      const ty = ly * fx - lx * fy;
+      for (const other of operations) {
+        if (other[0] !== Code.RRR) continue;
+        for (const at of [2, 4]) {
+          let [a, b] = [other[at]!, other[at + 1]!];
+          const body = [links[near]!, links[far]!];
+          if (!body.includes(links[a]!) || !body.includes(links[b]!) || links[a] === links[b]) continue;
+          if (links[a] !== links[near]) [a, b] = [b, a];
+          const dx = points[2 * b]! - points[2 * far]!;
+          const dy = points[2 * b + 1]! - points[2 * far + 1]!;
+          const gx = points[2 * near]! + tx * dx - ty * dy - points[2 * a]!;
+          const gy = points[2 * near + 1]! + tx * dy + ty * dx - points[2 * a + 1]!;
+          out.push(-sign * (lx * gx + ly * gy));
+        }
+      }
+    }
+    return out;
+  }
+
+  // --- moving --------------------------------------------------------------------------------------------------------
+
+  /** Bring the active drive to a value within its cycle; returns false where it cannot be reached. */
+  moveTo(value: number): boolean {
+    const { cycle } = this;
+    if (!this.drive || cycle.values.length < 2) return false;
+    let goal = value;
+    if (cycle.full) {
+      const period = cycle.turns * TURN;
+      goal = cycle.low + ((((value - cycle.low) % period) + period) % period);
+    }
+    const rows = this.from(this.nearestRow(goal), goal);
+    if (rows.reached < 2) return false;
+    this.drives[this.active] = goal;
+    this.take(rows, 1);
+    return true;
+  }
+
+  /** Two rows: one of the cycle, and what the drive comes to from it. */
+  from(row: number, value: number): Rows {
+    const { rows, values } = this.cycle;
+    return this.runAlong(Float64Array.of(values[row]!, value), stateAt(rows, row), 2);
+  }
+
+  /** The row of the cycle nearest to a value, but not one in which modes meet. */
+  private nearestRow(value: number): number {
+    const { values, rows } = this.cycle;
+    let low = 0;
+    let high = values.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (values[middle]! <= value) low = middle;
+      else high = middle;
+    }
+    const row = value - values[low]! <= values[high]! - value ? low : high;
+    if (leastRoot(rows, row) >= NEAR_CHANGE) return row;
+    return leastRoot(rows, low) >= leastRoot(rows, high) ? low : high;
+  }
+
+  private take(rows: Rows, row: number): void {
+    const state = stateAt(rows, row);
+    this.state.signs.set(state.signs);
+    this.state.unknowns.set(state.unknowns);
+    this.pose = oneRow(rows, row);
+  }
+
+  /** Move another drive. */
+  choose(active: number): void {
+    this.active = active;
+    this.restore(this.snapshot());
+  }
+
+  // --- changes -------------------------------------------------------------------------------------------------------
+
+  snapshot(): Snapshot {
+    return {
+      ...this.sizes.snapshot(),
+      drives: [...this.drives],
+      signs: [...this.state.signs],
+      unknowns: [...this.state.unknowns],
+    };
+  }
+
+  restore(old: Snapshot): void {
+    this.put(old);
+    this.pose = this.solve();
+    this.cycle = findCycle(this);
+  }
+
+  private put(old: Snapshot): void {
+    this.sizes.restore(old);
+    this.drives.set(old.drives);
+    this.state.signs.set(old.signs);
+    this.state.unknowns.set(old.unknowns);
+    this.writeSizes();
+  }
+
+  /** Do something to the sizes; if it cannot be assembled then, everything is as before and `Refused` says why. */
+  change(edit: () => void, assemble = () => this.solve()): void {
+    const old = this.snapshot();
+    try {
+      edit();
+      this.writeSizes();
+      const rows = assemble();
+      if (rows.reached === 0) throw new Refused(stopOf(this.sizes, rows, this.drives[this.active] ?? 0));
+      this.take(rows, 0);
+    } catch (error) {
+      this.put(old);
+      throw error;
+    }
+    this.cycle = findCycle(this);
+  }
+
+  /** Other sizes at the same drive values, in small steps, so that larger groups stay on their branch. */
+  changeSlowly(goal: Float64Array): void {
+    const { at } = this.sizes;
+    const start = new Float64Array(at);
+    let state: State = { signs: new Float64Array(this.state.signs), unknowns: new Float64Array(this.state.unknowns) };
+    const steps = this.program.roots.length ? 24 : 1;
+    this.change(
+      () => at.set(goal),
+      () => {
+        let rows = this.pose;
+        for (let step = 1; step <= steps; step++) {
+          for (let k = 0; k < goal.length; k++) at[k] = start[k]! + ((goal[k]! - start[k]!) * step) / steps;
+          if (step === steps) at.set(goal);
+          this.writeSizes();
+          rows = this.solve(state);
+          if (rows.reached === 0) return rows;
+          state = stateAt(rows, 0);
+        }
+        return rows;
+      },
+    );
+  }
+
+  /** Assemble one dyad the other way at this drive value. */
+  switchMode(number: number): void {
+    const signs = new Float64Array(this.state.signs);
+    signs[number]! *= -1;
+    this.change(
+      () => undefined,
+      () => this.solve({ signs, unknowns: this.state.unknowns }),
+    );
+  }
+
+  addPoint(name: string, link: number, x: number, y: number): void {
+    this.sizes.points.push({ name, link, at: this.toLocal(link, x, y) });
+  }
+}

@@ -1,0 +1,313 @@
+/** What is measured of a linkage: its output, dead centres, transmission angle, poles. */
+
+import { TURN } from "./cycle";
+import type { Rows } from "./kernel";
+import type { Linkage } from "./linkage";
+import type { Leg, Place } from "./model";
+import { direction, leastRoot, origin, type Pair, place, rate, turn } from "./rows";
+
+const STILL = 1e-9; // of the natural speed: an output that is never faster does not move
+const CHANGE = 1e-5; // below this root, next to a change point, velocities have no sign
+const GOLDEN = 0.6180339887498949;
+
+export interface DeadCentre {
+  value: number;
+  output: number;
+}
+
+/** The smallest transmission angle and the drive value there. */
+export interface Least {
+  value: number;
+  mu: number;
+}
+
+// --- the output ------------------------------------------------------------------------------------------------------
+
+/** The output and its first two derivatives by the drive, in a row. */
+export function output({ model, sizes }: Linkage, rows: Rows, row: number): [number, number, number] {
+  const record = model.outputs[0];
+  if (!record) return [NaN, NaN, NaN];
+  if (record.joint === null) {
+    const [c, s] = turn(rows, row, record.link);
+    return [Math.atan2(s, c), rate(rows, row, record.link, 1), rate(rows, row, record.link, 2)];
+  }
+  const mine = sizes.elementsOf(record.joint);
+  const line = mine.find((k) => sizes.element(k).link === model.frame) ?? mine[0]!;
+  const other = mine.find((k) => k !== line)!;
+  const { link } = sizes.element(line);
+  const [lx, ly] = direction(rows, row, link, sizes.line(line));
+  const gap = (k: number): Pair => {
+    const [px, py] = place(rows, row, link, ...sizes.xy(line), k);
+    const [qx, qy] = place(rows, row, sizes.element(other).link, ...sizes.xy(other), k);
+    return [qx - px, qy - py];
+  };
+  const along = ([x, y]: Pair) => lx * x + ly * y;
+  const across = ([x, y]: Pair) => lx * y - ly * x;
+  const [zeroth, first, second] = [gap(0), gap(1), gap(2)];
+  const w = rate(rows, row, link, 1);
+  const al = rate(rows, row, link, 2);
+  return [
+    along(zeroth),
+    along(first) + w * across(zeroth),
+    along(second) + 2 * w * across(first) + al * across(zeroth) - w * w * along(zeroth),
+  ];
+}
+
+/** The output at rows of the cycle that follow one another. An angle has no jumps, and lies between -180° and 180°
+ * where the cycle was found, as the library measures it from a reference pose. */
+export function outputAlong(linkage: Linkage, rows: number[]): Float64Array {
+  const { cycle, model } = linkage;
+  const values = Float64Array.from(rows, (row) => output(linkage, cycle.rows, row)[0]);
+  return model.outputs[0]?.joint === null ? unwrapped(values, rows.indexOf(cycle.home)) : values;
+}
+
+/** Angles that follow one another without jumps; the one at `home` stays as it is. */
+export function unwrapped(values: Float64Array, home: number): Float64Array {
+  let turns = 0;
+  const laps = values.map((value, k) => {
+    turns -= k ? Math.round((value - values[k - 1]!) / TURN) : 0;
+    return turns;
+  });
+  const first = laps[home] ?? 0;
+  return values.map((value, k) => value + (laps[k]! - first) * TURN);
+}
+
+// --- the transmission angle ------------------------------------------------------------------------------------------
+
+/** The transmission angle, at most pi/2; with several legs the smallest; NaN where there is none. */
+export function transmission(linkage: Linkage, rows: Rows, row: number): number {
+  const legs = linkage.model.outputs[0]?.legs ?? [];
+  let out = legs.length ? Infinity : NaN;
+  for (const leg of legs) {
+    const [real, imag] = forceAndWay(linkage, rows, row, leg);
+    out = Math.min(out, Math.atan2(Math.abs(real), Math.abs(imag)));
+  }
+  return out;
+}
+
+/** Cosine and sine between the force of a leg and the way of the point on which it acts. */
+function forceAndWay(linkage: Linkage, rows: Rows, row: number, leg: Leg): Pair {
+  const outer = legPlace(linkage, rows, row, leg.outer);
+  const inner = legPlace(linkage, rows, row, leg.inner);
+  const acts = leg.form === "RP" ? outer : inner;
+  let [fx, fy] = [inner.x - outer.x, inner.y - outer.y];
+  if (leg.form === "RP") [fx, fy] = [-inner.ly, inner.lx];
+  else if (leg.form === "PR") [fx, fy] = [-outer.ly, outer.lx];
+  let wx: number;
+  let wy: number;
+  if (leg.guide) {
+    const [kind, ...at] = leg.guide;
+    const held = legPlace(linkage, rows, row, at);
+    [wx, wy] = kind === "P" ? [held.lx, held.ly] : [held.y - acts.y, acts.x - held.x];
+  } else {
+    const from = leg.form === "RP" ? leg.outer : leg.inner;
+    [wx, wy] = wayOf(linkage, rows, row, leg.pushed, [acts.x, acts.y], from);
+  }
+  const length = Math.hypot(fx, fy) * Math.hypot(wx, wy);
+  return [(fx * wx + fy * wy) / length, (fx * wy - fy * wx) / length];
+}
+
+/** Where an end of a leg lies, and the direction there. */
+function legPlace(
+  linkage: Linkage,
+  rows: Rows,
+  row: number,
+  at: Place,
+): { x: number; y: number; lx: number; ly: number } {
+  const [link, , , dx, dy, element] = at;
+  const { lines } = linkage.program;
+  const local: Pair = element < 0 ? [dx, dy] : [lines[2 * element]!, lines[2 * element + 1]!];
+  const [x, y] = place(rows, row, link, ...legPoint(linkage, at));
+  const [lx, ly] = direction(rows, row, link, local);
+  return { x, y, lx, ly };
+}
+
+/** The point of an end of a leg on its link. */
+function legPoint({ program: p }: Linkage, [, px, py, , , element]: Place): Pair {
+  return element < 0 ? [px, py] : [p.points[2 * element]!, p.points[2 * element + 1]!];
+}
+
+/** The velocity of the place of a link where a point is; at rest the way in which it leaves. */
+function wayOf(linkage: Linkage, rows: Rows, row: number, link: number, point: Pair, from: Place): Pair {
+  const [x, y] = origin(rows, row, link);
+  const [u, v] = origin(rows, row, link, 1);
+  const dx = point[0] - x;
+  const dy = point[1] - y;
+  const w = rate(rows, row, link, 1);
+  const vx = u - w * dy;
+  const vy = v + w * dx;
+  let fastest = 0;
+  for (let k = 0; k < rows.links; k++) {
+    const speed = Math.hypot(...origin(rows, row, k, 1));
+    fastest = Math.max(fastest, speed, linkage.size * Math.abs(rate(rows, row, k)));
+  }
+  if (Math.hypot(vx, vy) >= 1e-7 * fastest) return [vx, vy];
+  const [px, py] = place(rows, row, from[0], ...legPoint(linkage, from), 1);
+  const rx = px - u;
+  const ry = py - v;
+  const a = rate(rows, row, link, 2);
+  const [ax, ay] = origin(rows, row, link, 2);
+  return [ax - a * dy - w * ry, ay + a * dx + w * rx];
+}
+
+// --- over the cycle --------------------------------------------------------------------------------------------------
+
+/** Where the output turns back: zeros of its velocity, to 1e-9 of a radian or size. */
+export function deadCentres(linkage: Linkage): DeadCentre[] {
+  const { values, rows } = linkage.cycle;
+  const speed = Array.from(values, (_, row) => output(linkage, rows, row)[1]);
+  const usual = Math.max(0, ...speed.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
+  const out: DeadCentre[] = [];
+  const { drive, model, size } = linkage;
+  const natural = (model.outputs[0]?.joint === null ? 1 : size) / (drive?.turning ? 1 : size);
+  if (!(usual > STILL * natural)) return out;
+  const still = 1e-9 * usual;
+  let last = -1;
+  for (let row = 0; row < values.length; row++) {
+    if (!(Math.abs(speed[row]!) > still)) continue;
+    if (last >= 0 && speed[last]! * speed[row]! < 0 && row - last <= 2) {
+      const found = turningBack(linkage, values[last]!, values[row]!, last);
+      if (found !== null) out.push(found);
+    }
+    last = row;
+  }
+  return out;
+}
+
+/** The drive value between two at which the output turns back, found from a row of the cycle. */
+function turningBack(linkage: Linkage, from: number, to: number, row: number): DeadCentre | null {
+  const speed = (drive: number) => {
+    const rows = linkage.from(row, drive);
+    return rows.reached < 2 ? NaN : output(linkage, rows, 1)[1];
+  };
+  const value = zero(speed, from, to);
+  if (value === null) return null;
+  const rows = linkage.from(row, value);
+  if (rows.reached < 2 || leastRoot(rows, 1) < CHANGE) return null;
+  return { value, output: output(linkage, rows, 1)[0] };
+}
+
+/** A zero of a function between two values at which it has different signs; null where it has no value. */
+export function zero(f: (value: number) => number, from: number, to: number): number | null {
+  let [a, b] = [from, to];
+  let [fa, fb] = [f(a), f(b)];
+  for (let k = 0; k < 60 && Math.abs(b - a) > 1e-11 * (1 + Math.abs(a)); k++) {
+    let middle = k % 3 === 2 ? (a + b) / 2 : a - (fa * (b - a)) / (fb - fa);
+    if (!(middle > Math.min(a, b) && middle < Math.max(a, b))) middle = (a + b) / 2;
+    const fm = f(middle);
+    if (Number.isNaN(fm)) return null;
+    if (fm === 0) return middle;
+    if (fa * fm < 0) [b, fb] = [middle, fm];
+    else [a, fa] = [middle, fm];
+  }
+  return (a + b) / 2;
+}
+
+/** The smallest transmission angle over the cycle and where it is; at the ends of a range its limit counts. */
+export function leastTransmission(linkage: Linkage): Least | null {
+  if (!linkage.model.outputs[0]?.legs.length) return null;
+  const { values, rows, full, low, high } = linkage.cycle;
+  const angles = Array.from(values, (_, row) => transmission(linkage, rows, row));
+  const known = angles.filter(Number.isFinite).sort(ascending);
+  if (!known.length) return null;
+  const median = known[known.length >> 1]!;
+  const spread = known.map((one) => Math.abs(one - median)).sort(ascending);
+  if (spread[Math.floor(0.9 * (spread.length - 1))]! <= 1e-8) return { value: values[0]!, mu: median };
+  let [best, mu] = [-1, Infinity];
+  angles.forEach((now, row) => {
+    if (now < mu) [best, mu] = [row, now];
+  });
+  let found: Least = { value: values[best]!, mu };
+  const angleAt = (value: number) => {
+    const pose = linkage.from(best, value);
+    return pose.reached < 2 ? Infinity : transmission(linkage, pose, 1);
+  };
+  const next = [values[Math.max(0, best - 1)]!, values[Math.min(values.length - 1, best + 1)]!] as const;
+  for (const one of smallest(angleAt, ...next)) if (one.mu < found.mu) found = one;
+  if (!full && values.length > 2) {
+    for (const upper of [false, true]) {
+      const end = transmissionAtEnd(linkage, upper);
+      if (end < found.mu) found = { value: upper ? high : low, mu: end };
+    }
+  }
+  return found;
+}
+
+function ascending(a: number, b: number): number {
+  return a - b;
+}
+
+/** The two places where a golden section search for the smallest value ends. */
+function smallest(f: (value: number) => number, from: number, to: number): [Least, Least] {
+  let [low, high] = [from, to];
+  let a = high - GOLDEN * (high - low);
+  let b = low + GOLDEN * (high - low);
+  let [fa, fb] = [f(a), f(b)];
+  for (let k = 0; k < 40; k++) {
+    if (fa <= fb) {
+      [high, b, fb] = [b, a, fa];
+      a = high - GOLDEN * (high - low);
+      fa = f(a);
+    } else {
+      [low, a, fa] = [a, b, fb];
+      b = low + GOLDEN * (high - low);
+      fb = f(b);
+    }
+  }
+  return [
+    { value: a, mu: fa },
+    { value: b, mu: fb },
+  ];
+}
+
+/** The transmission angle at an end of the range, where poses are ill-conditioned: in t, with the drive at
+ * middle - cos t times half the width, it is analytic and extrapolated from t up to 0.3 by a polynomial. */
+function transmissionAtEnd(linkage: Linkage, upper: boolean): number {
+  const { values, low, high } = linkage.cycle;
+  const half = (high - low) / 2;
+  const nodes = 10;
+  const row = upper ? values.length - 2 : 1;
+  let out = Infinity;
+  for (const leg of linkage.model.outputs[0]!.legs) {
+    let [re, im, sum] = [0, 0, 0];
+    for (let k = 0; k < nodes; k++) {
+      const angle = ((2 * k + 1) * Math.PI) / (2 * nodes);
+      const t = 0.15 * (1 - Math.cos(angle));
+      const from = half * 2 * Math.sin(t / 2) ** 2;
+      const rows = linkage.from(row, upper ? high - from : low + from);
+      if (rows.reached < 2) return Infinity;
+      const weight = ((k % 2 ? -1 : 1) * Math.sin(angle)) / t;
+      const [x, y] = forceAndWay(linkage, rows, 1, leg);
+      re += weight * x;
+      im += weight * y;
+      sum += weight;
+    }
+    out = Math.min(out, Math.atan2(Math.abs(re / sum), Math.abs(im / sum)));
+  }
+  return out;
+}
+
+// --- a link in the plane ---------------------------------------------------------------------------------------------
+
+/** The pole of a link and the diameter of its inflection circle. */
+export interface Pole {
+  x: number;
+  y: number;
+  dx: number;
+  dy: number;
+}
+
+/** The pole of a link in a row; null where it does not turn. */
+export function pole({ size }: Linkage, rows: Rows, row: number, link: number): Pole | null {
+  const w = rate(rows, row, link);
+  const [vx, vy] = origin(rows, row, link, 1);
+  if (Math.abs(w) * 1e4 * size <= Math.hypot(vx, vy) || !(Math.abs(w) > 1e-12)) return null;
+  const [px, py] = [-vy / w, vx / w]; // from the link's origin
+  const [ox, oy] = origin(rows, row, link);
+  if (rows.order < 2) return { x: ox + px, y: oy + py, dx: 0, dy: 0 };
+  const a = rate(rows, row, link, 2);
+  const [bx, by] = origin(rows, row, link, 2);
+  const ax = bx - w * w * px - a * py;
+  const ay = by - w * w * py + a * px;
+  return { x: ox + px, y: oy + py, dx: ax / (w * w), dy: ay / (w * w) };
+}

@@ -1,0 +1,192 @@
+/** The SVG of the picture: links, joints, points, names, vectors. */
+
+import { Bodies } from "./bodies";
+import { svg } from "./dom";
+import type { Dragging } from "./dragging";
+import type { Linkage } from "./linkage";
+import { pole } from "./measures";
+import { origin, type Pair, place, turn } from "./rows";
+import { ownColour, type Shown } from "./shown";
+import type { Viewport } from "./viewport";
+
+const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23 l5 -6 M13 23 l4 -5";
+const DRIVEN = "M-9.5 -9.5 A13.4 13.4 0 0 1 12.5 -5 M12.5 -5 l-6 -1.5 M12.5 -5 l0.6 -6";
+const LONGEST_ARROW = 70; // pixels
+
+export class Scene {
+  private links: SVGGElement[] = [];
+  private pins: { element: SVGGElement; joint: number }[] = [];
+  private marks: { element: SVGGElement; point: number }[] = [];
+  private labels: { element: SVGTextElement; at: () => Pair }[] = [];
+  private readonly arrows = svg("path", { class: "velocity" });
+  private readonly changes = svg("path", { class: "acceleration" });
+  private readonly circle = svg("circle", { class: "inflection", r: 0 });
+  private readonly pole = svg("circle", { class: "pole", r: 4 });
+
+  constructor(
+    private readonly root: SVGSVGElement,
+    private readonly viewport: Viewport,
+    private readonly key: (event: KeyboardEvent, joint: number) => void,
+  ) {}
+
+  /** The joints that are drawn. */
+  get joints(): number[] {
+    return this.pins.map(({ joint }) => joint);
+  }
+
+  focus(joint: number): void {
+    this.pins.find((pin) => pin.joint === joint)?.element.focus({ preventScroll: true });
+  }
+
+  // --- the parts -----------------------------------------------------------------------------------------------------
+
+  /** Make the elements anew: after another linkage, another point, other options. */
+  build(linkage: Linkage, dragging: Dragging, shown: Shown): void {
+    const { model, sizes } = linkage;
+    const [back, bodies, marks, front] = ["back", "bodies", "marks", "front"].map((name) =>
+      svg("g", { class: name }),
+    ) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement];
+    this.links = model.links.map((name, link) => {
+      const group = svg("g", { class: link === model.frame ? "link ground" : "link", "data-link": name });
+      (link === model.frame ? back : bodies).append(group);
+      return group;
+    });
+    this.pins = [...model.joints.keys()]
+      .filter((joint) => sizes.elementsOf(joint).some((k) => sizes.is(k, "pin")))
+      .map((joint) => ({ element: this.pin(linkage, joint, dragging.draggable(joint)), joint }));
+    front.append(...this.pins.map(({ element }) => element));
+    this.marks = sizes.points.map((_, number) => {
+      const element = svg("g", { class: "coupler-point" }, svg("circle", { r: 4.2 }));
+      element.style.setProperty("--own", `var(${ownColour(number)})`);
+      marks.append(element);
+      return { element, point: number };
+    });
+    this.labels = shown.labels ? labelsOf(linkage) : [];
+    front.append(...this.labels.map(({ element }) => element), this.arrows, this.changes, this.circle, this.pole);
+    this.root.replaceChildren(back, bodies, marks, front);
+  }
+
+  private pin({ model }: Linkage, number: number, free: boolean): SVGGElement {
+    const joint = model.joints[number]!;
+    const ground = joint.links.includes(model.frame) && joint.pair === "revolute";
+    const element = svg("g", {
+      class: free ? "pin free" : "pin",
+      "data-joint": joint.name,
+      tabindex: free ? 0 : -1,
+      role: free ? "button" : "img",
+      "aria-label": joint.name,
+      onkeydown: (event: KeyboardEvent) => this.key(event, number),
+    });
+    if (ground) element.append(svg("path", { class: "support", d: SUPPORT }));
+    element.append(svg("circle", { class: "halo", r: 13 }), svg("circle", { class: "joint", r: ground ? 5.5 : 4.6 }));
+    if (model.drives.some((drive) => drive.joint === number))
+      element.append(svg("path", { class: "driven", d: DRIVEN }));
+    return element;
+  }
+
+  /** Draw the bodies of the links after their sizes or the scale changed. */
+  sized(linkage: Linkage): void {
+    const bodies = new Bodies(linkage, this.viewport.scale);
+    for (const [link, group] of this.links.entries()) group.replaceChildren(...bodies.of(link));
+  }
+
+  // --- the pose ------------------------------------------------------------------------------------------------------
+
+  /** Put everything where the pose has it. */
+  draw(linkage: Linkage, shown: Shown): void {
+    const { pose, sizes } = linkage;
+    const { viewport } = this;
+    this.links.forEach((group, link) => {
+      const [c, s] = turn(pose, 0, link);
+      const [x, y] = viewport.screen(...origin(pose, 0, link));
+      const [cosine, minus, sine] = [c.toFixed(6), (-s).toFixed(6), s.toFixed(6)];
+      group.setAttribute("transform", `matrix(${cosine} ${minus} ${sine} ${cosine} ${x.toFixed(2)} ${y.toFixed(2)})`);
+    });
+    for (const { element, joint } of this.pins) put(element, viewport.screen(...linkage.jointAt(joint)));
+    for (const { element, point } of this.marks) {
+      const record = sizes.points[point];
+      if (record) put(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
+    }
+    for (const { element, at } of this.labels) {
+      const [x, y] = viewport.screen(...at());
+      put(element, [x + 9, y - 9]);
+    }
+    this.arrows.setAttribute("d", shown.velocities ? this.vectors(linkage, 1) : "");
+    this.changes.setAttribute("d", shown.accelerations ? this.vectors(linkage, 2) : "");
+    this.drawPole(linkage, shown);
+  }
+
+  /** Velocities (1) or accelerations (2) of all joints and points that move, as a path. */
+  private vectors({ model, pose, sizes }: Linkage, k: 1 | 2): string {
+    const places: [number, number, number, number][] = [];
+    const add = (link: number, u: number, v: number) => {
+      const [x, y] = this.viewport.screen(...place(pose, 0, link, u, v));
+      const [dx, dy] = place(pose, 0, link, u, v, k);
+      places.push([x, y, dx, -dy]);
+    };
+    model.joints.forEach((joint, number) => {
+      if (joint.links.includes(model.frame) && joint.pair === "revolute") return;
+      const moves = (e: number) => sizes.element(e).link !== model.frame && !sizes.is(e, "round");
+      const element = sizes.elementsOf(number).find(moves);
+      if (element !== undefined) add(sizes.element(element).link, ...sizes.xy(element));
+    });
+    for (const point of sizes.points) add(point.link, ...point.at);
+    const lengths = places.map(([, , dx, dy]) => Math.hypot(dx, dy)).filter(Number.isFinite);
+    const most = Math.max(...lengths, 1e-12);
+    const shortened = (value: number) => (LONGEST_ARROW * value) / most;
+    return places.map(([x, y, dx, dy]) => arrow(x, y, shortened(dx), shortened(dy))).join("");
+  }
+
+  private drawPole(linkage: Linkage, shown: Shown): void {
+    const { viewport } = this;
+    const found = shown.poles || shown.inflection ? pole(linkage, linkage.pose, 0, shown.link) : null;
+    this.pole.setAttribute("r", found ? "4" : "0");
+    this.circle.setAttribute("r", "0");
+    if (!found) return;
+    const [x, y] = viewport.screen(found.x, found.y);
+    this.pole.setAttribute("cx", x.toFixed(1));
+    this.pole.setAttribute("cy", y.toFixed(1));
+    const radius = (Math.hypot(found.dx, found.dy) / 2) * viewport.scale;
+    if (!shown.inflection || !(radius < 1e5)) return;
+    const [cx, cy] = viewport.screen(found.x + found.dx / 2, found.y + found.dy / 2);
+    this.circle.setAttribute("cx", cx.toFixed(1));
+    this.circle.setAttribute("cy", cy.toFixed(1));
+    this.circle.setAttribute("r", radius.toFixed(1));
+  }
+}
+
+/** The names of links in the middle of their elements, and of points. */
+function labelsOf(linkage: Linkage): { element: SVGTextElement; at: () => Pair }[] {
+  const { model, sizes } = linkage;
+  const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
+  const names = links.map((link) => {
+    const mine = sizes.elementsOn(link);
+    const at = (): Pair => {
+      const places = mine.map((k) => linkage.elementAt(k));
+      const mean = (axis: 0 | 1) => places.reduce((sum, p) => sum + p[axis], 0) / places.length;
+      return [mean(0), mean(1)];
+    };
+    return { element: svg("text", { class: "name" }, linkage.linkName(link)), at };
+  });
+  const marks = sizes.points.map((point) => ({
+    element: svg("text", { class: "mark" }, point.name),
+    at: () => place(linkage.pose, 0, point.link, ...point.at),
+  }));
+  return [...names, ...marks];
+}
+
+function put(element: SVGElement, [x, y]: Pair): void {
+  element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+}
+
+/** An arrow with its head, in pixels; nothing if it is too short for one. */
+function arrow(x: number, y: number, dx: number, dy: number): string {
+  const length = Math.hypot(dx, dy);
+  if (!(length > 3) || !Number.isFinite(length)) return "";
+  const [ux, uy] = [dx / length, dy / length];
+  const [ex, ey] = [x + dx, y + dy];
+  const at = (u: number, v: number) => `${u.toFixed(1)} ${v.toFixed(1)}`;
+  const left = at(ex - 8 * ux - 4 * uy, ey - 8 * uy + 4 * ux);
+  const right = at(ex - 8 * ux + 4 * uy, ey - 8 * uy - 4 * ux);
+  return `M${at(x, y)}L${at(ex, ey)}M${left}L${at(ex, ey)}L${right}`;
+}

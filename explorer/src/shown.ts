@@ -1,0 +1,21 @@
+/** What of a linkage is shown, and in which colours. */
+
+export interface Shown {
+  curves: boolean;
+  velocities: boolean;
+  accelerations: boolean;
+  hodographs: boolean;
+  poles: boolean;
+  inflection: boolean;
+  labels: boolean;
+  grid: boolean;
+  /** The link whose poles are shown. */
+  link: number;
+}
+
+const PALETTE = ["--motion", "--accent", "--green", "--purple"] as const;
+
+/** The colour of a point and its curve, as a variable of the style sheet. */
+export function ownColour(point: number): string {
+  return PALETTE[point % PALETTE.length]!;
+}

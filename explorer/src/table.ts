@@ -1,0 +1,38 @@
+/** The curves as a table in CSV: the drive, the output and the points, with their derivatives. */
+
+import type { Linkage } from "./linkage";
+import { output, outputAlong, transmission } from "./measures";
+import { place } from "./rows";
+
+export function tableOf(linkage: Linkage): string {
+  const { cycle, model } = linkage;
+  const { points } = linkage.sizes;
+  const turning = linkage.drive?.turning ?? true;
+  const record = model.outputs[0];
+  const head = [turning ? "drive_deg" : `drive_${model.unit}`];
+  if (record) head.push("output", "output_velocity", "output_acceleration", "transmission_angle_deg");
+  for (const { name } of points) head.push(`${name}_x`, `${name}_y`, `${name}_vx`, `${name}_vy`);
+  const outputs = outputAlong(linkage, Array.from(cycle.values.keys()));
+  const lines = Array.from(cycle.values, (value, row) => {
+    const line = [turning ? degrees(value) : value];
+    if (record) {
+      const [, first, second] = output(linkage, cycle.rows, row);
+      const psi = outputs[row]!;
+      line.push(record.joint === null ? degrees(psi) : psi, first, second);
+      line.push(degrees(transmission(linkage, cycle.rows, row)));
+    }
+    for (const { link, at } of points)
+      line.push(...place(cycle.rows, row, link, ...at), ...place(cycle.rows, row, link, ...at, 1));
+    return line.map((x) => (Number.isFinite(x) ? String(x) : "")).join(",");
+  });
+  return `${[head.map(quoted).join(","), ...lines].join("\n")}\n`;
+}
+
+function degrees(angle: number): number {
+  return (angle * 360) / (2 * Math.PI);
+}
+
+/** A text as a cell: in quotation marks if it needs them. */
+export function quoted(text: string): string {
+  return /[",]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+}

@@ -1,0 +1,31 @@
+/** Drive values and ends of a motion in words. */
+
+import { type Stop, wrapped } from "./cycle";
+import { Status } from "./kernel";
+import { angle, number, t } from "./language";
+import type { Linkage } from "./linkage";
+
+/** A value of the active drive with its unit. */
+export function driveText({ drive, model }: Linkage, value: number, digits = 5): string {
+  return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
+}
+
+/** Where in the period an extreme lies; it is known to about a millionth of a radian. */
+export function placeOf({ cycle, drive }: Linkage, value: number): number {
+  const place = wrapped(cycle, value);
+  return drive?.turning ? Math.round(place * 1e6) / 1e6 : place;
+}
+
+/** Why the motion ends, or why the linkage cannot be assembled. */
+export function stopText(linkage: Linkage, stop: Stop): string {
+  const drives = `${linkage.drive?.name ?? ""} = ${driveText(linkage, stop.value, 9)}`;
+  const links = linkage.linkList(stop.links);
+  const { form } = stop;
+  if (stop.status === "open") return t("The motion ends at {drives}: there {form} is open.", { drives, form });
+  const values = { drives, form, links };
+  if (stop.status === Status.START)
+    return t("With these sizes {form} {{links}} cannot be assembled at {drives}; nothing was changed.", values);
+  if (stop.status === Status.SINGULAR)
+    return t("The motion ends at {drives}: there two assembly modes of {form} {{links}} meet.", values);
+  return t("The motion ends at {drives}: there {form} {{links}} can no longer be assembled.", values);
+}
