@@ -30,6 +30,7 @@ WINGS = {
             "events",
             "immutable",
             "notebook",
+            "plain_data",
         },
         {"columns", "jets"},
     ],

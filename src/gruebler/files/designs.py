@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from math import degrees, isnan
+from math import degrees
 from typing import Any
 
+from gruebler.base.plain_data import plain
 from gruebler.design.synthesis.results import Design, SynthesisResult, pareto
 from gruebler.files.linkages import linkage_to_json
 from gruebler.files.tasks import task_to_json
+
+_ANGLES = dict.fromkeys(("transmission", "transmission_over_range"), degrees)
 
 
 def design_to_json(design: Design) -> dict[str, Any]:
@@ -15,65 +18,38 @@ def design_to_json(design: Design) -> dict[str, Any]:
 
     The transmission angle over the whole range is only computed for accepted designs.
     """
-    turning = bool(design.linkage.mechanism.drives) and design.linkage.mechanism.drives[0].turning
-    verdict = design.verdict
+    drives, verdict = design.linkage.mechanism.drives, design.verdict
+    turning = bool(drives) and drives[0].turning
+    keys = "accepted reasons assembles one_circuit one_branch in_order turns_fully size_ratio inside error"
+    over_range = plain(design, "transmission_over_range", units=_ANGLES) if verdict.accepted else {}
     return {
-        "accepted": verdict.accepted,
-        "reasons": [str(reason) for reason in verdict.reasons],
-        "form": design.form,
-        "assembles": verdict.assembles,
-        "one_circuit": verdict.one_circuit,
-        "one_branch": verdict.one_branch,
-        "in_order": verdict.in_order,
-        "turns_fully": verdict.turns_fully,
-        "transmission_through_targets": _or_none(degrees(verdict.transmission)),
-        "transmission_over_range": _or_none(degrees(design.transmission_over_range)) if verdict.accepted else None,
-        "links": design.links,
+        **plain(verdict, keys),
+        "transmission_through_targets": plain(verdict, "transmission", units=_ANGLES)["transmission"],
+        "transmission_over_range": over_range.get("transmission_over_range"),
+        **plain(design, "form links"),
         "size": design.linkage.size,
-        "size_ratio": _or_none(verdict.size_ratio),
-        "inside": verdict.inside,
-        "error": _or_none(verdict.error),
-        "drives": [degrees(value) if turning else value for value in design.drives] or _drive_rows(design),
+        "drives": [degrees(value) if turning else value for value in design.drives]
+        or [
+            [degrees(value) if drive.turning else value for value, drive in zip(row, drives, strict=True)]
+            for row in design.drive_rows
+        ],
         **({} if design.optimum is None else {"minimax": design.optimum.to_json()}),
         "linkage": linkage_to_json(design.linkage),
     }
 
 
-def _drive_rows(design: Design) -> list[list[float]]:
-    drives = design.linkage.mechanism.drives
-    return [
-        [degrees(value) if drive.turning else value for value, drive in zip(row, drives, strict=True)]
-        for row in design.drive_rows
-    ]
-
-
-def _or_none(value: float) -> float | None:
-    return None if isnan(value) else value
-
-
 def result_to_json(result: SynthesisResult) -> dict[str, Any]:
     """Plain data for `json.dumps`."""
+    rows = []
+    for row in pareto(result):
+        shown = plain(row, "error transmission size links structure", units=_ANGLES)
+        number = next(k for k, design in enumerate(result.designs) if design is row.design)
+        rows.append({"design": number, "transmission_through_targets": shown.pop("transmission"), **shown})
     return {
         "task": task_to_json(result.task),
-        "count": {
-            "what": str(result.count.what),
-            "theorem": result.count.theorem,
-            "found": result.count.found,
-            "infinite": result.count.infinite,
-            "real": result.count.real,
-        },
+        "count": plain(result.count, "what theorem found infinite real"),
         "notes": [str(note) for note in result.notes],
         "designs": [design_to_json(each) for each in result.designs],
-        "pareto": [
-            {
-                "design": next(k for k, design in enumerate(result.designs) if design is row.design),
-                "error": row.error,
-                "transmission_through_targets": _or_none(degrees(row.transmission)),
-                "size": row.size,
-                "links": row.links,
-                "structure": row.structure,
-            }
-            for row in pareto(result)
-        ],
+        "pareto": rows,
         "rejected": [design_to_json(each) for each in result.rejected],
     }

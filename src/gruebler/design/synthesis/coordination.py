@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import degrees
 from typing import Any
 
 import numpy as np
 
 from gruebler.base.arrays import Reals
+from gruebler.base.plain_data import plain
 from gruebler.base.text import Message
 from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -101,26 +103,20 @@ class Minimax:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: lengths, starts, errors and the certificate; angles in degrees."""
-        solution, shown = self.solution, self.certificate
-        unit = 180 / np.pi if solution.kind == "four-bar" else 1.0
+        unit = 180 / np.pi if self.solution.kind == "four-bar" else 1.0
+        units = dict.fromkeys(("output_start", "error", "start_error", "decrease"), unit.__rmul__)
+        certificate = plain(
+            self.certificate,
+            "optimum reason decrease x signs alternations multipliers parameters residual curvature",
+            units=units,
+        )
         return {
-            "kind": solution.kind,
-            "lengths": list(solution.lengths),
-            "input_start": float(np.degrees(solution.input_start)),
-            "output_start": solution.output_start * unit,
-            "branch": branch_of_side(solution.side),
-            "error": self.error * unit,
-            "start_error": self.start_error * unit,
-            "optimum": shown.optimum,
-            "reason": None if shown.reason is None else str(shown.reason),
-            "possible_decrease": None if np.isnan(shown.decrease) else shown.decrease * unit,
-            "equal_extremes": list(shown.x),
-            "signs": list(shown.signs),
-            "alternations": shown.alternations,
-            "multipliers": list(shown.multipliers),
-            "parameters": shown.parameters,
-            "residual": None if np.isnan(shown.residual) else shown.residual,
-            "curvature": shown.curvature,
+            **plain(self.solution, "kind lengths input_start output_start", units=units | {"input_start": degrees}),
+            "branch": branch_of_side(self.solution.side),
+            **plain(self, "error start_error", units=units),
+            "possible_decrease": certificate.pop("decrease"),
+            "equal_extremes": certificate.pop("x"),
+            **certificate,
         }
 
 

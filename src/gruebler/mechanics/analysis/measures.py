@@ -34,6 +34,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import ChangePoint, DeadCentre, Transmission, TransmissionExtremes
 from gruebler.base.notebook import Brief
+from gruebler.base.plain_data import Units, plain
 from gruebler.base.text import Message, message
 from gruebler.mechanics.analysis.drive_cycle import CycleSpan, DriveCycle, by_place, drive_cycle
 from gruebler.mechanics.analysis.events import (
@@ -67,12 +68,28 @@ from gruebler.mechanics.analysis.transmission import (
     measure_transmission,
 )
 from gruebler.mechanics.fourbar.extremes import StrokeTimes
+from gruebler.mechanics.kinematics.motion import Stop
 from gruebler.mechanics.kinematics.root_finding import sample_function
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 
 _UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
+_KEYS = (
+    "ends dead_centres dwells dwell_share moving_span motion_ratio dwell_time output_turns travel phi_forward phi_back "
+    "time_ratio speed_rpm times change_points transmission transmission_note"
+)
+_SHOWN = {
+    ChangePoint: "drive links form several",
+    Crossing: "drive value kind",
+    Dwell: "begin end duration output kind side",
+    Stop: "reason links",
+    StrokeTimes: "forward back",
+    Transmission: "drive mu deviation links",
+    TransmissionExtremes: "smallest largest good extremes",
+}
+_DRIVES, _OUTPUTS = ("start", "drive", "begin", "end", "duration", "moving_span"), ("ends", "output", "travel")
+_ANGLES = ("phi_forward", "phi_back", "mu", "deviation")
 _STILL = 1e-11  # of the natural size: an output, or its velocity, that varies by less does not move
 
 
@@ -271,85 +288,29 @@ class Measures(Brief):
         """The measures as plain data; angles in degrees, times in seconds."""
         turn = degrees if self.turning_drive else float
         in_unit = degrees if self.output.turning else float
-        span, transfer, transmission = self.span, self.transfer, self.transmission
         rate = in_unit(1.0) / turn(1.0)
-
-        def angle(value: float | None) -> float | None:
-            return None if value is None else degrees(value)
-
-        def crossing(c: Any, scale: float) -> dict[str, Any]:
-            return {"drive": turn(c.drive), "value": c.value * scale, "kind": c.kind}
-
-        def extreme(e: Transmission) -> dict[str, Any]:
-            return {
-                "drive": turn(e.drive),
-                "mu": degrees(e.mu),
-                "deviation": degrees(e.deviation),
-                "links": list(e.links),
-            }
-
+        units: Units = {
+            **dict.fromkeys(_DRIVES, turn),
+            **dict.fromkeys(_OUTPUTS, in_unit),
+            **dict.fromkeys(_ANGLES, degrees),
+        }
+        span, transfer = self.span, self.transfer
+        rates = plain(transfer, "still uniform", shown=_SHOWN)
+        rates["ratio"] = None if transfer.ratio is None else transfer.ratio / rate
+        for keys, scale in (("smallest largest zeros velocity", rate), ("acceleration", rate / turn(1.0))):
+            scaled = dict.fromkeys(("smallest", "largest", "value"), scale.__mul__)
+            rates |= plain(transfer, keys, units={**units, **scaled}, shown=_SHOWN)
         return {
             "output": {"name": self.output.name, "unit": "deg" if self.output.turning else self.linkage.unit},
             "drive": {
                 "unit": "deg" if self.turning_drive else self.linkage.unit,
-                "start": turn(self.start),
-                "branch": list(self.branch),
-                "full": span.full,
-                "turns": span.turns,
                 "range": None if span.full else [turn(span.low), turn(span.high)],
-                "stops": [None if s is None else {"reason": s.reason, "links": list(s.links)} for s in span.stops],
+                **plain(self, "start branch", units=units),
+                **plain(span, "full turns stops", shown=_SHOWN),
             },
-            "ends": None if self.ends is None else [in_unit(value) for value in self.ends],
-            "dead_centres": [
-                {"drive": turn(c.drive), "output": in_unit(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
-                for c in self.dead_centres
-            ],
-            "dwells": [
-                {
-                    "begin": turn(d.begin),
-                    "end": turn(d.end),
-                    "duration": turn(d.duration),
-                    "output": in_unit(d.output),
-                    "kind": d.kind,
-                    "side": d.side,
-                }
-                for d in self.dwells
-            ],
-            "dwell_share": self.dwell_share,
-            "moving_span": turn(self.moving_span),
-            "motion_ratio": self.motion_ratio,
-            "dwell_time": self.dwell_time,
-            "output_turns": self.output_turns,
-            "travel": None if self.travel is None else in_unit(self.travel),
-            "phi_forward": angle(self.phi_forward),
-            "phi_back": angle(self.phi_back),
-            "time_ratio": self.time_ratio,
-            "speed_rpm": self.speed_rpm,
-            "times": None if self.times is None else {"forward": self.times.forward, "back": self.times.back},
-            "change_points": [
-                {"drive": turn(c.drive), "links": list(c.links), "form": c.form, "several": c.several}
-                for c in self.change_points
-            ],
-            "transfer": {
-                "still": transfer.still,
-                "uniform": transfer.uniform,
-                "ratio": None if transfer.ratio is None else transfer.ratio / rate,
-                "smallest": transfer.smallest * rate,
-                "largest": transfer.largest * rate,
-                "zeros": [crossing(c, rate) for c in transfer.zeros],
-                "velocity": [crossing(c, rate) for c in transfer.velocity],
-                "acceleration": [crossing(c, rate / turn(1.0)) for c in transfer.acceleration],
-            },
-            "transmission": None
-            if transmission is None
-            else {
-                "smallest": extreme(transmission.smallest),
-                "largest": extreme(transmission.largest),
-                "good": transmission.good,
-                "extremes": [extreme(e) for e in transmission.extremes],
-            },
+            "transfer": rates,
             "change_points_note": str(self.change_points_error or ""),
-            "transmission_note": self.transmission_note,
+            **plain(self, _KEYS, units=units, shown=_SHOWN),
         }
 
 

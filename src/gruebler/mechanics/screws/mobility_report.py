@@ -14,6 +14,7 @@ from gruebler.base.arrays import compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import Brief
+from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
@@ -185,35 +186,20 @@ class Freedoms(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`."""
-        names = self.report.chain.joint_names()
-        instant, followed = self.instant, self.finite
+        names, instant = self.report.chain.joint_names(), self.instant
         return {
             "joints": list(names),
             "space": str(self.report.chain.space),
             "counted": self.counted,
             "generic": self.generic,
-            "instant": {
-                "mobility": instant.mobility,
-                "rank": instant.rank,
-                "constraints": instant.constraints,
-                "redundancy": instant.redundancy,
-                "tolerance": instant.tolerance,
+            "instant": plain(instant, "mobility rank constraints redundancy tolerance")
+            | {
                 "singular_values": instant.values.tolist(),
                 "redundant": {names[k]: many for k, many in instant.redundant.items()},
                 "immobile_joints": [names[k] for k in instant.immobile],
             },
-            "finite": {
-                "mobility": self.mobility,
-                "useful": self.useful,
-                "evidence": str(followed.evidence),
-                "reach": followed.reach,
-                "order": followed.order,
-                "open": followed.open,
-                "ways": followed.ways,
-            },
-            "reasons": [
-                {"kind": r.kind, "links": list(r.links), "joints": [names[k] for k in r.joints]} for r in self.reasons
-            ],
+            "finite": plain(self, "mobility useful") | plain(self.finite, "evidence reach order open ways"),
+            "reasons": [plain(r, "kind links joints", units={"joints": names.__getitem__}) for r in self.reasons],
         }
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from gruebler.base import notebook
 from gruebler.base.doors import door
 from gruebler.base.notebook import Brief
+from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, arity, joined, message
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet, Space
@@ -132,31 +133,12 @@ class MobilityReport(Brief):
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`; the joints as unique texts."""
         names = self.chain.joint_names()
+        listed = ("joints", "resolved_by_removing", "resolved_by_freeing", "immobile_joints")
+        keys = "counted generic verdict exact overconstrained rigid_clusters immobile_joints idle_freedoms"
         return {
-            "links": list(self.chain.links),
+            **plain(self.chain, "links space"),
             "joints": list(names),
-            "space": str(self.chain.space),
-            "counted": self.counted,
-            "generic": self.generic,
-            "verdict": str(self.verdict),
-            "exact": self.exact,
-            "overconstrained": [
-                {
-                    "links": list(part.links),
-                    "joints": [names[k] for k in part.joints],
-                    "redundancy": part.redundancy,
-                    "minimal": part.minimal,
-                    "resolved_by_removing": [names[k] for k in part.resolved_by_removing],
-                    "resolved_by_freeing": [names[k] for k in part.resolved_by_freeing],
-                }
-                for part in self.overconstrained
-            ],
-            "rigid_clusters": [list(cluster) for cluster in self.rigid_clusters],
-            "immobile_joints": [names[k] for k in self.immobile_joints],
-            "idle_freedoms": [
-                {"links": list(idle.links), "freedoms": idle.freedoms, "when": str(idle.when)}
-                for idle in self.idle_freedoms
-            ],
+            **plain(self, keys, units=dict.fromkeys(listed, names.__getitem__)),
         }
 
 

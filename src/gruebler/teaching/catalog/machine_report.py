@@ -12,6 +12,7 @@ import numpy as np
 from gruebler.base.arrays import compared_by_value
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import Brief
+from gruebler.base.plain_data import plain
 from gruebler.base.text import LANGUAGES, message
 from gruebler.files.catalog_records import Entry, source_text
 from gruebler.mechanics.linkages import Linkage
@@ -110,17 +111,13 @@ class MachineReport(Brief):
         return {
             "id": self.entry.id,
             "name": {lang: self.entry.name.in_language(lang) for lang in LANGUAGES},
-            "mechanism": self.mechanism.to_json(),
+            **plain(self, "mechanism freedoms measures partials points"),
             "mobility": self.mobility.to_json() | {"formula": self.mobility.count.formula(), "moves": self.moves},
-            "freedoms": None if self.freedoms is None else self.freedoms.to_json(),
             "features": features_to_json(self.features),
             "drives_fix_the_motion": None if self.drives is None else self.drives.fixed,
             "dimensions": None
             if sizes is None
             else {"assumed": sizes.assumed, "source": source_text(sizes.source, LANGUAGES[0])},
-            "measures": None if self.measures is None else self.measures.to_json(),
-            "partials": [asdict(partial) for partial in self.partials],
-            "points": [asdict(point) for point in self.points],
             "transmission_angle_shown": None if self.shown_mu is None else [degrees(mu) for mu in self.shown_mu],
         }
 
