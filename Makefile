@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-bounds test-lowest test-newest torture mutants bench clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-bounds test-lowest test-newest core test-core core-sanitize torture mutants bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -20,6 +20,9 @@ help:
 	@echo "make test-bounds the tests of the kernels, compiled so that nothing beyond an array is read or written"
 	@echo "make test-lowest a broad choice of tests with the lowest versions that pyproject.toml allows"
 	@echo "make test-newest a broad choice of tests with another Python (NEWEST=python3.13) and the newest versions"
+	@echo "make core        the C++ kernels as a module in build/core, see core/README.md; a minute"
+	@echo "make test-core   the tests of the C++ kernels, against those of numba and against print"
+	@echo "make core-sanitize  the C++ kernels with address and undefined-behaviour sanitizers, without Python"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 
 # Reinstalled only when pyproject.toml changes: repeated calls start at once.
@@ -121,6 +124,25 @@ test-newest:
 	@test -x $(NEWEST_DIR)/venv/bin/python || $(NEWEST) -m venv $(NEWEST_DIR)/venv
 	$(NEWEST_DIR)/venv/bin/python -m pip install --quiet --disable-pip-version-check --upgrade -e ".[test]"
 	$(NEWEST_DIR)/venv/bin/python -m pytest -q -n 2 $(BROAD)
+
+# The C++ kernels of core/, which nothing in the package calls yet.
+$(VENV)/.core: pyproject.toml
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[core]"
+	@touch $@
+
+CORE := PATH="$(CURDIR)/$(BIN):$$PATH" cmake
+core: $(VENV)/.core
+	$(CORE) -S core -B build/core -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python >/dev/null
+	$(CORE) --build build/core
+
+test-core: $(READY) $(VENV)/.core
+	$(BIN)/python -m pytest -q tests/core
+
+core-sanitize: $(VENV)/.core
+	$(CORE) -S core -B build/core-sanitize -G Ninja -DCORE_PYTHON=OFF -DCORE_STANDALONE=ON -DCORE_SANITIZE=ON >/dev/null
+	$(CORE) --build build/core-sanitize
+	cd build/core-sanitize && PATH="$(CURDIR)/$(BIN):$$PATH" ctest --output-on-failure
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks

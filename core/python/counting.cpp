@@ -1,0 +1,120 @@
+#include <iterator>
+
+#include "base/processor.hpp"
+#include "counting/census.hpp"
+#include "counting/growth.hpp"
+#include "doors.hpp"
+
+namespace gruebler::doors {
+namespace {
+
+using namespace counting;
+
+struct LevelOfCensus {
+    Level level;
+    const char* name;
+    TakeCensus* take;
+};
+
+// The least level first.
+constexpr LevelOfCensus levels[] = {
+    {Level::baseline, "baseline", counting::baseline::take_census},
+#ifdef GRUEBLER_X86_LEVELS
+    {Level::v3, "v3", counting::v3::take_census},
+    {Level::v4, "v4", counting::v4::take_census},
+#endif
+};
+
+// The best level of this processor, or the one that is named.
+TakeCensus* census_of(const std::string& name) {
+    const Level highest = highest_level();
+    TakeCensus* best = nullptr;
+    for (const LevelOfCensus& each : levels) {
+        if (each.level > highest) break;
+        if (name.empty() || name == each.name) best = each.take;
+    }
+    expect(best != nullptr, "this processor has no level " + name);
+    return best;
+}
+
+nb::list level_names() {
+    nb::list names;
+    const Level highest = highest_level();
+    for (const LevelOfCensus& each : levels)
+        if (each.level <= highest) names.append(each.name);
+    return names;
+}
+
+GraphRows rows_of(const Array<std::int64_t, -1, -1>& graphs) {
+    expect(graphs.shape(1) >= 2 && graphs.shape(1) <= 16, "a packed graph has 2 to 16 rows");
+    return {reinterpret_cast<const std::uint64_t*>(graphs.data()), static_cast<std::int64_t>(graphs.shape(0)),
+            static_cast<int>(graphs.shape(1))};
+}
+
+std::string graph_is(std::int64_t k, const char* what) { return "graph " + std::to_string(k) + " " + what; }
+
+constexpr const char* no_contracted_graph =
+    "is not a connected graph of this number of loops with two or more nodes, all of three or more strings";
+constexpr const char* too_many_automorphisms = "has more automorphisms than there is room for";
+
+NewArray<std::int64_t> take_census(const Array<std::int64_t, -1, -1>& graphs, int loops, int mobility, bool orbits,
+                                   const std::string& level) {
+    expect(loops >= 2 && loops <= most_loops, "there are 2 to 9 loops");
+    expect(mobility >= 0 && mobility <= most_mobility, "the mobility is 0 to 24");
+    const GraphRows rows = rows_of(graphs);
+    TakeCensus* take = census_of(level);
+    std::vector<CensusRow> table(graphs.shape(0));
+    const auto [end, k] = run([&](Watch& watch) { return take(rows, loops, mobility, orbits, table.data(), watch); });
+    switch (end) {
+        case CensusEnd::done:
+        case CensusEnd::interrupted:
+            break;
+        case CensusEnd::no_contracted_graph:
+            throw nb::value_error(graph_is(k, no_contracted_graph).c_str());
+        case CensusEnd::too_many_sets:
+            throw nb::value_error(graph_is(k, "has more critical sets than there is room for").c_str());
+        case CensusEnd::too_many_automorphisms:
+            throw nb::value_error(graph_is(k, too_many_automorphisms).c_str());
+        case CensusEnd::beyond_64_bits:
+            PyErr_SetString(PyExc_OverflowError, "the numbers of one contracted graph do not fit in 64 bits");
+            throw nb::python_error();
+        case CensusEnd::no_whole_number:
+            throw nb::value_error("the sum over the automorphisms is not a multiple of their number");
+    }
+    const size_t count = table.size();
+    return hand_over<std::int64_t>(std::move(table), {count, sizeof(CensusRow) / sizeof(std::int64_t)});
+}
+
+nb::tuple add_loop(const Array<std::int64_t, -1, -1>& parents, int loops, std::int64_t first, std::int64_t enough) {
+    expect(loops >= 2 && loops < most_loops, "the parents have 2 to 8 loops");
+    expect(first >= 0 && first <= static_cast<std::int64_t>(parents.shape(0)), "the first parent is one of the list");
+    expect(enough >= 1, "at least one graph is to be enough");
+    const GraphRows rows = rows_of(parents);
+    std::vector<PackedGraph> children;
+    const auto [end, next] =
+        run([&](Watch& watch) { return counting::add_loop(rows, loops, first, enough, children, watch); });
+    if (end == GrowthEnd::no_contracted_graph) throw nb::value_error(graph_is(next, no_contracted_graph).c_str());
+    if (end == GrowthEnd::too_many_automorphisms)
+        throw nb::value_error(graph_is(next, too_many_automorphisms).c_str());
+    const size_t count = children.size();
+    return nb::make_tuple(hand_over<std::int64_t>(std::move(children), {count, most_nodes}), next);
+}
+
+}  // namespace
+
+void add_counting(nb::module_& module) {
+    module.def("level_names", level_names, "The levels that this processor has, the least first.");
+    module.def("take_census", take_census, nb::arg("graphs").noconvert(), nb::arg("loops"), nb::arg("mobility"),
+               nb::arg("orbits"), nb::kw_only(), nb::arg("level") = "",
+               "Counts the chains of each contracted graph: int64[k, 5], degrees, chains, and if orbits are asked for "
+               "inversions, orbits of joints, drives.\n\n"
+               "graphs: int64[k, nodes], packed graphs of so many loops. level: for tests, one of level_names().");
+    module.def("add_loop", add_loop, nb::arg("parents").noconvert(), nb::arg("loops"), nb::arg("first"),
+               nb::arg("enough"),
+               "The contracted graphs with one loop more that have their canonical parent in a list: int64[m, 16] and "
+               "the parent to go on with.\n\n"
+               "parents: int64[k, nodes], packed graphs of so many loops, each isomorphism class once; begins with the "
+               "parent `first` and ends after the one that brings `enough` graphs.");
+}
+
+}  // namespace gruebler::doors

@@ -1,0 +1,60 @@
+// What the doors share: arrays, checks, and work without the lock of the interpreter.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/watch.hpp"
+
+namespace gruebler::doors {
+
+namespace nb = nanobind;
+
+// An array of numpy as it is: of this kind, C-contiguous, nothing converted; -1 stands for any length.
+template <class Number, int... lengths>
+using Array = nb::ndarray<const Number, nb::numpy, nb::shape<lengths...>, nb::c_contig, nb::device::cpu>;
+
+template <class Number>
+using NewArray = nb::ndarray<nb::numpy, Number>;
+
+inline void expect(bool truth, const std::string& otherwise) {
+    if (!truth) throw nb::value_error(otherwise.c_str());
+}
+
+// An array of numpy that takes over the memory of a vector; `Item` consists of numbers of the array's kind.
+template <class Number, class Item>
+NewArray<Number> hand_over(std::vector<Item>&& items, std::initializer_list<size_t> shape) {
+    auto* owned = new std::vector<Item>(std::move(items));
+    nb::capsule owner(owned, [](void* all) noexcept { delete static_cast<std::vector<Item>*>(all); });
+    return NewArray<Number>(reinterpret_cast<Number*>(owned->data()), shape, owner);
+}
+
+// Whether no signal came, such as Ctrl-C; with the lock for this moment. The error of a handler stays set.
+inline bool goes_on(void*) {
+    nb::gil_scoped_acquire held;
+    return PyErr_CheckSignals() == 0;
+}
+
+// Runs a kernel without the lock of the interpreter; a handler's error (KeyboardInterrupt) goes to the caller.
+template <class Work>
+auto run(Work work) {
+    Watch watch{goes_on, nullptr};
+    auto outcome = [&] {
+        nb::gil_scoped_release released;
+        return work(watch);
+    }();
+    if (PyErr_Occurred()) throw nb::python_error();
+    return outcome;
+}
+
+void add_counting(nb::module_& module);
+
+}  // namespace gruebler::doors

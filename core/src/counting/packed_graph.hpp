@@ -1,0 +1,91 @@
+// Loopless multigraphs of at most 16 vertices in 16 words: one row a vertex, four bits a neighbour.
+//
+// Bits 4u..4u+3 of row v hold the number of edges between u and v, so that a graph is copied, changed and compared in a
+// few instructions. Definitions: docs/theory/enumeration.md, "Contracted graphs".
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "base/level.hpp"
+
+namespace gruebler::counting::inline GRUEBLER_LEVEL {
+
+using Word = std::uint64_t;
+
+inline constexpr int most_nodes = 16;       // rows of a word each, four bits a neighbour
+inline constexpr int most_parallel = 15;    // edges between two vertices: what four bits hold
+
+using Words = std::array<Word, most_nodes>;
+using Vertices = std::array<int, most_nodes>;
+
+inline Word bit(int i) { return Word{1} << i; }
+inline Word ones(int count) { return bit(count) - 1; }
+inline int lowest(Word word) { return std::countr_zero(word); }
+inline int size(Word set) { return std::popcount(set); }
+inline Word without_lowest(Word word) { return word & (word - 1); }
+
+struct PackedGraph {
+    Words rows{};
+
+    int edges(int u, int v) const { return static_cast<int>((rows[u] >> (4 * v)) & 15); }
+
+    void set_edges(int u, int v, int number) {
+        rows[u] = (rows[u] & ~(Word{15} << (4 * v))) | (static_cast<Word>(number) << (4 * v));
+        rows[v] = (rows[v] & ~(Word{15} << (4 * u))) | (static_cast<Word>(number) << (4 * u));
+    }
+
+    // The number of vertices: none of them has an empty row.
+    int order() const {
+        int n = 0;
+        while (n < most_nodes && rows[n] != 0) ++n;
+        return n;
+    }
+};
+
+// For every vertex the set of its neighbours, as bits, and its degree.
+struct Neighbours {
+    Words near{};
+    Vertices degree{};
+
+    void survey(int n, const PackedGraph& graph) {
+        for (int v = 0; v < n; ++v) {
+            Word bits = 0;
+            int total = 0;
+            for (int u = 0; u < n; ++u) {
+                const int number = graph.edges(v, u);
+                if (number == 0) continue;
+                bits |= bit(u);
+                total += number;
+            }
+            near[v] = bits;
+            degree[v] = total;
+        }
+    }
+};
+
+// Whether a two-connected graph stays so without one of its edges between x and y.
+//
+// A vertex that then separates the graph lies on every path from x to y: only the vertices of one such path are tried,
+// found by way of a common neighbour, or else all of them. Two vertices alone never lose it.
+inline bool is_removable(int n, const Words& near, const PackedGraph& graph, int x, int y) {
+    if (n == 2 || graph.edges(x, y) > 1) return true;
+    const Word around_x = near[x] & ~bit(y), around_y = near[y] & ~bit(x), common = around_x & around_y;
+    if (size(common) > 1) return true;
+    const Word others = ones(n) & ~(bit(x) | bit(y));
+    for (Word suspects = common != 0 ? common : others; suspects != 0; suspects = without_lowest(suspects)) {
+        Word seen = bit(lowest(suspects)) | bit(x);
+        Word front = around_x & ~seen;
+        while (front != 0 && (front & around_y) == 0) {
+            seen |= front;
+            Word reached = 0;
+            for (Word bits = front; bits != 0; bits = without_lowest(bits)) reached |= near[lowest(bits)];
+            front = reached & ~seen & ~bit(y);
+        }
+        if (front == 0) return false;
+    }
+    return true;
+}
+
+}  // namespace gruebler::counting
