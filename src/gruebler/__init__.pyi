@@ -16,6 +16,7 @@ from .mechanics.forces import Loads, Statics, statics
 from .mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from .mechanics.geometry import coupler_curve
 from .mechanics.kinematics import Circuit, Motion, circuit, from_degrees, move, move_many
+from .mechanics.kinematics.drive_rows import rpm
 from .mechanics.kinematics.solve import assembly_modes
 from .mechanics.linkages import Linkage
 from .mechanics.screws import SpatialLinkage, freedoms
@@ -89,6 +90,7 @@ __all__ = [
     "read",
     "realise",
     "rotatability",
+    "rpm",
     "statics",
     "structure",
     "symmetry",

@@ -88,8 +88,8 @@ DOORS = {
     "move": lambda: gr.move(CRANK_ROCKER, [0.0, 4.0]),
     "move_many": lambda: gr.move_many(four_bars(25, np.linspace(60, 80, 3), 40, 70), np.arange(0, 361)),
     "assembly_modes": lambda: gr.assembly_modes(CRANK_ROCKER, 30),
-    "circuit": lambda: gr.circuit(CRANK_ROCKER, drive=30),
-    "draw, drive": lambda: gr.draw(CRANK_ROCKER, drive=30),
+    "circuit": lambda: gr.circuit(CRANK_ROCKER, at=30),
+    "draw, drive": lambda: gr.draw(CRANK_ROCKER, at=30),
     "draw, between": lambda: gr.draw(CRANK_ROCKER, between=(10, 60)),
     "animate": lambda: gr.animate(CRANK_ROCKER, between=(10, 60)).svg(),
     "FourBar": lambda: CRANK_ROCKER.motion(30),
@@ -176,8 +176,8 @@ def test_lengths_are_not_angles():
         warnings.simplefilter("always")
         gr.move(SLIDER, [900.0, 905.0, 950.0])
         FunctionTask([0.1, 0.2, 0.3], [10, 20, 30], output="travel")
-        gr.draw(crane, drive=700.0)
-        gr.draw(two, drive=[0.0, 700.0])
+        gr.draw(crane, at=700.0)
+        gr.draw(two, at=[0.0, 700.0])
     assert caught == []
 
 

@@ -116,7 +116,7 @@ GOOD = {
     "derive": {"chain": CHAIN},
     "draw": {
         "value": LENGTHS,
-        "drive": 1.0,
+        "at": 1.0,
         "curves": (),
         "show": (),
         "output": None,
@@ -138,6 +138,7 @@ GOOD = {
     "move": {"linkage": LENGTHS, "drives": [1.0, 1.1]},
     "move_many": {"many": [LINKAGE], "drives": [1.0, 1.1]},
     "plot": {"linkage": LENGTHS, "kind": "transfer", "output": None, **PICTURE},
+    "rpm": {"value": 60},
     "read": {"path": "missing.toml"},
     "realise": {"mechanism": LINKAGE.mechanism, "budget": 20},
     "rotatability": {"linkage": LENGTHS},
@@ -208,6 +209,8 @@ def test_a_wrong_argument_is_refused_in_a_sentence(name, parameter, tmp_path, mo
     monkeypatch.chdir(tmp_path)
     foreign = {}
     for words, value in WRONG.items():
+        if parameter == "progress" and callable(value):
+            continue  # it is called; what it raises is the caller's own
         try:
             answer(name, {**GOOD[name], parameter: value})
         except gr.GrueblerError as error:

@@ -131,7 +131,7 @@ def test_pins_within_a_body_and_cylinders_have_dimensions():
     boom = [text.text for text in texts(draw_linkage(entry("excavator").linkage(), show=["dimensions"]), "value")]
     assert len(boom) > 16
     linkage, between = linkage_and_range("crane_cyl")
-    figure = draw_linkage(linkage, 40.0, between=between, show=["dimensions"])
+    figure = draw_linkage(linkage, at=40.0, between=between, show=["dimensions"])
     assert "40 mm" in [text.text for text in texts(figure, "value")]
     corners = {"R(0-1)": (0, 0), "R(1-2)": (3, 4), "R(2-3)": (9, 4), "R(0-3)": (9, 0)}
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
@@ -142,7 +142,7 @@ def test_pins_within_a_body_and_cylinders_have_dimensions():
 
 @pytest.mark.parametrize(("factor", "word"), [(1e-8, "2.5×10⁻⁷ mm"), (1e6, "2.5×10⁷ mm"), (0.1, "2.5 mm")])
 def test_sizes_are_written_with_powers_of_ten(factor, word):
-    figure = draw_linkage(FourBar(25, 70, 40, 70).linkage().scaled(factor), 1.0, show=["dimensions", "scale"])
+    figure = draw_linkage(FourBar(25, 70, 40, 70).linkage().scaled(factor), at=1.0, show=["dimensions", "scale"])
     values = [text.text for text in texts(figure, "value")]
     assert word in values
     assert not [value for value in values if "e-" in value or "e+" in value]
@@ -150,7 +150,7 @@ def test_sizes_are_written_with_powers_of_ten(factor, word):
 
 def test_german_sizes_have_commas():
     assert as_text(1.25, "cm", "de") == "1,25 cm"
-    figure = draw_linkage(FourBar(2.5, 7, 4, 7).linkage(), 1.0, show=["dimensions", "transmission"], lang="de")
+    figure = draw_linkage(FourBar(2.5, 7, 4, 7).linkage(), at=1.0, show=["dimensions", "transmission"], lang="de")
     assert not [text.text for text in texts(figure, "value") if "." in text.text]
 
 

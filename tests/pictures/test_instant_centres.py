@@ -54,7 +54,7 @@ def pins(stage):
 def test_all_poles_of_a_four_bar_in_every_pose(angle):
     """The six poles are named; the two that are no pins lie where crank and rocker, and frame and coupler, meet."""
     linkage, drive = CRANK_ROCKER.linkage(), math.radians(angle)
-    figure, stage = draw_linkage(linkage, drive, show=["poles"]), posed_linkage(linkage, drive)
+    figure, stage = draw_linkage(linkage, at=drive, show=["poles"]), posed_linkage(linkage, drive)
     assert set(named(figure)) == {"₁₂", "₁₃", "₁₄", "₂₃", "₂₄", "₃₄"}
     assert {"1  frame", "2  crank", "3  coupler", "4  rocker"} <= set(words(figure))
     a0, a, b, b0 = pins(stage)
@@ -80,7 +80,7 @@ def test_a_pole_far_away_is_told_by_its_distances(angle, marked):
     a0, a, b, b0 = pins(posed_linkage(linkage, drive))
     pole = meeting(a0, a, b0, b)
     assert (abs(pole) < 250) == marked
-    assert (named(draw_linkage(linkage, drive, show=["poles"]))["₁₃"] == {""}) == marked
+    assert (named(draw_linkage(linkage, at=drive, show=["poles"]))["₁₃"] == {""}) == marked
 
 
 @pytest.mark.parametrize(
@@ -107,7 +107,7 @@ def test_against_the_poles_of_the_motion(linkage, drive):
 
 def test_poles_at_infinity():
     """Opposite links of a parallelogram translate against each other; so does the slider against its guide."""
-    assert named(draw_linkage(FourBar(25, 70, 25, 70).linkage(), 0.9, show=["poles"])) == {
+    assert named(draw_linkage(FourBar(25, 70, 25, 70).linkage(), at=0.9, show=["poles"])) == {
         "₁₂": {""},
         "₂₃": {""},
         "₃₄": {""},
@@ -115,12 +115,12 @@ def test_poles_at_infinity():
         "₁₃": {"∞"},
         "₂₄": {"∞"},
     }
-    assert named(draw_linkage(SliderCrank(25, 70).linkage(), 0.9, show=["poles"]))["₁₄"] == {"∞"}
+    assert named(draw_linkage(SliderCrank(25, 70).linkage(), at=0.9, show=["poles"]))["₁₄"] == {"∞"}
 
 
 def test_larger_linkages_show_permanent_poles_and_those_against_the_frame():
     linkage = entry("wiper").linkage()
-    figure = draw_linkage(linkage, 0.9, show=["poles"], lang="de")
+    figure = draw_linkage(linkage, at=0.9, show=["poles"], lang="de")
     links = linkage.mechanism.chain.links
     joints = {frozenset(pair) for j in linkage.mechanism.chain.joints for pair in itertools.combinations(j.links, 2)}
     wanted = joints | {frozenset((links[0], link)) for link in links[1:]}

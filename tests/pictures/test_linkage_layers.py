@@ -64,7 +64,7 @@ def points(figure, style):
     ],
 )
 def test_every_length_is_told_once(linkage, lengths):
-    figure = draw_linkage(linkage, 1.0, show=["dimensions"])
+    figure = draw_linkage(linkage, at=1.0, show=["dimensions"])
     assert sorted(word for word in words(figure) if word.endswith(" mm")) == lengths
     assert "Shown: dimensions." in figure.description
     assert len(styled(figure, "dimension-head")) == 2 * len(lengths)
@@ -75,7 +75,7 @@ def test_every_length_is_told_once(linkage, lengths):
 def test_heads_are_as_far_apart_as_what_they_measure(a, b, phi):
     linkage = FourBar(a, b, 2.0, b).linkage()
     stage = posed_linkage(linkage, phi)
-    figure = draw_linkage(linkage, phi, show=["dimensions"])
+    figure = draw_linkage(linkage, at=phi, show=["dimensions"])
     tips = [head.parts[0][0] for head in styled(figure, "dimension-head")]
     found = sorted(one.minus(other).length for one, other in zip(tips[::2], tips[1::2], strict=True))
     assert np.allclose(found, sorted(stage.scale * one for one in (a, b, 2.0, b)), atol=1e-6)
@@ -103,7 +103,7 @@ def _from(at, a, b):
 @settings(max_examples=20)
 @given(st.floats(0, 6.28))
 def test_the_crank_pin_is_accelerated_towards_its_pivot(phi):
-    figure = draw_linkage(CRANK_ROCKER.linkage(), phi, show=["accelerations", "velocities"])
+    figure = draw_linkage(CRANK_ROCKER.linkage(), at=phi, show=["accelerations", "velocities"])
     crank = Point(math.cos(phi), -math.sin(phi))
     arrows = [s.parts[0] for s in styled(figure, "acceleration") if len(s.parts) == 1]
     assert min(b.minus(a).unit.plus(crank).length for a, b in arrows) < 1e-6
@@ -111,7 +111,7 @@ def test_the_crank_pin_is_accelerated_towards_its_pivot(phi):
 
 
 def test_the_scale_of_accelerations():
-    figure = draw_linkage(SliderCrank(25, 70, 5).linkage(), 0.7, show=["accelerations"])
+    figure = draw_linkage(SliderCrank(25, 70, 5).linkage(), at=0.7, show=["accelerations"])
     motion = move(SliderCrank(25, 70, 5).linkage(), [0.7], speed=1.0, order=2)
     names = ["R(crank-coupler)", "R(coupler-slider)"]
     wanted = sorted(float(np.hypot(*motion.point(name, 2)[0])) for name in names)
@@ -127,7 +127,7 @@ def test_the_scale_of_accelerations():
 
 
 def test_cardan_circles():
-    figure = draw_linkage(CARDAN, 1.0, show=["centrodes", "inflection"])
+    figure = draw_linkage(CARDAN, at=1.0, show=["centrodes", "inflection"])
     scale = posed_linkage(CARDAN, 1.0).scale
     middle = complex(*next(shape.at for shape in figure.shapes if shape.style == "joint"))
     assert np.allclose(abs(points(figure, "centrode-fixed") - middle), 50 * scale, atol=0.2)
@@ -140,7 +140,7 @@ def test_cardan_circles():
 @settings(max_examples=10)
 @given(st.floats(0, 6.28))
 def test_centrodes_are_those_of_the_geometry(phi):
-    figure = draw_linkage(WITH_POINT, phi, show=["centrodes"])
+    figure = draw_linkage(WITH_POINT, at=phi, show=["centrodes"])
     stage = posed_linkage(WITH_POINT, phi)
     motion = drive_cycle(WITH_POINT).at(np.linspace(0, 2 * np.pi, 20000), 1)
     fixed = centrodes(motion, "coupler").fixed
@@ -153,7 +153,7 @@ def test_centrodes_are_those_of_the_geometry(phi):
 
 def test_the_inflection_circle_is_that_of_the_geometry_and_passes_through_the_slider():
     linkage = SliderCrank(25, 60).linkage()
-    figure = draw_linkage(linkage, 2.5, show=["inflection"])
+    figure = draw_linkage(linkage, at=2.5, show=["inflection"])
     stage = posed_linkage(linkage, 2.5)
     circle = inflection_circle(move(linkage, [2.5], speed=1.0, order=2), "coupler")
     at = next(shape.at for shape in figure.shapes if shape.style == "joint")
@@ -164,9 +164,9 @@ def test_the_inflection_circle_is_that_of_the_geometry_and_passes_through_the_sl
 
 
 def test_links_without_centrodes():
-    figure = draw_linkage(WITH_POINT, 1.0, show=["centrodes", "inflection"], output="rocker")
+    figure = draw_linkage(WITH_POINT, at=1.0, show=["centrodes", "inflection"], output="rocker")
     assert "Missing, or outside the picture: fixed centrode" in figure.description
-    text = draw_linkage(entry("loco2").linkage(), 1.0, show=["centrodes", "inflection"], lang="de").description
+    text = draw_linkage(entry("loco2").linkage(), at=1.0, show=["centrodes", "inflection"], lang="de").description
     assert "Nicht vorhanden oder außerhalb des Bildes: Rastpolbahn" in text
 
 
@@ -179,7 +179,7 @@ def test_an_unknown_layer_is_told_with_the_nearest():
 
 
 def test_thin_positions_are_evenly_spread():
-    figure = draw_linkage(CRANK_ROCKER.linkage(), 1.0, ghost=8)
+    figure = draw_linkage(CRANK_ROCKER.linkage(), at=1.0, ghost=8)
     ghosts = styled(figure, "ghost")
     assert len(ghosts) == 8
     pivot = next(shape.at for shape in figure.shapes if shape.style == "joint")
@@ -262,9 +262,9 @@ def golden_pictures():
 
 
 def _golden_pictures():
-    yield "dimensions", draw_linkage(WITH_POINT, 1.0, show=["dimensions", "scale"])
-    yield "arrows", draw_linkage(WITH_POINT, 1.0, show=["velocities", "accelerations", "poles"], lang="de")
-    yield "centrodes", draw_linkage(CARDAN, 1.0, show=["centrodes", "inflection"])
+    yield "dimensions", draw_linkage(WITH_POINT, at=1.0, show=["dimensions", "scale"])
+    yield "arrows", draw_linkage(WITH_POINT, at=1.0, show=["velocities", "accelerations", "poles"], lang="de")
+    yield "centrodes", draw_linkage(CARDAN, at=1.0, show=["centrodes", "inflection"])
     yield "ghosts", draw_linkage(entry("watt_axle").linkage(), between=(-0.9, 0.5), curves=["F"], ghost=4)
     yield "transfer", transfer_plot(SliderCrank(25, 70, 5).linkage())
     yield "transmission", transmission_plot(CRANK_ROCKER.linkage(), lang="de")
@@ -324,7 +324,7 @@ def test_the_inflection_circle_is_whole_with_tangent_and_normal():
 def test_a_curve_is_smooth_where_the_linkage_snaps_over():
     """Near a change point a point runs over a third of its curve within half a degree of the crank."""
     linkage = FourBar(0.999, 3, 3, 1).linkage({"K": (1.5, 2)})
-    (curve,) = (s for s in draw_linkage(linkage, 0.3, curves=["K"]).shapes if getattr(s, "style", "") == "curve")
+    (curve,) = (s for s in draw_linkage(linkage, at=0.3, curves=["K"]).shapes if getattr(s, "style", "") == "curve")
     drawn = np.array([complex(*p) for p in curve.parts[0]])
     course = circuit(linkage, step=1e-3).samples.complex_point("K")
     scale = np.ptp(drawn.real) / np.ptp(course.real)

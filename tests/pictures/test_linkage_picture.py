@@ -61,7 +61,7 @@ def test_pins_are_where_the_links_meet(a, b, phi, unit):
     linkage = FourBar(a, b, 2.0, b).linkage().scaled(unit)
     stage = posed_linkage(linkage, phi)
     motion = move(linkage, [phi])
-    circles = [shape for shape in draw_linkage(linkage, phi).shapes if isinstance(shape, CircleShape)]
+    circles = [shape for shape in draw_linkage(linkage, at=phi).shapes if isinstance(shape, CircleShape)]
     wanted = [complex(motion.complex_point(name)[0]) for name in linkage.mechanism.chain.joint_names()]
     gaps = [[abs(p - q) * stage.scale for p in wanted] for q in wanted]
     found = [[math.dist(p.at, q.at) for p in circles] for q in circles]
@@ -179,20 +179,20 @@ def test_watts_curve_is_a_figure_of_eight_symmetric_to_its_middle():
 @settings(max_examples=20, deadline=None)
 @given(st.floats(0, 6.28))
 def test_the_transmission_angle_is_that_of_the_kinematics(phi):
-    (text,) = [w for w in words(draw_linkage(WITH_POINT, phi, show=["transmission"])) if w.startswith("μ")]
+    (text,) = [w for w in words(draw_linkage(WITH_POINT, at=phi, show=["transmission"])) if w.startswith("μ")]
     mu = math.degrees(transmission_angle(move(WITH_POINT, [phi], order=2))[0])
     assert float(text[4:-1]) == pytest.approx(mu, abs=0.0501)
 
 
 @pytest.mark.parametrize("linkage", [SliderCrank(25, 70, 5).linkage(), InvertedSliderCrank(25, 60, 4).linkage()])
 def test_the_transmission_angle_with_slides(linkage):
-    (text,) = [w for w in words(draw_linkage(linkage, 1.1, show=["transmission"])) if w.startswith("μ")]
+    (text,) = [w for w in words(draw_linkage(linkage, at=1.1, show=["transmission"])) if w.startswith("μ")]
     mu = math.degrees(transmission_angle(move(linkage, [1.1], order=2))[0])
     assert float(text[4:-1]) == pytest.approx(mu, abs=0.0501)
 
 
 def test_dead_centres_are_two_stretched_positions():
-    ghosts = styles(draw_linkage(CRANK_ROCKER.linkage(), 1.0, show=["dead-centres"]), "ghost")
+    ghosts = styles(draw_linkage(CRANK_ROCKER.linkage(), at=1.0, show=["dead-centres"]), "ghost")
     assert len(ghosts) == 2
     lengths = []
     for ghost in ghosts:
@@ -208,7 +208,7 @@ def _sine(one, other):
 
 
 def test_velocities_are_across_the_crank():
-    figure = draw_linkage(CRANK_ROCKER.linkage(), 1.0, show=["velocities", "scale"])
+    figure = draw_linkage(CRANK_ROCKER.linkage(), at=1.0, show=["velocities", "scale"])
     arrows = [s.parts[0] for s in styles(figure, "velocity") if len(s.parts) == 1]
     crank = Point(math.cos(1.0), -math.sin(1.0))
     assert min(abs(b.minus(a).unit.dot(crank)) for a, b in arrows) < 1e-9
@@ -237,12 +237,12 @@ def test_machines_are_drawn_within_their_boxes(name):
 
 
 def test_small():
-    assert len(draw_linkage(WITH_POINT, 1.0, curves=["K"], labels=True).svg()) < 5000
+    assert len(draw_linkage(WITH_POINT, at=1.0, curves=["K"], labels=True).svg()) < 5000
 
 
 def test_names_stay_text():
     linkage = CRANK_ROCKER.linkage({"<script>": (35, 20)})
-    text = draw_linkage(linkage, 1.0, curves=["<script>"]).svg()
+    text = draw_linkage(linkage, at=1.0, curves=["<script>"]).svg()
     assert "<script" not in text
     assert "&lt;script&gt;" in text
 
@@ -322,7 +322,7 @@ def test_what_is_said_of_poles_is_seen():
 
 def test_poses_are_taken_modulo_a_turn():
     linkage = FourBar(60, 30, 40, 50).linkage()
-    assert draw_linkage(linkage, 0.2).svg() == draw_linkage(linkage, 0.2 + 2 * math.pi).svg()
+    assert draw_linkage(linkage, at=0.2).svg() == draw_linkage(linkage, at=0.2 + 2 * math.pi).svg()
     point = posed_linkage(linkage, 0.2).place(LinkPoint("crank", 60.0, 0.0))
     assert math.atan2(-point.y, point.x) == pytest.approx(0.2)
 

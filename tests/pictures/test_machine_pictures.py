@@ -94,7 +94,7 @@ def test_the_drawn_follower_touches_the_drawn_cam(name, degrees):
 
 def test_the_pressure_angle_is_drawn_and_told():
     cam, at = CAMS["roller"], math.radians(40)
-    figure = draw_cam(cam, at)
+    figure = draw_cam(cam, at=at)
     alpha = float(cam.pressure_angle(at))
     assert f"α = {math.degrees(alpha):.1f}°" in words(figure)
     assert f"pressure angle {math.degrees(alpha):.2f}°" in figure.description
@@ -121,7 +121,7 @@ def test_base_circle_pitch_curve_and_undercut():
 
 
 def test_the_diagram_is_the_lift():
-    figure = draw_cam(CAMS["roller"], math.radians(40), plot=True)
+    figure = draw_cam(CAMS["roller"], at=math.radians(40), plot=True)
     assert {"s", "s′ = ds/dφ", "s″ = d²s/dφ²", "40°"} <= set(words(figure))
     curves = [s.parts[0] for s in figure.shapes if isinstance(s, Polylines) and s.style == "line-1"]
     assert len(curves) == 3
@@ -137,9 +137,9 @@ def test_the_diagram_is_the_lift():
 @pytest.mark.parametrize("at", [math.nan, math.inf, "1", True])
 def test_angles_of_machines_are_finite_numbers(at):
     with pytest.raises(CamError, match="finite number"):
-        draw_cam(CAMS["knife"], at)
+        draw_cam(CAMS["knife"], at=at)
     with pytest.raises(GenevaError, match="finite number"):
-        draw_geneva(Geneva(4), at)
+        draw_geneva(Geneva(4), at=at)
 
 
 # --- Geneva drives ---------------------------------------------------------------------------------
@@ -169,9 +169,9 @@ def test_pins_stay_in_their_slots_and_the_locking_disc_outside_the_wheel(drive):
 
 
 def test_a_locked_wheel_is_told_and_the_wheel_turns_as_it_should():
-    assert "locked" in draw_geneva(Geneva(4), math.pi).description
-    assert "gesperrt" in draw_geneva(Geneva(4), math.pi, lang="de").description
-    assert "locked" not in draw_geneva(Geneva(4), 0.1).description
+    assert "locked" in draw_geneva(Geneva(4), at=math.pi).description
+    assert "gesperrt" in draw_geneva(Geneva(4), at=math.pi, lang="de").description
+    assert "locked" not in draw_geneva(Geneva(4), at=0.1).description
     shown = animate_geneva(Geneva(5), plot=False)
     wheel = next(body for body in shown.bodies if any(isinstance(s, Shift) for s in body.steps))
     turn = next(step for step in wheel.steps if isinstance(step, Turn))
@@ -421,8 +421,8 @@ def test_values_show_themselves_in_notebooks():
 
 
 GERMAN = {
-    "cam": lambda: draw_cam(CAMS["roller"], 1.03, plot=True, lang="de"),
-    "Geneva drive": lambda: draw_geneva(Geneva(4), 0.5, plot=True, lang="de"),
+    "cam": lambda: draw_cam(CAMS["roller"], at=1.03, plot=True, lang="de"),
+    "Geneva drive": lambda: draw_geneva(Geneva(4), at=0.5, plot=True, lang="de"),
     "gear train": lambda: draw_train(read_train("a:20 b:1.5").train, lang="de"),
 }
 

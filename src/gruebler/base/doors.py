@@ -14,13 +14,22 @@ import types
 import typing
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
 from numbers import Integral, Real
-from typing import Annotated, Any, TypeGuard, TypeVar
+from typing import Annotated, Any, NamedTuple, TypeGuard, TypeVar
 
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.text import Message, joined_by_or, message
 
 F = TypeVar("F", bound=Callable[..., Any])
 Fits = Callable[[object], bool]
+
+
+class _Check(NamedTuple):
+    """A parameter: its name, whether a value fits, its annotation, whether it is taken by place."""
+
+    name: str
+    fits: Fits | None
+    hint: Any
+    by_place: bool
 
 
 def door(function: F) -> F:
@@ -49,17 +58,18 @@ def door_that_raises(kind: type[GrueblerError]) -> Callable[[F], F]:
         if isinstance(function, type):
             function.__init__ = with_checks(function.__init__)  # type: ignore[misc]
             return function
-        checks: list[tuple[str, Fits | None, Any]] = []
+        checks: list[_Check] = []
 
         @functools.wraps(function)
         def checked(*args: Any, **named: Any) -> Any:
             if not checks:
                 checks.extend(_checks(function))
-            for (name, fits, hint), value in zip(checks, args, strict=False):
-                if fits is not None and not fits(value):
+            for (name, fits, hint, by_place), value in zip(checks, args, strict=False):
+                if by_place and fits is not None and not fits(value):
                     raise _refusal(kind, name, hint, value)
             if named:
-                for name, fits, hint in checks:
+                _check_names(kind, function, named, checks)
+                for name, fits, hint, _ in checks:
                     if fits is not None and name in named and not fits(named[name]):
                         raise _refusal(kind, name, hint, named[name])
             return function(*args, **named)
@@ -69,10 +79,30 @@ def door_that_raises(kind: type[GrueblerError]) -> Callable[[F], F]:
     return with_checks
 
 
-def _checks(function: Callable[..., Any]) -> list[tuple[str, Fits | None, Any]]:
+def _check_names(
+    error: type[GrueblerError], function: Callable[..., Any], named: Collection[str], checks: list[_Check]
+) -> None:
+    """Names that the function does not have are refused with those that it has."""
+    known = [name for name, *_ in checks if name != "self"]
+    other = next((name for name in named if name not in known), None)
+    if other is not None and not _takes_any(function):
+        raise error(
+            "{function} has no option {option!r}{suggestion}; it has {known}",
+            function=function.__qualname__.removesuffix(".__init__"),
+            option=other,
+            suggestion=nearest(other, known),
+            known=", ".join(known),
+        )
+
+
+def _takes_any(function: Callable[..., Any]) -> bool:
+    return any(p.kind is p.VAR_KEYWORD for p in inspect.signature(function).parameters.values())
+
+
+def _checks(function: Callable[..., Any]) -> list[_Check]:
     """Each parameter with what its annotation says, in their order."""
     space = {**vars(typing), **getattr(function, "__globals__", {})}
-    checks: list[tuple[str, Fits | None, Any]] = []
+    checks: list[_Check] = []
     for parameter in inspect.signature(function).parameters.values():
         hint = parameter.annotation
         if isinstance(hint, str):
@@ -82,7 +112,7 @@ def _checks(function: Callable[..., Any]) -> list[tuple[str, Fits | None, Any]]:
                 hint = Any
         if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or hint is parameter.empty:
             hint = Any
-        checks.append((parameter.name, _fits(hint), hint))
+        checks.append(_Check(parameter.name, _fits(hint), hint, parameter.kind is not parameter.KEYWORD_ONLY))
     return checks
 
 

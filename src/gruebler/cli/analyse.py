@@ -29,6 +29,7 @@ from gruebler.mechanics.analysis.rotatability import slide_directions
 from gruebler.mechanics.analysis.table import default_rows, motion_table
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import read_branch
+from gruebler.mechanics.kinematics.drive_rows import rpm as per_minute
 from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_in_radians
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import branch_text
@@ -226,7 +227,9 @@ def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argpar
     from gruebler.mechanics.analysis.measures import measures
 
     rpm = (arguments.speed[0] or None) if turning and arguments.speed else None
-    return measures(linkage, rpm, branch=arguments.branch, output=output.name)
+    return measures(
+        linkage, speed=None if rpm is None else per_minute(rpm), branch=arguments.branch, output=output.name
+    )
 
 
 def _moved(linkage: Linkage, measures: Measures, rows: Reals, branch: str | None, order: int) -> tuple[Motion, int]:

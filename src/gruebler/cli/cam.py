@@ -122,7 +122,7 @@ def _picture(arguments: argparse.Namespace, cam: Cam) -> None:
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
     write_machine_picture(
         arguments,
-        lambda: draw_cam(cam, at, plot=plot, lang=lang),
+        lambda: draw_cam(cam, at=at, plot=plot, lang=lang),
         lambda seconds: animate_cam(cam, plot=plot, seconds=seconds, lang=lang),
     )
 

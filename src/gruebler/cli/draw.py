@@ -231,8 +231,8 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
     record = entry_of(arguments.chain, arguments.lang)
     return draw_linkage(
         linkage,
-        pose_of(moving["at"], linkage.mechanism) if moving["at"] else None,
         branch=moving["branch"],
+        at=pose_of(moving["at"], linkage.mechanism) if moving["at"] else None,
         between=between,
         curves=moving["curve"],
         show=moving["show"],

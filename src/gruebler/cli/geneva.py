@@ -105,7 +105,7 @@ def _picture(arguments: argparse.Namespace, drive: Geneva) -> None:
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
     write_machine_picture(
         arguments,
-        lambda: draw_geneva(drive, at or 0.0, plot=plot, lang=lang),
+        lambda: draw_geneva(drive, at=at or 0.0, plot=plot, lang=lang),
         lambda seconds: animate_geneva(drive, plot=plot, seconds=seconds, lang=lang),
     )
 

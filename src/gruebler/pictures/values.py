@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
@@ -12,11 +12,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.text import Message, message
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.files import picture_bytes, suffix_of
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from gruebler.mechanics.kinematics.motion import Motion
     from gruebler.mechanics.linkages import Linkage
+    from gruebler.mechanics.linkages.branch import Branch
+    from gruebler.mechanics.linkages.conversion import LinkageLike
+    from gruebler.mechanics.linkages.points import PointLike
     from gruebler.pictures.canvas.moving_picture import MovingPicture
     from gruebler.structure.mechanism import Mechanism
 
@@ -108,66 +115,216 @@ _PLOTS = {
     "family": ("linkage.curve_plots", "family_plot"),
 }
 
-
-def draw(value: Any, **options: Any) -> Picture:
-    """A picture of a chain, mechanism, linkage, motion, cam, Geneva drive or gear train.
-
-    Args:
-        value: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
-        options: those of the function that draws such a value: `gruebler.pictures.structure.draw_structure`
-            (``labels``), `gruebler.pictures.linkage.picture.draw_linkage` (``drive``, ``curves``, ``show``, ...),
-            `draw_cam`, ...
-
-    Raises `GrueblerError` for a value without a picture and for unknown options.
-
-    >>> import gruebler as gr
-    >>> gr.draw(gr.FourBar(25, 70, 40, 70))
-    <Picture 'four-bar linkage', 328 x 195>
-    """
-    value, kind = _drawn(value)
-    return Picture(_called(_function(kind.module, kind.still), value, options))
+_OF_PICTURE = message("the picture of a {kind} has no option {option!r}{suggestion}; it has {known}")
+_OF_ANIMATION = message("the moving picture of a {kind} has no option {option!r}{suggestion}; it has {known}")
+_OF_DIAGRAM = message("the diagram {kind!r} has no option {option!r}{suggestion}; it has {known}")
 
 
 @door
-def animate(value: Any, *, seconds: float = 4.0, **options: Any) -> Animation:
+def draw(
+    value: object,
+    *,
+    branch: Branch = None,
+    at: float | Sequence[float] | None = None,
+    between: tuple[float, float] | None = None,
+    curves: Sequence[PointLike] | None = None,
+    show: Sequence[str] | None = None,
+    output: str | None = None,
+    outputs: Collection[str] | None = None,
+    ghost: int | None = None,
+    labels: bool | None = None,
+    symbols: bool | None = None,
+    contacts: Mapping[tuple[int, str], str] | None = None,
+    planets: Mapping[str, int] | None = None,
+    teeth: bool | None = None,
+    plot: bool | None = None,
+    names: Mapping[str, str] | None = None,
+    name: str | None = None,
+    lang: str | None = None,
+) -> Picture:
+    """A picture of a chain, mechanism, linkage, motion, cam, Geneva drive or gear train.
+
+    Every kind of value takes ``name`` and ``lang``; which further options it takes stands with each.
+
+    Args:
+        value: what is drawn; also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
+        branch: of a linkage: the assembly mode, such as ``"+-"``.
+        at: of a linkage: the values of its drives (radians, or lengths); of a cam or Geneva drive: the driver's angle
+            in radians. By default a suitable position.
+        between: of a linkage: drive values of its range, for curves and the size of the picture.
+        curves: of a linkage: points or joints whose paths are drawn.
+        show: of a linkage: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``,
+            ``centrodes``, ``inflection``, ``planes``, ``dimensions``, ``scale``.
+        output: of a linkage: the link of dead centres and transmission angle.
+        outputs: of a chain or mechanism: links that get a double arrow.
+        ghost: of a linkage: the number of thinly drawn positions, at most 60.
+        labels: of a chain, mechanism or linkage: whether to name the links.
+        symbols: of a chain or mechanism: whether to write the symbols of pairs without a sign of their own.
+        contacts: of a chain or mechanism: what the bodies of higher pairs are, by joint number and link.
+        planets: of a train: the numbers of equal planets by name.
+        teeth: of a train: whether gears have involute teeth.
+        plot: of a cam or Geneva drive: whether diagrams stand below.
+        names: of a chain, mechanism or linkage: other names for links in the picture.
+        name: the title; by default the kind.
+        lang: language of title and description, ``en`` or ``de``.
+
+    Returns:
+        A `Picture`: it shows itself in a notebook; `Picture.svg` is a text, `Picture.save` writes a file.
+
+    Raises:
+        GrueblerError: a value without a picture, an option that this kind of value does not take.
+        LinkageError: a pose that cannot be reached, unknown points or links.
+
+    Cost:
+        1 to 30 ms; with curves or ``between`` that of the drive cycle, 10 to 500 ms.
+
+    Example:
+        >>> import gruebler as gr
+        >>> gr.draw(gr.FourBar(25, 70, 40, 70))
+        <Picture 'four-bar linkage', 328 x 195>
+
+    See Also:
+        `animate`, `plot`, `explore`, `write`
+
+    Theory:
+        docs/theory/drawing.md
+    """
+    given = _given(locals())
+    drawn, kind = _drawn(value)
+    return Picture(_called(_OF_PICTURE, type(value).__name__, _function(kind.module, kind.still), drawn, given))
+
+
+@door
+def animate(
+    value: object,
+    *,
+    branch: Branch = None,
+    between: tuple[float, float] | None = None,
+    drives: ArrayLike | Mapping[str, object] | None = None,
+    curves: Sequence[PointLike] | None = None,
+    planets: Mapping[str, int] | None = None,
+    teeth: bool | None = None,
+    plot: bool | None = None,
+    most: int | None = None,
+    seconds: float = 4.0,
+    name: str | None = None,
+    lang: str | None = None,
+) -> Animation:
     """A moving picture of a linkage, cam, Geneva drive or gear train, one turn of the drive in the given time.
 
     Args:
-        value: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
+        value: what moves; also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
+        branch: of a linkage: the assembly mode, such as ``"+-"``.
+        between: of a linkage: drive values (radians, or lengths) between which it moves; by default the full range.
+        drives: of a linkage: (rows, drives) a piecewise straight path of its drives; of a train: speeds or turns by
+            link.
+        curves: of a linkage: points or joints whose paths are drawn.
+        planets: of a train: the numbers of equal planets by name.
+        teeth: of a train: whether gears have involute teeth.
+        plot: of a cam or Geneva drive: whether the diagram with a cursor stands below.
+        most: of a train: the number of turns after which the picture may begin again though it does not repeat.
         seconds: for a turn of the drive, or for there and back.
-        options: of `gruebler.pictures.linkage.animation.scene`, `animate_cam`, `animate_geneva` or `animate_train`.
+        name: the title; by default the kind.
+        lang: language of title and description, ``en`` or ``de``.
 
-    Raises `GrueblerError` for a value that has no moving picture, `LinkageError` for a linkage that does not move.
+    Returns:
+        An `Animation`: it shows itself in a notebook; `Animation.save` writes SVG, HTML, GIF, WebP or APNG.
+
+    Raises:
+        GrueblerError: a value that has no moving picture, an option that this kind of value does not take.
+        LinkageError: a linkage that does not move.
+
+    Cost:
+        Some 50 ms for a linkage; files of pictures (GIF, WebP, APNG) some 50 ms a frame.
+
+    Example:
+        >>> import gruebler as gr
+        >>> gr.animate(gr.Geneva(4))
+        <Animation 'External Geneva drive with 4 slots'>
+
+    See Also:
+        `draw`, `plot`, `explore`
+
+    Theory:
+        docs/theory/drawing.md
     """
-    value, kind = _drawn(value)
+    given = _given(locals())
+    drawn, kind = _drawn(value)
     if not kind.moving:
         raise GrueblerError(
             "values of type {kind} have no moving picture: animate a linkage, cam, Geneva drive or train",
             kind=type(value).__name__,
         )
     if kind.moving == "linkage":
-        return Animation(_title(value.mechanism), partial(_linkage_content, value, {"seconds": seconds, **options}))
-    lang = options.get("lang", "en")
-    shown: MovingPicture = _called(_function(kind.module, kind.moving), value, {"seconds": seconds, **options})
-    return Animation(shown.page.title, partial(_machine_content, shown, lang))
+        _check_options(_OF_ANIMATION, type(value).__name__, _function("linkage.animation", "scene"), given)
+        return Animation(given.get("name") or _title(drawn.mechanism), partial(_linkage_content, drawn, given))
+    function = _function(kind.module, kind.moving)
+    shown: MovingPicture = _called(_OF_ANIMATION, type(value).__name__, function, drawn, given)
+    return Animation(shown.page.title, partial(_machine_content, shown, lang or "en"))
 
 
 @door
-def plot(linkage: object, kind: str = "transfer", **options: Any) -> Picture:
+def plot(
+    linkage: LinkageLike | Motion,
+    kind: str = "transfer",
+    *,
+    branch: Branch = None,
+    between: tuple[float, float] | None = None,
+    speed: float | None = None,
+    output: str | None = None,
+    points: Sequence[PointLike] | None = None,
+    link: str | None = None,
+    start: complex | None = None,
+    end: complex | None = None,
+    count: int | None = None,
+    names: Mapping[str, str] | None = None,
+    name: str | None = None,
+    lang: str | None = None,
+) -> Picture:
     """A diagram of a linkage with one drive.
 
+    Every diagram takes ``branch``, ``between``, ``name`` and ``lang``; which further options it takes stands with each.
+
     Args:
-        linkage: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
+        linkage: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`; a `Motion` stands for its linkage on its
+            branch, between its smallest and largest drive value.
         kind: ``transfer`` (the output and its derivatives), ``transmission`` (transmission angle), ``hodograph``,
             ``curves`` (paths of points) or ``family`` (paths of points on a line of one link).
-        options: of `transfer_plot`, `transmission_plot`, `hodograph`, `coupler_plot`, `family_plot`.
+        branch: the assembly mode, such as ``"+-"``.
+        between: drive values between which it is plotted (radians, or lengths); by default the full range.
+        speed: of ``hodograph``: that of the drive, in rad/s or lengths a second; without it velocities are by drive.
+        output: of ``transfer`` and ``transmission``: a link or sliding joint; by default the linkage's own output.
+        points: of ``hodograph`` and ``curves``: names of points or joints, at most eight.
+        link: of ``family``: the link of the points.
+        start: of ``family``: one end of the line, x + iy in coordinates of the link.
+        end: of ``family``: the other end.
+        count: of ``family``: how many points, 2 to 8.
+        names: of ``transfer`` and ``transmission``: other names for links.
+        name: of the linkage; by default its kind.
+        lang: language of the labels, ``en`` or ``de``.
 
-    >>> import gruebler as gr
-    >>> gr.plot(gr.FourBar(25, 70, 40, 70), "transmission")
-    <Picture 'four-bar linkage: transmission angle of rocker', 705 x 410>
+    Returns:
+        A `Picture`: it shows itself in a notebook; `Picture.svg` is a text, `Picture.save` writes a file.
+
+    Raises:
+        GrueblerError: no such diagram, an option that it does not take.
+        LinkageError: several drives, unknown points or links, a linkage that cannot be assembled.
+
+    Cost:
+        That of the drive cycle, 10 to 500 ms.
+
+    Example:
+        >>> import gruebler as gr
+        >>> gr.plot(gr.FourBar(25, 70, 40, 70), "transmission")
+        <Picture 'four-bar linkage: transmission angle of rocker', 705 x 410>
+
+    See Also:
+        `draw`, `animate`, `measures`, `coupler_curve`
+
+    Theory:
+        docs/theory/events.md
     """
-    from gruebler.mechanics.linkages.conversion import as_linkage
-
+    given = _given(locals())
     if kind not in _PLOTS:
         raise GrueblerError(
             "there is no plot {kind!r}{suggestion}; there are {known}",
@@ -175,7 +332,20 @@ def plot(linkage: object, kind: str = "transfer", **options: Any) -> Picture:
             suggestion=nearest(str(kind), _PLOTS),
             known=", ".join(_PLOTS),
         )
-    return Picture(_called(_function(*_PLOTS[kind]), as_linkage(linkage), options))
+    return Picture(_called(_OF_DIAGRAM, kind, _function(*_PLOTS[kind]), *_plotted(linkage, given)))
+
+
+def _plotted(linkage: LinkageLike | Motion, given: dict[str, Any]) -> tuple[Linkage, dict[str, Any]]:
+    """The linkage that is plotted, with the branch and the range of a motion."""
+    from gruebler.mechanics.kinematics.motion import Motion
+    from gruebler.mechanics.linkages.conversion import as_linkage
+
+    if not isinstance(linkage, Motion):
+        return as_linkage(linkage), given
+    if len(linkage) < 2:
+        raise GrueblerError("this motion has {count} rows, and no diagram: plot its linkage", count=len(linkage))
+    low, high = float(linkage.drives[:, 0].min()), float(linkage.drives[:, 0].max())
+    return linkage.linkage, {"branch": linkage.branch, "between": (low, high), **given}
 
 
 def picture_of(value: object) -> str:
@@ -212,21 +382,29 @@ def _function(module: str, name: str) -> Callable[..., Any]:
     return function
 
 
-def _called(function: Callable[..., Any], value: object, options: Mapping[str, Any]) -> Any:
-    """The function's answer; unknown options are refused with those that there are."""
+def _given(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The options that were given; None is none."""
+    return {
+        name: value
+        for name, value in arguments.items()
+        if value is not None and name not in ("value", "linkage", "kind")
+    }
+
+
+def _called(text: Message, kind: str, function: Callable[..., Any], value: object, given: Mapping[str, Any]) -> Any:
+    """The function's answer; options that it does not take are refused."""
+    _check_options(text, kind, function, given)
+    return function(value, **given)
+
+
+def _check_options(text: Message, kind: str, function: Callable[..., Any], given: Mapping[str, Any]) -> None:
     from inspect import signature
 
     known = [p.name for p in list(signature(function).parameters.values())[1:]]
-    for option in options:
-        if option not in known and "options" not in known:
-            raise GrueblerError(
-                "{function} has no option {option!r}{suggestion}; it has {known}",
-                function=function.__name__,
-                option=option,
-                suggestion=nearest(option, known),
-                known=", ".join(known),
-            )
-    return function(value, **options)
+    for option in given:
+        if option not in known:
+            suggestion = nearest(option, known)
+            raise GrueblerError(text.filled(kind=kind, option=option, suggestion=suggestion, known=", ".join(known)))
 
 
 def _title(mechanism: Mechanism) -> str:

@@ -392,7 +392,7 @@ def test_the_miss_in_order_is_told():
 def test_a_target_beyond_a_limit_of_the_drive_is_approached_on_the_branch():
     """The crank turns back at 121.86 degrees, where a way on one branch ends: its last place is there."""
     rocker = FourBar(30, 30, 50, 60).linkage({"P": (20, 15)})
-    way = circuit(rocker, drive=0.2)
+    way = circuit(rocker, at=0.2)
     limit = next(extreme for extreme in way.drive_limits if extreme.value > 0)
     sense = 1.0 if way.at([limit.at - 0.1]).drive(1)[0] > 0 else -1.0
     arcs = limit.at + sense * np.array([-0.8, -0.6, -0.4, -0.2, 0.05])

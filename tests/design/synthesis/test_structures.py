@@ -121,7 +121,7 @@ def errors(result):
 @pytest.mark.parametrize(("kind", "text"), [CASES[0], CASES[4], CASES[5]])
 def test_structures_meet_every_kind_of_task(kind, text):
     """So few targets are met exactly; `move` has the last word, for dead centres the analysis of the motion."""
-    result = synthesise(TASKS[kind], [Mechanism.parse(text)], starts=2)
+    result = synthesise(TASKS[kind], structures=[Mechanism.parse(text)], starts=2)
     design = result.designs[0]
     assert design.verdict.error < 1e-8
     if kind == "dead centres":
@@ -149,18 +149,23 @@ def test_a_task_taken_from_a_structure_is_met_by_it(text, seed):
     rows = [(*p, a) for p, a in zip(motion.point("P"), motion.angle(link), strict=True)]
     tasks = [PositionTask(rows), PathTask(motion.point("P"), crank_angles=tuple(drive))]
     for task in tasks:
-        assert min(errors(synthesise(task, [mechanism], Demands(one_branch=False), starts=6, link=link))) < 1e-9
+        assert (
+            min(
+                errors(synthesise(task, structures=[mechanism], demands=Demands(one_branch=False), starts=6, link=link))
+            )
+            < 1e-9
+        )
 
 
 def test_a_five_bar_carries_a_body_through_positions_by_both_drives():
     task = TASKS["positions"]
-    design = synthesise(task, [Mechanism.parse(FIVE_BAR)], starts=1).designs[0]
+    design = synthesise(task, structures=[Mechanism.parse(FIVE_BAR)], starts=1).designs[0]
     motion = move(design.linkage, np.array(design.drive_rows))
     assert np.abs(motion.complex_point("P") - task.origins).max() < 1e-8 * task.size
     carrier = design.linkage.points["P"].link
     turned = motion.angle(carrier) - task.angles
     assert np.abs(np.exp(1j * (turned - turned[0])) - 1).max() < 1e-8
-    refused = synthesise(task, [Mechanism.parse(FIVE_BAR)], Demands(crank=True), starts=1)
+    refused = synthesise(task, structures=[Mechanism.parse(FIVE_BAR)], demands=Demands(crank=True), starts=1)
     assert "none has to turn fully" in str(refused.rejected[0].verdict.reasons[-1])
 
 
@@ -191,7 +196,9 @@ def test_processes_share_the_starts():
 
 
 def test_the_pareto_table_holds_what_nothing_beats():
-    result = synthesise(TASKS["positions"], [Mechanism.parse(text) for text in (SLIDER, STEPHENSON)], starts=2)
+    result = synthesise(
+        TASKS["positions"], structures=[Mechanism.parse(text) for text in (SLIDER, STEPHENSON)], starts=2
+    )
     table = pareto(result)
 
     def costs(design):
@@ -225,7 +232,7 @@ def test_the_pareto_table_holds_what_nothing_beats():
 )
 def test_what_a_structure_cannot_do_is_refused(kind, text, link, sentence):
     with pytest.raises(SynthesisError, match=sentence):
-        synthesise(TASKS[kind], [Mechanism.parse(text)], link=link)
+        synthesise(TASKS[kind], structures=[Mechanism.parse(text)], link=link)
 
 
 def test_a_fit_does_not_depend_on_the_unit():

@@ -15,6 +15,7 @@ from gruebler.mechanics.analysis.measures import measures
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import transmission_angle
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.kinematics.drive_rows import rpm
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 from tests.samples import CLASS_III, CYLINDER, parallel_legs
@@ -50,11 +51,11 @@ def test_strokes(size: FourBar, travel: float, outer: float, inner: float, ratio
 
 
 def test_times_at_a_speed() -> None:
-    found = measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed_rpm=300)
+    found = measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed=rpm(300))
     assert found.times.longest * 1000 == pytest.approx(115.15946340629442, rel=1e-8)
     assert found.times.shortest * 1000 == pytest.approx(84.84053659370558, rel=1e-8)
     assert found.times.difference * 1000 == pytest.approx(30.318926812588842, rel=1e-8)
-    back = measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed_rpm=-300)
+    back = measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed=rpm(-300))
     assert (back.times.forward, back.times.back) == pytest.approx((found.times.back, found.times.forward))
     assert found.delta_phi == pytest.approx(27.28703413132995 * DEGREE, rel=1e-8)
 
@@ -173,7 +174,7 @@ def test_prose_and_data(linkage: Linkage, output: str | None) -> None:
 
 
 def test_german_terms() -> None:
-    text = measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed_rpm=300).explain("de")
+    text = measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed=rpm(300)).explain("de")
     for term in ("läuft voll um", "Innere Totlage", "Äußere Totlage", "Zeitverhältnis", "Übertragungswinkel"):
         assert term in text
     assert "vom Antrieb selbst bewegt" in measures(FourBar(2, 7, 4.5, 5.5).linkage(), output="crank").explain("de")
@@ -192,13 +193,13 @@ def test_sizes_scale_and_mirror() -> None:
 
 @pytest.mark.parametrize("speed", [0, math.nan, math.inf, "fast", True])
 def test_wrong_speeds(speed: object) -> None:
-    with pytest.raises(LinkageError, match=r"revolutions per minute|speed_rpm: expected a number"):
-        measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed)  # type: ignore[arg-type]
+    with pytest.raises(LinkageError, match=r"in rad/s other than 0|speed: expected a number"):
+        measures(FourBar(2, 7, 4.5, 5.5).linkage(), speed=speed)  # type: ignore[arg-type]
 
 
 def test_other_wrong_calls() -> None:
     with pytest.raises(LinkageError, match="sliding one"):
-        measures(CYLINDER, 300)
+        measures(CYLINDER, speed=30)
     with pytest.raises(LinkageError, match="none of"):
         measures(CYLINDER, output="R(0-1)")
     with pytest.raises(LinkageError, match="branch"):

@@ -16,6 +16,7 @@ from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.analysis.drive_cycle import drive_cycle
 from gruebler.mechanics.kinematics import circuit, from_degrees, move
+from gruebler.mechanics.kinematics.drive_rows import rpm
 from gruebler.mechanics.linkages import CamDisc, Circle, GenevaDriver, GenevaWheel, Linkage
 from gruebler.structure.mechanism import Mechanism
 
@@ -172,7 +173,7 @@ def test_dwells_on_both_sides():
     assert centres == []
     near(rests, [(90, 150, "maximum", "outer"), (270, 360, "minimum", "inner")])
     assert (found.time_ratio, found.dwell_share, found.travel) == pytest.approx((4 / 3, 150 / 360, 20))
-    timed = measures(roller_follower(), speed_rpm=60)
+    timed = measures(roller_follower(), speed=rpm(60))
     assert (timed.times.forward, timed.times.back, timed.dwell_time) == pytest.approx((90 / 360, 120 / 360, 150 / 360))
 
 
@@ -252,7 +253,7 @@ def test_dwells_of_geneva_drives(slots, pins, internal):
 
 
 def test_dwells_are_reported():
-    found = measures(roller_follower(), speed_rpm=60)
+    found = measures(roller_follower(), speed=rpm(60))
     assert "Dwell in the outer position from 90° to 150°, 60°: -10" in found.explain()
     assert "Rast in der inneren Lage von 270° bis 360°, 90°" in found.explain("de")
     assert "In Rast: 0,416667 s je Periode." in found.explain("de")

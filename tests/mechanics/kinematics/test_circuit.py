@@ -188,7 +188,7 @@ def test_a_double_rocker_passes_both_limits_and_returns():
 
 @pytest.mark.parametrize(("branch", "turns"), [("+", 1), ("-", -1)])
 def test_a_parallelogram_goes_straight_on_in_its_change_points(branch, turns):
-    made = circuit(FourBar(25, 70, 25, 70).linkage(), branch=branch, drive=radians(50))
+    made = circuit(FourBar(25, 70, 25, 70).linkage(), branch=branch, at=radians(50))
     assert made.closed
     assert not made.drive_limits
     assert sorted(abs(np.cos(point.drive)) for point in made.change_points) == pytest.approx([1, 1], abs=1e-12)
@@ -198,7 +198,7 @@ def test_a_parallelogram_goes_straight_on_in_its_change_points(branch, turns):
 
 @pytest.mark.parametrize("miss", [1e-2, 1e-5, 1e-8])
 def test_a_near_miss_is_no_change_point(miss):
-    made = circuit(FourBar(25, 70 + 70 * miss, 25, 70).linkage(), drive=1.0)
+    made = circuit(FourBar(25, 70 + 70 * miss, 25, 70).linkage(), at=1.0)
     assert made.closed
     assert not made.change_points
     assert len(made.drive_limits) == 2
@@ -352,7 +352,7 @@ def test_what_has_no_circuit():
     with pytest.raises(LinkageError, match="cannot be assembled at any"):
         circuit(FourBar(1, 1, 1, 5).linkage())
     with pytest.raises(LinkageError, match="singular position"):
-        circuit(FourBar(25, 70, 25, 70).linkage(), drive=0)
+        circuit(FourBar(25, 70, 25, 70).linkage(), at=0)
     five = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0); frame=0; drive=R(0-1)")
     corners = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (2, 3), "R(3-4)": (4, 2), "R(4-0)": (4, 0)}
     with pytest.raises(LinkageError, match="one freedom, but this one has 2"):

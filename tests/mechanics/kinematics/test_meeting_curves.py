@@ -46,7 +46,7 @@ def test_a_near_miss_is_none():
     wrong = {link: dict(mine) for link, mine in linkage._by_link().items()}
     pin = wrong["w2"][6]
     wrong["w2"][6] = (pin.x * (1 + 1e-5), pin.y * (1 + 1e-5))  # the second parallelogram misses its change points
-    made = circuit(Linkage(linkage.mechanism, wrong), drive=1.0)
+    made = circuit(Linkage(linkage.mechanism, wrong), at=1.0)
     assert made.closed
     assert len(made.change_points) >= 2  # those of the first one
     assert not any(point.several for point in made.change_points)

@@ -217,7 +217,7 @@ def test_the_catalog_machine_and_its_picture():
     motion = move(linkage, [0, pi / 2, pi], speed=1, order=1)
     np.testing.assert_allclose(motion.angular("follower"), [-3, -0.6, -1 / 3], rtol=1e-9)
     assert motion.angle("follower")[1] - motion.angle("follower")[0] == pytest.approx(-2 * np.arctan(3 * tan(pi / 4)))
-    assert "<svg" in draw_linkage(linkage, 0.8).svg()
+    assert "<svg" in draw_linkage(linkage, at=0.8).svg()
 
 
 def with_second(element=None, **changed):

@@ -99,7 +99,7 @@ def test_circuits_of_cranks():
 @pytest.mark.parametrize("lengths", [(25, 70, 40, 70), (3, 3, 3, 4), (2, 5, 2, 5)])
 def test_circuits_of_four_bars(lengths):
     bar = FourBar(*lengths).linkage()
-    made = circuit(bar, drive=1.0)
+    made = circuit(bar, at=1.0)
     for value in made.samples.drive()[::40]:
         assert freedoms(bar, at=float(value)).mobility == 1
     closing, pose = closed_pose(bar, [1.0])

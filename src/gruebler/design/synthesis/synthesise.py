@@ -2,71 +2,123 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Executor
+from functools import partial
+from inspect import signature
 from typing import Any
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import SynthesisError
+from gruebler.base.text import message
 from gruebler.design.synthesis.dead_centres import synthesise_dead_centres
 from gruebler.design.synthesis.functions import synthesise_function
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
-from gruebler.design.synthesis.results import SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import Progress, SynthesisResult, in_order_of
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
+
+_MOST = 10_000  # designs of a family: more are no choice
 
 
 @door_that_raises(SynthesisError)
 def synthesise(
     task: Task,
+    *,
     structures: Iterable[Mechanism] | None = None,
     demands: Demands | None = None,
-    *,
     sort: str | Sequence[str] = (),
-    **options: Any,
+    number: int | None = None,
+    minimax: bool | None = None,
+    starts: int | None = None,
+    link: str | None = None,
+    threads: int | None = None,
+    executor: Executor | Callable[[], Executor] | None = None,
+    progress: Progress | None = None,
 ) -> SynthesisResult:
     """Linkages for a wanted motion, the accepted ones first.
 
     Args:
-        task: positions of a body, points of a path, a function, or dead centres.
+        task: positions of a body, points of a path, a function, or dead centres; angles in radians.
         structures: mechanisms that are fitted to the task instead of four-bars and slider-cranks.
         demands: what a design must do besides the task, such as a crank or a least transmission angle.
         sort: one or several of ``error``, ``transmission`` (on the way through the targets), ``range-transmission``
             (over the whole range of the drive), ``size``, ``size-ratio``, ``links``, ``full-turn``; of designs that
             are equal in the first the second decides. By default a full turn comes first, then the transmission angle;
             where targets are only approached, the error.
-        options: those of `synthesise_positions`, `synthesise_path`, `synthesise_function`, `synthesise_dead_centres`
-            or `synthesise_structures`.
+        number: without structures: how many dyads or designs are taken from each infinite family.
+        minimax: of a function: the linkages whose largest structural error is as small as possible.
+        starts: of structures: how many are improved of each mechanism.
+        link: of structures: that is guided, or whose motion is the output.
+        threads: of a path: how many follow it; as many as there are processors by default.
+        executor: of structures: what runs the work; the answer is the same with any.
+        progress: of positions, a path or structures: called with the work done and its amount.
 
-    Raises `SynthesisError` for a task that contradicts itself, and for structures that cannot do it.
+    Returns:
+        A `SynthesisResult`: ``designs``, ``rejected`` with reasons, ``count`` with its theorem, ``notes``.
 
-    >>> from gruebler.design.synthesis import DeadCentreTask
-    >>> result = synthesise(DeadCentreTask(stroke=50, time_ratio=1.2))
-    >>> round(result.designs[0].linkage.length("crank", 0, 1), 4)
-    23.5237
+    Raises:
+        SynthesisError: a task that contradicts itself, structures that cannot do it, an option that this task does
+            not take.
+
+    Cost:
+        1 ms to 3 s (nine points) and 10 ms for each verdict; a structure 0.4 to 3 s a start.
+
+    Example:
+        >>> from gruebler.design.synthesis import DeadCentreTask
+        >>> result = synthesise(DeadCentreTask(stroke=50, time_ratio=1.2))
+        >>> round(result.designs[0].linkage.length("crank", 0, 1), 4)
+        23.5237
+
+    See Also:
+        `realise`, `measures`, `variants`
+
+    Theory:
+        docs/theory/synthesis.md
     """
     orders = (sort,) if isinstance(sort, str) else tuple(sort)
     in_order_of((), orders)  # a wrong name is refused before the work
-    result = _solved(task, structures, demands, options)
+    if number is not None and not 1 <= number <= _MOST:
+        raise SynthesisError(
+            "number: expected a whole number from 1 to {most:,}, but found {found}", most=_MOST, found=number
+        )
+    options = {
+        "number": number,
+        "minimax": minimax,
+        "starts": starts,
+        "link": link,
+        "threads": threads,
+        "executor": executor,
+        "progress": progress,
+    }
+    result = _solved(task, structures, demands, {name: value for name, value in options.items() if value is not None})
     return result.sorted_by(*orders) if orders else result
+
+
+_METHODS: dict[type[Task], Callable[..., SynthesisResult]] = {
+    PositionTask: synthesise_positions,
+    PathTask: synthesise_path,
+    FunctionTask: synthesise_function,
+    DeadCentreTask: synthesise_dead_centres,
+}
 
 
 def _solved(
     task: Task, structures: Iterable[Mechanism] | None, demands: Demands | None, options: dict[str, Any]
 ) -> SynthesisResult:
-    if structures is not None:
-        return synthesise_structures(task, structures, demands, **options)
-    match task:
-        case PositionTask():
-            return synthesise_positions(task, demands, **options)
-        case PathTask():
-            return synthesise_path(task, demands, **options)
-        case FunctionTask():
-            return synthesise_function(task, demands, **options)
-        case DeadCentreTask():
-            return synthesise_dead_centres(task, demands, **options)
-    raise SynthesisError(
-        "expected a task of positions, points, a function or dead centres, but found {found!r}", found=task
-    )
+    """The answer of the function for such a task; options that it does not take are refused."""
+    function = _METHODS[type(task)] if structures is None else partial(synthesise_structures, structures=structures)
+    known = [name for name in signature(function).parameters if name not in ("task", "structures", "demands")]
+    other = next((name for name in options if name not in known), None)
+    if other is not None:
+        raise SynthesisError(
+            "a {task} {structures} has no option {option!r}; it has {known}",
+            task=type(task).__name__,
+            structures=message("without structures") if structures is None else message("with structures"),
+            option=other,
+            known=", ".join(known),
+        )
+    return function(task, demands=demands, **options)

@@ -312,7 +312,7 @@ def dyad_change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
 
 
 def _of_larger_groups(cycle: DriveCycle) -> Iterator[ChangePoint]:
-    whole = circuit(cycle.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]))
+    whole = circuit(cycle.linkage, branch=cycle.start.branch, at=float(cycle.start.drives[0, 0]))
     angles = {link: whole.poses_at_change_points.angle(link) for link in whole.system.bodies}
     for row, change in enumerate(whole.change_points):
         groups = list(_singular(cycle, whole, row))

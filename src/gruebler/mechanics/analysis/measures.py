@@ -11,7 +11,7 @@
 - ``inner, outer`` (`DeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
   ``output_turns`` (turns of the output per period);
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
-  output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
+  output moves; None if not defined), ``speed``, ``times`` (`StrokeTimes` in seconds, None without a speed),
   ``dwell_time``;
 - ``change_points`` (tuple of `ChangePoint`: drive, links, form; ``change_points_error`` says if some are not
   known);
@@ -68,6 +68,7 @@ from gruebler.mechanics.analysis.transmission import (
     measure_transmission,
 )
 from gruebler.mechanics.fourbar.extremes import StrokeTimes
+from gruebler.mechanics.kinematics.drive_rows import in_rpm
 from gruebler.mechanics.kinematics.motion import Stop
 from gruebler.mechanics.kinematics.root_finding import sample_function
 from gruebler.mechanics.linkages import Linkage
@@ -138,7 +139,8 @@ class Measures(Brief):
     transmission: TransmissionExtremes | None
     transmission_error: NoTransmissionAngleError | None
     """Why there is no transmission angle; None if there is one."""
-    speed_rpm: float | None
+    speed: float | None
+    """Of the drive, in rad/s."""
 
     @property
     def transmission_note(self) -> str:
@@ -219,11 +221,16 @@ class Measures(Brief):
         return (1 - self.dwell_share) / self.dwell_share if self.dwells else None
 
     @property
+    def speed_rpm(self) -> float | None:
+        """The speed of the drive in revolutions per minute, as files and texts say it."""
+        return None if self.speed is None else in_rpm(self.speed)
+
+    @property
     def dwell_time(self) -> float | None:
         """How long the output rests in one period at the speed given, in seconds."""
-        if self.speed_rpm is None or not self.span.full:
+        if self.speed is None or not self.span.full:
             return None
-        return self.dwell_share * self.span.turns * 60 / abs(self.speed_rpm)
+        return self.dwell_share * self.span.turns * 2 * pi / abs(self.speed)
 
     @property
     def phi_max(self) -> float | None:
@@ -248,12 +255,10 @@ class Measures(Brief):
     @property
     def times(self) -> StrokeTimes | None:
         """How long both ways take at the speed given, in seconds; a negative speed turns the other way."""
-        if self.speed_rpm is None or self.phi_forward is None or self.phi_back is None:
+        if self.speed is None or self.phi_forward is None or self.phi_back is None:
             return None
         angles = (self.phi_forward, self.phi_back)
-        return StrokeTimes(
-            *(x / (2 * pi) * 60 / abs(self.speed_rpm) for x in angles[:: 1 if self.speed_rpm > 0 else -1])
-        )
+        return StrokeTimes(*(x / abs(self.speed) for x in angles[:: 1 if self.speed > 0 else -1]))
 
     def explain(self, lang: str = "en") -> str:
         """The measures as lines of prose, in English (``en``) or German (``de``)."""
@@ -274,7 +279,9 @@ class Measures(Brief):
                 yield motion_share_message(units, self.moving_span, self.span.period, self.motion_ratio)
         if self.phi_forward is not None and self.phi_back is not None:
             yield from stroke_lines(units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells))
-        yield from time_lines(self.speed_rpm, self.times, self.dwell_time if self.dwells else None)
+        yield from time_lines(
+            None if self.speed is None else in_rpm(self.speed), self.times, self.dwell_time if self.dwells else None
+        )
         drive_size = 1.0 if self.turning_drive else self.linkage.size
         yield from change_point_lines(units, by_place(self.change_points, self.span, drive_size))
         if self.change_points_error is not None:
@@ -317,35 +324,49 @@ class Measures(Brief):
 @door_that_raises(LinkageError)
 def measures(
     linkage: LinkageLike,
-    speed_rpm: float | None = None,
     *,
     branch: Branch = None,
+    speed: float | None = None,
     output: str | None = None,
 ) -> Measures:
     """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
 
     Args:
         linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
-        speed_rpm: the drive's speed in revolutions per minute, for the times; not zero.
         branch: as for `move`; without it that of the reference pose, else all ``+`` and 1. It applies where the motion
             starts: `gruebler.mechanics.analysis.drive_cycle.drive_cycle`.
+        speed: of the drive in rad/s, for the times; not zero. `gruebler.rpm` converts.
         output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
 
-    Cost: some 60 ms for a dyad, 0.2 s for a group of four links.
+    Returns:
+        `Measures`: dead centres, stroke, times (seconds), transmission angle, transfer functions; angles in radians,
+        lengths in the linkage's unit.
 
-    Raises `LinkageError` if there are more drives than one, it cannot be assembled, or a name or number is wrong.
+    Raises:
+        LinkageError: more drives than one, a linkage that cannot be assembled, a wrong name or number.
 
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> found = measures(FourBar(a=2, b=7, c=4.5, d=5.5).linkage(), speed_rpm=300)
-    >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
-    (1.357364, 0.115159, 1.205044)
+    Cost:
+        Some 60 ms for a dyad, 0.2 s for a group of four links.
+
+    Example:
+        >>> from gruebler.mechanics.kinematics.drive_rows import rpm
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> found = measures(FourBar(a=2, b=7, c=4.5, d=5.5), speed=rpm(300))
+        >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
+        (1.357364, 0.115159, 1.205044)
+
+    See Also:
+        `move`, `plot`, `rpm`, `drive_range`, `Measures`
+
+    Theory:
+        docs/theory/events.md
     """
     linkage = as_linkage(linkage)
     looked_at = find_output(linkage, output)
-    speed = _speed(speed_rpm)
+    checked = _speed(speed)
     cycle = drive_cycle(linkage, branch=branch)
-    if speed is not None and not cycle.turning_drive:
-        raise LinkageError("a speed in revolutions per minute needs a turning drive; this linkage has a sliding one")
+    if checked is not None and not cycle.turning_drive:
+        raise LinkageError("a speed in rad/s needs a turning drive; this linkage has a sliding one")
     span = cycle.span
     ends = None
     if not span.full:
@@ -383,16 +404,16 @@ def measures(
         _transfer(cycle, looked_at),
         transmission,
         transmission_error,
-        speed,
+        checked,
     )
 
 
-def _speed(rpm: float | None) -> float | None:
-    if rpm is None:
+def _speed(speed: float | None) -> float | None:
+    if speed is None:
         return None
-    if isinstance(rpm, bool) or not isinstance(rpm, (int, float, np.number)) or not isfinite(rpm) or rpm == 0:
-        raise LinkageError("the speed is a number of revolutions per minute other than 0, not {rpm!r}", rpm=rpm)
-    return float(rpm)
+    if not isfinite(speed) or speed == 0:
+        raise LinkageError("the speed is a number in rad/s other than 0, not {speed!r}; rpm() converts", speed=speed)
+    return float(speed)
 
 
 def _travel(cycle: DriveCycle, output: Output, values: list[float]) -> float:

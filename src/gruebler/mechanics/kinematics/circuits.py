@@ -284,7 +284,7 @@ def circuit(
     linkage: LinkageLike,
     *,
     branch: Branch = None,
-    drive: float | None = None,
+    at: float | None = None,
     step: float = 0.1,
     most: float = 1000.0,
 ) -> Circuit:
@@ -297,7 +297,7 @@ def circuit(
     Args:
         linkage: with one drive, or with a reference pose and none.
         branch: the assembly mode at the start, as for `move`.
-        drive: the drive value at the start.
+        at: the drive value at the start, in radians or the unit.
         step: the longest distance of samples, in sizes; extremes nearer to each other than that may be missed in pairs.
         most: the length at which to give up, in sizes.
 
@@ -312,11 +312,11 @@ def circuit(
     (True, [121.855431, -121.855431])
     """
     linkage = as_linkage(linkage)
-    for name, value in {"drive": 0.0 if drive is None else drive, "step": step, "most": most}.items():
+    for name, value in {"at": 0.0 if at is None else at, "step": step, "most": most}.items():
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
             raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)
-    if drive is not None and [each.turning for each in linkage.mechanism.drives] == [True]:
-        warn_of_degrees("drive", drive)
+    if at is not None and [each.turning for each in linkage.mechanism.drives] == [True]:
+        warn_of_degrees("at", at)
     if not 1e-4 <= step <= 0.2 or not most > 0:
         raise LinkageError(
             "the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}",
@@ -328,14 +328,14 @@ def circuit(
     if count > 1:
         raise LinkageError("a circuit has one drive at most, but this linkage has {count}", count=count)
     system = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
-    pose, tangent = _start(linkage, system, branch, drive)
+    pose, tangent = _start(linkage, system, branch, at)
     start = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
     turned = 0.0
     if lower.mechanism.drives:
         value, ahead = float(start.drive[0]), float(start.samples.drive(1)[0])
         tangent = -tangent if ahead < 0 else tangent
         if lower.mechanism.drives[0].turning:
-            turned = 2 * np.pi * round(((drive or 0.0) - value) / (2 * np.pi))
+            turned = 2 * np.pi * round(((at or 0.0) - value) / (2 * np.pi))
     traced = trace_circuit(system, pose, tangent, float(step), float(most))
     if not traced.closed and traced.arcs[-1] < _SHAKY:
         raise LinkageError("the linkage cannot be moved from its start: it is shaky there, or the position is isolated")

@@ -83,7 +83,7 @@ def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:
     linkage = _marked(task, design)
     several = len(linkage.mechanism.drives) > 1
     drive = design.drive_rows[0] if several else design.drives[0] if design.drives else None
-    return draw_linkage(linkage, drive, curves=_path_of(linkage), lang=lang)
+    return draw_linkage(linkage, at=drive, curves=_path_of(linkage), lang=lang)
 
 
 def _path_of(linkage: Linkage) -> list[str]:

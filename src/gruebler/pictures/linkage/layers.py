@@ -58,7 +58,7 @@ def coupler_curve_lines(posed: PosedLinkage, name: PointLike) -> list[Shape]:
         return [curve_of(posed, _evenly_dense(cycle, drives, point), "curve")]
     if isinstance(cycle, PathCycle):
         return [curve_of(posed, _evenly_dense(cycle, np.linspace(0, 1, _SAMPLES + 1), point), "curve")]
-    whole_circuit = circuit(posed.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]), step=_STEP)
+    whole_circuit = circuit(posed.linkage, branch=cycle.start.branch, at=float(cycle.start.drives[0, 0]), step=_STEP)
     return [
         curve_of(posed, whole_circuit.samples.complex_point(point), "curve-rest"),
         curve_of(posed, posed.path.complex_point(point), "curve"),

@@ -65,9 +65,9 @@ _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 @door_that_raises(LinkageError)
 def draw_linkage(
     linkage: LinkageLike,
-    drive: float | Sequence[float] | None = None,
     *,
     branch: Branch = None,
+    at: float | Sequence[float] | None = None,
     between: tuple[float, float] | None = None,
     curves: Sequence[PointLike] = (),
     show: Sequence[str] = (),
@@ -82,8 +82,8 @@ def draw_linkage(
 
     Args:
         linkage: the linkage.
-        drive: the drive's value (radians, or a length), one for each drive; by default a suitable one.
         branch: the assembly mode, as for `gruebler.mechanics.kinematics.move`.
+        at: the drive's value (radians, or a length), one for each drive; by default a suitable one.
         between: drive values of its range, for curves and the size of the picture; by default the full range.
         curves: points or joints whose paths are drawn.
         show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
@@ -99,12 +99,12 @@ def draw_linkage(
     Raises `gruebler.LinkageError` for unreachable poses, unknown names, and layers that need a single drive.
 
     >>> from gruebler.mechanics.fourbar import FourBar
-    >>> figure = draw_linkage(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), 1.0, curves=["K"])
+    >>> figure = draw_linkage(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), at=1.0, curves=["K"])
     >>> len(figure.svg()) < 8000
     True
     """
     linkage = as_linkage(linkage)
-    posed = posed_linkage(linkage, drive, branch=branch, between=between)
+    posed = posed_linkage(linkage, at, branch=branch, between=between)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
     pieces = body_parts(posed)

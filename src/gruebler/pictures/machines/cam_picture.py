@@ -44,7 +44,7 @@ _TITLES = {
 }
 
 
-def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
+def draw_cam(cam: Cam, *, at: float | None = None, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
     """A cam with its follower in one position, with base circle, pitch curve and pressure angle.
 
     Args:
@@ -58,7 +58,7 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
 
     >>> from gruebler.machines.cams import read_lift
     >>> cam = Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), base=40, follower=Roller(10, offset=5))
-    >>> draw_cam(cam, 1.0).title
+    >>> draw_cam(cam, at=1.0).title
     'Cam with a translating roller follower'
     """
     if at is None:

@@ -35,7 +35,7 @@ _TITLES = {
 }
 
 
-def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
+def draw_geneva(geneva: Geneva, *, at: float = 0.0, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
     """A Geneva drive in one position of its driver.
 
     Args:
@@ -47,7 +47,7 @@ def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: st
 
     Raises `gruebler.GenevaError` for an angle that is no finite number.
 
-    >>> draw_geneva(Geneva(4), 0.5).description.partition("clockwise. ")[2]
+    >>> draw_geneva(Geneva(4), at=0.5).description.partition("clockwise. ")[2]
     'Driver at 28.6479°, wheel at -41.78°, ratio -0.4656.'
     """
     if isinstance(at, bool) or not isinstance(at, int | float):

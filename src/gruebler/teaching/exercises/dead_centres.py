@@ -8,6 +8,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, in_every_language, joined_by_or, message
 from gruebler.mechanics.analysis import Measures, measures
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.kinematics.drive_rows import rpm as per_minute
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, as_step, formula_number
@@ -291,7 +292,7 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     angles = {"φ_i": angle(phi_i), "φ_a": angle(phi_a)}
     way_angle = _add_times(builder, abs(phi_i - phi_a), angles, "φ_i - φ_a" if phi_i >= phi_a else "φ_a - φ_i")
     _add_swing(builder, size, lengths)
-    measured = measures(size.linkage(), rpm)
+    measured = measures(size.linkage(), speed=None if rpm is None else per_minute(rpm))
 
     def between(quantity: object) -> Message:
         return message("{quantity}, between the dead centres of the solved motion", quantity=quantity)

@@ -29,7 +29,7 @@ def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
     """The linkage in the sheet's pose with joints and marked points by their names, tangent g and axis of symmetry."""
     pose = math.radians(sheet.record.picture.pose)
     point = sheet.record.names[sheet.record.point]
-    plain = draw_linkage(sheet.linkage, pose, curves=[point], lang=lang, name=sheet.record.title.in_language(lang))
+    plain = draw_linkage(sheet.linkage, at=pose, curves=[point], lang=lang, name=sheet.record.title.in_language(lang))
     posed = posed_linkage(sheet.linkage, pose)
     by = _offset(plain, posed)
     shapes = [*plain.shapes, *(_moved(shape, by) for shape in _lines(sheet, posed))]

@@ -37,7 +37,7 @@ def linkage_figure(exercise: Exercise, lang: str) -> Figure | None:
         return None
     return draw_linkage(
         drawn.linkage,
-        drawn.drive,
+        at=drawn.drive,
         between=drawn.between,
         curves=drawn.curves,
         labels=True,
