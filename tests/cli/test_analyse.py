@@ -44,7 +44,7 @@ def test_a_four_bar_in_words(capsys):
     status, out, err = run(capsys, CRANK_ROCKER, "--speed", "95.5")
     assert (status, err) == (0, "")
     assert "Roles: crank = crank, coupler = coupler, rocker = rocker." in out
-    assert "time ratio 1.12048348" in out
+    assert "time ratio 1.12." in out
     assert "Other assembly modes there: -." in out
     rows = [line for line in out.splitlines() if line.split() and line.split()[0].isdigit()]
     assert [int(row.split()[0]) for row in rows] == list(range(0, 361, 15))
@@ -111,7 +111,7 @@ def test_a_range_of_the_drive(capsys):
     assert document["complete"]
     status, out, _ = run(capsys, "four-bar:40,25,40,60", "--range", "0:90:15")
     assert status == 1
-    assert "The motion ends at R(frame-crank) = 78.2802397°" in out
+    assert "The motion ends at R(frame-crank) = 78.28°" in out
     _, found = table(capsys, "loader", "--output", "bucket")
     assert found["P(cylinder-piston) cm"][0] == 60
     assert "bucket′ rad/cm" in found
@@ -201,7 +201,7 @@ def test_refusals(capsys, arguments, words):
 
 def test_who_turns_fully_is_told(capsys):
     _, out, _ = run(capsys, "lambda", "--lang", "de")
-    assert "D(Kurbel-Koppel) volle Umläufe, D(Koppel-Schwinge) 50,6659°" in out
+    assert "D(Kurbel-Koppel) volle Umläufe, D(Koppel-Schwinge) 50,67°" in out
     document, _ = table(capsys, "lambda")
     assert [row["full"] for row in document["rotatability"]] == [True, True, False, False]
 

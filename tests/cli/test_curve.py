@@ -21,22 +21,22 @@ def run(capsys, *arguments):
 def test_a_path_in_words(capsys):
     status, out = run(capsys, "inverted-slider-crank:30,50", "coupler:90,0")
     assert status == 0
-    assert "The path is closed: length 190.289755 mm, area -2529.3839 mm²." in out
+    assert "The path is closed: length 190.3 mm, area -2529 mm²." in out
     # E17: inflections at 80.55 and 147.09 degrees, mirrored; curvature 0.021088 and 1.233333 at 0 and 180
     rows = [line.split() for line in out.splitlines()]
     assert [row[1] for row in rows if row[:1] == ["inflection"]] == [
-        "80.556161°",
-        "147.098378°",
-        "212.901622°",
-        "279.443839°",
+        "80.56°",
+        "147.1°",
+        "212.9°",
+        "279.4°",
     ]
-    assert ["vertex", "180.000000°", "60", "0", "radius", "-0.810811", "mm"] in rows
+    assert ["vertex", "180°", "60", "0", "radius", "-0.8108", "mm"] in rows
 
 
 def test_a_six_point_contact_in_german(capsys):
     status, out = run(capsys, "mzc", "K", "--contact", "180", "--lang", "de")
     assert status == 0
-    assert "Bei 180,000000° haben Bahn und Tangente 6 Punkte gemeinsam: y = -0,000155006773 x^6." in out
+    assert "Bei 180° haben Bahn und Tangente 6 Punkte gemeinsam: y = -0,000155 x^6." in out
     assert "Flachpunkt  " in out
     assert "Radius ∞" in out
 
@@ -44,8 +44,8 @@ def test_a_six_point_contact_in_german(capsys):
 def test_between_limits_and_back(capsys):
     status, out = run(capsys, "four-bar:60,30,30,70", "coupler:15,20")
     assert status == 0
-    assert "The path goes from -54.314665° to 54.314665°" in out
-    assert "double point       -54.246388°, -33.089162°" in out
+    assert "The path goes from -54.31° to 54.31°" in out
+    assert "double point       -54.25°, -33.09°" in out
     _, out = run(capsys, "slider-crank:20,50", "R(coupler-slider)", "--contact", "60", "--direction", "90")
     assert "agrees with its tangent up to order 10" in out
     assert "The point returns on the same path." in out
@@ -89,7 +89,7 @@ def test_a_far_point_and_a_far_drive_value(capsys):
     assert run(capsys, "four-bar:25,70,40,70", "coupler:1e10,40")[0] == 0
     status, out = run(capsys, "four-bar:25,70,40,70", "coupler:45,40", "--contact", "401")
     assert status == 0
-    assert out.splitlines()[1].split(":")[1] == " y = 0.0997219788 x^2."
+    assert out.splitlines()[1].split(":")[1] == " y = 0.09972 x^2."
     status, said = run(capsys, "four-bar:40,70,25,70", "coupler:45,40", "--contact", "179")
     assert (status, "not to 179°" in said) == (2, True)
     status, said = run(capsys, "four-bar:25,70,40,70", "coupler:45,40", "--tolerance", "1e9")
@@ -101,7 +101,7 @@ def test_a_path_of_several_drives(capsys, tmp_path):
     arguments = ("pent", "R(3-4)", "--range=0:90:5", "--range=0:180:10")
     status, out = run(capsys, *arguments)
     assert run(capsys, *arguments, "-o", str(path))[0] == status == 0
-    assert "The path goes from 0.000000° / 0.000000° to 90.000000° / 180.000000°: length 264.0282" in out
+    assert "The path goes from 0° / 0° to 90° / 180°: length 264 mm" in out
     with path.open(encoding="utf-8") as file:
         header, *rows = csv.reader(file)
     assert header == ["R(1-2) [°]", "R(1-5) [°]", "x [mm]", "y [mm]", "s [mm]"]
@@ -120,9 +120,9 @@ def test_a_path_of_several_drives(capsys, tmp_path):
 def test_a_drive_is_held_and_one_drive_goes_a_part(capsys):
     _, out = run(capsys, "pent", "R(2-3)", "--range=0:90:5", "--range=40")
     crank = entry("pent").linkage().length("2", "R(1-2)", "R(2-3)")
-    assert f"length {crank * math.pi / 2:.9g} mm" in out
+    assert f"length {crank * math.pi / 2:.4g} mm" in out
     _, out = run(capsys, "four-bar:25,70,40,70", "R(crank-coupler)", "--range=30:90:5")
-    assert f"from 30.000000° to 90.000000°: length {25 * math.pi / 3:.9g} mm" in out
+    assert f"from 30° to 90°: length {25 * math.pi / 3:.4g} mm" in out
 
 
 @pytest.mark.parametrize(
@@ -169,7 +169,6 @@ def test_files_of_what_is_printed(capsys, tmp_path):
         (["lambda", "C", "--straight", "--contact", "3"], "--contact goes with the path of a point"),
         (["lambda", "C", "--cognates", "--direction", "3"], "--direction goes with the path of a point or --straight"),
         (["--guidance", "lambda", "watt"], "--guidance takes one name and no linkage, but found 'watt'"),
-        (["--guidance", "lambda", "--length", "5mm", "--tolerance", "1mm"], "--tolerance 1mm is now --band 1mm"),
         (["lambda", "C", "--straight", "--cognates"], "not allowed with argument"),
     ],
 )
@@ -177,17 +176,3 @@ def test_options_go_with_their_question(capsys, words, sentence):
     status, said = run(capsys, *words)
     assert status == 2
     assert sentence in said
-
-
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [
-        (["straight", "lambda", "C", "--band", "1"], "curve lambda C --band 1 --straight"),
-        (["cognates", "25,70,40,70", "45,40"], "curve 25,70,40,70 45,40 --cognates"),
-        (["guidance", "watt"], "curve --guidance watt"),
-    ],
-)
-def test_former_commands_are_answered_by_the_present_ones(capsys, old, new):
-    assert main(old) == 2
-    assert f"is now `gruebler {new}`" in capsys.readouterr().err
-    assert main(new.split()) == 0

@@ -91,7 +91,7 @@ def test_geneva(capsys):
     rows = [" ".join(line.split()) for line in out.splitlines()]
     assert "Treiberwinkel in Bewegung je Umdrehung 240°" in rows
     assert "Bewegungszeit / Rastzeit 2" in rows
-    assert out.splitlines()[-1].split()[:3] == ["360°", "60,000000°", "0,333333"]
+    assert out.splitlines()[-1].split()[:3] == ["360°", "60°", "0,3333"]
     _, out, _ = run(capsys, "geneva", "4", "--pins", "4", "--json")  # one pin enters as another leaves
     assert json.loads(out)["motion_ratio"] is None
     assert "inf" not in run(capsys, "geneva", "4", "--pins", "4")[1]

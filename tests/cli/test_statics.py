@@ -22,10 +22,10 @@ def document(capsys, *arguments):
 def test_a_press_over_a_turn(capsys):
     status, out, _ = run(capsys, "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1")
     assert status == 0
-    assert "Largest effort, without friction: torque R(frame-crank) = -2148.69 N·mm at 75°." in out
-    assert "Largest effort: torque R(frame-crank) with friction = 2242.63 N·mm at 285°." in out
+    assert "Largest effort, without friction: torque R(frame-crank) = -2149 N·mm at 75°." in out
+    assert "Largest effort: torque R(frame-crank) with friction = 2243 N·mm at 285°." in out
     # 1/(0.1 tan(alpha)), sin(alpha) = 0.4, as the slider goes forth against its load
-    assert "Least safety against self-locking: 22.9129 at 270°, by P(frame-slider)." in out
+    assert "Least safety against self-locking: 22.91 at 270°, by P(frame-slider)." in out
     row = next(line.split() for line in out.splitlines() if line.strip()[:2] == "90")
     slope = 0.4 / 0.84**0.5
     rod = 100 / (0.84**0.5 * (1 + 0.1 * slope))  # the slider goes back, with its load
@@ -41,7 +41,7 @@ def test_a_press_over_a_turn(capsys):
         rod * 0.04,
     ]
     assert row.pop(4) == "∞"
-    assert [float(cell) for cell in row] == pytest.approx(numbers, rel=1e-5)
+    assert [float(cell) for cell in row] == pytest.approx(numbers, rel=5e-4)
 
 
 def test_self_locking(capsys):
@@ -97,8 +97,8 @@ def test_all_forces_of_one_pose(capsys):
     status, out, _ = run(capsys, "four-bar:25,70,40,70", "--moment", "rocker=-1000", "--at", "55", "--lang", "de")
     assert status == 0
     rows = [line.rsplit(maxsplit=2) for line in out.splitlines() if line.endswith(("N", "N·mm"))]
-    assert ["Antriebsmoment D(Gestell-Kurbel)", "478,521", "N·mm"] in rows
-    assert ["Kraft von D(Gestell-Kurbel) auf Kurbel y", "-7,44971", "N"] in rows
+    assert ["Antriebsmoment D(Gestell-Kurbel)", "478,5", "N·mm"] in rows
+    assert ["Kraft von D(Gestell-Kurbel) auf Kurbel y", "-7,45", "N"] in rows
 
 
 def test_json_and_csv(capsys, tmp_path):
@@ -172,7 +172,7 @@ def test_a_change_point_of_a_branch(capsys):
     arguments = ("four-bar:2,5,2,5", "--branch=-", "--moment", "rocker=1", "--at", "0")
     status, out, _ = run(capsys, *arguments)
     assert status == 1
-    assert "2.33333" in out
+    assert "2.333" in out
     assert "agree" not in out
     _, found, columns = document(capsys, *arguments)
     assert found["disagreement"] is None

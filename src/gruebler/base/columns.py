@@ -153,7 +153,7 @@ class Table:
 
 
 def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:
-    """The rows as texts of six digits, rounding noise as 0, an infinite value as ∞, a missing one as –.
+    """The rows as texts of four digits (`text.number`), noise as 0, an infinite value as ∞, a missing one as –.
 
     >>> shown([Column("x", "", np.array([1.5, 1e-15, np.nan]))], "de")
     [['1,5'], ['0'], ['–']]
@@ -169,7 +169,7 @@ def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:
 
 def _cell(value: float, lang: str) -> str:
     if np.isfinite(value):
-        return number(value + 0.0, lang)
+        return number(value + 0.0, lang, "n")
     return "∞" if np.isinf(value) else "–"
 
 

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import errno
 import gettext
+import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cache
-from numbers import Number
+from numbers import Number, Real
 from pathlib import Path
 from string import Formatter
 from typing import Any, Protocol, runtime_checkable
@@ -47,11 +48,32 @@ def _catalog(lang: str) -> gettext.NullTranslations:
 def number(value: Any, lang: str = "en", form: str = ".6g") -> str:
     """A number in a language: decimal sign and separator of thousands.
 
+    The form `n` is for readers, in texts and tables of commands: four digits, or all that stand before the decimal
+    sign; a value that six digits give exactly stays as it is.
+
     >>> number(1234.5), number(1234.5, "de"), number(19819281, "de", ",")
     ('1234.5', '1234,5', '19.819.281')
+    >>> number(77.71634, "de", "n"), number(12345.67, form="n"), number(15.001, form="n"), number(1e-17, form=".1e")
+    ('77,72', '12346', '15.001', '1.0e-17')
     """
-    written = format(value, form)
+    written = _written(value, form)
     return written.translate(_DECIMAL_COMMA) if lang in _COMMA_LANGUAGES else written
+
+
+def _written(value: Any, form: str) -> str:
+    """A number in a form of Python's, or the form `n`; 0 and infinity as such, never 0.0e+00."""
+    if form == "n":
+        return _short(float(value)) if isinstance(value, Real) else format(value)
+    return "0" if form.endswith("e") and value == 0 else format(value, form)
+
+
+def _short(value: float) -> str:
+    if not math.isfinite(value):
+        return "–" if math.isnan(value) else "∞" if value > 0 else "-∞"
+    exact = f"{value:.6g}"
+    if value == 0 or (math.isclose(float(exact), value, rel_tol=1e-12) and "e" not in exact):
+        return f"{value + 0.0:.6g}"
+    return f"{value:.0f}" if 1e4 <= abs(value) < 1e9 else f"{value:.4g}"
 
 
 def numbers(values: Iterable[Any], lang: str = "en", form: str = ".6g") -> str:
@@ -92,8 +114,9 @@ class _LocalFormatter(Formatter):
         return super().convert_field(value, conversion)
 
     def format_field(self, value: Any, form: str) -> str:
-        written = format(value, form)
-        local = self.lang in _COMMA_LANGUAGES and isinstance(value, Number | Decimal) and not isinstance(value, bool)
+        counts = isinstance(value, Number | Decimal) and not isinstance(value, bool)
+        written = _written(value, form) if counts else format(value, form)
+        local = counts and self.lang in _COMMA_LANGUAGES
         return written.translate(_DECIMAL_COMMA) if local else written
 
 

@@ -357,8 +357,8 @@ def _extent(row: Rotatability, unit: str) -> Message:
     if row.full:
         return message("full turns")
     if row.freedom == "turn":
-        return message("{angle:.6g}°", angle=round(math.degrees(row.range), 6) + 0)
-    return message("{length:.6g} {unit}", length=row.range, unit=unit)
+        return message("{angle:n}°", angle=round(math.degrees(row.range), 6) + 0)
+    return message("{length:n} {unit}", length=row.range, unit=unit)
 
 
 def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:

@@ -39,8 +39,8 @@ _MOTION = (message("velocity per rad"), message("acceleration per rad²"))
 _TABLE = (message("cam"), message("lift"), *_MOTION, message("pressure angle"), message("radius"), "x", "y")
 _CONTOUR = (message("cam"), message("follower"), *_MOTION)
 _JUMPS = {
-    1: message("At {angle:.6g}° the velocity jumps by {size:+.6g}{unit} per radian: an impact."),
-    2: message("At {angle:.6g}° the acceleration jumps by {size:+.6g}{unit} per radian²: infinite jerk."),
+    1: message("At {angle:n}° the velocity jumps by {size:n}{unit} per radian: an impact."),
+    2: message("At {angle:n}° the acceleration jumps by {size:n}{unit} per radian²: infinite jerk."),
 }
 
 
@@ -133,7 +133,7 @@ def _laws(as_json: bool, lang: str) -> int:
     if as_json:
         print_json([{"law": name, **peaks._asdict()} for name, peaks in peaks_by_law])
     else:
-        rows = [(name, *(number(peak + 0.0, lang) for peak in peaks)) for name, peaks in peaks_by_law]
+        rows = [(name, *(number(peak, lang, "n") for peak in peaks)) for name, peaks in peaks_by_law]
         print_table(_LAWS, rows, numbers=range(1, 5), lang=lang)
     return 0
 
@@ -164,7 +164,7 @@ def _contour(arguments: argparse.Namespace, follower: Follower) -> int:
         print_json({"motion": records(keys, rows)})
     else:
         unit = "°" if follower.swings else ""
-        print_turn(_CONTOUR, rows, (("zg", "°"), ("z.6f", unit), ("z.6f", ""), ("z.6f", "")), arguments.lang)
+        print_turn(_CONTOUR, rows, (("n", "°"), ("n", unit), ("n", ""), ("n", "")), arguments.lang)
     return 0
 
 
@@ -238,7 +238,7 @@ def _print(cam: Cam, table: list[list[float]] | None, lang: str) -> None:
             (message("face needed, other side"), report.face[1], False),
         ]
     cells = [
-        (name, _degrees(figure.value, lang) if angle else number(figure.value + 0.0, lang), _degrees(figure.at, lang))
+        (name, _degrees(figure.value, lang) if angle else number(figure.value, lang, "n"), _degrees(figure.at, lang))
         for name, figure, angle in figures
         if figure
     ]
@@ -247,7 +247,7 @@ def _print(cam: Cam, table: list[list[float]] | None, lang: str) -> None:
     if table is not None:
         print()
         units = ("°", unit, "", "", "°", "", "", "")
-        print_turn(_TABLE, table, [("z.6g", each) for each in units], lang)
+        print_turn(_TABLE, table, [("n", each) for each in units], lang)
 
 
 def _undercut_text(cam: Cam, report: CamReport) -> Message:
@@ -256,14 +256,14 @@ def _undercut_text(cam: Cam, report: CamReport) -> Message:
     angle = math.degrees(report.room.at)
     if isinstance(cam.follower, Roller) and cam.follower.radius:
         return message(
-            "Undercut: the profile crosses itself near {angle:.6g}°. A larger base circle or a smaller roller helps.",
+            "Undercut: the profile crosses itself near {angle:n}°. A larger base circle or a smaller roller helps.",
             angle=angle,
         )
-    return message("Undercut: the profile crosses itself near {angle:.6g}°. A larger base circle helps.", angle=angle)
+    return message("Undercut: the profile crosses itself near {angle:n}°. A larger base circle helps.", angle=angle)
 
 
 def _degrees(angle: float, lang: str) -> str:
-    return number(math.degrees(angle) + 0.0, lang) + "°"
+    return number(math.degrees(angle), lang, "n") + "°"
 
 
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:

@@ -217,7 +217,7 @@ def _print(
     if curve.area is not None:
         print(
             translate(
-                "The path is closed: length {length:.9g} {unit}, area {area:.9g} {unit}².",
+                "The path is closed: length {length:n} {unit}, area {area:n} {unit}².",
                 lang,
                 length=curve.length,
                 area=round(curve.area, 9) + 0.0,
@@ -229,7 +229,7 @@ def _print(
         low, high = (_drive(curve, value, lang) for value in (span.low, span.high))
         print(
             translate(
-                "The path goes from {low} to {high}: length {length:.9g} {unit}.",
+                "The path goes from {low} to {high}: length {length:n} {unit}.",
                 lang,
                 low=low,
                 high=high,
@@ -254,7 +254,7 @@ def _contact_text(drive: str, contact: TangentContact) -> Message:
     if contact.points is None:
         return message("At {drive} the path agrees with its tangent up to order 10.", drive=drive)
     return message(
-        "At {drive} path and tangent have {points} points in common: y = {coefficient:.9g} x^{points}.",
+        "At {drive} path and tangent have {points} points in common: y = {coefficient:n} x^{points}.",
         drive=drive,
         points=contact.points,
         coefficient=contact.coefficient,
@@ -266,7 +266,7 @@ def _rows(curve: CouplerCurve, directions: tuple[float, ...], lang: str) -> list
     rows: list[list[Cell]] = []
 
     def add(feature: Message, drives: tuple[float, ...], at: complex, note: Cell) -> None:
-        places = [number(value if abs(value) > 1e-9 * size else 0.0, lang) for value in (at.real, at.imag)]
+        places = [number(value if abs(value) > 1e-9 * size else 0.0, lang, "n") for value in (at.real, at.imag)]
         rows.append([feature, ", ".join(_drive(curve, drive, lang) for drive in drives), *places, note])
 
     for cusp in curve.cusps:
@@ -276,11 +276,11 @@ def _rows(curve: CouplerCurve, directions: tuple[float, ...], lang: str) -> list
         add(feature, (inflection.drive,), inflection.at, _tangent(inflection.direction))
     for vertex in curve.vertices:
         straight = abs(vertex.curvature) * size < 1e-9
-        radius = "∞" if straight else number(1 / vertex.curvature, lang)
+        radius = "∞" if straight else number(1 / vertex.curvature, lang, "n")
         add(message("vertex"), (vertex.drive,), vertex.at, message("radius {radius} {unit}", radius=radius, unit=unit))
     for double in curve.double_points:
         feature = message("self-contact") if double.touching else message("double point")
-        add(feature, double.drives, double.at, message("angle {angle:.6g}°", angle=math.degrees(double.angle)))
+        add(feature, double.drives, double.at, message("angle {angle:n}°", angle=math.degrees(double.angle)))
     for direction in directions:
         for turn in curve.turning_points(math.radians(direction)):
             feature = message("extreme along {direction:g}°", direction=direction)
@@ -290,14 +290,14 @@ def _rows(curve: CouplerCurve, directions: tuple[float, ...], lang: str) -> list
 
 def _tangent(direction: float) -> Message:
     """The direction of a line in degrees, 0 up to 180."""
-    return message("tangent {direction:.6g}°", direction=round(math.degrees(direction), 9) % 180)
+    return message("tangent {direction:n}°", direction=round(math.degrees(direction), 9) % 180)
 
 
 def _drive(curve: CouplerCurve, value: float, lang: str) -> str:
     linkage = curve.point_path.cycle.linkage
     texts = []
     for drive, at in zip(linkage.mechanism.drives, _values(curve, np.array([value]))[0], strict=True):
-        texts.append(number(at, lang, "z.6f") + "°" if drive.turning else f"{number(at, lang, '.9g')} {linkage.unit}")
+        texts.append(number(at, lang, "n") + "°" if drive.turning else f"{number(at, lang, 'n')} {linkage.unit}")
     return " / ".join(texts)
 
 

@@ -27,8 +27,8 @@ def run(arguments: argparse.Namespace) -> int:
         contact = rocker.contact()
         print(
             translate(
-                "λ = {ratio:.9g}, φ0 = {phi0:.6f}°, D = {diameter:g}: curve and tangent have {points} points in "
-                "common, y = {coefficient:.6g} x^{points}.",
+                "λ = {ratio:n}, φ0 = {phi0:n}°, D = {diameter:g}: curve and tangent have {points} points in "
+                "common, y = {coefficient:n} x^{points}.",
                 lang,
                 ratio=rocker.ratio,
                 phi0=math.degrees(rocker.phi0),
@@ -66,8 +66,8 @@ def _lengths(lever: CouplerLever) -> dict[str, float]:
 
 
 def _row(name: Message, lever: CouplerLever, lang: str) -> tuple[Cell, ...]:
-    lengths = (number(length, lang, ".6f") for length in _lengths(lever).values())
-    return name, *lengths, number(math.degrees(lever.kappa), lang, ".6f") + "°", lever.size.type.name(lang)
+    lengths = (number(length, lang, "n") for length in _lengths(lever).values())
+    return name, *lengths, number(math.degrees(lever.kappa), lang, "n") + "°", lever.size.type.name(lang)
 
 
 def _item(rocker: SymmetricRocker) -> dict[str, Any]:

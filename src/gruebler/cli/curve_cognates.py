@@ -68,9 +68,9 @@ def _print(linkages: Sequence[Cognate], lang: str) -> None:
     rows = [
         (
             str(n),
-            *(number(value, lang, ".6f") for value in (*_lengths(cognate).values(), cognate.u, cognate.v)),
-            translate("{x:.6g}; {y:.6g}", lang, x=cognate.pivot.real, y=cognate.pivot.imag),
-            number(_degrees(cognate.turn), lang, ".4f") + "°",
+            *(number(value, lang, "n") for value in (*_lengths(cognate).values(), cognate.u, cognate.v)),
+            translate("{x:n}; {y:n}", lang, x=cognate.pivot.real, y=cognate.pivot.imag),
+            number(_degrees(cognate.turn), lang, "n") + "°",
             cognate.size.type.name(lang),
         )
         for n, cognate in enumerate(linkages, 1)
@@ -90,7 +90,7 @@ def _print(linkages: Sequence[Cognate], lang: str) -> None:
         third = linkages[1].pins[3]
         print(
             translate(
-                "Third pivot C0 at {x:.6g}, {y:.6g}, distance {distance:.9g} from A0.",
+                "Third pivot C0 at {x:n}, {y:n}, distance {distance:n} from A0.",
                 lang,
                 x=third.real,
                 y=third.imag,

@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 
 from gruebler.base.errors import GrueblerError, LinkageError
-from gruebler.base.text import LANGUAGES, error_in_language, message, number, translate
+from gruebler.base.text import LANGUAGES, error_in_language, message, number, number_separator, translate
 from gruebler.cli import curve_capellen
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
@@ -70,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(
             translate(
                 "In the reference position ({angle:g}°) curve and tangent have {points} points in common: "
-                "y = {coefficient:.6g} x^{points}.",
+                "y = {coefficient:n} x^{points}.",
                 lang,
                 angle=round(named.degrees[1], 4),
                 points=named.contact.points,
@@ -105,9 +105,9 @@ def _row(linkage: Guidance, lang: str) -> tuple[Cell, ...]:
         str(linkage.linkage.mechanism.chain.n),
         message("exact") if exact else message("approximate"),
         message("{points} points", points=linkage.contact.points) if linkage.contact else "",
-        number(piece.length, lang, ".6f"),
-        *("0" if exact else number(value, lang, ".6f") for value in (piece.band, piece.ratio)),
-        f"{number(round(start, 2), lang, 'g')}° ... {number(round(end, 2), lang, 'g')}°",
+        number(piece.length, lang, "n"),
+        *("0" if exact else number(value, lang, "n") for value in (piece.band, piece.ratio)),
+        f"{number(start, lang, 'n')}° ... {number(end, lang, 'n')}°",
     )
 
 
@@ -117,7 +117,7 @@ def _print_size(linkage: Guidance, sizing: Sizing, task: tuple[float, float, str
     print(
         translate(
             "For {length:g}{unit} within {band:g}{unit} (Q_G = {ratio:g}) multiply the proportions by "
-            "{factor:.6g}{unit}: drive from {start:.4f}° to {end:.4f}°, {used:.6f} long in the proportions.",
+            "{factor:n}{unit}: drive from {start:n}° to {end:n}°, {used:n} long in the proportions.",
             lang,
             length=length,
             band=band,
@@ -130,10 +130,10 @@ def _print_size(linkage: Guidance, sizing: Sizing, task: tuple[float, float, str
         )
     )
     lengths = (
-        f"{_in_language(key, lang)} = {number(value, lang)}" for key, value in _lengths(linkage, sizing.factor).items()
+        f"{_in_language(key, lang)} = {number(value, lang, 'n')}"
+        for key, value in _lengths(linkage, sizing.factor).items()
     )
-    separator = "; " if number(0.5, lang) == "0,5" else ", "
-    print(translate("Lengths: {lengths}{unit}.", lang, lengths=separator.join(lengths), unit=unit))
+    print(translate("Lengths: {lengths}{unit}.", lang, lengths=number_separator(lang).join(lengths), unit=unit))
 
 
 def _in_language(key: str, lang: str) -> str:

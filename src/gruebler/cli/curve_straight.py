@@ -53,15 +53,11 @@ def run(arguments: argparse.Namespace) -> int:
         }
         print_json(document)
         return 0
-    print(
-        translate(
-            "crank angle: {start:.6f}° to {end:.6f}° ({width:.6f}°)", lang, start=start, end=end, width=end - start
-        )
-    )
-    print(translate("length along the line: {length:.9g}", lang, length=piece.length))
-    print(translate("band across the line: {band:.6g}", lang, band=piece.band))
-    print(translate("relative deviation Q_G: {ratio:.6g}", lang, ratio=piece.ratio))
-    print(translate("direction of the line: {angle:.6f}°", lang, angle=round(math.degrees(piece.direction), 9) % 180))
+    print(translate("crank angle: {start:n}° to {end:n}° ({width:n}°)", lang, start=start, end=end, width=end - start))
+    print(translate("length along the line: {length:n}", lang, length=piece.length))
+    print(translate("band across the line: {band:n}", lang, band=piece.band))
+    print(translate("relative deviation Q_G: {ratio:n}", lang, ratio=piece.ratio))
+    print(translate("direction of the line: {angle:n}°", lang, angle=round(math.degrees(piece.direction), 9) % 180))
     return 0
 
 

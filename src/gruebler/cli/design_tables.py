@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from math import degrees, isnan
+from math import degrees, isnan, radians
 
 from gruebler.base.text import joined, message, number, number_separator, numbers, plural, translate
-from gruebler.cli.tables import Cell, print_table
+from gruebler.cli.tables import Cell, print_table, print_text
 from gruebler.design.synthesis import Design, PathTask, PositionTask, SynthesisResult, pareto
 from gruebler.design.synthesis.coordination import Minimax
+from gruebler.design.synthesis.formulas import FunctionLaw
+from gruebler.design.synthesis.minimax_search import digits_for_error
 from gruebler.design.synthesis.results import EXACT, FITTED
 from gruebler.mechanics.linkages import Linkage, Pin
 from gruebler.mechanics.linkages.elements import Line
@@ -23,6 +25,7 @@ _ANGLES = message(
     "µ: the minimum transmission angle on the way through the targets, and over the whole range of the drive as "
     "`analyse` gives it."
 )
+_LOW = message("!: below 40°.")
 _PARETO = (
     *(message("design"), message("error"), message("µ at targets"), message("size"), message("links")),
     message("structure"),
@@ -68,7 +71,11 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
         more = len(result.designs) - len(shown.designs)
         if more:
             print(plural("and {count} more", "and {count} more", more, lang))
-        print(_ANGLES.in_language(lang))
+        angles = [
+            mu for design in shown.designs for mu in (design.verdict.transmission, design.transmission_over_range)
+        ]
+        low = [_LOW] if any(mu < radians(40) for mu in angles) else []
+        print_text(joined([_ANGLES, *low], " ").in_language(lang))
         _print_missing_optima(shown, lang)
         if any(design.form == FITTED for design in shown.designs):
             _print_pareto(shown, lang)
@@ -97,8 +104,8 @@ def _print_pareto(result: SynthesisResult, lang: str) -> None:
         [
             str(numbers_of[id(row.design)]),
             number(row.error, lang, ".1e"),
-            "" if isnan(row.transmission) else number(degrees(row.transmission), lang, ".1f") + "°",
-            number(row.size, lang, ".5g"),
+            _transmission(row.transmission, lang),
+            number(row.size, lang, "n"),
             str(row.links),
             row.structure,
         ]
@@ -115,13 +122,15 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
         f"{position} {design.form_in_language(lang)}",
         ", ".join(_named(design.linkage, lang).mechanism.drive_names("german" if lang == "de" else "international")),
         message("yes") if verdict.turns_fully else message("no"),
-        *(
-            "" if isnan(mu) else number(degrees(mu), lang, ".1f") + "°"
-            for mu in (verdict.transmission, design.transmission_over_range)
-        ),
+        *(_transmission(mu, lang) for mu in (verdict.transmission, design.transmission_over_range)),
         _lengths(design.linkage, lang),
         _error(design, lang),
     ]
+
+
+def _transmission(mu: float, lang: str) -> str:
+    """A minimum transmission angle, marked where the motion passes badly; nothing where there is none."""
+    return "" if isnan(mu) else f"{number(degrees(mu), lang, '.1f')}°{' !' if mu < radians(40) else ''}"
 
 
 def _named(linkage: Linkage, lang: str) -> Linkage:
@@ -140,13 +149,13 @@ def _lengths(linkage: Linkage, lang: str) -> str:
         lines = [e for e in own if isinstance(e, Line)]
         between = [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
         if between:
-            values = " ".join(number(length, lang, ".5g") for length in between)
+            values = " ".join(number(length, lang, "n") for length in between)
             lengths.append(f"{_LETTERS.get(link, name)} = {values}")
         for line in lines if len(pins) == 1 else ():
             across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.angle), -math.sin(line.angle))
             offset = _without_rounding(across.imag, linkage)
             if offset or link == linkage.mechanism.frame:
-                lengths.append(f"e = {number(offset, lang, '.5g')}")
+                lengths.append(f"e = {number(offset, lang, 'n')}")
     return number_separator(lang).join(lengths)
 
 
@@ -155,7 +164,7 @@ def _pivots(design: Design, lang: str) -> str:
     linkage = design.linkage
     own = [element for (_, owner), element in linkage.elements.items() if owner == linkage.mechanism.frame]
     pins = [[_without_rounding(v, linkage) for v in (e.x, e.y)] for e in own if isinstance(e, Pin)]
-    return " ".join(f"({numbers(pin, lang, '.5g')})" for pin in pins)
+    return " ".join(f"({numbers(pin, lang, 'n')})" for pin in pins)
 
 
 def _without_rounding(length: float, linkage: Linkage) -> float:
@@ -172,12 +181,12 @@ def _error(design: Design, lang: str) -> str:
     """The largest structural error of a minimax optimum with its unit, else what is missed relative to the task."""
     if design.optimum is not None:
         star = "" if design.optimum.certificate.optimum else " *"
-        return _output(design.optimum, design.optimum.error, lang, ".4g") + star
+        return _output(design.optimum, design.optimum.error, lang) + star
     error = design.verdict.error
     return "< 1e-9" if error < EXACT else number(error, lang, ".1e")
 
 
-def _output(optimum: Minimax, value: float, lang: str, form: str = ".5g") -> str:
+def _output(optimum: Minimax, value: float, lang: str, form: str = "n") -> str:
     """An output angle in degrees, or a travel."""
     turns = optimum.solution.kind == "four-bar"
     return number(degrees(value), lang, form) + "°" if turns else number(value, lang, form)
@@ -205,21 +214,25 @@ def _print_missing_optima(shown: SynthesisResult, lang: str) -> None:
             )
 
 
-def print_optimum(optimum: Minimax, lang: str) -> None:
-    """Print the numbers of the best design of a search for the minimax optimum, and what shows that it is one."""
+def print_optimum(optimum: Minimax, law: FunctionLaw, lang: str) -> None:
+    """Print the best design of a search for the minimax optimum, and what shows that it is one.
+
+    Its dimensions have as many digits as give the stated error again.
+    """
     solution, shown = optimum.solution, optimum.certificate
+    form = f".{digits_for_error(optimum, law)}g"
     names = "abcd" if solution.kind == "four-bar" else "abe"
-    lengths = [f"{name} = {number(length, lang, '.6g')}" for name, length in zip(names, solution.lengths, strict=True)]
+    lengths = [f"{name} = {number(length, lang, form)}" for name, length in zip(names, solution.lengths, strict=True)]
     facts = {
         "error": _output(optimum, optimum.error, lang),
         "start": _output(optimum, optimum.start_error, lang),
         "lengths": number_separator(lang).join(lengths),
-        "phi": degrees(solution.input_start),
-        "psi": _output(optimum, solution.output_start, lang),
+        "phi": number(degrees(solution.input_start), lang, form),
+        "psi": _output(optimum, solution.output_start, lang, form),
     }
     if shown.optimum:
         text = translate(
-            "Minimax optimum 1: largest error {error} (before: {start}); {lengths}; input from {phi:.6g}°, output from "
+            "Minimax optimum 1: largest error {error} (before: {start}); {lengths}; input from {phi}°, output from "
             "{psi}.",
             lang,
             **facts,
@@ -238,8 +251,7 @@ def print_optimum(optimum: Minimax, lang: str) -> None:
     else:
         print(
             translate(
-                "Design 1: largest error {error} (before: {start}); {lengths}; input from {phi:.6g}°, output from "
-                "{psi}.",
+                "Design 1: largest error {error} (before: {start}); {lengths}; input from {phi}°, output from {psi}.",
                 lang,
                 **facts,
             )

@@ -86,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(document)
         return 0
     rows = [
-        (_ROWS[key][0], number(value, arguments.lang, ".10g") + _ROWS[key][1])
+        (_ROWS[key][0], number(value, arguments.lang, "n") + _ROWS[key][1])
         for key, value in figures.items()
         if value < math.inf
     ]
@@ -94,7 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
     if table is not None:
         print()
         shown = [[*row[:5], _DWELL if row[5] else Message("")] for row in table]
-        formats = (("zg", "°"), ("z.6f", "°"), ("z.6f", ""), ("z.6f", ""), ("z.6f", ""), ("", ""))
+        formats = (("n", "°"), ("n", "°"), ("n", ""), ("n", ""), ("n", ""), ("", ""))
         print_turn(_TABLE, shown, formats, arguments.lang)
     return 0
 

@@ -122,8 +122,8 @@ def _along(given: dict[str, float], arguments: argparse.Namespace) -> int:
 
 
 def _range_row(part: LengthRange, free: str, lang: str) -> tuple[str, ...]:
-    lower = f"{number(part.lower, lang)} {'<' if part.lower == 0 else '<='} {free}"
-    upper = "" if math.isinf(part.upper) else f"<= {number(part.upper, lang)}"
+    lower = f"{number(part.lower, lang, 'n')} {'<' if part.lower == 0 else '<='} {free}"
+    upper = "" if math.isinf(part.upper) else f"<= {number(part.upper, lang, 'n')}"
     beyond = ("" if kind is None else kind.name(lang) for kind in (part.below, part.above))
     return lower, upper, part.type.name(lang), *beyond
 
@@ -152,18 +152,18 @@ def _print(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str) -> None
     print(translate("crank angle: {ranges}", lang, ranges=joined_by_or(ranges)))
     if (centres := size.dead_centres) is not None:
         if isinstance(size, SliderCrank):
-            print(translate("stroke of the output: {length:.6g}", lang, length=centres.travel))
+            print(translate("stroke of the output: {length:n}", lang, length=centres.travel))
         else:
-            print(translate("swing of the output: {angle:.4f}°", lang, angle=math.degrees(centres.travel)))
-        print(translate("time ratio: {ratio:.6f}", lang, ratio=centres.time_ratio))
+            print(translate("swing of the output: {angle:n}°", lang, angle=math.degrees(centres.travel)))
+        print(translate("time ratio: {ratio:n}", lang, ratio=centres.time_ratio))
     smallest = math.degrees(size.transmission_angle.smallest.mu)
-    print(translate("smallest transmission angle: {angle:.4f}°", lang, angle=smallest))
+    print(translate("smallest transmission angle: {angle:n}°", lang, angle=smallest))
 
 
 def _crank_range(arc: CrankRange) -> Message:
     if arc.full:
         return message("full turn")
-    return message("{start:.4f}°..{end:.4f}°", start=math.degrees(arc.start), end=math.degrees(arc.end))
+    return message("{start:n}°..{end:n}°", start=math.degrees(arc.start), end=math.degrees(arc.end))
 
 
 def _document(size: FourBar | SliderCrank | InvertedSliderCrank) -> dict[str, object]:

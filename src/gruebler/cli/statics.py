@@ -318,9 +318,9 @@ def _largest(effort: Column, drive: Column, lang: str, *, rubbing: bool) -> str:
     if not effort.values[row]:
         return translate("The drive carries no load: {name} = 0.", lang, name=effort.name)
     text = (
-        message("Largest effort: {name} = {value:.6g} {unit} at {place}.")
+        message("Largest effort: {name} = {value:n} {unit} at {place}.")
         if rubbing
-        else message("Largest effort, without friction: {name} = {value:.6g} {unit} at {place}.")
+        else message("Largest effort, without friction: {name} = {value:n} {unit} at {place}.")
     )
     return text.filled(
         name=effort.name, value=effort.values[row], unit=effort.unit, place=_place(drive, row, lang)
@@ -335,7 +335,7 @@ def _safety(held: Statics, drive: Column, lang: str) -> str:
     joint = held.friction.locking_joint(row)
     assert joint is not None  # its factor is finite
     return translate(
-        "Least safety against self-locking: {factor:.6g} at {place}, by {joint}.",
+        "Least safety against self-locking: {factor:n} at {place}, by {joint}.",
         lang,
         factor=factors[row],
         place=_place(drive, row, lang),
@@ -344,7 +344,7 @@ def _safety(held: Statics, drive: Column, lang: str) -> str:
 
 
 def _place(drive: Column, row: int, lang: str) -> str:
-    return f"{number(drive.values[row], lang)}{drive.unit if drive.unit == '°' else f' {drive.unit}'}"
+    return f"{number(drive.values[row], lang, 'n')}{drive.unit if drive.unit == '°' else f' {drive.unit}'}"
 
 
 def _document(held: Statics, columns: Sequence[Column], lang: str) -> dict[str, object]:

@@ -259,8 +259,9 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(result_to_json(shown))
     else:
         print_designs(result, shown, arguments.rejected, arguments.lang)
-        if result.designs and result.designs[0].optimum is not None:
-            print_optimum(result.designs[0].optimum, arguments.lang)
+        law = task.law if isinstance(task, FunctionTask) else None
+        if law is not None and result.designs and (optimum := result.designs[0].optimum) is not None:
+            print_optimum(optimum, law, arguments.lang)
         for path in (arguments.out if not result.designs else None, arguments.draw if not drawn else None):
             if path is not None:
                 print(translate("{path} is not written: no design was accepted.", arguments.lang, path=path))

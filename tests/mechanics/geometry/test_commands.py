@@ -26,12 +26,12 @@ def run(capsys, lengths, point, *options):
 def test_cognates(capsys):
     status, out = run(capsys, LENKER, K, "--cognates")
     assert status == 0
-    assert "8.333333  1.924501  8.333333  7.698004" in out
-    assert "Third pivot C0 at 7.40741, 2.09513, distance 7.69800359 from A0." in out
+    assert "8.333  1.925  8.333  7.698" in out
+    assert "Third pivot C0 at 7.407, 2.095, distance 7.698 from A0." in out
     assert "Cognate 3: crank turns with the given coupler, coupler turns with the given rocker, rocker turns" in out
     status, out = run(capsys, "slider-crank:25,70,10", "35,40", "--cognates", "--lang", "de")
     assert status == 0
-    assert "53,150729" in out
+    assert "53,15" in out
     assert "im Unendlichen" in out
     assert "Kurbel dreht sich wie die gegebene Koppel" in out
 
@@ -76,8 +76,8 @@ def test_cognates_of_an_entry_trace_its_curve(capsys):
 def test_straight(capsys):
     status, out = run(capsys, LENKER, K, "--straight", "--ratio", "0.005")
     assert status == 0
-    assert "crank angle: 98.337613° to 261.662387° (163.324774°)" in out
-    assert "direction of the line: 15.793169°" in out
+    assert "crank angle: 98.34° to 261.7° (163.3°)" in out
+    assert "direction of the line: 15.79°" in out
     window = ("--straight", "--window", "90", "270", "--direction", "0")
     assert "Länge längs der Geraden: 80\n" in run(capsys, "20,50,50,40", "100,0", *window, "--lang", "de")[1]
     status, out = run(capsys, "20,50,50,40", "100,0", "--straight", "--band", "0.2", "--json")

@@ -238,7 +238,7 @@ def test_the_end_of_a_range_is_found_exactly():
     assert motion.stop.drives[0] == pytest.approx(np.arccos((50**2 + 70**2 - 110**2) / (2 * 50 * 70)), abs=1e-12)
     assert motion.stop.links == ("coupler", "rocker")
     assert len(motion) == 73
-    assert "132.177419°" in motion.message()
+    assert "132.2°" in motion.message()
     assert "nicht mehr zusammenbauen" in motion.message("de")
 
 

@@ -20,14 +20,14 @@ from gruebler.structure.mechanism import Mechanism
 
 _FULL = message("{drive} turns fully.")
 _TURNING = {
-    "range": message("{drive} turns from {low:.7g}° to {high:.7g}°."),
+    "range": message("{drive} turns from {low:n}° to {high:n}°."),
     "well conditioned": message("It is well conditioned from {low:.0f}° to {high:.0f}°."),
     "all at once": message("{drive} is well conditioned from {low:.0f}° to {high:.0f}°, all drives at once."),
 }
 _SLIDING = {
-    "range": message("{drive} moves from {low:.7g} to {high:.7g} {unit}."),
-    "well conditioned": message("It is well conditioned from {low:.6g} to {high:.6g} {unit}."),
-    "all at once": message("{drive} is well conditioned from {low:.6g} to {high:.6g} {unit}, all drives at once."),
+    "range": message("{drive} moves from {low:n} to {high:n} {unit}."),
+    "well conditioned": message("It is well conditioned from {low:n} to {high:n} {unit}."),
+    "all at once": message("{drive} is well conditioned from {low:n} to {high:n} {unit}, all drives at once."),
 }
 
 

@@ -5,6 +5,7 @@ docs/theory/synthesis-functions.md has the theorem, the method and the meaning o
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -93,6 +94,34 @@ def minimax(start: Coordination, law: FunctionLaw, *, steps: int = 200) -> Minim
     assert solution is not None
     unit = search.family.unit
     return Minimax(solution=solution, error=unit * place.error, start_error=unit * first, certificate=certificate)
+
+
+def digits_for_error(optimum: Minimax, law: FunctionLaw) -> int:
+    """How many digits of the dimensions give the stated error again, to half a unit of its fourth digit.
+
+    >>> law = FunctionLaw("log10(x)", (1, 2), np.pi / 3, np.pi / 3)
+    >>> digits_for_error(minimax(Coordination("four-bar", (3.4, 0.8, 3.5, 1.0), 0.9, 1.36, -1), law), law) > 6
+    True
+    """
+    solution = optimum.solution
+    family = ErrorFamily(solution.kind, solution.branch, law)
+    unit = 180 / np.pi if solution.kind == "four-bar" else 1.0
+    for digits in range(5, 16):
+        rounded = replace(
+            solution,
+            lengths=tuple(_rounded(length, digits) for length in solution.lengths),
+            input_start=float(np.radians(_rounded(np.degrees(solution.input_start), digits))),
+            output_start=_rounded(solution.output_start * unit, digits) / unit,
+        )
+        _, errors = family.extremes(family.numbers_of(rounded))
+        error = family.unit * float(np.abs(errors).max(initial=0.0))
+        if abs(error - optimum.error) < 5e-5 * optimum.error:
+            return digits
+    return 16
+
+
+def _rounded(value: float, digits: int) -> float:
+    return float(f"{value:.{digits}g}")
 
 
 class _Search:

@@ -52,7 +52,7 @@ class MeasureUnits:
 
     def _length(self, value: float) -> Message:
         rounded = 0.0 if abs(value) < _NOTHING * self.size else value
-        return message("{length:.7g} {unit}", length=rounded, unit=self.unit)
+        return message("{length:n} {unit}", length=rounded, unit=self.unit)
 
 
 def range_lines(units: MeasureUnits, span: CycleSpan) -> Iterator[Message]:
@@ -87,7 +87,7 @@ def output_lines(
     elif still:
         yield message("The output {name} does not move.", name=name)
     elif ratio is not None:
-        yield message("The transmission to {name} is uniform: i = {ratio:.9g}.", name=name, ratio=ratio)
+        yield message("The transmission to {name} is uniform: i = {ratio:n}.", name=name, ratio=ratio)
     elif abs(turns) == 1:
         yield message("The output {name} makes one full turn in each period.", name=name)
     elif turns:
@@ -116,11 +116,9 @@ def stroke_lines(
 ) -> Iterator[Message]:
     """The drive angles of both strokes."""
     if dwells:
-        text = message(
-            "Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}."
-        )
+        text = message("Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:n}.")
     else:
-        text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.")
+        text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:n}.")
     yield text.filled(forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
     if phi_forward - phi_back > _CONSTANT:
         yield message("Turning counter-clockwise, the slow stroke is the outward one.")
@@ -132,24 +130,24 @@ def time_lines(rpm: float | None, times: StrokeTimes | None, at_rest: float | No
     """How long strokes and dwells take at a speed."""
     if times is not None:
         yield message(
-            "At {rpm:g} revolutions per minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
+            "At {rpm:g} revolutions per minute: {forward:n} s from inner to outer, {back:n} s back.",
             rpm=rpm,
             forward=times.forward,
             back=times.back,
         )
     if at_rest is not None:
-        yield message("At rest: {time:.6g} s in a period.", time=at_rest)
+        yield message("At rest: {time:n} s in a period.", time=at_rest)
 
 
 def dwell_share_message(share: float) -> Message:
     """How much of the drive's motion the output rests."""
-    return message("The output rests for {share:.9g} % of the drive's motion.", share=100 * share)
+    return message("The output rests for {share:n} % of the drive's motion.", share=100 * share)
 
 
 def motion_share_message(units: MeasureUnits, moving: float, period: float, ratio: float | None) -> Message:
     """How far the drive moves in a period while an output that turns fully does."""
     return message(
-        "It moves during {moving} of {period} of the drive; motion by dwell {ratio:.9g}.",
+        "It moves during {moving} of {period} of the drive; motion by dwell {ratio:n}.",
         moving=units.drive(moving),
         period=units.drive(period),
         ratio=ratio,
@@ -196,4 +194,4 @@ def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) 
 
 
 def _angle(value: float) -> Message:
-    return message("{degrees:.7g}°", degrees=round(degrees(value), 7) + 0.0)
+    return message("{degrees:n}°", degrees=round(degrees(value), 7) + 0.0)

@@ -42,7 +42,7 @@ def pole_list(motion: Motion, row: int, lang: str = "en") -> tuple[list[str], li
             place = numbers((at.real, at.imag), lang, "z.6f")
         elif np.isfinite(towards):
             angle = round(np.angle(towards) * 180 / pi % 180, 9) % 180
-            place = translate("at infinity, direction {angle:.6g}°", lang, angle=angle)
+            place = translate("at infinity, direction {angle:n}°", lang, angle=angle)
         else:
             place = translate("none: no relative motion", lang)
         rows.append([f"{first}/{second}", place])

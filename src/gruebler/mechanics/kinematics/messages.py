@@ -56,9 +56,9 @@ def _drive_values(linkage: Linkage, values: tuple[float, ...]) -> Message:
     for k, (drive, value) in enumerate(zip(mechanism.drives, values, strict=True)):
         name = _drive_name(mechanism, k)
         if drive.turning:
-            parts.append(message("{name} = {value:.9g}°", name=name, value=degrees(value)))
+            parts.append(message("{name} = {value:n}°", name=name, value=degrees(value)))
         else:
-            parts.append(message("{name} = {value:.9g} {unit}", name=name, value=value, unit=linkage.unit))
+            parts.append(message("{name} = {value:n} {unit}", name=name, value=value, unit=linkage.unit))
     return joined(parts)
 
 
