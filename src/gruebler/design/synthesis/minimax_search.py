@@ -104,7 +104,7 @@ def digits_for_error(optimum: Minimax, law: FunctionLaw) -> int:
     True
     """
     solution = optimum.solution
-    family = ErrorFamily(solution.kind, solution.branch, law)
+    family = ErrorFamily(solution.kind, solution.side, law)
     unit = 180 / np.pi if solution.kind == "four-bar" else 1.0
     for digits in range(5, 16):
         rounded = replace(
