@@ -65,19 +65,7 @@ export class Plot {
     this.drives = drives;
     this.domain = domain;
     this.series = series;
-    const finite = Array.from(series.values)
-      .filter(Number.isFinite)
-      .sort((a, b) => a - b);
-    let low = finite[0] ?? 0,
-      high = finite[finite.length - 1] ?? 1;
-    const core = [
-      finite[Math.floor(0.02 * finite.length)] ?? low,
-      finite[Math.floor(0.98 * (finite.length - 1))] ?? high,
-    ] as const;
-    const wide = core[1] - core[0];
-    if (high > core[1] + 3 * wide) high = core[1] + wide; // next to limits rates grow without bound
-    if (low < core[0] - 3 * wide) low = core[0] - wide;
-    if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 1, high + 1];
+    const { low, high, wide } = plotRange(series.values);
     const room = 0.06 * (high - low);
     [this.low, this.high] = [low - room, high + room];
     let d = "",
@@ -139,4 +127,20 @@ export class Plot {
   private y(value: number): number {
     return HEIGHT - BOTTOM - ((value - this.low) / (this.high - this.low)) * (HEIGHT - BOTTOM - TOP);
   }
+}
+
+/** From where to where values are plotted, and how wide the range of nearly all of them is.
+ *
+ * Next to limits rates grow without bound: the two hundredths at either end may stick out. */
+export function plotRange(values: Float64Array): { low: number; high: number; wide: number } {
+  const finite = values.filter(Number.isFinite).sort();
+  let low = finite[0] ?? 0;
+  let high = finite[finite.length - 1] ?? 1;
+  const least = finite[Math.floor(0.02 * finite.length)] ?? low;
+  const most = finite[Math.floor(0.98 * (finite.length - 1))] ?? high;
+  const wide = most - least;
+  if (high > most + 3 * wide) high = most + wide;
+  if (low < least - 3 * wide) low = least - wide;
+  if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 1, high + 1];
+  return { low, high, wide };
 }

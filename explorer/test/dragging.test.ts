@@ -1,0 +1,145 @@
+/** What happens to the sizes when joints are dragged and lengths are typed. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { applyDocument, documentOf } from "../src/document";
+import { Dragging } from "../src/dragging";
+import { Linkage, Refused } from "../src/linkage";
+import { onCircle } from "../src/wheels";
+import { A, B, C, CRANK_ROCKER, D, fourBar, sliderCrank } from "./fourbar";
+import { close, near } from "./near";
+
+const JOINTS = [A, B, C, D];
+
+function upright(): { linkage: Linkage; dragging: Dragging } {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, Math.PI / 2));
+  return { linkage, dragging: new Dragging(linkage) };
+}
+
+function lengthsOf(dragging: Dragging): number[] {
+  return dragging.lengths().map(({ value }) => value);
+}
+
+test("the sizes of a four-bar are its four lengths", () => {
+  const { dragging } = upright();
+  near(lengthsOf(dragging), [70, 25, 70, 40]);
+  assert.deepEqual(
+    JOINTS.map((joint) => dragging.draggable(joint)),
+    [true, true, true, true],
+  );
+  assert.deepEqual(dragging.permitted(B, 3, 4), [3, 4]);
+});
+
+test("a joint goes where it is dragged to, the others stay", () => {
+  for (const [joint, x, y] of [
+    [A, -5, 3],
+    [B, 4, 28],
+    [C, 60, 50],
+    [D, 75, -6],
+  ] as const) {
+    const { linkage, dragging } = upright();
+    const before = JOINTS.map((one) => linkage.jointAt(one));
+    dragging.dragJoint(joint, x, y);
+    for (const one of JOINTS) near(linkage.jointAt(one), one === joint ? [x, y] : before[one]!);
+    const [a, b, c, d] = JOINTS.map((one) => linkage.jointAt(one)) as [number, number][];
+    const gap = (p: readonly number[], q: readonly number[]) => Math.hypot(p[0]! - q[0]!, p[1]! - q[1]!);
+    near(lengthsOf(dragging), [gap(a!, d!), gap(a!, b!), gap(b!, c!), gap(c!, d!)]);
+  }
+});
+
+test("the drive is the angle of the crank that was dragged, links keep their axes", () => {
+  const { linkage, dragging } = upright();
+  dragging.dragJoint(B, 18, 24);
+  close(linkage.drives[0]!, Math.atan2(24, 18));
+  near(linkage.sizes.xy(1), [0, 0]);
+  near(linkage.sizes.xy(2), [30, 0]); // 18, 24, 30
+});
+
+test("a length that is typed is that length, the others stay", () => {
+  const { linkage, dragging } = upright();
+  const crank = dragging.lengths()[1]!;
+  dragging.setLength(crank.first, crank.second, 31);
+  near(lengthsOf(dragging), [70, 31, 70, 40]);
+  near(linkage.jointAt(B), [0, 31]);
+});
+
+test("lengths that cannot be assembled are refused, and nothing is changed", () => {
+  const { linkage, dragging } = upright();
+  const before = documentOf(linkage);
+  const rocker = dragging.lengths()[3]!;
+  for (const length of [1, 400]) {
+    assert.throws(
+      () => dragging.setLength(rocker.first, rocker.second, length),
+      (error) => error instanceof Refused && error.stop?.form === "RRR",
+    );
+    assert.deepEqual(documentOf(linkage), before);
+  }
+  for (const length of [-1, NaN, 1e10, 0])
+    assert.throws(
+      () => dragging.setLength(rocker.first, rocker.second, length),
+      (error) => error instanceof Refused && error.stop === null,
+    );
+});
+
+test("a slide goes on through the pin that is dragged", () => {
+  const linkage = new Linkage(sliderCrank(30, 100, 0.3, 1));
+  const dragging = new Dragging(linkage);
+  assert.deepEqual(
+    JOINTS.map((joint) => dragging.draggable(joint)),
+    [true, true, true, false],
+  );
+  near(lengthsOf(dragging), [0, 30, 100]); // the line goes through A
+  const [x, y] = linkage.jointAt(B);
+  dragging.dragJoint(C, 120, 20);
+  near(linkage.jointAt(A), [0, 0]);
+  near(linkage.jointAt(B), [x, y]);
+  near(linkage.jointAt(C), [120, 20]);
+  const off = Math.abs(20 * Math.cos(0.3) - 120 * Math.sin(0.3)); // of A from the line through (120, 20)
+  near(lengthsOf(dragging), [off, 30, Math.hypot(120 - x, 20 - y)]);
+  close(linkage.sizes.angles[6]!, 0.3);
+});
+
+test("a rail is set off", () => {
+  const linkage = new Linkage(sliderCrank(30, 100, 0.3, 1));
+  const dragging = new Dragging(linkage);
+  const rail = dragging.lengths()[0]!;
+  dragging.setLength(rail.first, rail.second, 10);
+  near(lengthsOf(dragging), [10, 30, 100]);
+  const [x, y] = linkage.jointAt(C);
+  close(Math.abs(y * Math.cos(0.3) - x * Math.sin(0.3)), 10);
+});
+
+test("a centre goes around another one at its distance", () => {
+  const { linkage } = upright();
+  const pivot = { wheel: 1, about: 0 }; // B about A, at 25
+  near(onCircle(linkage, pivot, B, 30, 40), [15, 20]);
+  near(onCircle(linkage, pivot, B, 0, 0), [0, 25]); // no direction: it stays
+});
+
+test("a document is taken and given back", () => {
+  const { linkage } = upright();
+  const other = new Linkage(fourBar({ crank: 20, coupler: 60, rocker: 45, frame: 65 }, 0.7));
+  applyDocument(linkage, documentOf(other));
+  close(linkage.drives[0]!, 0.7);
+  for (const joint of JOINTS) near(linkage.jointAt(joint), other.jointAt(joint));
+  assert.deepEqual(linkage.sizes.snapshot(), other.sizes.snapshot());
+});
+
+test("a damaged document is refused, and nothing is changed", () => {
+  const { linkage } = upright();
+  const before = documentOf(linkage);
+  const other = documentOf(new Linkage(fourBar({ crank: 20, coupler: 60, rocker: 45, frame: 65 }, 0.7)));
+  const damaged = [
+    { ...other, elements: { ...other.elements!, rocker: {} } },
+    { ...other, points: { K: { link: "nobody", at: [1, 2] } } },
+    { ...other, reference_pose: { ...other.reference_pose!, crank: [0, 0, Infinity] } },
+  ];
+  for (const document of damaged) {
+    assert.throws(
+      () => applyDocument(linkage, document, 2),
+      (error) => error instanceof Refused,
+    );
+    assert.deepEqual(documentOf(linkage), before);
+    close(linkage.drives[0]!, Math.PI / 2);
+  }
+});

@@ -1,0 +1,106 @@
+/** A four-bar that moves, against triangles. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { denseAtEnds, principal, TURN, wrapped } from "../src/cycle";
+import { documentOf } from "../src/document";
+import { Linkage } from "../src/linkage";
+import { place, rate } from "../src/rows";
+import { A, angleBetween, angles, B, C, COUPLER, CRANK_ROCKER, D, fourBar, ROCKER } from "./fourbar";
+import { close, near } from "./near";
+
+/** Its drive cannot go round: the sum of the shortest and the longest link is more than that of the others. */
+const DOUBLE_ROCKER = { crank: 50, coupler: 60, rocker: 70, frame: 100 };
+
+test("joints lie where the triangle has them", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
+  for (const theta of [1, 2.5, 4, 6.1]) {
+    assert.ok(linkage.moveTo(theta));
+    const { phi, psi } = angles(CRANK_ROCKER, theta);
+    const [x, y] = [25 * Math.cos(theta), 25 * Math.sin(theta)];
+    near(linkage.jointAt(A), [0, 0]);
+    near(linkage.jointAt(B), [x, y]);
+    near(linkage.jointAt(C), [70 + 40 * Math.cos(psi), 40 * Math.sin(psi)]);
+    near(linkage.jointAt(D), [70, 0]);
+    near(place(linkage.pose, 0, COUPLER, 35, 0), [x + 35 * Math.cos(phi), y + 35 * Math.sin(phi)]);
+  }
+});
+
+test("velocities are those of the loop of vectors", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
+  for (const theta of [0.3, 1.7, 3.3, 5]) {
+    assert.ok(linkage.moveTo(theta));
+    const { phi, psi } = angles(CRANK_ROCKER, theta);
+    // a sin(theta - phi) = c psi' sin(psi - phi), a sin(theta - psi) = -b phi' sin(phi - psi)
+    close(rate(linkage.pose, 0, ROCKER), (25 * Math.sin(theta - phi)) / (40 * Math.sin(psi - phi)));
+    close(rate(linkage.pose, 0, COUPLER), -(25 * Math.sin(theta - psi)) / (70 * Math.sin(phi - psi)));
+    near(place(linkage.pose, 0, 1, 25, 0, 1), [-25 * Math.sin(theta), 25 * Math.cos(theta)]);
+    near(place(linkage.pose, 0, 1, 25, 0, 2), [-25 * Math.cos(theta), -25 * Math.sin(theta)]);
+  }
+});
+
+test("a crank goes round", () => {
+  const { cycle } = new Linkage(fourBar(CRANK_ROCKER, 1));
+  assert.equal(cycle.full, true);
+  assert.equal(cycle.turns, 1);
+  near([cycle.low, cycle.high], [1, 1 + TURN]);
+  assert.deepEqual(cycle.stops, [null, null]);
+});
+
+test("the range of a rocker ends where coupler and other rocker are in line", () => {
+  const { cycle } = new Linkage(fourBar(DOUBLE_ROCKER, 1));
+  const most = angleBetween(50, 100, 60 + 70);
+  assert.equal(cycle.full, false);
+  near([cycle.low, cycle.high], [-most, most], 1e-7);
+  for (const stop of cycle.stops) {
+    assert.equal(stop?.form, "RRR");
+    assert.deepEqual(stop?.links, ["coupler", "rocker"]);
+  }
+});
+
+test("a drive that goes round comes back, one that does not stays in its range", () => {
+  const round = new Linkage(fourBar(CRANK_ROCKER, 1));
+  assert.ok(round.moveTo(1.5 + 2 * TURN));
+  close(round.drives[0]!, 1.5);
+  const rocker = new Linkage(fourBar(DOUBLE_ROCKER, 1));
+  assert.equal(rocker.moveTo(2.5), false);
+  close(rocker.drives[0]!, 1);
+});
+
+test("the other assembly mode is the mirror image at the line from B to D", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, Math.PI / 2));
+  const [x, y] = linkage.jointAt(C);
+  linkage.switchMode(0);
+  const [u, v] = linkage.jointAt(C);
+  // the line from B (0, 25) to D (70, 0) has the normal (25, 70)
+  close(25 * ((x + u) / 2) + 70 * ((y + v) / 2), 25 * 70, 1e-7);
+  close(70 * (x - u) - 25 * (y - v), 0, 1e-7);
+  assert.ok(Math.hypot(x - u, y - v) > 10);
+  assert.equal(linkage.state.signs[0], -1);
+});
+
+test("what was is restored", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
+  const old = linkage.snapshot();
+  const before = documentOf(linkage);
+  linkage.sizes.put(2, 30, 0);
+  linkage.addPoint("L", COUPLER, 1, 2);
+  linkage.restore(old);
+  assert.deepEqual(documentOf(linkage), before);
+  assert.equal(linkage.sizes.points.length, 1);
+});
+
+test("a point is added where it is clicked", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, Math.PI / 2));
+  linkage.addPoint("L", 1, 0, 10); // the crank stands upright
+  near(linkage.sizes.points[1]!.at, [10, 0]);
+});
+
+test("angles and values of a range", () => {
+  near([principal(0.1 + 3 * TURN), principal(-3.2)], [0.1, TURN - 3.2]);
+  const values = denseAtEnds(2, 4, 3); // sines of 15, 45 and 75 degrees, squared
+  near(values, [2 + (2 - Math.sqrt(3)) / 2, 3, 2 + (2 + Math.sqrt(3)) / 2]);
+  const { cycle } = new Linkage(fourBar(CRANK_ROCKER, 1));
+  near([wrapped(cycle, 7), wrapped(cycle, -1), wrapped(cycle, TURN - 1e-9)], [7 - TURN, TURN - 1, 0]);
+  assert.equal(wrapped({ ...cycle, full: false }, 7), 7);
+});

@@ -1,0 +1,125 @@
+/** What the picture is made of, without a browser: hulls, the viewport, belts, the grid, plots, the slider. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { gridStep } from "../src/canvas";
+import { TURN } from "../src/cycle";
+import { convexHull, toHull } from "../src/hull";
+import { Linkage } from "../src/linkage";
+import { later } from "../src/player";
+import { plotRange } from "../src/plot";
+import { lapOf } from "../src/plots";
+import { linesOf } from "../src/shapes";
+import { Sizes } from "../src/sizes";
+import { limitsOf, shownRange } from "../src/track";
+import { Viewport } from "../src/viewport";
+import { CRANK_ROCKER, fourBar } from "./fourbar";
+import { close, near } from "./near";
+
+const ROUND = new Linkage(fourBar(CRANK_ROCKER, 1)).cycle;
+const RANGE = { ...ROUND, full: false, turns: 0, low: 1, high: 3 };
+
+test("hulls and how far a point is from them", () => {
+  const square = convexHull([
+    [0, 0],
+    [4, 0],
+    [4, 4],
+    [0, 4],
+    [1, 2],
+    [4, 4],
+  ]);
+  assert.equal(square.length, 4);
+  assert.equal(toHull(square, 2, 3), 0);
+  close(toHull(square, 7, 8), 5);
+  close(toHull(square, 2, -3), 3);
+  const bar = convexHull([
+    [0, 0],
+    [10, 0],
+  ]);
+  close(toHull(bar, 5, 2), 2);
+  close(toHull(convexHull([[3, 4]]), 0, 0), 5);
+});
+
+test("places and pixels", () => {
+  const viewport = new Viewport();
+  viewport.width = 1000;
+  viewport.height = 620;
+  viewport.fit({ left: -10, right: 10, bottom: -5, top: 5 }, 1);
+  close(viewport.scale, 44); // (1000 - 120) / 20; upright it would be 50
+  near(viewport.screen(0, 0), [500, 310]);
+  near(viewport.screen(10, 5), [940, 90]);
+  near(viewport.world(...viewport.screen(3, -2)), [3, -2]);
+  viewport.zoom(2, 940, 90);
+  near(viewport.screen(10, 5), [940, 90]);
+  close(viewport.scale, 88);
+  assert.equal(viewport.fitted, false);
+  viewport.pan(5, -7);
+  near(viewport.screen(10, 5), [945, 83]);
+});
+
+test("lines of the grid are 1, 2 or 5 times a power of ten apart", () => {
+  near([0.9, 1, 1.1, 3, 7, 12, 0.03].map(gridStep), [1, 1, 2, 5, 10, 20, 0.05]);
+});
+
+test("a belt goes with the centres of its wheels", () => {
+  const model = fourBar(CRANK_ROCKER, 1);
+  const belt = {
+    link: 0,
+    style: "belt",
+    lines: [[0, 5, 70, 5]],
+    between: [0, 0, 70, 0] as [number, number, number, number],
+  };
+  const sizes = new Sizes(model, 70);
+  near(linesOf(sizes, belt)[0]!, [0, 5, 70, 5]);
+  sizes.put(6, 0, 140); // a quarter turn, twice as long
+  near(linesOf(sizes, belt)[0]!, [-10, 0, -10, 140]);
+});
+
+test("lines on links", () => {
+  const model = fourBar(CRANK_ROCKER, 1);
+  model.elements[1]!.angle = Math.PI / 4;
+  const sizes = new Sizes(model, 70);
+  close(sizes.leftOf(1, 0, 1), Math.SQRT1_2);
+  close(sizes.leftOf(1, 1, 0), -Math.SQRT1_2);
+  sizes.shiftLine(1, 2, 0);
+  near(sizes.xy(1), [1, -1]);
+  close(sizes.gap(0, 6), 70);
+});
+
+test("a plot shows all values, but not how rates grow without bound", () => {
+  assert.deepEqual(plotRange(Float64Array.of(2, NaN, 5, 3)), { low: 2, high: 5, wide: 1 });
+  assert.deepEqual(plotRange(Float64Array.of(4, 4, 4)), { low: 3, high: 5, wide: 0 });
+  const steep = Float64Array.from({ length: 101 }, (_, k) => (k === 100 ? 1e9 : k));
+  assert.deepEqual(plotRange(steep), { low: 0, high: 98 + 96, wide: 96 });
+  const deep = plotRange(steep.map((value) => -value)); // the same downwards
+  near([deep.low, deep.high, deep.wide], [-98 - 96, 0, 96]);
+  assert.deepEqual(plotRange(new Float64Array(0)), { low: 0, high: 1, wide: 1 });
+});
+
+test("full turns are plotted from 0 to 360 degrees", () => {
+  const { drives, rows } = lapOf(ROUND);
+  assert.equal(rows.length, ROUND.values.length);
+  for (let k = 1; k < drives.length; k++) assert.ok(drives[k]! > drives[k - 1]!);
+  assert.ok(drives[0]! >= 0 && drives[0]! < TURN / 360);
+  close(drives[drives.length - 1]! - drives[0]!, TURN);
+  assert.deepEqual(lapOf(RANGE).rows, [...RANGE.values.keys()]);
+});
+
+test("the slider", () => {
+  near(limitsOf(ROUND, true, null), [0, TURN]);
+  near(limitsOf(RANGE, true, null), [1, 3], 1e-6);
+  near(limitsOf(RANGE, true, [1.5 + TURN, 2 + TURN]), [1.5, 2]); // said a turn farther on
+  near(limitsOf(RANGE, false, [4, 5]), [1, 3], 1e-6);
+  near(shownRange([0, TURN], true, true), [0, TURN]);
+  near(shownRange([1, 3], false, true), [2 - Math.PI, 2 + Math.PI]);
+  near(shownRange([1, 3], false, false), [0.76, 3.24]);
+});
+
+test("a drive goes on: full turns, or to and fro", () => {
+  const near2 = ({ value, way }: { value: number; way: number }, wanted: [number, number]) =>
+    near([value, way], wanted);
+  near2(later(1, 1, 0.5, 12, ROUND, [0, TURN]), [1 + 0.1 * TURN, 1]); // 12 turns a minute
+  near2(later(1, 1, 0.5, 12, RANGE, [1, 3]), [1.4, 1]); // a stroke is a half of to and fro
+  near2(later(2.9, 1, 0.5, 12, RANGE, [1, 3]), [3, -1]);
+  near2(later(1.1, -1, 0.5, 12, RANGE, [1, 3]), [1, 1]);
+});

@@ -1,0 +1,193 @@
+/** Texts, numbers, links, tables, what is read off, undo. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { deflateRawSync } from "node:zlib";
+import german from "../src/de.json";
+import { factsOf } from "../src/facts";
+import { History } from "../src/history";
+import { Backend, Cancelled, RequestError, StillModel } from "../src/host";
+import { Status } from "../src/kernel";
+import { angle, number, parsed, setLanguage, t } from "../src/language";
+import { BadLink, checksum, packed, unpacked } from "../src/link";
+import { Linkage } from "../src/linkage";
+import { chainText } from "../src/model";
+import { quoted, tableOf } from "../src/table";
+import { stopText } from "../src/wording";
+import { CRANK_ROCKER, fourBar } from "./fourbar";
+
+function inGerman(body: () => void): void {
+  setLanguage("de");
+  try {
+    body();
+  } finally {
+    setLanguage("en");
+  }
+}
+
+test("texts and their gaps", () => {
+  assert.equal(t("Play"), "Play");
+  assert.equal(t("Output {name}", { name: "rocker" }), "Output rocker");
+  assert.equal(t("{one} {two}", { one: 1 }), "1 {two}");
+  inGerman(() => {
+    assert.equal(t("Cancel"), "Abbrechen");
+    assert.equal(t("Dead centre at {value}", { value: "5°" }), "Totlage bei 5°");
+    assert.equal(t("a text that nobody translated"), "a text that nobody translated");
+  });
+  assert.ok(Object.values(german).every((text) => text.trim() !== ""));
+});
+
+test("numbers", () => {
+  assert.equal(number(1234.5678), "1235");
+  assert.equal(number(0.00012347), "0.0001235");
+  assert.equal(number(2.5, 7), "2.5");
+  assert.equal(number(-0), "0");
+  assert.equal(number(NaN), "–");
+  assert.equal(number(Infinity), "–");
+  assert.equal(angle(Math.PI / 3), "60°");
+  assert.equal(angle(1e-12), "0°");
+  assert.equal(angle(-Math.PI / 7, 5), "-25.714°");
+  inGerman(() => {
+    assert.equal(number(2.5), "2,5");
+    assert.equal(angle(Math.PI / 8), "22,5°");
+  });
+});
+
+test("numbers that are typed", () => {
+  assert.equal(parsed("2.5"), 2.5);
+  assert.equal(parsed(" 2,5 "), 2.5);
+  assert.equal(parsed("-1e-3"), -0.001);
+  for (const text of ["", "two", "1 2", "1.2.3", "--1"]) assert.ok(Number.isNaN(parsed(text)), text);
+});
+
+test("links", async () => {
+  assert.equal(checksum(new TextEncoder().encode("123456789")), "cbf43926"); // the check value of CRC-32
+  const content = { document: { joints: "R(a-b)" }, name: "Ä €", drive: 0.1 + 0.2 };
+  const text = await packed(content);
+  assert.ok(/^1\.[\w-]+\.[0-9a-f]{8}$/.test(text));
+  assert.deepEqual(await unpacked(text), content);
+  const raw = deflateRawSync(new TextEncoder().encode('{"a":[1,2]}'));
+  const base64 = btoa(String.fromCharCode(...raw))
+    .replaceAll("+", "-")
+    .replaceAll("/", "_")
+    .replaceAll("=", "");
+  assert.deepEqual(await unpacked(`1.${base64}.${checksum(raw)}`), { a: [1, 2] });
+});
+
+test("links that cannot be read say why", async () => {
+  const [version, data, sum] = (await packed({ a: 1 })).split(".") as [string, string, string];
+  const says = (text: string, words: string) =>
+    assert.rejects(unpacked(text), (error) => error instanceof BadLink && error.message.includes(words));
+  await says(`2.${data}.${sum}`, "newer version");
+  await says(`${version}.${data}`, "not complete");
+  await says(`${version}.${data}.00000000`, "checksum");
+  await says(`${version}.${data.slice(0, -2)}.${sum}`, "damaged");
+});
+
+test("the chain as text", () => {
+  const text = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)";
+  assert.equal(chainText(fourBar(CRANK_ROCKER, 1)), text);
+});
+
+test("the table of a four-bar", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 0));
+  const [head, first, ...others] = tableOf(linkage).split("\n");
+  assert.equal(head, "drive_deg,output,output_velocity,output_acceleration,transmission_angle_deg,K_x,K_y,K_vx,K_vy");
+  const [drive, , , , mu, x] = first!.split(",").map(Number);
+  assert.equal(drive, 0);
+  const cosine = (70 ** 2 + 40 ** 2 - 45 ** 2) / (2 * 70 * 40);
+  assert.ok(Math.abs(mu! - (Math.acos(cosine) * 180) / Math.PI) < 1e-9);
+  // C is above BD, which lies along the frame: the angle of the coupler is that of the triangle 70, 45, 40
+  const phi = Math.acos((70 ** 2 + 45 ** 2 - 40 ** 2) / (2 * 70 * 45));
+  assert.ok(Math.abs(x! - (25 + 35 * Math.cos(phi))) < 1e-9);
+  assert.equal(others.length, 361); // 360 more rows, and the end of the last line
+  assert.equal(quoted('a "b", c'), '"a ""b"", c"');
+  assert.equal(quoted("K_x"), "K_x");
+});
+
+test("what is read off a four-bar", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 0));
+  const found = { dead: [3.7, 0.385], least: { value: 0, mu: 0.65 } };
+  const facts = () =>
+    factsOf(linkage, found, (value) => value).map(({ name, text, style }) => [name, text, style ?? ""]);
+  // psi: 180 degrees less the angle at D of the triangle 45, 40, 70
+  const [[title, psi], , ...others] = facts() as [[string, string, string], unknown, ...unknown[]];
+  assert.equal(title, "Output rocker");
+  assert.equal(
+    psi,
+    `${(180 - (Math.acos((45 ** 2 + 40 ** 2 - 70 ** 2) / (2 * 45 * 40)) * 180) / Math.PI).toPrecision(5)}°`,
+  );
+  // the law of cosines: acos((70^2 + 40^2 - 45^2) / (2 70 40)) = 36.955 degrees
+  assert.deepEqual(others, [
+    ["Transmission angle", "36.96°", "bad"],
+    ["smallest", "37.24° · 0°", "bad"],
+    ["Range of the drive", "full turns", ""],
+    ["Dead centres", "22.059°, 211.99°", ""],
+  ]);
+  inGerman(() => assert.equal(facts()[0]![0], "Abtrieb Schwinge"));
+});
+
+test("why a motion ends", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 0));
+  const stop = { value: Math.PI / 2, status: Status.LIMIT, form: "RRR", links: ["coupler", "rocker"] };
+  const said = "there RRR {coupler, rocker} can no longer be assembled.";
+  assert.equal(stopText(linkage, stop), `The motion ends at R(frame-crank) = 90°: ${said}`);
+  const open = { ...stop, status: "open" as const, form: "R(a-b)", links: [] };
+  assert.equal(stopText(linkage, open), "The motion ends at R(frame-crank) = 90°: there R(a-b) is open.");
+});
+
+test("undo and redo", () => {
+  const history = new History<string>();
+  assert.deepEqual(history.possible, [false, false]);
+  assert.equal(history.undo("now"), undefined);
+  history.add("one");
+  history.add("two");
+  assert.equal(history.undo("three"), "two");
+  assert.equal(history.undo("two"), "one");
+  assert.deepEqual(history.possible, [false, true]);
+  assert.equal(history.redo("one"), "two");
+  history.add("other");
+  assert.deepEqual(history.possible, [true, false]);
+  for (let k = 0; k < 300; k++) history.add(String(k));
+  let count = 0;
+  while (history.undo("") !== undefined) count++;
+  assert.equal(count, 200);
+});
+
+test("requests are answered, refused, cancelled", async () => {
+  const sent: { id: number; method?: string; lang?: string; cancel?: boolean }[] = [];
+  class Model extends StillModel {
+    override send(content: unknown): void {
+      sent.push(content as (typeof sent)[number]);
+    }
+    answer(content: unknown): void {
+      this.emit("msg:custom", content);
+    }
+  }
+  const model = new Model({ host: "server" });
+  const backend = new Backend(model);
+  assert.ok(backend.present);
+  const told: string[] = [];
+  const first = backend.ask<number>("count", {}, "de", (text) => told.push(text));
+  const second = backend.ask("describe", {}, "en");
+  const third = backend.ask("find", {}, "en");
+  third.cancel();
+  assert.deepEqual(
+    sent.map(({ id, method, lang, cancel }) => [id, method ?? "", lang ?? "", cancel ?? false]),
+    [
+      [1, "count", "de", false],
+      [2, "describe", "en", false],
+      [3, "find", "en", false],
+      [3, "", "", true],
+    ],
+  );
+  model.answer({ id: 1, progress: "half" });
+  model.answer({ id: 2, error: "no" });
+  model.answer({ id: 3, cancelled: true });
+  model.answer({ id: 1, result: 5 });
+  assert.equal(await first, 5);
+  assert.deepEqual(told, ["half"]);
+  await assert.rejects(second, (error) => error instanceof RequestError && error.message === "no");
+  await assert.rejects(third, (error) => error instanceof Cancelled);
+  assert.equal(new Backend(new StillModel({ host: "file" })).present, false);
+});
