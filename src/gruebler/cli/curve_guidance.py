@@ -6,6 +6,7 @@ import argparse
 import math
 import re
 from collections.abc import Sequence
+from itertools import combinations
 
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import LANGUAGES, error_in_language, message, number, number_separator, translate
@@ -150,7 +151,7 @@ def _lengths(linkage: Guidance, factor: float) -> dict[str, float]:
     lengths: dict[str, float] = {}
     for link in chain.links:
         joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
-        pairs = [(a, b) for n, a in enumerate(joints) for b in joints[n + 1 :] if names[a][0] == names[b][0] == "R"]
+        pairs = list(combinations([k for k in joints if chain.joints[k].pair.is_turning], 2))
         for a, b in pairs:
             key = link if len(pairs) == 1 else f"{link} {names[a]}-{names[b]}"
             lengths[key] = factor * linkage.linkage.length(link, a, b)

@@ -23,7 +23,7 @@ from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Line, Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import pair
+from gruebler.structure.chain.pairs import Pair, pair
 from gruebler.structure.mechanism import Drive, Mechanism
 
 NO_UNIT_WRITTEN = message("the unit of the numbers, which are mm")
@@ -33,6 +33,7 @@ _MOST_AT_A_PIN = 60
 _SAME = 1e-9  # of the size of the drawing: places that are nearer are one place
 _PARALLEL = 1e-6  # radians
 _LEAST = 3  # links of a chain
+_PIN, _SLIDE = pair("revolute"), pair("prismatic")
 _TRIALS = 72
 
 
@@ -217,7 +218,7 @@ def _with_slides(frame: str, joints: list[DrawnJoint]) -> tuple[list[DrawnJoint]
 
 
 def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
-    joints: list[tuple[str, tuple[str, ...], object]] = []  # kind, links, place
+    joints: list[tuple[Pair, tuple[str, ...], object]] = []  # pair, links, place
     of_joint: dict[str, list[int]] = {}
     points: dict[str, tuple[str, float, float]] = {}
     used = {link for joint in drawing.joints for link in joint.links}
@@ -228,16 +229,16 @@ def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
                 points[_free_name(joint.name, used | points.keys())] = (joint.links[0], joint.x, joint.y)
             continue
         if joint.slot is None:
-            joints.append(("revolute", joint.links, (joint.x, joint.y)))
+            joints.append((_PIN, joint.links, (joint.x, joint.y)))
         else:
             base, *others = joint.links
             line = (joint.x, joint.y, joint.slot)
             if joint.turns:
                 block = _free_name(f"block {joint.name}", used)
                 used.add(block)
-                joints += [("prismatic", (base, block), line), ("revolute", (block, *others), line[:2])]
+                joints += [(_SLIDE, (base, block), line), (_PIN, (block, *others), line[:2])]
             else:
-                joints += [("prismatic", (base, other), line) for other in others]
+                joints += [(_SLIDE, (base, other), line) for other in others]
         of_joint[joint.name] = list(range(first, len(joints)))
     chain = _connected(drawing.frame, joints, points, left_out)
     drives = []
@@ -247,7 +248,7 @@ def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
             left_out.append(message("the drive of joint {joint}, which moves nothing", joint=drive.joint))
         elif joints[driven.joint] in chain:
             drives.append(replace(driven, joint=chain.index(joints[driven.joint])))
-    made_chain = Chain([Joint(pair(kind), links) for kind, links, _ in chain])
+    made_chain = Chain([Joint(kind, links) for kind, links, _ in chain])
     if drawing.drives is None:
         drives = _likely_drives(made_chain, drawing.frame)
     mechanism = Mechanism(made_chain, drawing.frame, drives)
@@ -257,10 +258,10 @@ def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
 
 def _connected(
     frame: str,
-    joints: list[tuple[str, tuple[str, ...], object]],
+    joints: list[tuple[Pair, tuple[str, ...], object]],
     points: dict[str, tuple[str, float, float]],
     left_out: list[Message],
-) -> list[tuple[str, tuple[str, ...], object]]:
+) -> list[tuple[Pair, tuple[str, ...], object]]:
     """The joints of the part that stands on the frame; points of the others are removed."""
     sets = DisjointSets(dict.fromkeys([frame, *(link for _, links, _ in joints for link in links)]))
     for _, links, _ in joints:
@@ -283,16 +284,16 @@ def _connected(
 
 
 def _drive(
-    drive: DrawnDrive, joints: Sequence[tuple[str, tuple[str, ...], object]], numbers: Sequence[int]
+    drive: DrawnDrive, joints: Sequence[tuple[Pair, tuple[str, ...], object]], numbers: Sequence[int]
 ) -> Drive | None:
     """The drive, its joint by its number; None if its links do not move against each other there."""
     for number in numbers:
         kind, links, _ = joints[number]
-        if kind == "prismatic" and drive.fixed == links[0]:
-            return Drive(number, "Tx", (links[0], links[1]))
+        if kind.is_sliding and drive.fixed == links[0]:
+            return Drive(number, kind.motion[0], (links[0], links[1]))
         others = [link for link in (drive.moved, *links) if link in links and link != drive.fixed]
-        if kind == "revolute" and drive.fixed in links and others:  # a link that is fastened there cannot be meant
-            return Drive(number, "Rz", (drive.fixed, others[0]))
+        if kind.is_turning and drive.fixed in links and others:  # a link that is fastened there cannot be meant
+            return Drive(number, kind.motion[0], (drive.fixed, others[0]))
     return None
 
 
@@ -300,9 +301,9 @@ def _likely_drives(chain: Chain, frame: str) -> list[Drive]:
     """Pins on the frame, else slides, as many as the count of freedoms asks for, at least one."""
     candidates = [
         Drive(number, joint.pair.freedoms[chain.space][0], (frame, link))
-        for kind in ("revolute", "prismatic")
+        for kind in (_PIN, _SLIDE)
         for number, joint in enumerate(chain.joints)
-        if joint.pair.name == kind and frame in joint.links
+        if joint.pair == kind and frame in joint.links
         for link in joint.links
         if link != frame and chain.degrees[link] > 1
     ]

@@ -243,7 +243,7 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
             "outer": place(leg.outer),
             "inner": place(leg.inner),
             "pushed": index(leg.pushed),
-            "guide": None if leg.guide is None else [leg.guide[0], *place(leg.guide[1])],
+            "guide": None if leg.guide is None else [leg.guide[0].symbol(), *place(leg.guide[1])],
         }
         for leg in legs
     ]

@@ -21,13 +21,13 @@ from gruebler.base.text import joined
 from gruebler.mechanics.kinematics.plan import Plan, plan
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Space, pair
+from gruebler.structure.chain.pairs import PAIRS, Freedom, Space
 from gruebler.structure.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
 
-_DRAWN = ("revolute", "prismatic", "roll_slide", "double_slide")
+_DRAWN = [p for p in PAIRS if Space.PLANAR in p.freedoms and p.lower_pairs]
 
 
 class KernelLayout(NamedTuple):
@@ -187,8 +187,7 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
     solving_plan = plan(Linkage.from_drawing(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
     split = []
     for number, joint in enumerate(chain.joints):
-        directions = {"roll_slide": (1, 1), "double_slide": (1, 1j)}.get(joint.pair.name, (1,))
-        split += [(number, direction) for direction in directions]
+        split += [(number, 1j if freedom is Freedom.TRAVEL_Y else 1) for freedom in joint.pair.motion]
     return LayoutProgram(
         mechanism,
         slots,
@@ -203,12 +202,12 @@ def check_drawable(chain: Chain) -> None:
     if chain.space is not Space.PLANAR:
         raise LinkageError("dimensions are found for planar mechanisms; this one is {space}", space=chain.space)
     for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
-        if joint.pair.name not in _DRAWN:
+        if joint.pair not in _DRAWN:
             raise LinkageError(
                 "{name}: dimensions of {pair} joints are not found yet; known are {drawn}",
                 name=name,
                 pair=joint.pair.title,
-                drawn=joined(pair(name).title for name in _DRAWN),
+                drawn=joined(pair.title for pair in _DRAWN),
             )
 
 

@@ -17,7 +17,7 @@ from gruebler.mechanics.analysis.drive_cycle import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import measure_transmission
 from gruebler.mechanics.linkages import Linkage
-from gruebler.structure.chain.pairs import Alphabet, in_alphabets, pair
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, in_alphabets
 
 
 @compared_by_value
@@ -67,7 +67,7 @@ _FORMS = {
 }
 
 
-_PAIRS = {"R": pair("revolute"), "P": pair("prismatic")}
+_PAIRS = {p.symbol(): p for p in PAIRS if p.is_basic}
 
 
 def _symbol(letter: str, alphabet: Alphabet) -> str:

@@ -149,10 +149,10 @@ def _blocks(lower: Linkage, named: Sequence[str]) -> dict[str, int]:
     joints = mechanism.chain.joints
     for link in sorted(mechanism.chain.links, key=lambda link: link in named):
         numbers = [number for number, joint in enumerate(joints) if link in joint.links]
-        kinds = {joints[number].pair.name: number for number in numbers}
-        if len(numbers) != 2 or len(kinds) != 2 or link in busy or kinds["prismatic"] in blocks.values():
+        slides = [number for number in numbers if joints[number].pair.is_sliding]
+        if len(numbers) != 2 or len(slides) != 1 or link in busy or slides[0] in blocks.values():
             continue
-        blocks[link] = kinds["prismatic"]
+        blocks[link] = slides[0]
     return blocks
 
 

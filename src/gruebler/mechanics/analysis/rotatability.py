@@ -17,14 +17,10 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.linkages.wheels import round_joints
+from gruebler.structure.chain.pairs import Freedom, Space
 from gruebler.structure.mechanism.roles import Role
 
-_FREEDOMS = {
-    "revolute": ("turn",),
-    "prismatic": ("slide",),
-    "roll_slide": ("turn", "slide"),
-    "double_slide": ("slide", "across"),
-}
+_FREEDOMS = {Freedom.TURN_Z: "turn", Freedom.TRAVEL_X: "slide", Freedom.TRAVEL_Y: "across"}
 """What two links can do against each other in a joint."""
 
 _ROUND = 1e-9  # a relative angle whose range is 2 pi but for this turns fully
@@ -98,8 +94,9 @@ def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
         if number in wheels:
             continue
         for first, second in itertools.combinations(joint.links, 2):
-            for freedom in _FREEDOMS[joint.pair.name]:
-                yield number, (second, first) if second == mechanism.frame else (first, second), freedom
+            for freedom in joint.pair.freedoms[Space.PLANAR]:
+                links = (second, first) if second == mechanism.frame else (first, second)
+                yield number, links, _FREEDOMS[freedom]
 
 
 @lru_cache(maxsize=32)
@@ -139,11 +136,11 @@ def motion_roles(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> di
     roles = dict.fromkeys(mechanism.chain.links, Role.COUPLER)
     roles[mechanism.frame] = Role.FRAME
     for number, links, freedom in _pairs(traced.linkage):
-        kind = mechanism.chain.joints[number].pair.name
-        if mechanism.frame not in links or kind == "roll_slide":
+        pair = mechanism.chain.joints[number].pair
+        if mechanism.frame not in links or pair.rolls_and_slides:
             continue
         link = links[1]
-        if kind != "revolute":
+        if not pair.is_turning:
             roles[link] = Role.SLIDER
         elif roles[link] is not Role.SLIDER:
             roles[link] = Role.CRANK if _row(traced, number, links, freedom).full else Role.ROCKER

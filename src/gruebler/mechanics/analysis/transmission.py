@@ -23,7 +23,7 @@ from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.root_finding import find_zeros
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.structure.assur import SolvedGroup
-from gruebler.structure.chain.pairs import in_alphabets
+from gruebler.structure.chain.pairs import Pair, in_alphabets
 
 _SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
 _LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
@@ -49,8 +49,8 @@ class PushingLink:
     """RR, RP, PR: the joint on the side of the drive, then that on the side of the output."""
     pushed: str
     """The link that it pushes."""
-    guide: tuple[str, Element] | None
-    """How the pushed link hangs on the frame, if by one joint: R or P, and the joint on the frame."""
+    guide: tuple[Pair, Element] | None
+    """How the pushed link hangs on the frame, if by one joint: its pair, and the joint on the frame."""
 
 
 def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
@@ -127,14 +127,14 @@ def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
     )
 
 
-def _guide(plan: Plan, group: SolvedGroup, body: int) -> tuple[str, Element] | None:
+def _guide(plan: Plan, group: SolvedGroup, body: int) -> tuple[Pair, Element] | None:
     frame = plan.lower.mechanism.frame
     held = [(n, m) for n, m in group.joints if m.outer and body in m.links]
     at_frame = [(n, m) for n, m in held if frame in plan.lower.mechanism.chain.joints[n].links]
     if len(held) != 1 or len(at_frame) != 1:
         return None
     number, member = at_frame[0]
-    return member.pair.symbol(), _element(plan, number, (frame,))
+    return member.pair, _element(plan, number, (frame,))
 
 
 def _element(plan: Plan, joint: int, links: tuple[str, ...]) -> Element:
@@ -163,8 +163,8 @@ def _lines(motion: Motion, leg: PushingLink) -> _Lines:
     else:
         (force, force_rate), point = _normal(motion, leg.outer), inner
     if leg.guide is not None:
-        kind, place = leg.guide
-        if kind == "P":
+        pair, place = leg.guide
+        if pair.is_sliding:
             directions = np.full(len(motion), place[2])
             return _Lines(force, force_rate, directions, np.zeros_like(directions))
         return _Lines(force, force_rate, 1j * (point[0] - place[1]), 1j * point[1])

@@ -21,6 +21,7 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.quantities import as_finite
+from gruebler.structure.chain.pairs import Freedom
 
 PerJoint = float | Mapping[str, float]
 """One number for all joints, or numbers by joint, ``"*"`` for all others; without that they have the default."""
@@ -208,10 +209,10 @@ def _contacts(motion: Motion, friction: Friction) -> tuple[RubbingContact, ...]:
     sizes = {
         name: _by_joint(motion, name, getattr(friction, name), default, kind)
         for name, default, kind in (
-            ("coefficient", 0.0, ""),
-            ("pin_radius", 0.0, "Rz"),
-            ("guide_length", math.inf, "Tx"),
-            ("guide_height", 0.0, "Tx"),
+            ("coefficient", 0.0, None),
+            ("pin_radius", 0.0, Freedom.TURN_Z),
+            ("guide_length", math.inf, Freedom.TRAVEL_X),
+            ("guide_height", 0.0, Freedom.TRAVEL_X),
         )
     }
     centres = {mechanism.chain.joint_number(name, LinkageError): link for name, link in friction.guide_on.items()}
@@ -256,8 +257,8 @@ def _moves(first: str, second: str, motion: Motion) -> bool:
     return second == motion.linkage.mechanism.frame
 
 
-def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, kind: str) -> list[float]:
-    """One number for each joint of the linkage; a size only for joints that slide, or turn."""
+def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, rubbing: Freedom | None) -> list[float]:
+    """One number for each joint of the linkage; a size only for joints that rub in this freedom."""
     chain = motion.linkage.mechanism.chain
     named = given if isinstance(given, Mapping) else {"*": given}
     values = [float(named.get("*", default))] * len(chain.joints)
@@ -266,16 +267,16 @@ def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, kind: 
             continue
         number = chain.joint_number(joint, LinkageError)
         pair = chain.joints[number].pair
-        if kind and not (pair.is_turning or pair.rolls_and_slides if kind == "Rz" else not pair.is_turning):
+        if rubbing and (pair.rolls or rubbing not in pair.freedoms[chain.space]):
             raise LinkageError(
-                "{name}: {joint} does not turn on a pin" if kind == "Rz" else "{name}: {joint} does not slide",
+                "{name}: {joint} does not turn on a pin" if rubbing.turns else "{name}: {joint} does not slide",
                 name=name,
                 joint=chain.joint_title(number),
             )
         values[number] = float(value)
     least, most = motion.size / _PROPORTION if name == "guide_length" else 0.0, motion.size * _PROPORTION
     for value in values:
-        if kind and value != default and not least <= value <= most:
+        if rubbing and value != default and not least <= value <= most:
             raise LinkageError(
                 "{name} = {value:g} is out of all proportion to the linkage, whose size is {size:g}",
                 name=name,

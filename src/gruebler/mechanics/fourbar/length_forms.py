@@ -15,7 +15,6 @@ from gruebler.structure.mechanism import Mechanism
 ClosedForm = FourBar | SliderCrank | InvertedSliderCrank
 
 _LOOPS = {"four_bar": "RRRR", "slider_crank": "RRRP", "inverted_slider_crank": "RRPR"}
-_LETTER = {"revolute": "R", "prismatic": "P"}
 
 
 def linkage_on_mechanism(
@@ -52,7 +51,7 @@ def linkage_on_mechanism(
 def _loop(mechanism: Mechanism, form: str) -> tuple[str, ...]:
     """The four links in order, from the frame over the crank."""
     chain, frame = mechanism.chain, mechanism.frame
-    kinds = {frozenset(joint.links): _LETTER.get(joint.pair.name, "?") for joint in chain.joints}
+    kinds = {frozenset(joint.links): joint.pair.symbol() for joint in chain.joints}
     driven = [drive.joint for drive in mechanism.drives]
     firsts = sorted((n not in driven, n) for n, joint in enumerate(chain.joints) if frame in joint.links)
     for _, number in firsts:

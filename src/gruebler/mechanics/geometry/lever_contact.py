@@ -64,9 +64,11 @@ def lever_pose(linkage: Linkage, point: str, drive: float, *, branch: Branch = N
     if not motion.complete:
         raise LinkageError("{reason}", reason=motion.reason)
     mechanism = linkage.mechanism
-    names, links = mechanism.chain.joint_names(), [set(joint.links) for joint in mechanism.chain.joints]
-    turning = [complex(motion.complex_point(name)[0]) for name in names if name.startswith("R")]
-    if [name[0] for name in names] not in (list("RRRR"), list("RRPR")):
+    joints, links = mechanism.chain.joints, [set(joint.links) for joint in mechanism.chain.joints]
+    names = mechanism.chain.joint_names()
+    pins = [name for name, joint in zip(names, joints, strict=True) if joint.pair.is_turning]
+    turning = [complex(motion.complex_point(name)[0]) for name in pins]
+    if "".join(joint.pair.symbol() for joint in joints) not in ("RRRR", "RRPR"):
         raise LinkageError(
             "expected a four-bar or an inverted slider-crank, but found joints {joints}", joints=", ".join(names)
         )

@@ -23,7 +23,7 @@ from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.assur import decompose
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import Pair, Space, pair
+from gruebler.structure.chain.pairs import Freedom, Pair, Space, pair
 from gruebler.structure.mechanism import Drive, Mechanism
 
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `screws.freedoms`
@@ -163,9 +163,10 @@ class ReferenceConditions:
                 gradients.append(self._turn(first, other))
                 continue
             lined = first if isinstance(self.linkage.elements[drive.joint, first], Line) else other
-            if drive.direction == "Ty":
+            across = drive.direction == Freedom.TRAVEL_Y
+            if across:
                 lined = self.chain.joints[drive.joint].links[1]
-            along = self._line(x, drive.joint, lined) * (1j if drive.direction == "Ty" else 1)
+            along = self._line(x, drive.joint, lined) * (1j if across else 1)
             gradients.append(self._way(x, drive.joint, (first, other), along, first)[1])
         return np.array(gradients).reshape(-1, len(x))
 
@@ -266,11 +267,10 @@ def _releases(conditions: ReferenceConditions, x: Reals) -> Iterator[_Release]:
     for number, joint in enumerate(joints):
         if number in driven:
             continue
-        kind = joint.pair.name
         for link in joint.links:
             force = _force(conditions, number, link)
             angle = conditions.place(x, link)[1]
-            if kind == "revolute":
+            if joint.pair.is_turning:
                 yield _Release(2, number, link, force, None)
                 bar = None if link in held else _bar(linkage, number, link)
                 if bar is not None:
@@ -279,7 +279,7 @@ def _releases(conditions: ReferenceConditions, x: Reals) -> Iterator[_Release]:
                 yield _Release(3, number, link, force, slot, -angle, turned=True)
             elif len(joint.links) > 2 or link == joint.links[0]:
                 continue
-            elif kind == "prismatic":
+            elif joint.pair.is_sliding:
                 yield _Release(2, number, link, force, None)
                 yield _Release(3, number, link, force[:1], slides)
                 yield _Release(3, number, link, force[1:], slot)
@@ -397,7 +397,7 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
                 )
             elif _release.pair is not None:
                 kind = _release.pair
-                members[_release.link] = here if kind.name == "double_slide" else Pin(here.x, here.y)
+                members[_release.link] = here if kind.slides_two_ways else Pin(here.x, here.y)
         if len(members) > 1:
             number_of[number] = len(joints)
             for link, element in members.items():

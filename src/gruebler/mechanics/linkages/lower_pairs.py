@@ -90,8 +90,7 @@ def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
         n for n in held if all(isinstance(elements[n, link], Circle) for link in wheels[n])
     }
     eased = {n for n in held if n not in idle and joints[n].pair.rolls}
-    kinds = ("roll_slide", "double_slide")
-    return [n for n, joint in enumerate(joints) if joint.pair.name in kinds and n not in wheels], idle, eased
+    return [n for n, joint in enumerate(joints) if len(joint.pair.lower_pairs) > 1 and n not in wheels], idle, eased
 
 
 def _idle_rollers(linkage: Linkage) -> list[int]:

@@ -13,6 +13,7 @@ from itertools import pairwise
 
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.pictures.canvas.styles import BAR
+from gruebler.structure.chain.pairs import Pair
 
 RADIUS = 6.2
 """Of a turning joint."""
@@ -46,18 +47,18 @@ class JointSign:
 
 
 def joint_sign(
-    kind: str, at: Point, members: Sequence[JointMember], *, letter: str = "", shapes: Sequence[str] = ()
+    pair: Pair, at: Point, members: Sequence[JointMember], *, letter: str = "", shapes: Sequence[str] = ()
 ) -> JointSign:
-    """The sign of a pair by name; a letter where the pair has no sign of its own in the plane.
+    """The sign of a pair; a letter where the pair has no sign of its own in the plane.
 
     ``shapes`` says for each member of a higher pair what it is, by the keys of `CONTACTS`; without them the sign is the
     general one of the pair.
     """
     if len(shapes) == len(members) == 2 and {*shapes} <= {*CONTACTS}:
         return _contact(at, members, shapes)
-    if letter or kind not in _SIGNS:
+    if letter or pair.name not in SIGNS:
         return _lettered(at, members, letter)
-    return _SIGNS[kind](at, members)
+    return SIGNS[pair.name](at, members)
 
 
 def _turning(at: Point, members: Sequence[JointMember]) -> JointSign:
@@ -300,13 +301,14 @@ CONTACTS = {
 }
 """What a body of a higher pair can be."""
 
-_SIGNS = {
+SIGNS = {
     "revolute": _turning,
     "prismatic": _sliding,
     "double_slide": _double_slide,
     "rolling": _rolling,
     "roll_slide": _roll_slide,
 }
+"""The sign of each pair that exists in the plane, by its name."""
 
 
 def bar(points: Sequence[Point], *, is_frame: bool = False, halo: bool = False) -> list[Shape]:

@@ -343,7 +343,7 @@ def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
         marked |= {(member, e.x, e.y) for member, e in seen}
         e = lower.elements[number, link]
         members = [JointMember(Point(1.0, 0.0))] * len(joint.links)
-        parts.append(BodyPart(PINS, link, joint_sign("revolute", posed.local(complex(e.x, e.y)), members).above))
+        parts.append(BodyPart(PINS, link, joint_sign(joint.pair, posed.local(complex(e.x, e.y)), members).above))
     for point in dict.fromkeys(lower.points.values()):
         if (point.link, point.x, point.y) not in marked:
             parts.append(BodyPart(PINS, point.link, (CircleShape(posed.local(complex(point.x, point.y)), 3.2, "dot"),)))

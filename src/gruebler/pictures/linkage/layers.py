@@ -215,8 +215,8 @@ def _push(posed: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, comp
     at = outer if leg.form == "RP" else inner
     force = outer - inner if leg.form == "RR" else across(leg.inner if leg.form == "RP" else leg.outer)
     if leg.guide is not None:
-        kind, place = leg.guide
-        motion = place[2] if kind == "P" else 1j * (at - place[1])
+        pair, place = leg.guide
+        motion = place[2] if pair.is_sliding else 1j * (at - place[1])
     else:
         k = chain.index(leg.pushed)
         arm, w = at - pose.places[0, 0, k], float(pose.rates[0, 0, k])

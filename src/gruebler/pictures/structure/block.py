@@ -14,7 +14,6 @@ from gruebler.structure.mechanism import Mechanism
 _HIGH, _LEAST = 64.0, 96.0  # pixels of a box
 _BETWEEN = 124.0
 _PADDING = 14.0
-_TURNING = {"revolute", "rolling", "roll_slide"}
 
 
 def draw_block(
@@ -85,10 +84,10 @@ def _output_motion(mechanism: Mechanism, outputs: Sequence[str], lang: str) -> t
     """The motion of the outputs by their joints with the frame."""
     motions: dict[str, str] = {}
     for link in outputs:
-        at_frame = {joint.pair.name for joint in mechanism.chain.joints if {link, mechanism.frame} <= {*joint.links}}
-        if at_frame & {"prismatic"}:
+        at_frame = [joint.pair for joint in mechanism.chain.joints if {link, mechanism.frame} <= {*joint.links}]
+        if any(pair.is_sliding for pair in at_frame):
             motions["s_a"] = translate("translation", lang)
-        elif at_frame & _TURNING:
+        elif any(pair.turns_in_plane for pair in at_frame):
             motions["ψ"] = translate("rotation", lang)
         else:
             motions[""] = translate("guided motion", lang)

@@ -32,7 +32,7 @@ from gruebler.pictures.structure.layout import Layout, lay_out
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.orientation import upright
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Alphabet, Pair, Space
+from gruebler.structure.chain.pairs import Alphabet, Freedom, Pair, Space
 from gruebler.structure.isomorphism import canonical_order
 from gruebler.structure.mechanism import Mechanism
 
@@ -218,7 +218,7 @@ def _sign(placed: PlacedChain, number: int, lang: str) -> tuple[JointSign, list[
     flat = placed.chain.space is Space.PLANAR
     letter = "" if flat else letters(joint.pair, lang)
     known = [placed.contacts[number, link] for link in links if (number, link) in placed.contacts]
-    return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter, shapes=known), links
+    return joint_sign(joint.pair, placed.joints[number], members, letter=letter, shapes=known), links
 
 
 def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
@@ -248,7 +248,7 @@ def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
 def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:
     at = placed.joints[number]
     directions = [towards(placed, link, number) for link in placed.chain.joints[number].links]
-    if direction.startswith("T"):
+    if Freedom(direction).travels:
         side = sign.axis.across
         lean = sum(side.dot(d.unit) for d in directions)
         return straight_drive(at, sign.axis, Point(-side.x, -side.y) if lean > 0 else side)

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from gruebler.base.text import Message
-from gruebler.structure.chain.pairs import Alphabet, Pair, Space, in_alphabets, pair
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space, in_alphabets
 
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP is not rigid."""
@@ -31,8 +31,7 @@ class GroupJoint:
 
 # In the order in which they are named; a letter of the German alphabet where the international one has none.
 _PAIRS = {
-    p.symbols.get(Alphabet.INTERNATIONAL, p.symbols[Alphabet.GERMAN]): p
-    for p in map(pair, ("revolute", "prismatic", "rolling", "roll_slide", "double_slide"))
+    p.symbols.get(Alphabet.INTERNATIONAL, p.symbols[Alphabet.GERMAN]): p for p in PAIRS if Space.PLANAR in p.freedoms
 }
 _LETTERS = {p.name: letter for letter, p in _PAIRS.items()}
 _GERMAN = str.maketrans({letter: p.symbol(Alphabet.GERMAN) for letter, p in _PAIRS.items() if len(letter) == 1})

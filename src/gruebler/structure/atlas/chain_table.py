@@ -25,6 +25,8 @@ Int32 = NDArray[np.int32]
 Int64 = NDArray[np.int64]
 
 _PLACE = {pair.name: k for k, pair in enumerate(PAIRS)}
+_TURNS = np.array([pair.is_turning for pair in PAIRS])
+_SLIDES = np.array([pair.is_sliding for pair in PAIRS])
 _INTERPRETED = 2.5e-4  # seconds for each link of a chain, if the kernel is interpreted
 
 
@@ -47,7 +49,7 @@ class ChainArrays:
     def of_edges(cls, links: int, mobility: int, edges: NDArray[np.uint8]) -> ChainArrays:
         """Chains of simple turning joints, uint8[k, joints, 2]."""
         k, joints, _ = edges.shape
-        turning = np.full((k, joints), _PLACE["revolute"], np.int32)
+        turning = np.full((k, joints), int(np.argmax(_TURNS)), np.int32)
         return cls(links, mobility, np.zeros(k, np.int64), np.full(k, joints), edges.astype(np.int32), turning)
 
 
@@ -130,7 +132,7 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
         ("smallest_circuit", memory.GIRTH), ("largest_circuit", memory.CIRCUMFERENCE),
         ("diameter", memory.DIAMETER),
     )}  # fmt: skip
-    turning = ((chains.pairs == _PLACE["revolute"]) | ~_present(chains)).all(axis=1)
+    turning = ((_TURNS[chains.pairs]) | ~_present(chains)).all(axis=1)
     if contracted is None:
         graphs, graph_codes = _contracted(chains, kinds)
         crossings = _crossings(chains)
@@ -144,7 +146,7 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
         "loops": np.full(count, loops),
         "joints": joints,
         "multiple_joints": chains.hubs,
-        "prismatic": ((chains.pairs == _PLACE["prismatic"]) & _present(chains)).sum(axis=1),
+        "prismatic": ((_SLIDES[chains.pairs]) & _present(chains)).sum(axis=1),
         "fractionated": pa.repeat(kinds, count) if isinstance(kinds, str) else pa.array(kinds, pa.string()),
         "assortment": _assortments(degrees),
         "graph6": _texts(graph6, np.full(count, graph6.shape[1]), simple & turning),

@@ -10,14 +10,14 @@ from collections.abc import Iterable, Sequence
 from itertools import count
 
 from gruebler.base.errors import ChainError, TransformationError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, joined_by_or, message
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import Pair, pair
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space
 
 Attachment = str | int
 
-_PAIRS = {"R": "revolute", "P": "prismatic", "W": "rolling"}
-_GERMAN = {"D": "R", "S": "P"}
+_PAIRS = {p.symbol(): p for p in PAIRS if Space.PLANAR in p.freedoms and p.f(Space.PLANAR) == 1}
+_GERMAN = {p.symbol(Alphabet.GERMAN): letter for letter, p in _PAIRS.items()}
 
 
 def check_counting(chain: Chain) -> None:
@@ -34,19 +34,20 @@ def pairs_from_letters(letters: str, number: int, subject: Message) -> tuple[Pai
     symbols = "".join(_GERMAN.get(letter, letter) for letter in letters.strip().upper())
     if len(symbols) != number or not set(symbols) <= set(_PAIRS):
         raise TransformationError(
-            "{letters!r} is not the form of a {thing}: expected {number} letters, each R, P or W (German D, S or W)",
+            "{letters!r} is not the form of a {thing}: expected {number} letters, each {known} (German {german})",
             letters=letters,
             thing=subject,
             number=number,
+            known=joined_by_or([*_PAIRS]),
+            german=joined_by_or([*_GERMAN]),
         )
-    return tuple(pair(_PAIRS[letter]) for letter in symbols)
+    return tuple(_PAIRS[letter] for letter in symbols)
 
 
 def letters_of_pairs(pairs: Iterable[Pair]) -> str | None:
     """The letters of these pairs, or None if one of them has no letter here."""
-    known = {name: letter for letter, name in _PAIRS.items()}
-    letters = [known.get(p.name) for p in pairs]
-    return "".join(letter for letter in letters if letter) if all(letters) else None
+    letters = [p.symbol() for p in pairs]
+    return "".join(letters) if set(letters) <= set(_PAIRS) else None
 
 
 def links_at(chain: Chain, place: Attachment) -> tuple[str, ...]:

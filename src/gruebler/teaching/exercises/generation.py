@@ -15,7 +15,7 @@ from gruebler.files import Exercise
 from gruebler.files.catalog_records import Question
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import in_alphabets
+from gruebler.structure.chain.pairs import in_alphabets, pair
 from gruebler.structure.enumeration import chains
 from gruebler.structure.mobility import counted, mobility_report
 from gruebler.teaching.exercises.solution import figure
@@ -103,12 +103,12 @@ def _mobility(random: Random, level: int) -> _Draft:
     while mobility_report(chain).generic != max(counted(chain), 0):
         chain = _typed(random, level)
     shuffled = _shuffled(random, chain)
-    letters = sorted({joint.pair.name for joint in shuffled.joints}, key=list(_LETTERS).index)
+    kinds = {joint.pair for joint in shuffled.joints}
     task = message(
         "Count links and joints of the planar chain {chain} ({letters}; the numbers name the links) and "
         "find its degree of freedom F.",
         chain=in_alphabets(shuffled.text),
-        letters=joined(_LETTERS[name] for name in letters),
+        letters=joined(text for name, text in _LETTERS.items() if pair(name) in kinds),
     )
     return _Draft("mobility.chain", {"chain": str(shuffled)}, ("n", "g1", "g2", "F"), task)
 

@@ -99,8 +99,9 @@ def _dimension_line(a: Point, b: Point, *, single_arrow: bool = False) -> list[S
 
 def _offset(figure: Figure, posed: PosedLinkage) -> Point:
     """The shift of the figure relative to the posed linkage, from the places of its turning joints."""
-    names = posed.linkage.mechanism.chain.joint_names()
-    pins = [posed.place(posed.linkage.points_named(name)[0]) for name in names if name.startswith("R")]
+    chain = posed.linkage.mechanism.chain
+    named = zip(chain.joint_names(), chain.joints, strict=True)
+    pins = [posed.place(posed.linkage.points_named(name)[0]) for name, joint in named if joint.pair.is_turning]
     rings = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
     return Point(
         min(ring.x for ring in rings) - min(pin.x for pin in pins),

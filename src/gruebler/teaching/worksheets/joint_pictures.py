@@ -6,7 +6,8 @@ Every picture is of a ball, a cylinder or a block on or in another one; docs/glo
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 
 from gruebler.base.convex_hull import convex_hull
 from gruebler.base.text import translate
@@ -33,7 +34,7 @@ def joint_pictures(lang: str = "en") -> tuple[tuple[Pair, Figure], ...]:
 
 
 def _figure(pair: Pair, lang: str) -> Figure:
-    shapes = list(_BODIES[pair.name]())
+    shapes = list(DRAWINGS[pair.name].bodies())
     shapes += _motions(pair)
     name = pair.full_name(lang).replace("_", " ")
     about = translate("{name}, f = {f}", lang, name=name, f=pair.f(Space.SPATIAL))
@@ -195,46 +196,45 @@ def _ball_plane() -> Iterator[Shape]:
     yield from _rod((0, 0, 16), (0, 0, 50))
 
 
-_BODIES: dict[str, Callable[[], Iterator[Shape]]] = {
-    "revolute": _revolute,
-    "prismatic": _prismatic,
-    "helical": _helical,
-    "cylindrical": _cylindrical,
-    "roll_slide": _roll_slide,
-    "double_slide": _double_slide,
-    "universal": _universal,
-    "spherical": _spherical,
-    "planar": _planar,
-    "ball_groove": _ball_groove,
-    "ball_cylinder": _ball_cylinder,
-    "cylinder_plane": _cylinder_plane,
-    "double_cylindrical": _double_cylindrical,
-    "ball_plane": _ball_plane,
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A pair in perspective: its bodies, and the axes of the picture along which the motions of the joint are seen."""
+
+    bodies: Callable[[], Iterator[Shape]]
+    axes: Mapping[str, str] = field(default_factory=dict)
+    """Those that differ from the joint's own: its axis is drawn along x, or across the plane."""
+
+
+DRAWINGS = {
+    "revolute": Drawing(_revolute, {"Rz": "x"}),
+    "prismatic": Drawing(_prismatic, {"Tx": "x"}),
+    "helical": Drawing(_helical, {"Hz": "x"}),
+    "cylindrical": Drawing(_cylindrical, {"Rz": "x", "Tz": "x"}),
+    "roll_slide": Drawing(_roll_slide, {"Rz": "y", "Tx": "x"}),
+    "double_slide": Drawing(_double_slide),
+    "universal": Drawing(_universal, {"Rx": "y", "Ry": "z"}),
+    "spherical": Drawing(_spherical),
+    "planar": Drawing(_planar),
+    "ball_groove": Drawing(_ball_groove),
+    "ball_cylinder": Drawing(_ball_cylinder),
+    "cylinder_plane": Drawing(_cylinder_plane, {"Ry": "z", "Rz": "y", "Tx": "x", "Tz": "y"}),
+    "double_cylindrical": Drawing(_double_cylindrical),
+    "ball_plane": Drawing(_ball_plane, {"Rx": "x", "Ry": "z", "Rz": "y", "Tx": "x", "Tz": "y"}),
 }
-# The axes along which a picture shows the joint: where its own axis is drawn along x, or across the plane.
-_AXES = {
-    "revolute": {"Rz": "x"},
-    "prismatic": {"Tx": "x"},
-    "helical": {"Hz": "x"},
-    "cylindrical": {"Rz": "x", "Tz": "x"},
-    "roll_slide": {"Rz": "y", "Tx": "x"},
-    "universal": {"Rx": "y", "Ry": "z"},
-    "ball_plane": {"Rx": "x", "Ry": "z", "Rz": "y", "Tx": "x", "Tz": "y"},
-    "cylinder_plane": {"Ry": "z", "Rz": "y", "Tx": "x", "Tz": "y"},
-}
+"""The drawing of each pair that exists in space, by its name."""
 
 
 def _motions(pair: Pair) -> Iterator[Shape]:
     """A straight arrow for each sliding, a curved one for each turning, beside the bodies."""
-    names = _AXES.get(pair.name, {})
+    axes = DRAWINGS[pair.name].axes
     for freedom in pair.freedoms[Space.SPATIAL]:
-        axis = names.get(freedom, freedom[1])
+        axis = axes.get(freedom, freedom.axis)
         direction = {"x": _X, "y": _Y, "z": _Z}[axis].unit
         foot = {"x": Point(0, 74), "y": Point(70, 26), "z": Point(-84, 20)}[axis]
-        if freedom[0] in "TH":
+        if freedom.travels or freedom.has_pitch:
             for sign in (1, -1):
                 yield from arrow(foot, foot.plus(direction, sign * 15), "velocity", "velocity-head")
-        if freedom[0] in "RH":
+        if freedom.turns:
             centre = foot.plus(direction, 30)
             side = direction.across
             curve = [
