@@ -4,9 +4,11 @@ The first half walks over all classes of the package; the second makes one value
 class of the front door and of what its functions return.
 """
 
+import abc
 import ast
 import copy
 import dataclasses
+import enum
 import importlib
 import inspect
 import itertools
@@ -17,7 +19,9 @@ import pkgutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 import pytest
@@ -31,8 +35,9 @@ from gruebler.design.synthesis import DeadCentreTask
 from gruebler.machines.cams import Roller, read_lift
 from gruebler.machines.gears import Mesh
 from gruebler.mechanics.analysis import motion_table
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycle import Course, drive_cycle
 from gruebler.mechanics.kinematics import four_bars
+from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.linkages import Circle, Line
 
 SOURCE = Path(gr.__file__).parent
@@ -75,6 +80,58 @@ def kernel(each: type) -> bool:
     return "._numeric" in room or room.endswith(("_kernels", "_memory"))
 
 
+RECORDS = {
+    "gruebler.files.linkage_records.Dimensions": "the sizes that files of linkages and entries of the catalog have",
+    "gruebler.files.tasks._Record": "the unit that every kind of task has",
+    "gruebler.page.requests._Params": "what all parameters refuse",
+}
+"""Records of files that are never made themselves, only those that have their fields, too. Their metaclass is none
+of an ABC."""
+
+
+def abstract(each: type) -> bool:
+    """Whether a class is there to be inherited from: it says that it is abstract, a protocol or an enumeration."""
+    return bool({abc.ABC, Protocol} & {*each.__bases__}) or issubclass(each, BaseException | enum.Enum)
+
+
+def test_every_class_is_abstract_or_final():
+    """Nobody inherits to share code, so that what a method of a class does stands in that class."""
+    inherited = {base for each in CLASSES for base in each.__bases__ if base.__module__.startswith("gruebler")}
+    concrete = {f"{each.__module__}.{each.__qualname__}" for each in inherited if not abstract(each)}
+    assert concrete == set(RECORDS)
+    assert {Immutable, LinkPoses, Course} < inherited
+
+
+def test_no_method_is_written_over():
+    """What an abstract class has written out stays as it is."""
+    wrong = [
+        f"{each.__module__}.{each.__qualname__}.{name}"
+        for each in CLASSES
+        if not issubclass(each, BaseException | enum.Enum)
+        for base in each.__mro__[1:]
+        if base.__module__.startswith("gruebler")
+        for name, own in vars(each).items()
+        if callable(own) or isinstance(own, property | cached_property)
+        if name in vars(base) and not name.startswith("__") and not is_abstract(vars(base)[name])
+    ]
+    assert wrong == []
+
+
+def is_abstract(method: object) -> bool:
+    return getattr(method, "__isabstractmethod__", False)
+
+
+def test_records_that_share_fields_are_never_made():
+    names = {name.rpartition(".")[2] for name in RECORDS}
+    made = [
+        f"{name}:{node.lineno}"
+        for name in modules()
+        for node in ast.walk(ast.parse(inspect.getsource(importlib.import_module(name))))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in names
+    ]
+    assert made == []
+
+
 def members(node: ast.expr) -> Iterator[str]:
     """The names between the bars of a union."""
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
@@ -112,6 +169,11 @@ def test_public_values_of_many_fields_are_no_tuples():
     assert wide == set(TUPLES)
 
 
+def is_value(each: type) -> bool:
+    """Whether it is a frozen dataclass of which there are values."""
+    return dataclasses.is_dataclass(each) and each.__dataclass_params__.frozen and not inspect.isabstract(each)
+
+
 def filled(each: type) -> object:
     """A value of a dataclass with 0, 1, 2, ... in its fields, made without its constructor."""
     value = object.__new__(each)
@@ -121,7 +183,7 @@ def filled(each: type) -> object:
 
 
 def test_values_of_two_classes_are_never_equal():
-    values = [filled(each) for each in CLASSES if dataclasses.is_dataclass(each) and each.__dataclass_params__.frozen]
+    values = [filled(each) for each in CLASSES if is_value(each)]
     assert len(values) > 250
     equal = [
         (type(one).__name__, type(other).__name__)

@@ -9,7 +9,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 from html import escape
 from itertools import islice
-from typing import Any
+from typing import Any, TypeVar
+
+_Class = TypeVar("_Class", bound=type)
 
 svg_of: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
@@ -18,23 +20,25 @@ table_of: Callable[..., Any] | None = None
 """Makes the table of a motion; None until the front door has set it."""
 
 
-class Brief:
-    """A dataclass (with ``repr=False``) of many values that is printed in one line: arrays as their shapes.
+def brief(cls: _Class) -> _Class:
+    """A dataclass (with ``repr=False``) of many values, whose `repr` is one line: arrays as their shapes.
 
     >>> from dataclasses import dataclass
-    >>> @dataclass(repr=False)
-    ... class Path(Brief):
+    >>> @brief
+    ... @dataclass(repr=False)
+    ... class Path:
     ...     name: str
     ...     numbers: list[int]
     >>> Path("a", list(range(1000)))
     <Path name='a', numbers=list of 1000>
     """
 
-    __slots__ = ()
-
-    def __repr__(self) -> str:
-        values = ((field.name, getattr(self, field.name)) for field in fields(self))  # type: ignore[arg-type]
+    def shown(self: Any) -> str:
+        values = ((field.name, getattr(self, field.name)) for field in fields(self) if field.repr)
         return f"<{type(self).__name__} {', '.join(f'{name}={_in_brief(value)}' for name, value in values)}>"
+
+    cls.__repr__ = shown  # type: ignore[assignment,method-assign]
+    return cls
 
 
 _WIDE = 60  # characters of a value in such a line

@@ -23,8 +23,9 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import printed_to_file
 from gruebler.cli.tables import print_table
 from gruebler.cli.trains import trains
+from gruebler.structure.enumeration.counting import ChainCount
 from gruebler.structure.enumeration.estimates import Estimate, estimate
-from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.run_request import run_count, run_list
 from gruebler.structure.enumeration.work_units import PieceListing
 
@@ -213,7 +214,7 @@ def _count(
     return 0
 
 
-def _print_count(count: RequestCount, request: Request, lang: str) -> None:
+def _print_count(count: ChainCount, request: Request, lang: str) -> None:
     if count.by_assortment:
         rows = [(",".join(map(str, numbers)), str(n)) for numbers, n in count.by_assortment.items()]
         print_table([translate("binary, ternary, ...", lang), translate("chains", lang)], rows, numbers=(1,))

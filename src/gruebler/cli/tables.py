@@ -8,9 +8,9 @@ from shutil import get_terminal_size
 from textwrap import fill
 
 from gruebler.base.errors import visible
-from gruebler.base.text import LANGUAGES, Message
+from gruebler.base.text import LANGUAGES, Readable
 
-Cell = str | Message
+Cell = str | Readable
 """A text of a table; messages are translated."""
 
 
@@ -46,7 +46,7 @@ def print_table(
 
 
 def _text(cell: Cell, lang: str) -> str:
-    return visible(cell.in_language(lang) if isinstance(cell, Message) else cell, keep="\n")
+    return visible(cell.in_language(lang) if isinstance(cell, Readable) else cell, keep="\n")
 
 
 def terminal_width() -> int:

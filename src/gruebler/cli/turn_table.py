@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, number
+from gruebler.base.text import Readable, number
 from gruebler.cli.tables import Cell, print_table
 
 
@@ -27,13 +27,13 @@ def turn_degrees(step: float, *, closed: bool = False) -> NDArray[np.float64]:
 
 def print_turn(
     headers: Sequence[Cell],
-    rows: Sequence[Sequence[float | Message]],
+    rows: Sequence[Sequence[float | Readable]],
     formats: Sequence[tuple[str, str]],
     lang: str,
 ) -> None:
     """Print rows of numbers, each column with its format and unit."""
     cells = [
-        [value if isinstance(value, Message) else number(value, lang, form) + unit for value, (form, unit) in row]
+        [value if isinstance(value, Readable) else number(value, lang, form) + unit for value, (form, unit) in row]
         for row in (zip(values, formats, strict=True) for values in rows)
     ]
     print_table(headers, cells, numbers=range(len(headers)), lang=lang)

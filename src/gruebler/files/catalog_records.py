@@ -155,9 +155,11 @@ class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
         return (self.drive,) if isinstance(self.drive, str) else self.drive or ()
 
 
-class ReferenceScrews(ScrewsRecord, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class ReferenceScrews(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The joints of an entry in one position (`gruebler.files.screws`), and where their places come from."""
 
+    unit: str
+    joints: dict[str, Any]
     assumed: bool = False
     source: str = ""
 
@@ -211,7 +213,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
         if self.screws is not None:
             chain = self.chain()
-            return spatial_linkage_from_record(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
+            screws = ScrewsRecord(unit=self.screws.unit, joints=self.screws.joints)
+            return spatial_linkage_from_record(screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
         linkage = None if self.dimensions is None else self.linkage()
         return linkage if linkage is not None and has_only_lower_pairs(linkage) else None
 

@@ -39,14 +39,14 @@ def mjcf_from_linkage(linkage: Linkage, left_out: list[Message]) -> str:
     return _Model(linkage, left_out).text()
 
 
-class _Model(BodyTree):
+class _Model:
     """The model of a linkage."""
 
     def __init__(self, linkage: Linkage, left_out: list[Message]) -> None:
-        super().__init__(linkage, left_out)
+        self.bodies = BodyTree(linkage, left_out)
         self.used: set[int] = set()
         self.driven: dict[int, tuple[str, int]] = {}
-        size = self.lower.size * self.scale
+        size = self.bodies.lower.size * self.bodies.scale
         if size < _SMALLEST:
             raise GrueblerError("a linkage of {size:.2g} m is too small for a model of MuJoCo", size=size)
         lightest = _LEAST_INERTIA * SLENDER**2 / size**5
@@ -61,7 +61,7 @@ class _Model(BodyTree):
 
     def text(self) -> str:
         """The whole model."""
-        size = self.lower.size * self.scale
+        size = self.bodies.lower.size * self.bodies.scale
         head = [
             '<mujoco model="linkage">',
             '  <compiler angle="radian"/>',
@@ -74,15 +74,15 @@ class _Model(BodyTree):
             "  </default>",
             "  <worldbody>",
         ]
-        bodies = [*self._sites(self.frame, 2), *self._bodies()]
+        bodies = [*self._sites(self.bodies.frame, 2), *self._bodies()]
         closing = []
-        for number, base, follower in self.closing:
-            body, partner = (follower, base) if base == self.frame else (base, follower)
-            pin = self.lower.elements[number, body]
-            second = "" if partner == self.frame else f" body2={_body(partner)}"
-            closing.append(f'    <connect body1={_body(body)}{second} anchor="{self.position(pin.x, pin.y)}"/>')
+        for number, base, follower in self.bodies.closing:
+            body, partner = (follower, base) if base == self.bodies.frame else (base, follower)
+            pin = self.bodies.lower.elements[number, body]
+            second = "" if partner == self.bodies.frame else f" body2={_body(partner)}"
+            closing.append(f'    <connect body1={_body(body)}{second} anchor="{self.bodies.position(pin.x, pin.y)}"/>')
         actuators = []
-        for number, drive in enumerate(self.lower.mechanism.drives):
+        for number, drive in enumerate(self.bodies.lower.mechanism.drives):
             gain = self._inertia(drive) * _STIFF**2
             joint, sign = self.driven[number]
             actuators.append(
@@ -95,14 +95,14 @@ class _Model(BodyTree):
 
     def _inertia(self, drive: Drive) -> float:
         """Inertia of the motor of a drive: that of all links together, so that they hardly act back on it."""
-        size = self.lower.size * self.scale
-        mass = self.density * 3 * (size / SLENDER) ** 2 * size * len(self.tree)
+        size = self.bodies.lower.size * self.bodies.scale
+        mass = self.density * 3 * (size / SLENDER) ** 2 * size * len(self.bodies.tree)
         return float(mass * size**2 if drive.turning else mass)
 
     def _bodies(self) -> Iterator[str]:
         """The bodies, each within the one that it hangs on."""
-        poses, indent = self.lower.required_pose, 2
-        for entry in self.descent():
+        poses, indent = self.bodies.lower.required_pose, 2
+        for entry in self.bodies.descent():
             if entry is None:
                 indent -= 1
                 yield "  " * indent + "</body>"
@@ -112,7 +112,7 @@ class _Model(BodyTree):
             here, there = poses[child], poses[above]
             place = there.to_local(here.x, here.y)
             turn = here.angle - there.angle
-            yield f'{pad}<body name={_body(child)} pos="{self.position(*place)}" euler="0 0 {turn!r}">'
+            yield f'{pad}<body name={_body(child)} pos="{self.bodies.position(*place)}" euler="0 0 {turn!r}">'
             yield f"{pad}  {self._joint(number, child, above)}"
             yield from self._shape(child, indent + 1)
             yield from self._sites(child, indent + 1)
@@ -120,33 +120,34 @@ class _Model(BodyTree):
 
     def _joint(self, number: int, child: str, above: str) -> str:
         """The joint of a body on the one above it; the sign of a driven one against its drive is noted."""
-        joint, element = self.lower.mechanism.chain.joints[number], self.lower.elements[number, child]
-        plain = self.names[number] if number not in self.used else f"{self.names[number]} {child}"
+        joint, element = self.bodies.lower.mechanism.chain.joints[number], self.bodies.lower.elements[number, child]
+        plain = self.bodies.names[number] if number not in self.used else f"{self.bodies.names[number]} {child}"
         self.used.add(number)
         name, motor = quoteattr(plain), ""
-        for k, drive in enumerate(self.lower.mechanism.drives):
+        for k, drive in enumerate(self.bodies.lower.mechanism.drives):
             if drive.joint == number and {child, above} == set(drive.between):
-                self.driven[k] = (plain, 1 if child == self.lower.reference(k)[1] else -1)
+                self.driven[k] = (plain, 1 if child == self.bodies.lower.reference(k)[1] else -1)
                 motor = f' armature="{self._inertia(drive)!r}"'
         if joint.pair.is_turning:
-            return f'<joint name={name} type="hinge" axis="0 0 1" pos="{self.position(element.x, element.y)}"{motor}/>'
+            pos = self.bodies.position(element.x, element.y)
+            return f'<joint name={name} type="hinge" axis="0 0 1" pos="{pos}"{motor}/>'
         angle = direction(element)
         return f'<joint name={name} type="slide" axis="{cos(angle)!r} {sin(angle)!r} 0"{motor}/>'
 
     def _shape(self, link: str, depth: int) -> Iterator[str]:
         """A capsule from the first place of a link to each other one, a ball if there is only one."""
         pad = "  " * depth
-        for first, second in self.bars(link):
+        for first, second in self.bodies.bars(link):
             if first == second:
-                yield f'{pad}<geom type="sphere" pos="{self.position(*first)}"/>'
+                yield f'{pad}<geom type="sphere" pos="{self.bodies.position(*first)}"/>'
             else:
-                yield f'{pad}<geom fromto="{self.position(*first)} {self.position(*second)}"/>'
+                yield f'{pad}<geom fromto="{self.bodies.position(*first)} {self.bodies.position(*second)}"/>'
 
     def _sites(self, link: str, depth: int) -> Iterator[str]:
         """The named points of a link."""
-        for name, point in self.lower.points.items():
+        for name, point in self.bodies.lower.points.items():
             if point.link == link:
-                yield f'{"  " * depth}<site name={quoteattr(name)} pos="{self.position(point.x, point.y)}"/>'
+                yield f'{"  " * depth}<site name={quoteattr(name)} pos="{self.bodies.position(point.x, point.y)}"/>'
 
 
 def _body(link: str) -> str:

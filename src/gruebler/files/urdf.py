@@ -30,37 +30,40 @@ def urdf_from_linkage(linkage: Linkage, left_out: list[Message]) -> str:
     return _Robot(linkage, left_out).text(left_out)
 
 
-class _Robot(BodyTree):
+class _Robot:
     """The robot of a linkage."""
+
+    def __init__(self, linkage: Linkage, left_out: list[Message]) -> None:
+        self.bodies = BodyTree(linkage, left_out)
 
     def text(self, left_out: list[Message]) -> str:
         """The whole file."""
-        cut = ", ".join(dict.fromkeys(self.names[number] for number, _, _ in self.closing))
+        cut = ", ".join(dict.fromkeys(self.bodies.names[number] for number, _, _ in self.bodies.closing))
         if cut:
             left_out.append(
                 message("the loops: the model is cut at {joints} and moves there as the linkage does not", joints=cut)
             )
         left_out.append(message("drives"))
-        lines = ['<?xml version="1.0"?>', '<robot name="linkage">', *self._link(self.frame, 0.0, 0.0)]
-        origins = {self.frame: (0.0, 0.0)}
+        lines = ['<?xml version="1.0"?>', '<robot name="linkage">', *self._link(self.bodies.frame, 0.0, 0.0)]
+        origins = {self.bodies.frame: (0.0, 0.0)}
         used: set[int] = set()
-        for entry in self.descent():
+        for entry in self.bodies.descent():
             if entry is None:
                 continue
             child, above, number = entry
-            element = self.lower.elements[number, child]
+            element = self.bodies.lower.elements[number, child]
             origins[child] = (element.x, element.y)
             lines += self._joint(child, above, number, origins, again=number in used)
             lines += self._link(child, element.x, element.y)
             used.add(number)
-        for name, point in self.lower.points.items():
+        for name, point in self.bodies.lower.points.items():
             x, y = origins[point.link]
             lines += [
                 f"  <link name={quoteattr(name)}/>",
                 f'  <joint name={quoteattr(f"point {name}")} type="fixed">',
                 f"    <parent link={quoteattr(point.link)}/>",
                 f"    <child link={quoteattr(name)}/>",
-                f'    <origin xyz="{self.position(point.x - x, point.y - y)}"/>',
+                f'    <origin xyz="{self.bodies.position(point.x - x, point.y - y)}"/>',
                 "  </joint>",
             ]
         return "\n".join([*lines, "</robot>"]) + "\n"
@@ -69,31 +72,33 @@ class _Robot(BodyTree):
         self, child: str, above: str, number: int, origins: dict[str, tuple[float, float]], *, again: bool
     ) -> Iterator[str]:
         """The joint of a link; of a joint of several links the second and later ones have the link's name behind."""
-        joint, element = self.lower.mechanism.chain.joints[number], self.lower.elements[number, child]
-        poses = self.lower.required_pose
+        joint, element = self.bodies.lower.mechanism.chain.joints[number], self.bodies.lower.elements[number, child]
+        poses = self.bodies.lower.required_pose
         x, y = poses[above].to_local(*poses[child].put(element.x, element.y))
         turn = poses[child].angle - poses[above].angle
         turning = joint.pair.is_turning
-        name = f"{self.names[number]} {child}" if again else self.names[number]
+        name = f"{self.bodies.names[number]} {child}" if again else self.bodies.names[number]
         angle = 0.0 if turning else direction(element)
         axis = "0 0 1" if turning else f"{cos(angle)!r} {sin(angle)!r} 0"
         yield f'  <joint name={quoteattr(name)} type="{"continuous" if turning else "prismatic"}">'
         yield f"    <parent link={quoteattr(above)}/>"
         yield f"    <child link={quoteattr(child)}/>"
-        yield f'    <origin xyz="{self.position(x - origins[above][0], y - origins[above][1])}" rpy="0 0 {turn!r}"/>'
+        origin = self.bodies.position(x - origins[above][0], y - origins[above][1])
+        yield f'    <origin xyz="{origin}" rpy="0 0 {turn!r}"/>'
         yield f'    <axis xyz="{axis}"/>'
-        reach = 2 * self.lower.size * self.scale
+        reach = 2 * self.bodies.lower.size * self.bodies.scale
         limits = "" if turning else f'lower="{-reach!r}" upper="{reach!r}" '
         yield f'    <limit {limits}effort="1000" velocity="100"/>'
         yield "  </joint>"
 
     def _link(self, link: str, x: float, y: float) -> Iterator[str]:
         """A link of bars about its frame, which lies at a place of it."""
-        radius = self.lower.size / SLENDER * self.scale
+        scale = self.bodies.scale
+        radius = self.bodies.lower.size / SLENDER * scale
         yield f"  <link name={quoteattr(link)}>"
         bars = [
-            ((a - x) * self.scale, (b - y) * self.scale, (c - x) * self.scale, (d - y) * self.scale)
-            for (a, b), (c, d) in self.bars(link)
+            ((a - x) * scale, (b - y) * scale, (c - x) * scale, (d - y) * scale)
+            for (a, b), (c, d) in self.bodies.bars(link)
         ]
         masses = [DENSITY * pi * radius**2 * (hypot(c - a, d - b) + radius) for a, b, c, d in bars]
         mass = sum(masses)

@@ -15,7 +15,7 @@ import pytest
 
 from gruebler.base.atomic_files import PARTIAL, atomic_file
 from gruebler.base.errors import RunError
-from gruebler.structure.enumeration.checkpoint import Checkpoint
+from gruebler.structure.enumeration.checkpoint import checkpoint_files
 from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.run_request import run_count, run_list
 from gruebler.structure.enumeration.work_units import PieceCounter, add_tallies, work_units
@@ -106,7 +106,7 @@ class DiesWriting:
 
 @kills
 def test_what_a_lost_worker_was_writing_goes_with_the_run(processes, tmp_path):
-    store = Checkpoint(tmp_path / "kept", {}, "1")
+    store = checkpoint_files(tmp_path / "kept", {}, "1")
     assert list(run_work(DiesWriting(store), range(5), processes)) == [0, 1, 4, 9, 16]
     assert [path for path in store.directory.iterdir() if path.name.endswith(PARTIAL)]
     store.tidy()
@@ -236,9 +236,9 @@ def test_a_directory_of_another_task_is_refused(tmp_path):
         with pytest.raises(RunError, match="another task") as caught:
             other(checkpoint=tmp_path / "a")
         assert "\n" not in str(caught.value)
-    Checkpoint(tmp_path / "b", {"n": 1}, "0")
+    checkpoint_files(tmp_path / "b", {"n": 1}, "0")
     with pytest.raises(RunError, match="version 0 of gruebler, this is version 1"):
-        Checkpoint(tmp_path / "b", {"n": 1}, "1")
+        checkpoint_files(tmp_path / "b", {"n": 1}, "1")
     (tmp_path / "c").mkdir()
     (tmp_path / "c" / "letter.txt").write_text("dear")
     with pytest.raises(RunError, match="holds other files"):
@@ -291,7 +291,7 @@ def test_a_sealed_piece_without_its_key_is_done_again(tmp_path):
     expected = run_count(request, checkpoint=tmp_path)
     from gruebler import __version__
 
-    store = Checkpoint(tmp_path, request.to_json() | {"count": True, "orbits": False}, __version__)
+    store = checkpoint_files(tmp_path, request.to_json() | {"count": True, "orbits": False}, __version__)
     for head in ({}, {"tallies": 3}, {"tallies": [3]}, {"tallies": [["none"]]}):
         store.save(0, head)
         assert store.head(0) == head

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined, message, translate
 from gruebler.design.realisation.layout_trial import range_path
 from gruebler.mechanics.analysis.drive_cycle import CycleSpan, drive_cycle
@@ -31,8 +31,9 @@ _SLIDING = {
 }
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class Realisation(Brief):
+class Realisation:
     """Dimensions of a mechanism and the ranges of its drives, or the reason why there are none."""
 
     mechanism: Mechanism

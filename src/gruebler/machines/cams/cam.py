@@ -14,7 +14,7 @@ from gruebler.base import notebook
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.events import Extremum
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import message
 from gruebler.machines.cams.extremes import extremes
 from gruebler.machines.cams.follower import Flat, Follower, Roller
@@ -58,8 +58,9 @@ class CamReport:
 
 
 @door_that_raises(CamError)
+@brief
 @dataclass(frozen=True, slots=True, repr=False)
-class Cam(Brief):
+class Cam:
     """A disc cam for a lift of a follower; the lift is a length, or radians for a swinging follower.
 
     >>> from gruebler.machines.cams import read_lift

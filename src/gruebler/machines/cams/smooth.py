@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import message
 from gruebler.machines.cams.contour import ContactSamples, arm_coordinate, face_coordinate
 from gruebler.machines.cams.follower import Flat, Follower, Roller
@@ -22,8 +22,9 @@ _CHUNK = 1 << 20
 _MOST = 1e70  # of lengths, as for followers: their powers stay finite
 
 
+@brief
 @dataclass(frozen=True, slots=True, repr=False)
-class SmoothContour(Brief):
+class SmoothContour:
     """A closed smooth curve, counter-clockwise about the cam's axis; it may be hollow.
 
     Contacts are bracketed on ``resolution`` places of the curve and bisected to machine precision; a wave of the

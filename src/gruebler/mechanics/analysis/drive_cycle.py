@@ -5,6 +5,7 @@ docs/theory/events.md.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,7 +18,7 @@ from numpy.typing import ArrayLike
 from gruebler._numeric.motion.closure import MESH, POLAR
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.kinematics.change_point_rows import set_change_point_rows
 from gruebler.mechanics.kinematics.contacts import Condition
 from gruebler.mechanics.kinematics.drive_rows import drive_path
@@ -122,10 +123,9 @@ def by_place(events: Iterable[_AnyEvent], span: CycleSpan, drive_size: float) ->
     return [sorted(together, key=lambda event: event.links) for together in places]
 
 
-@compared_by_value
 @dataclass(frozen=True, eq=False, repr=False)
-class DriveCycle(Brief):
-    """A linkage on one branch over the whole range of its drive."""
+class Course(ABC):
+    """A linkage on one branch along one number: the value of its drive, or the part of a path of several drives."""
 
     plan: Plan
     start: Motion
@@ -155,9 +155,21 @@ class DriveCycle(Brief):
         return 1.0 if self.turning_drive else self.size
 
     @property
+    @abstractmethod
     def turning_drive(self) -> bool:
-        """Whether the drive turns; else it slides."""
-        return _turns(self.plan)
+        """Whether the number is the angle of a drive."""
+
+    @property
+    @abstractmethod
+    def joints(self) -> tuple[float, ...]:
+        """Drive values at which the law of a cam or a Geneva drive passes to its next piece, and may not be smooth."""
+
+    @abstractmethod
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
+
+        Raises `LinkageError` if one of them cannot be reached.
+        """
 
     def by_place(self, events: Iterable[_AnyEvent]) -> list[list[_AnyEvent]]:
         """`by_place` of the span."""
@@ -167,24 +179,6 @@ class DriveCycle(Brief):
         """The grid, with the joints of the laws of its cams, for zeros of a derivative of that order by the drive."""
         noise = _LAW_NOISE[order:] if self.joints else ()
         return FunctionSamples(self.grid, self.joints, self.span.period if self.span.full else None, noise)
-
-    @cached_property
-    def joints(self) -> tuple[float, ...]:
-        """Drive values at which the law of a cam or a Geneva drive passes to its next piece, and may not be smooth."""
-        return _law_joints(self)
-
-    def at(self, drives: Reals, order: int = 3) -> Motion:
-        """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
-
-        Raises `LinkageError` if one of them cannot be reached.
-        """
-        order_of = np.argsort(drives, kind="stable")
-        first = self.start.drives[0]
-        path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
-        motion, rows = _run(self.plan, path, order, self.start)
-        if not motion.complete:
-            raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
-        return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
     def end(self, function: Callable[[Motion], Reals | Complexes], upper: bool, size: float = 1.0) -> complex:
         """The value of a function of that size at an end of the range, where poses themselves are ill-conditioned.
@@ -223,6 +217,36 @@ class DriveCycle(Brief):
                 return values[-2]
             if len(changes) and changes[-1] <= _END_CLOSE * size:
                 return values[-1]
+
+
+@compared_by_value
+@brief
+@dataclass(frozen=True, eq=False, repr=False)
+class DriveCycle(Course):
+    """A linkage on one branch over the whole range of its drive."""
+
+    @property
+    def turning_drive(self) -> bool:
+        """Whether the drive turns; else it slides."""
+        return _turns(self.plan)
+
+    @cached_property
+    def joints(self) -> tuple[float, ...]:
+        """Drive values at which the law of a cam or a Geneva drive passes to its next piece, and may not be smooth."""
+        return _law_joints(self)
+
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
+
+        Raises `LinkageError` if one of them cannot be reached.
+        """
+        order_of = np.argsort(drives, kind="stable")
+        first = self.start.drives[0]
+        path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
+        motion, rows = _run(self.plan, path, order, self.start)
+        if not motion.complete:
+            raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
+        return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
 
 def _from_end(most: float, half: float) -> Reals:
@@ -281,8 +305,9 @@ def drive_cycle(linkage: Linkage, *, branch: Branch = None) -> DriveCycle:
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class PathCycle(DriveCycle):
+class PathCycle(Course):
     """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
 
     ends: Reals
@@ -427,7 +452,7 @@ def _same(plan: Plan, motion: Motion, row: int) -> bool:
     return bool(max(places, np.abs(motion.turns[row] - motion.turns[0]).max()) < _BACK)
 
 
-def _grid(cycle: DriveCycle) -> Reals:
+def _grid(cycle: Course) -> Reals:
     """Places in the span between which the rates are near to their cubics."""
     span = cycle.span
     if span.full:

@@ -14,7 +14,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.events import ChangePoint, DeadCentre
-from gruebler.mechanics.analysis.drive_cycle import DriveCycle
+from gruebler.mechanics.analysis.drive_cycle import Course
 from gruebler.mechanics.analysis.outputs import Output
 from gruebler.mechanics.kinematics.circuits import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
@@ -73,17 +73,17 @@ class Crossing:
     """``maximum``, ``minimum`` or ``flat`` of that function; for order 0 ``rising``, ``falling`` or ``touching``."""
 
 
-def transfer_function(cycle: DriveCycle, output: Output, drives: Reals, order: int = 0) -> Reals:
+def transfer_function(cycle: Course, output: Output, drives: Reals, order: int = 0) -> Reals:
     """The transfer function of order 0 to 3 at drive values: psi, psi', psi'', psi''' in radians or lengths; (n,)."""
     return output.values(cycle.at(np.asarray(drives, np.float64), max(order, 1)), order)
 
 
-def natural_speed(cycle: DriveCycle, output: Output) -> float:
+def natural_speed(cycle: Course, output: Output) -> float:
     """The usual size of output over drive: 1 for angle by angle, the linkage's size for a way by an angle, ..."""
     return (1.0 if output.turning else cycle.size) / cycle.drive_size
 
 
-def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, ...]:
+def crossings(cycle: Course, output: Output, order: int) -> tuple[Crossing, ...]:
     """The zeros of a transfer function: of order 0; 1, the output's extremes; 2, those of its velocity; 3, of psi''.
 
     Of an angle the zeros of order 0 are the multiples of a full turn. None for an output that stands still.
@@ -115,18 +115,18 @@ def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, 
     )
 
 
-def _before(cycle: DriveCycle, output: Output, zeros: tuple[Zero, ...], order: int) -> Reals:
+def _before(cycle: Course, output: Output, zeros: tuple[Zero, ...], order: int) -> Reals:
     if not zeros:
         return np.empty(0)
     return transfer_function(cycle, output, np.array([zero.at for zero in zeros]), order - 1 if order else 1)
 
 
-def _inside(cycle: DriveCycle, zeros: tuple[Zero, ...]) -> tuple[Zero, ...]:
+def _inside(cycle: Course, zeros: tuple[Zero, ...]) -> tuple[Zero, ...]:
     """The zeros in the order in which they are reported."""
     return tuple(sorted(zeros, key=lambda zero: cycle.span.wrapped(zero.at)))
 
 
-def dead_centres(cycle: DriveCycle, output: Output) -> tuple[DeadCentre, ...]:
+def dead_centres(cycle: Course, output: Output) -> tuple[DeadCentre, ...]:
     """All positions in which the output stops without resting, with the extreme ones told apart as inner and outer.
 
     A dead centre is a zero of psi' that is not in a dwell. The outer one is that in which the point that drives the
@@ -138,7 +138,7 @@ def dead_centres(cycle: DriveCycle, output: Output) -> tuple[DeadCentre, ...]:
     return stops(cycle, output)[0]
 
 
-def dwells(cycle: DriveCycle, output: Output) -> tuple[Dwell, ...]:
+def dwells(cycle: Course, output: Output) -> tuple[Dwell, ...]:
     """The stretches on which the output rests; none of an output that never moves.
 
     An output can only begin or end to rest where a cam or Geneva drive passes to the next piece of its law: between
@@ -147,7 +147,7 @@ def dwells(cycle: DriveCycle, output: Output) -> tuple[Dwell, ...]:
     return stops(cycle, output)[1]
 
 
-def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[Dwell, ...]]:
+def stops(cycle: Course, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[Dwell, ...]]:
     """`dead_centres` and `dwells`."""
 
     def jet(drives: Reals) -> Reals:
@@ -175,7 +175,7 @@ def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[DeadCentre, ...], tu
     )
 
 
-def _dwell(cycle: DriveCycle, output: Output, begin: float, end: float) -> Dwell:
+def _dwell(cycle: Course, output: Output, begin: float, end: float) -> Dwell:
     """The rest of the output between two joints of laws."""
     span, joints = cycle.span, np.array(cycle.joints)
     if span.full:
@@ -194,7 +194,7 @@ def _dwell(cycle: DriveCycle, output: Output, begin: float, end: float) -> Dwell
     return Dwell(begin, end, value, kind, "")
 
 
-def _way(cycle: DriveCycle, output: Output, edge: float, joint: float) -> int:
+def _way(cycle: Course, output: Output, edge: float, joint: float) -> int:
     """In which direction the output moves beside a dwell, on the way to the next joint: 1, -1; 0 if there is none."""
     if not np.isfinite(joint):
         return 0
@@ -202,7 +202,7 @@ def _way(cycle: DriveCycle, output: Output, edge: float, joint: float) -> int:
     return int(np.sign(rates[np.argmax(np.abs(rates) > _EVEN * np.abs(rates).max())]))
 
 
-def _sides(cycle: DriveCycle, output: Output, stops: Sequence[DeadCentre | Dwell]) -> list[str]:
+def _sides(cycle: Course, output: Output, stops: Sequence[DeadCentre | Dwell]) -> list[str]:
     """Which of the stops is the inner and which the outer one; of several that are as far out the first."""
     sides = [""] * len(stops)
     turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
@@ -226,11 +226,11 @@ def _sides(cycle: DriveCycle, output: Output, stops: Sequence[DeadCentre | Dwell
     return sides
 
 
-def _goes_round(cycle: DriveCycle, output: Output) -> bool:
+def _goes_round(cycle: Course, output: Output) -> bool:
     return bool(cycle.span.full and output.turning and output_turns(cycle, output))
 
 
-def output_turns(cycle: DriveCycle, output: Output) -> int:
+def output_turns(cycle: Course, output: Output) -> int:
     """How many full turns an angle makes while everything repeats."""
     if not (cycle.span.full and output.turning):
         return 0
@@ -238,7 +238,7 @@ def output_turns(cycle: DriveCycle, output: Output) -> int:
     return round(float(track[1] - track[0]) / (2 * pi))
 
 
-def drive_pivot(cycle: DriveCycle) -> complex | None:
+def drive_pivot(cycle: Course) -> complex | None:
     """Where a turning drive has its axis in the frame; None for any other drive."""
     lower = cycle.lower_linkage
     first, _ = lower.reference(0)
@@ -248,7 +248,7 @@ def drive_pivot(cycle: DriveCycle) -> complex | None:
     return complex(e.x, e.y)
 
 
-def _distances(cycle: DriveCycle, output: Output, drives: Reals) -> Reals | None:
+def _distances(cycle: Course, output: Output, drives: Reals) -> Reals | None:
     """How far the point that drives the output lies from the pivot of the drive."""
     pivot, place = drive_pivot(cycle), _driving_point(cycle, output)
     if pivot is None or place is None:
@@ -259,7 +259,7 @@ def _distances(cycle: DriveCycle, output: Output, drives: Reals) -> Reals | None
     return np.asarray(np.abs(point - pivot))
 
 
-def _driving_point(cycle: DriveCycle, output: Output) -> tuple[str, complex] | None:
+def _driving_point(cycle: Course, output: Output) -> tuple[str, complex] | None:
     """The one pin by which the rest of its group takes hold of the output link."""
     plan = cycle.plan
     for group in plan.decomposition.groups:
@@ -277,7 +277,7 @@ def _driving_point(cycle: DriveCycle, output: Output) -> tuple[str, complex] | N
     return None
 
 
-def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
+def change_points(cycle: Course) -> tuple[ChangePoint, ...]:
     """Where the motion goes through a position in which two assembly modes of a group meet.
 
     The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
@@ -289,7 +289,7 @@ def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     return _meetings(cycle, [*larger, *dyad_change_points(cycle)])
 
 
-def _meetings(cycle: DriveCycle, change_points: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
+def _meetings(cycle: Course, change_points: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
     return tuple(
         replace(change_point, several=change_point.several or len(together) > 1)
@@ -298,7 +298,7 @@ def _meetings(cycle: DriveCycle, change_points: Iterable[ChangePoint]) -> tuple[
     )
 
 
-def dyad_change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
+def dyad_change_points(cycle: Course) -> tuple[ChangePoint, ...]:
     """Those of dyads alone."""
     meetings = []
     roots = cycle.at(cycle.grid, 0).roots
@@ -311,7 +311,7 @@ def dyad_change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     return _meetings(cycle, meetings)
 
 
-def _of_larger_groups(cycle: DriveCycle) -> Iterator[ChangePoint]:
+def _of_larger_groups(cycle: Course) -> Iterator[ChangePoint]:
     whole = circuit(cycle.linkage, branch=cycle.start.branch, at=float(cycle.start.drives[0, 0]))
     angles = {link: whole.poses_at_change_points.angle(link) for link in whole.system.bodies}
     for row, change in enumerate(whole.change_points):
@@ -326,7 +326,7 @@ def _of_larger_groups(cycle: DriveCycle) -> Iterator[ChangePoint]:
                         yield ChangePoint(cycle.span.wrapped(drive), group.links, group.form(), change.several)
 
 
-def _singular(cycle: DriveCycle, circuit: Circuit, row: int) -> Iterator[SolvedGroup]:
+def _singular(cycle: Course, circuit: Circuit, row: int) -> Iterator[SolvedGroup]:
     """The larger groups that can move in a change point of the circuit while everything before them stands."""
     plan, bodies, size = cycle.plan, list(circuit.system.bodies), cycle.size
     poses = circuit.poses_at_change_points
@@ -349,7 +349,7 @@ def _singular(cycle: DriveCycle, circuit: Circuit, row: int) -> Iterator[SolvedG
         known = max(known, rank)
 
 
-def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> ChangePoint:
+def _change_point(cycle: Course, dyad: Dyad, cell: Reals) -> ChangePoint:
     span = cycle.span
     step = _STEP * cycle.drive_size
 

@@ -33,7 +33,7 @@ import numpy as np
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import ChangePoint, DeadCentre, Transmission, TransmissionExtremes
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.plain_data import Units, plain
 from gruebler.base.text import Message, message
 from gruebler.mechanics.analysis.drive_cycle import CycleSpan, DriveCycle, by_place, drive_cycle
@@ -116,8 +116,9 @@ class Transfer:
     """Extremes of psi'': zeros of psi'''."""
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class Measures(Brief):
+class Measures:
     """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
 
     linkage: Linkage

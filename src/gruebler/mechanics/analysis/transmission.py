@@ -16,7 +16,7 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import Transmission, TransmissionExtremes
 from gruebler.base.jets import turn_derivative
-from gruebler.mechanics.analysis.drive_cycle import DriveCycle
+from gruebler.mechanics.analysis.drive_cycle import Course
 from gruebler.mechanics.analysis.outputs import Output, find_output
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
@@ -230,7 +230,7 @@ def deviation_angle(motion: Motion, output: str | None = None) -> Reals:
     return pi / 2 - transmission_angle(motion, output)
 
 
-def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtremes:
+def measure_transmission(cycle: Course, output: Output) -> TransmissionExtremes:
     """The extremes of the transmission angle over the whole range of the drive.
 
     They are zeros of three functions: of the turning of the force against the way, of their sine (mu = 90 degrees)
@@ -260,7 +260,7 @@ def _first(extremes: list[Transmission], mu: float) -> Transmission:
     return next(extreme for extreme in extremes if abs(extreme.mu - mu) <= _CONSTANT)
 
 
-def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
+def _stationary(cycle: Course, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
     """Where the folded angle has a local extreme, and its values at the ends of a range."""
 
     def product(motion: Motion) -> Complexes:

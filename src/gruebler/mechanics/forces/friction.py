@@ -12,7 +12,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError, expect
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.forces.coulomb import Branches, Contacts, continued
 from gruebler.mechanics.forces.equilibrium import Reactions, joint_connections, joint_of_connection, reactions
 from gruebler.mechanics.forces.loads import Rows, Wrench
@@ -105,8 +105,9 @@ class RubbingContact:
         return self.coefficient * (1.0 if self.slides else self.radius)
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class FrictionForces(Brief):
+class FrictionForces:
     """What rubs, row by row, and where friction locks; the first axis is always that of the rows."""
 
     contacts: tuple[RubbingContact, ...]

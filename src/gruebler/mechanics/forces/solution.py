@@ -10,7 +10,7 @@ import numpy as np
 from gruebler.base.arrays import Flags, Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.forces.equilibrium import (
     JointConnection,
@@ -55,8 +55,9 @@ _NONE = 1e-13  # of the loads: a smaller effort is none
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Statics(Brief):
+class Statics:
     """Drive efforts and joint forces of a linkage under loads, at each row of a motion.
 
     Torques are in force times the linkage's unit. Without inertia.

@@ -3,7 +3,7 @@
 Types (`grashof`), dead centres, transmission angles, motion: docs/theory/four-bar.md.
 """
 
-from gruebler.mechanics.fourbar.crank_motion import CrankMotion, CrankRates, InvertedMotion
+from gruebler.mechanics.fourbar.crank_motion import CrankMotion, CrankRates
 from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres, StrokeTimes
 from gruebler.mechanics.fourbar.four_bar import FourBar
 from gruebler.mechanics.fourbar.grashof import (
@@ -30,7 +30,6 @@ __all__ = [
     "DeadCentres",
     "FourBar",
     "Grashof",
-    "InvertedMotion",
     "InvertedSliderCrank",
     "LengthRange",
     "LinkageType",

@@ -27,7 +27,7 @@ class CrankRates(NamedTuple):
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class CrankMotion:
     """The poses of a linkage over crank angles, in closed form.
 
@@ -52,6 +52,8 @@ class CrankMotion:
     """1 on the branch ``+``, -1 on ``-``."""
     reason: Message | None
     """Why some pose is not assembled or some rate not determined; None if all are."""
+    displacement: CrankRates | None = None
+    """Of an inverted slider-crank the way r of the block along the guide, from A to B: the foot of B0 on the guide."""
 
     @property
     def message(self) -> str:
@@ -89,15 +91,6 @@ class CrankMotion:
         arm = complex(as_finite("u", u), as_finite("v", v))
         rates = [arm * rotation_derivative(self.coupler[: k + 1], k) for k in range(4)]
         return CrankRates(*(at + points(rate) for at, rate in zip(self.A, rates, strict=True)))
-
-
-@compared_by_value
-@dataclass(frozen=True, slots=True, eq=False)
-class InvertedMotion(CrankMotion):
-    """The poses of an inverted slider-crank: B is the foot of B0 on the guide through A."""
-
-    displacement: CrankRates
-    """The way r of the block along the guide, from A to B."""
 
 
 def points(z: Any) -> Reals:

@@ -17,8 +17,8 @@ from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
+    CrankMotion,
     CrankRates,
-    InvertedMotion,
     crank_rates,
     determined_rates,
     points,
@@ -151,7 +151,7 @@ class InvertedSliderCrank:
         alpha: npt.ArrayLike = 0.0,
         jerk: npt.ArrayLike = 0.0,
         branch: Branch = None,
-    ) -> InvertedMotion:
+    ) -> CrankMotion:
         """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
 
         ``coupler`` is the guide's direction theta, ``output`` psi = theta + pi (for e = 0 the direction from B0 to A),
@@ -182,7 +182,7 @@ class InvertedSliderCrank:
             joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
         b0 = np.array([d, 0.0])
         singular = np.isnan(guide.velocity) & ~np.isnan(guide.value)
-        return InvertedMotion(
+        return CrankMotion(
             crank=crank,
             coupler=guide,
             output=output,

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.geometry.contact import TangentContact, tangent_contact
 from gruebler.mechanics.geometry.double_points import DoublePoint, double_points
 from gruebler.mechanics.geometry.path_events import (
@@ -37,8 +37,9 @@ _TOLERANCE = 1e-4  # of the reach of linkage and path
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class CouplerCurve(Brief):
+class CouplerCurve:
     """The path of a point on one branch of a linkage. Everything is found when it is asked for.
 
     Drive values are in radians (or the unit), those of a drive that turns fully from 0 to the period.

@@ -10,14 +10,15 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, compared_by_value
 from gruebler.base.errors import LinkageError, nearest
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.geometry.relative import relative_motion, resting_and_translating
 from gruebler.mechanics.kinematics import Motion
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Poles(Brief):
+class Poles:
     """The instant centres of all pairs of links, in coordinates of the frame as x + iy.
 
     A pair has a pole (``at``), or one at infinity (``direction``: the links translate against one another, at right
@@ -62,8 +63,9 @@ class Poles(Brief):
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Centrodes(Brief):
+class Centrodes:
     """The curves that the pole of two links draws on each of them; they roll on one another without slip."""
 
     fixed: Complexes

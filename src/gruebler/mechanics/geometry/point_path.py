@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
-from gruebler.mechanics.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
+from gruebler.base.notebook import brief
+from gruebler.mechanics.analysis.drive_cycle import Course, drive_cycle, path_cycle
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.points import PointLike, point_name
@@ -22,15 +22,16 @@ _EDGE = 1e-3  # of the parameter: nearer to a limit of the drive the path is con
 _STILL = 1e-11  # sizes for each unit of the parameter: a point that is never faster does not move
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class PointPath(Brief):
+class PointPath:
     """A path z(s). Of a drive that turns fully s is the drive's value, and the path is closed.
 
     Between limits it is s with drive = low + (high - low) sin^2(s/2), from 0 to pi: at a limit the pose grows as the
     square root of the drive's way, which is smooth in s.
     """
 
-    cycle: DriveCycle
+    cycle: Course
     place: LinkPoint
 
     @property

@@ -17,7 +17,7 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.jets import turn_derivative
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.branches import Unassembled, read_branch, starting_state
 from gruebler.mechanics.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
@@ -32,8 +32,9 @@ if TYPE_CHECKING:
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Designs(Brief):
+class Designs:
     """Many designs of one mechanism, as arrays. Made by `designs`, `four_bars` and the like."""
 
     plan: Plan
@@ -52,8 +53,9 @@ class Designs(Brief):
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Motions(Brief):
+class Motions:
     """Poses of many designs along one path; NaN in rows that a design does not reach."""
 
     designs: Designs

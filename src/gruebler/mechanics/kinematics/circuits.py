@@ -20,7 +20,7 @@ from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import ChangePoint, Extremum
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import message
 from gruebler.mechanics.kinematics.configuration_curve import (
     ClosureSystem,
@@ -61,8 +61,9 @@ class MonotonePiece:
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Circuit(Brief):
+class Circuit:
     """All positions of a linkage on one curve.
 
     Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle

@@ -7,7 +7,7 @@ from math import degrees
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.assur.forms import form_message
-from gruebler.structure.chain.pairs import in_alphabets
+from gruebler.structure.chain.pairs import SymbolText, in_alphabets
 from gruebler.structure.mechanism import Mechanism
 
 _UNBOUNDED = message("At {drives} the drive stands at its limit: there are no finite rates.")
@@ -62,5 +62,5 @@ def _drive_values(linkage: Linkage, values: tuple[float, ...]) -> Message:
     return joined(parts)
 
 
-def _drive_name(mechanism: Mechanism, drive: int) -> Message:
+def _drive_name(mechanism: Mechanism, drive: int) -> SymbolText:
     return in_alphabets(lambda alphabet: mechanism.drive_names(alphabet)[drive])

@@ -14,7 +14,7 @@ from gruebler.base import notebook
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.columns import Table
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined
 from gruebler.mechanics.kinematics.contacts import law_at
 from gruebler.mechanics.kinematics.contours import cam_law, turn_law
@@ -45,8 +45,9 @@ class Stop:
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Motion(LinkPoses, Brief):
+class Motion(LinkPoses):
     """Poses of a linkage along a path of its drives, with derivatives.
 
     Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows after a `stop` are missing:

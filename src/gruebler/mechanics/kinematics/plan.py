@@ -13,7 +13,7 @@ import numpy as np
 from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler._numeric.motion.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.kinematics.contacts import Condition, contact_conditions, law_tables
 from gruebler.mechanics.kinematics.redundancy import independent_part
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
@@ -64,8 +64,9 @@ class HigherGroup:
     """Whether wheels or circles are in it: its modes are not searched for, it is followed from the reference pose."""
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class Plan(Brief):
+class Plan:
     """The order of solving, in names and as arrays for the kernel."""
 
     linkage: Linkage

@@ -9,15 +9,16 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Poses(LinkPoses, Brief):
+class Poses(LinkPoses):
     """Positions on a circuit; ``order`` 0 is a value, 1 its derivative by the arc."""
 
     linkage: Linkage

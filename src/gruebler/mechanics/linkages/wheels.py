@@ -13,7 +13,7 @@ from math import atan2, floor, hypot, log2
 from typing import NamedTuple, Protocol
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import Message
+from gruebler.base.text import Readable
 from gruebler.mechanics.linkages.elements import (
     CENTRED,
     INVERSE,
@@ -193,7 +193,7 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             )
 
 
-def _check_noncircular(name: Message, first: NonCircular, second: NonCircular) -> None:
+def _check_noncircular(name: Readable, first: NonCircular, second: NonCircular) -> None:
     if not all(isinstance(wheel.transfer, str) and wheel.transfer.strip() for wheel in (first, second)):
         raise LinkageError(
             "{name}: transfer: expected a text such as 'ellipse 0.5' or 'rise 20 180; fall 20 180'", name=name
@@ -213,7 +213,7 @@ def _reach(elements: Elements, link: str) -> float:
     return max(hypot(e.x, e.y) for (_, owner), e in elements.items() if owner == link)
 
 
-def _check_disc(name: Message, disc: Element, other: Element) -> None:
+def _check_disc(name: Readable, disc: Element, other: Element) -> None:
     assert isinstance(disc, CamDisc)
     if disc.flat != isinstance(other, Line):
         raise LinkageError(
@@ -229,13 +229,13 @@ def _check_disc(name: Message, disc: Element, other: Element) -> None:
         )
 
 
-def _check_rack(name: Message, wheel: Element) -> None:
+def _check_rack(name: Readable, wheel: Element) -> None:
     assert isinstance(wheel, RoundElement)
     if wheel.radius < 0 or (isinstance(wheel, Wheel) and wheel.belt):
         raise LinkageError("{name}: along a line rolls a wheel of positive radius, without a belt", name=name)
 
 
-def _check_pair(name: Message, rolling: bool, first: RoundElement, second: RoundElement) -> None:
+def _check_pair(name: Readable, rolling: bool, first: RoundElement, second: RoundElement) -> None:
     low, high = sorted((first.radius, second.radius))
     if high < 0:
         raise LinkageError("{name}: two internal wheels do not touch", name=name)

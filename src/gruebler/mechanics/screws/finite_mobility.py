@@ -14,7 +14,7 @@ from enum import StrEnum
 import numpy as np
 
 from gruebler.base.arrays import Reals, compared_by_value
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.screws.closing import RANK
 from gruebler.mechanics.screws.double_roots import is_near_double_root
 from gruebler.mechanics.screws.instant_mobility import InstantMobility, instant_mobility
@@ -57,8 +57,9 @@ class Evidence(StrEnum):
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class FiniteMobility(Brief):
+class FiniteMobility:
     """What following the velocities gave."""
 
     mobility: int

@@ -8,15 +8,16 @@ from functools import cached_property
 import numpy as np
 
 from gruebler.base.arrays import Reals, compared_by_value
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.mechanics.screws.closing import TINY, Closing
 
 _STILL = 1e-7  # shares of unit vectors: a null space whose rank is decided at 1e-8 is known to some 1e-16/1e-8
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class InstantMobility(Brief):
+class InstantMobility:
     """The singular values of the constraints at a pose, and the spaces on either side of the gap among them."""
 
     closing: Closing

@@ -13,7 +13,7 @@ import numpy as np
 from gruebler.base.arrays import compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages import Linkage
@@ -112,8 +112,9 @@ _REASONS = {
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class Freedoms(Brief):
+class Freedoms:
     """What `freedoms` found. `explain` says it in words."""
 
     linkage: Linkage | SpatialLinkage

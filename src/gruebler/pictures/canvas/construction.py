@@ -15,7 +15,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import GrueblerError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message, translate
 from gruebler.pictures.canvas.figure import MARGIN, Figure
 from gruebler.pictures.canvas.labels import note_near
@@ -123,8 +123,9 @@ class ConstructionStep:
     drawn: tuple[Drawn, ...]
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class Construction(Brief):
+class Construction:
     """A construction: its steps, and the values measured in the last one.
 
     >>> whole = Construction(message("A middle"), (

@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
 from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.canvas.svg import style_sheet, svg_element, svg_number, xml_text
 
 
+@brief
 @dataclass(frozen=True, slots=True, repr=False)
-class Figure(Brief):
+class Figure:
     """Shapes within 0 <= x <= width, 0 <= y <= height, with a title and a description for those who cannot see."""
 
     shapes: tuple[Shape, ...]

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.pictures.canvas.figure import Figure, svg
 from gruebler.pictures.canvas.page_policy import policy_element
 from gruebler.pictures.canvas.styles import COLOURS
@@ -24,8 +24,9 @@ class Item:
     """SVG that moves, shown on a page instead of the figure."""
 
 
+@brief
 @dataclass(frozen=True, slots=True, repr=False)
-class Section(Brief):
+class Section:
     """Pictures under a heading."""
 
     heading: str

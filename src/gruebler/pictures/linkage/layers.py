@@ -14,7 +14,7 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.text import translate
-from gruebler.mechanics.analysis.drive_cycle import DriveCycle, PathCycle
+from gruebler.mechanics.analysis.drive_cycle import Course, PathCycle
 from gruebler.mechanics.analysis.events import stops
 from gruebler.mechanics.analysis.link_planes import link_planes
 from gruebler.mechanics.analysis.outputs import find_output
@@ -65,7 +65,7 @@ def coupler_curve_lines(posed: PosedLinkage, name: PointLike) -> list[Shape]:
     ]
 
 
-def _evenly_dense(cycle: DriveCycle | PathCycle, drives: Reals, point: LinkPoint) -> Complexes:
+def _evenly_dense(cycle: Course, drives: Reals, point: LinkPoint) -> Complexes:
     """The path of a point at drive values, and between them where it moves far: a linkage may snap over in a degree."""
     z = cycle.at(drives, 0).complex_point(point)
     longest = _CHORD * float(np.ptp(z.real) + np.ptp(z.imag))

@@ -11,7 +11,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import number, translate
-from gruebler.mechanics.analysis.drive_cycle import DriveCycle, drive_cycle
+from gruebler.mechanics.analysis.drive_cycle import Course, drive_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
@@ -33,7 +33,7 @@ _STEEP = {False: 1.5, True: 20.0}  # widths of it beyond which values are cut of
 class PlotRun:
     """Poses of a linkage with one drive, and the texts of the drive."""
 
-    cycle: DriveCycle
+    cycle: Course
     drives: Reals
     motion: Motion
     lang: str

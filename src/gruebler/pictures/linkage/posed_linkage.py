@@ -14,7 +14,7 @@ from gruebler.base.angles import warn_of_degrees
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, message
-from gruebler.mechanics.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
+from gruebler.mechanics.analysis.drive_cycle import Course, drive_cycle, path_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
@@ -41,7 +41,7 @@ class PosedLinkage:
 
     lower: Linkage
     """The linkage with turning and sliding joints only; its original links keep their names."""
-    cycle: DriveCycle | None
+    cycle: Course | None
     """The full motion; None with several drives or none, and where there is one position only."""
     pose: Motion
     """One row, with rates for a drive of speed 1 where there is one drive."""
@@ -76,7 +76,7 @@ class PosedLinkage:
         low, high = z.real.min() + 1j * z.imag.min(), z.real.max() + 1j * z.imag.max()
         return Point(float(low.real), -float(high.imag)), Point(float(high.real), -float(low.imag))
 
-    def driven(self) -> DriveCycle:
+    def driven(self) -> Course:
         """The cycle; `LinkageError` with several drives."""
         if self.cycle is None:
             count = len(self.linkage.mechanism.drives)
@@ -107,7 +107,7 @@ def posed_along_motion(motion: Motion) -> PosedLinkage:
     return PosedLinkage(motion.lower_linkage, None, first, motion, _scale(motion.lower_linkage, motion))
 
 
-def _is_whole(cycle: DriveCycle, drives: Reals) -> bool:
+def _is_whole(cycle: Course, drives: Reals) -> bool:
     """Whether drive values cover all turns of the period."""
     return bool(drives[-1] - drives[0] > cycle.span.period * (1 - 1e-9))
 
@@ -198,7 +198,7 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
     raise LinkageError("no joint is driven, so there is no pose; name a drive, such as {name}", name=name)
 
 
-def drive_rows(cycle: DriveCycle, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
+def drive_rows(cycle: Course, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
     """Drive values: ``count`` even steps of each full turn, else of the range, denser at both ends.
 
     Raises `LinkageError` if no part of the range lies between the two requested values.
@@ -222,7 +222,7 @@ def drive_rows(cycle: DriveCycle, between: tuple[float, float] | None = None, co
     return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
 
 
-def _value(cycle: DriveCycle, values: Reals | None, rows: Reals) -> float:
+def _value(cycle: Course, values: Reals | None, rows: Reals) -> float:
     """The drive value of the pose."""
     if values is None:
         start = float(cycle.start.drives[0, 0])
@@ -241,12 +241,12 @@ def _value(cycle: DriveCycle, values: Reals | None, rows: Reals) -> float:
     return value
 
 
-def _range(cycle: DriveCycle) -> Message:
+def _range(cycle: Course) -> Message:
     low, high = (_drive_value(cycle, value) for value in (cycle.span.low, cycle.span.high))
     return message("the drive goes from {low} to {high} on this branch", low=low, high=high)
 
 
-def _drive_value(cycle: DriveCycle, value: float) -> Message:
+def _drive_value(cycle: Course, value: float) -> Message:
     if cycle.turning_drive:
         return message("{angle:.6g} degrees", angle=math.degrees(value))
     return message("{length:.6g} {unit}", length=value, unit=cycle.linkage.unit)

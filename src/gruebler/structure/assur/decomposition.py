@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from gruebler.base.doors import door
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined, message, plural, translate
 from gruebler.structure.assur.forms import GroupJoint, class_number, form_name, roman
 from gruebler.structure.assur.groups import AssurGroup
@@ -102,8 +102,9 @@ class JointShare:
     count: int
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class Decomposition(Brief):
+class Decomposition:
     """Drives, groups in solving order, and the links that the drives leave undetermined."""
 
     mechanism: Mechanism

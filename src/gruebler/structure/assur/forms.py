@@ -10,8 +10,7 @@ from collections import Counter, deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from gruebler.base.text import Message
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space, in_alphabets
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space, SymbolText, in_alphabets
 
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP is not rigid."""
@@ -93,7 +92,7 @@ def _star(outer: list[list[str]], inner: dict[tuple[int, int], list[str]], alpha
     return "+".join(parts + [_PAIRS[x].symbols.get(alphabet, x) for x in _sorted(outer[hub])])
 
 
-def form_message(form: str) -> Message:
+def form_message(form: str) -> SymbolText:
     """The name of a form for a message, in the alphabet of the reader; a code or a joint's name is kept.
 
     >>> form_message("2-RR+P").in_language("de"), form_message("c1:0").in_language("de")

@@ -25,7 +25,7 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from gruebler.base.errors import PairError, nearest
-from gruebler.base.text import Message, joined, message
+from gruebler.base.text import LANGUAGES, Message, joined, message
 
 
 class Freedom(StrEnum):
@@ -174,22 +174,32 @@ class Closure(StrEnum):
     MATERIAL = "material"
 
 
-@dataclass(frozen=True)
-class PairTitle(Message):
+@dataclass(frozen=True, slots=True)
+class PairTitle:
     """The full name of a pair, in the reader's language."""
+
+    name: str
 
     def in_language(self, lang: str) -> str:
         """The name in a language."""
-        return pair(self.text).full_name(lang)
+        return pair(self.name).full_name(lang)
+
+    def __str__(self) -> str:
+        return self.in_language(LANGUAGES[0])
 
 
-@dataclass(frozen=True)
-class SymbolText(Message):
+@dataclass(frozen=True, slots=True)
+class SymbolText:
     """A text with joint symbols, in the alphabet that the reader expects; constructed by `in_alphabets`."""
+
+    texts: dict[Alphabet, str]
 
     def in_language(self, lang: str) -> str:
         """The text in the alphabet of a language."""
-        return str(self.values[Alphabet.of_language(lang)])
+        return self.texts[Alphabet.of_language(lang)]
+
+    def __str__(self) -> str:
+        return self.in_language(LANGUAGES[0])
 
 
 def in_alphabets(write: Callable[[Alphabet], str]) -> SymbolText:
@@ -198,7 +208,7 @@ def in_alphabets(write: Callable[[Alphabet], str]) -> SymbolText:
     >>> in_alphabets(pair("prismatic").symbol).in_language("de")
     'S'
     """
-    return SymbolText("", {alphabet: write(alphabet) for alphabet in Alphabet})
+    return SymbolText({alphabet: write(alphabet) for alphabet in Alphabet})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

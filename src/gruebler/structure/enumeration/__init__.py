@@ -22,7 +22,7 @@ from gruebler.structure.enumeration.multiple_assortment import (
     joint_assortment_number,
     joint_assortments,
 )
-from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.simple_chains import chains_of, edge_blocks, graph6_blocks
 
 __all__ = [
@@ -32,7 +32,6 @@ __all__ = [
     "EpicyclicCount",
     "EpicyclicTrain",
     "Request",
-    "RequestCount",
     "assortment_number",
     "assortments",
     "chains",

@@ -85,8 +85,8 @@ class PieceFiles:
         return {"bytes": len(body), "sha256": digest.hexdigest()}
 
 
-class Checkpoint(PieceFiles):
-    """A directory that keeps finished pieces, so that a run killed at any moment can resume.
+def checkpoint_files(directory: Path, task: Mapping[str, Any], version: str) -> PieceFiles:
+    """The files of a directory that keeps finished pieces, so that a run killed at any moment can resume.
 
     Each piece is an atomic file; a manifest records the task and the version. Temporary files of killed runs are
     removed.
@@ -99,31 +99,30 @@ class Checkpoint(PieceFiles):
     Raises:
         RunError: the directory belongs to another task or version, is something else, or cannot be used.
     """
-
-    def __init__(self, directory: Path, task: Mapping[str, Any], version: str) -> None:
-        manifest = {"layout": _LAYOUT, "version": version, "task": dict(task)}
-        super().__init__(directory, durable=True, task=manifest)
-        path = directory / _MANIFEST
-        try:
-            directory.mkdir(parents=True, exist_ok=True)
-            self.tidy()
-            if path.exists():
-                _compare(directory, json.loads(path.read_text(encoding="utf-8")), manifest)
-            elif any(not entry.name.endswith(PARTIAL) for entry in directory.iterdir()):
-                raise RunError(
-                    "{directory} holds other files: give --checkpoint a directory of its own", directory=directory
-                )
-            else:
-                with atomic_file(path, tidy=False) as file:
-                    file.write(json.dumps(manifest, indent=2).encode())
-        except OSError as error:
+    manifest = {"layout": _LAYOUT, "version": version, "task": dict(task)}
+    files = PieceFiles(directory, durable=True, task=manifest)
+    path = directory / _MANIFEST
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        files.tidy()
+        if path.exists():
+            _compare(directory, json.loads(path.read_text(encoding="utf-8")), manifest)
+        elif any(not entry.name.endswith(PARTIAL) for entry in directory.iterdir()):
             raise RunError(
-                "{directory} cannot hold the finished parts: {reason}", directory=directory, reason=reason_of(error)
-            ) from None
-        except RunError:
-            raise
-        except (ValueError, RecursionError):
-            raise RunError("{path} cannot be read; remove the directory to begin again", path=path) from None
+                "{directory} holds other files: give --checkpoint a directory of its own", directory=directory
+            )
+        else:
+            with atomic_file(path, tidy=False) as file:
+                file.write(json.dumps(manifest, indent=2).encode())
+    except OSError as error:
+        raise RunError(
+            "{directory} cannot hold the finished parts: {reason}", directory=directory, reason=reason_of(error)
+        ) from None
+    except RunError:
+        raise
+    except (ValueError, RecursionError):
+        raise RunError("{path} cannot be read; remove the directory to begin again", path=path) from None
+    return files
 
 
 def _compare(directory: Path, manifest: object, expected: Mapping[str, Any]) -> None:

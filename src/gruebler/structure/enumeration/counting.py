@@ -12,7 +12,7 @@ from gruebler.structure.enumeration.assortment import Assortment, loop_count
 from gruebler.structure.enumeration.pieces import PieceCount, count_piece, pieces, run_pieces
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ChainCount:
     """The numbers of chains with n links and mobility F, and of their mechanisms."""
 
@@ -24,12 +24,15 @@ class ChainCount:
     inversions: int | None = None
     """Orbits of links over all chains, that is choices of a frame; None if not counted."""
     drives: int | None = None
-    """Orbits of (link, joint at it): choices of a frame and of a driven joint at the frame."""
+    """Orbits of (link, joint at it): choices of a frame and of a driven joint at the frame, of a multiple joint also
+    of the link that it drives."""
     joint_orbits: int | None = None
     """Orbits of joints."""
+    by_fractionation: dict[str, int] = field(default_factory=dict)
+    """Chains of each requested class: ``none``, ``link``, ``joint``; empty where one class only can be counted."""
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data; an assortment is written ``4,4``, and orbits only if they were counted.
+        """Plain data; an assortment is written ``4,4``, orbits only if they were counted, classes only if several were.
 
         >>> count_simple_chains(6).to_json()
         {'links': 6, 'mobility': 1, 'chains': 2, 'by_assortment': {'4,2': 2}}
@@ -37,7 +40,8 @@ class ChainCount:
         document: dict[str, Any] = {"links": self.links, "mobility": self.mobility, "chains": self.chains}
         document["by_assortment"] = {",".join(map(str, a)): k for a, k in self.by_assortment.items()}
         orbits = {"inversions": self.inversions, "drives": self.drives, "joint_orbits": self.joint_orbits}
-        return document | {name: number for name, number in orbits.items() if number is not None}
+        document |= {name: number for name, number in orbits.items() if number is not None}
+        return document | ({"by_fractionation": dict(self.by_fractionation)} if len(self.by_fractionation) > 1 else {})
 
 
 def count_simple_chains(
@@ -65,7 +69,7 @@ def count_simple_chains(
 
     >>> count_simple_chains(8, orbits=True)
     ChainCount(links=8, mobility=1, chains=16, by_assortment={(4, 4): 9, (5, 2, 1): 5, (6, 0, 2): 2},
-               inversions=71, drives=153, joint_orbits=84)
+               inversions=71, drives=153, joint_orbits=84, by_fractionation={})
     """
     work = pieces(links, mobility, assortment=assortment)
     counts = [count for done in run_pieces(partial(count_piece, orbits=orbits), work, executor) for count in done]
@@ -86,6 +90,12 @@ def add_counts(links: int, mobility: int, counts: Iterable[PieceCount], orbits: 
         drives += count.drives
         joint_orbits += count.joint_orbits
     ordered = dict(sorted(by_assortment.items()))
-    if not orbits:
-        return ChainCount(links, mobility, chains, ordered)
-    return ChainCount(links, mobility, chains, ordered, inversions, drives, joint_orbits)
+    return ChainCount(
+        links=links,
+        mobility=mobility,
+        chains=chains,
+        by_assortment=ordered,
+        inversions=inversions if orbits else None,
+        drives=drives if orbits else None,
+        joint_orbits=joint_orbits if orbits else None,
+    )

@@ -7,7 +7,8 @@ from concurrent.futures import Executor
 
 from gruebler.base.doors import door
 from gruebler.structure.chain import Chain
-from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.counting import ChainCount
+from gruebler.structure.enumeration.request import Request
 
 
 @door
@@ -51,7 +52,7 @@ def count_chains(
     multiple_joints: int | str = 0,
     orbits: bool = False,
     executor: Executor | None = None,
-) -> RequestCount:
+) -> ChainCount:
     """The number of chains that `chains` gives, by assortment and by class, and of their mechanisms.
 
     Args:

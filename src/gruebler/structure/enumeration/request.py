@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from numbers import Integral
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.immutable import settle
 from gruebler.structure.enumeration.condition import CLASSES
-from gruebler.structure.enumeration.counting import ChainCount
 
 _TOO_MANY = 1_000_000  # multiple joints: no chain that can be listed has as many
 
@@ -116,18 +115,3 @@ def _assortment(numbers: Sequence[int], links: int) -> tuple[int, ...]:
     while counts[-1] == 0:
         counts.pop()
     return tuple(counts)
-
-
-@dataclass(frozen=True)
-class RequestCount(ChainCount):
-    """The numbers of the requested chains. A drive of a multiple joint is the joint and the link it drives."""
-
-    by_fractionation: dict[str, int] = field(default_factory=dict)
-    """Chains of each requested class: ``none``, ``link``, ``joint``."""
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data; by_fractionation only if more than one class was requested."""
-        document = ChainCount.to_json(self)
-        if len(self.by_fractionation) > 1:
-            document["by_fractionation"] = dict(self.by_fractionation)
-        return document

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from gruebler.base.atomic_files import temporary_directory
 from gruebler.structure.enumeration.assortment import loop_count
-from gruebler.structure.enumeration.checkpoint import Checkpoint, PieceFiles
-from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.checkpoint import PieceFiles, checkpoint_files
+from gruebler.structure.enumeration.counting import ChainCount
+from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.work_units import (
     PieceCounter,
     PieceLister,
@@ -38,7 +39,7 @@ def run_count(
     checkpoint: Path | None = None,
     progress: Callable[[Progress], None] | None = None,
     expected: int | None = None,
-) -> RequestCount:
+) -> ChainCount:
     """Count the requested chains.
 
     Args:
@@ -158,7 +159,7 @@ def _filed(
             files.remove(number)
 
 
-def _store(checkpoint: Path | None, request: Request, settings: dict[str, object]) -> Checkpoint | None:
+def _store(checkpoint: Path | None, request: Request, settings: dict[str, object]) -> PieceFiles | None:
     from gruebler import __version__
 
-    return None if checkpoint is None else Checkpoint(checkpoint, request.to_json() | settings, __version__)
+    return None if checkpoint is None else checkpoint_files(checkpoint, request.to_json() | settings, __version__)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.assortment import Assortment, loop_count
 from gruebler.structure.enumeration.condition import fractionation
+from gruebler.structure.enumeration.counting import ChainCount
 from gruebler.structure.enumeration.fractionated import (
     BlockAddition,
     block_additions,
@@ -27,7 +28,7 @@ from gruebler.structure.enumeration.fractionated import (
 )
 from gruebler.structure.enumeration.multiple import grown_joints, with_multiple_joints
 from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, list_piece, pieces
-from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.simple_chains import simple_chains as plain_chains
 from gruebler.structure.isomorphism import orbits as orbits_of
 from gruebler.structure.isomorphism import symmetry
@@ -195,7 +196,7 @@ def _orbits(chain: Chain) -> tuple[int, int, int]:
     return len(symmetries.link_orbits), len(symmetries.joint_orbits), len(orbits_of(drives, images))
 
 
-def add_tallies(request: Request, orbits: bool, tallies_of_pieces: Iterable[Iterable[PieceTally]]) -> RequestCount:
+def add_tallies(request: Request, orbits: bool, tallies_of_pieces: Iterable[Iterable[PieceTally]]) -> ChainCount:
     """The sum of the numbers of all pieces."""
     by_assortment: dict[Assortment, int] = {}
     by_kind = dict.fromkeys(request.classes if request.fractionated != "all" else ("none", "link", "joint"), 0)
@@ -208,15 +209,15 @@ def add_tallies(request: Request, orbits: bool, tallies_of_pieces: Iterable[Iter
             counts = tally.chains, tally.inversions, tally.joint_orbits, tally.drives
             sums = [old + new for old, new in zip(sums, counts, strict=True)]
     chains, inversions, joint_orbits, drives = sums
-    return RequestCount(
-        request.links,
-        request.mobility,
-        chains,
-        dict(sorted(by_assortment.items())),
-        inversions if orbits else None,
-        drives if orbits else None,
-        joint_orbits if orbits else None,
-        by_kind,
+    return ChainCount(
+        links=request.links,
+        mobility=request.mobility,
+        chains=chains,
+        by_assortment=dict(sorted(by_assortment.items())),
+        inversions=inversions if orbits else None,
+        drives=drives if orbits else None,
+        joint_orbits=joint_orbits if orbits else None,
+        by_fractionation=by_kind,
     )
 
 

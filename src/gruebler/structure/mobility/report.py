@@ -10,7 +10,7 @@ from typing import Any
 
 from gruebler.base import notebook
 from gruebler.base.doors import door
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, arity, joined, message
 from gruebler.structure.chain import Chain
@@ -72,8 +72,9 @@ _OTHER_COUNTS = {
 }
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class MobilityReport(Brief):
+class MobilityReport:
     """The result of `mobility_report`. `explain` returns it as text."""
 
     chain: Chain

@@ -11,7 +11,7 @@ import numpy as np
 
 from gruebler.base.arrays import compared_by_value
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.plain_data import plain
 from gruebler.base.text import LANGUAGES, message
 from gruebler.files.catalog_records import Entry, source_text
@@ -59,8 +59,9 @@ class GuidedPoint:
 
 
 @compared_by_value
+@brief
 @dataclass(frozen=True, eq=False, repr=False)
-class MachineReport(Brief):
+class MachineReport:
     """The result of `machine_report`. `explain` returns it as text."""
 
     entry: Entry

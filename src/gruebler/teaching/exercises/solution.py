@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import Message, Readable, message
 from gruebler.mechanics.linkages.quantities import as_finite
 
@@ -95,8 +95,9 @@ class Mistake:
     hint: Readable
 
 
+@brief
 @dataclass(frozen=True, slots=True, repr=False)
-class Solution(Brief):
+class Solution:
     """The steps of a solution, its results by key, and its checks."""
 
     parts: tuple[Part, ...]

@@ -12,7 +12,7 @@ import numpy as np
 
 from gruebler.base import notebook
 from gruebler.base.errors import CatalogError
-from gruebler.base.notebook import Brief
+from gruebler.base.notebook import brief
 from gruebler.base.text import Readable, Text, message
 from gruebler.files import Entry
 from gruebler.mechanics.fourbar import FourBar
@@ -103,8 +103,9 @@ class SizedMechanism:
         return self.length / self.scale
 
 
+@brief
 @dataclass(frozen=True, repr=False)
-class Sheet(Brief):
+class Sheet:
     """A mechanism on one page.
 
     >>> from gruebler.teaching.sheets import sheet
