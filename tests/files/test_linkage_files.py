@@ -17,7 +17,6 @@ from gruebler.files.angles import in_degrees, in_radians
 from gruebler.files.linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage, write_linkage
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.structure.mechanism import Mechanism
 
 HEXAGON = Mechanism.parse("R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)")
@@ -147,7 +146,7 @@ def test_doors_on_other_names_lie_as_the_closed_form_says(door, lengths, text, b
         for link in linkage.mechanism.chain.joints[linkage.mechanism.chain.find_joint(joint)].links:
             element = linkage.element(joint, link)
             x, y = named[link].put(element.x, element.y)
-            seen.append((x, y, named[link].angle + direction(element)))
+            seen.append((x, y, named[link].angle + element.direction))
         (x, y, angle), (u, v, other) = seen
         if joint.startswith("R"):
             assert math.hypot(x - u, y - v) < 1e-12 * 100

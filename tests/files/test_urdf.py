@@ -11,7 +11,6 @@ from gruebler.files.pin_drawings import lower_linkage
 from gruebler.files.urdf import urdf_from_linkage
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import move
-from gruebler.mechanics.linkages.elements import direction
 
 FOLDER = Path(__file__).parent / "samples"
 CASES = {
@@ -69,7 +68,7 @@ def test_links_hang_where_the_linkage_has_them(name, step):
             turn += value
         elif joint.get("type") == "prismatic":
             mine, line = lower.elements[number, child], lower.elements[number, above]
-            along = np.exp(1j * direction(line))
+            along = np.exp(1j * line.direction)
             there = [
                 complex(*at[above].to_local(*at[child].put(mine.x, mine.y))) * along.conjugate() for at in (home, pose)
             ]

@@ -5,7 +5,7 @@ import pytest
 from gruebler.base.errors import ChainError
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.pictures.canvas.symbols import CONTACTS
-from gruebler.pictures.linkage.contact_shapes import contact_shapes
+from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.structure import draw_structure
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.catalog.feature_query import entry_mechanism

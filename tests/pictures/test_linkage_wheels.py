@@ -8,9 +8,9 @@ import pytest
 
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
+from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
-from gruebler.pictures.linkage.wheels import round_parts
 from gruebler.teaching.catalog import entries, entry
 
 

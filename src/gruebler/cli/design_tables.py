@@ -12,8 +12,7 @@ from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.minimax_search import digits_for_error
 from gruebler.design.synthesis.results import EXACT, FITTED
-from gruebler.mechanics.linkages import Linkage, Pin
-from gruebler.mechanics.linkages.elements import Line
+from gruebler.mechanics.linkages import Linkage
 
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
 _COLUMNS = (
@@ -145,14 +144,14 @@ def _lengths(linkage: Linkage, lang: str) -> str:
     named = _named(linkage, lang).mechanism.chain.links
     for link, name in sorted(zip(linkage.mechanism.chain.links, named, strict=True), key=_by_letter):
         own = [element for (_, owner), element in linkage.elements.items() if owner == link]
-        pins = [complex(e.x, e.y) for e in own if isinstance(e, Pin)]
-        lines = [e for e in own if isinstance(e, Line)]
+        pins = [complex(e.x, e.y) for e in own if e.is_pin]
+        lines = [e for e in own if e.is_line]
         between = [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
         if between:
             values = " ".join(number(length, lang, "n") for length in between)
             lengths.append(f"{_LETTERS.get(link, name)} = {values}")
         for line in lines if len(pins) == 1 else ():
-            across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.angle), -math.sin(line.angle))
+            across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.direction), -math.sin(line.direction))
             offset = _without_rounding(across.imag, linkage)
             if offset or link == linkage.mechanism.frame:
                 lengths.append(f"e = {number(offset, lang, 'n')}")
@@ -163,7 +162,7 @@ def _pivots(design: Design, lang: str) -> str:
     """Where the turning joints of the frame lie."""
     linkage = design.linkage
     own = [element for (_, owner), element in linkage.elements.items() if owner == linkage.mechanism.frame]
-    pins = [[_without_rounding(v, linkage) for v in (e.x, e.y)] for e in own if isinstance(e, Pin)]
+    pins = [[_without_rounding(v, linkage) for v in (e.x, e.y)] for e in own if e.is_pin]
     return " ".join(f"({numbers(pin, lang, 'n')})" for pin in pins)
 
 

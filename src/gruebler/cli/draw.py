@@ -213,7 +213,7 @@ def contacts_of(record: Entry | None) -> Mapping[tuple[int, str], str] | None:
     """What the bodies of the higher pairs of a catalog entry are; None without dimensions."""
     if record is None or record.dimensions is None:
         return None
-    from gruebler.pictures.linkage.contact_shapes import contact_shapes
+    from gruebler.pictures.linkage.element_pictures import contact_shapes
 
     return contact_shapes(record.linkage())
 

@@ -15,22 +15,14 @@ import msgspec
 
 from gruebler.base.documents import convert_document
 from gruebler.base.errors import LinkageError, UnitWarning, nearest
-from gruebler.base.text import Message, joined, joined_by_and, joined_by_or, message
-from gruebler.files.angles import in_degrees, in_radians
+from gruebler.base.text import joined_by_and, message
+from gruebler.files.angles import in_degrees
+from gruebler.files.element_records import in_short, read_element_table, read_numbers
 from gruebler.mechanics.fourbar.four_bar import FourBar
 from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
 from gruebler.mechanics.fourbar.length_forms import ClosedForm, linkage_on_mechanism
 from gruebler.mechanics.fourbar.slider_crank import SliderCrank
-from gruebler.mechanics.linkages.elements import (
-    CamDisc,
-    Circle,
-    Element,
-    GenevaDriver,
-    GenevaWheel,
-    NonCircular,
-    Pose2D,
-    Wheel,
-)
+from gruebler.mechanics.linkages.elements import Pose2D
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
 
@@ -68,42 +60,6 @@ class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
 
     link: str
     at: list[float]
-
-
-class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A wheel, or a smooth circle: its centre and its size."""
-
-    at: list[float]
-    radius: float | None = None
-    teeth: int = 0
-    module: float | None = None
-    belt: str = ""
-    circle: float | None = None
-    angle: Any = 0
-    """Degrees, of a cam, pins or slots."""
-    cam: str | None = None
-    base: float | None = None
-    roller: float = 0.0
-    offset: float = 0.0
-    flat: bool = False
-    scale: float = 1.0
-    arm: float = 0.0
-    distance: float = 0.0
-    face: float = 0.0
-    pins: int | None = None
-    slots: int | None = None
-    internal: bool = False
-    transfer: str | None = None
-
-
-_KINDS = {
-    "circle": {"circle"},
-    "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale", "arm", "distance", "face"},
-    "pins": {"pins", "angle"},
-    "slots": {"slots", "angle", "internal"},
-    "transfer": {"transfer", "angle", "teeth"},
-}
-"""What makes an element something else than a wheel, and its keys."""
 
 
 class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -164,7 +120,7 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
         _check_link(link, mechanism.chain.links, "elements")
         if not isinstance(values, Mapping):
             raise LinkageError(
-                "elements.{link}: expected a table of joints, but found {found}", link=link, found=_short(values)
+                "elements.{link}: expected a table of joints, but found {found}", link=link, found=in_short(values)
             )
         elements[link] = _by_joint(mechanism, values, f"elements.{link}")
     raw = sizes.reference_pose
@@ -217,7 +173,7 @@ def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
             raise LinkageError(
                 "{where}: {joint!r} has no place through which the slide could pass", where=where, joint=raw[2][:60]
             )
-        (x, y), (u, v) = _numbers(raw[:2], where, (2,)), _numbers(target[:2], f"places.{raw[2]}", (2,))
+        (x, y), (u, v) = read_numbers(raw[:2], where, (2,)), read_numbers(target[:2], f"places.{raw[2]}", (2,))
         if (x, y) == (u, v):
             raise LinkageError(
                 "{where}: {joint} is at the slide's own point; give another point of its line",
@@ -262,74 +218,16 @@ def _element(raw: Any, where: str, slots: bool) -> object:
     if slots and isinstance(raw, Mapping):
         return {link: _element(value, f"{where}.{link}", False) for link, value in raw.items()}
     if isinstance(raw, Mapping):
-        return _round(convert_document(raw, RoundRecord, LinkageError, where), raw, where)
+        return read_element_table(raw, where)
     if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
-        return (*_numbers(raw[:3], where, (3,)), raw[3])
-    return _numbers(raw, where, (2, 3))
-
-
-def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Element:
-    kind = next((key for key in _KINDS if key in given), "")
-    allowed = _KINDS.get(kind, {"radius", "teeth", "module", "belt"})
-    wrong = next((key for key in given if key not in {"at", *allowed}), None)
-    if wrong is not None:
-        raise LinkageError(
-            "{where}.{wrong}: does not go with {kind}", where=where, wrong=wrong, kind=kind or message("a wheel")
-        )
-    if kind in ("", "circle"):
-        x, y = _numbers(record.at, f"{where}.at", (2,))
-        return Circle(x, y, record.circle) if record.circle is not None else _wheel(record, x, y, where)
-    x, y, angle = _numbers([*record.at, record.angle], f"{where}.at", (3,))
-    if record.cam is not None:
-        if record.base is None:
-            raise LinkageError("{where}.base: the radius of the base circle is missing", where=where)
-        sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
-        return CamDisc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
-    if record.pins is not None:
-        return GenevaDriver(x, y, angle, record.pins)
-    if record.transfer is not None:
-        return NonCircular(x, y, angle, record.transfer, record.teeth)
-    assert record.slots is not None
-    return GenevaWheel(x, y, angle, record.slots, record.internal)
-
-
-def _wheel(record: RoundRecord, x: float, y: float, where: str) -> Wheel:
-    radius = record.radius
-    if record.module is not None:
-        if radius is not None or not record.teeth or not record.module > 0:
-            raise LinkageError(
-                "{where}.module: a positive number that goes with teeth, and without a radius", where=where
-            )
-        radius = record.module * record.teeth / 2
-    if radius is None and not record.teeth:
-        raise LinkageError("{where}: expected a radius, teeth or a circle", where=where)
-    return Wheel(x, y, radius or 0.0, record.teeth, record.belt)
-
-
-def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
-    """x, y and perhaps an angle, which comes in degrees and goes in radians."""
-    if not isinstance(raw, list) or len(raw) not in counts:
-        wanted = joined_by_or([message("[x, y]" if count == 2 else "[x, y, degrees]") for count in counts])
-        raise LinkageError(
-            "{where}: expected {wanted}, but found {found}", where=where, wanted=wanted, found=_short(raw)
-        )
-    for value in raw[:2]:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not -1e100 < value < 1e100:
-            raise LinkageError(
-                "{where}: expected numbers below 1e100, but found {found}", where=where, found=_short(value)
-            )
-    try:
-        return (float(raw[0]), float(raw[1]), *(in_radians(angle) for angle in raw[2:]))
-    except ValueError:
-        raise LinkageError(
-            "{where}: expected an angle in degrees, but found {found}", where=where, found=_short(raw[2])
-        ) from None
+        return (*read_numbers(raw[:3], where, (3,)), raw[3])
+    return read_numbers(raw, where, (2, 3))
 
 
 def _reference_pose(pose: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
     for link in pose:
         _check_link(link, links, "reference_pose")
-    return {link: Pose2D(*_numbers(raw, f"reference_pose.{link}", (3,))) for link, raw in pose.items()}
+    return {link: Pose2D(*read_numbers(raw, f"reference_pose.{link}", (3,))) for link, raw in pose.items()}
 
 
 def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
@@ -340,7 +238,7 @@ def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tupl
             raise LinkageError("points: {name!r} cannot name a point", name=name)
         point = convert_document(raw, PointRecord, LinkageError, where)
         _check_link(point.link, links, where)
-        x, y = _numbers(point.at, f"{where}.at", (2,))
+        x, y = read_numbers(point.at, f"{where}.at", (2,))
         places[name] = (point.link, x, y)
     return places
 
@@ -355,17 +253,3 @@ def _check_link(link: str, links: tuple[str, ...], where: str) -> None:
             suggestion=nearest(link, links),
             known=known,
         )
-
-
-def _short(value: object) -> Message:
-    match value:
-        case list() if len(value) > 4:
-            return message("a list of {count}", count=len(value))
-        case list():
-            return message("[{items}]", items=joined(map(_short, value)))
-        case Mapping():
-            return message("a table")
-        case int() if not -(10**20) < value < 10**20:
-            return message("a number of many digits")
-    shown = repr(value)
-    return message("{value}", value=shown if len(shown) < 40 else shown[:37] + "...")

@@ -7,27 +7,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import GrueblerError, LinkageError
-from gruebler.files.angles import in_degrees
+from gruebler.files.element_records import write_element
 from gruebler.files.linkage_records import Dimensions, linkage_from_record
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
-from gruebler.mechanics.linkages.elements import (
-    CamDisc,
-    Circle,
-    Element,
-    GenevaDriver,
-    GenevaWheel,
-    Line,
-    NonCircular,
-    Pin,
-    Wheel,
-)
+from gruebler.mechanics.linkages.elements import Line
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
@@ -129,29 +118,15 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
             name: {"link": point.link, "at": [point.x + 0.0, point.y + 0.0]} for name, point in linkage.points.items()
         },
         "elements": {
-            link: {names[n]: _plain(e) for (n, owner), e in sorted(linkage.elements.items()) if owner == link}
+            link: {names[n]: write_element(e) for (n, owner), e in sorted(linkage.elements.items()) if owner == link}
             for link in chain.links
         },
     }
     if linkage.reference_pose is not None:
         document["reference_pose"] = {
-            link: _plain(Line(place.x, place.y, place.angle)) for link, place in linkage.reference_pose.items()
+            link: write_element(Line(place.x, place.y, place.angle)) for link, place in linkage.reference_pose.items()
         }
     return document
-
-
-def _plain(element: Element) -> Any:
-    at = [element.x + 0.0, element.y + 0.0]  # -0.0 + 0.0 is 0.0
-    if isinstance(element, Circle):
-        return {"at": at, "circle": element.radius}
-    if isinstance(element, Wheel):
-        more = {"teeth": element.teeth, "belt": element.belt}
-        return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
-    if isinstance(element, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
-        table = {"at": at, **asdict(element), "angle": in_degrees(element.angle)}
-        renamed = {{"lift": "cam"}.get(key, key): value for key, value in table.items() if key not in "xy"}
-        return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
-    return at if isinstance(element, Pin) else [*at, in_degrees(element.angle + 0.0)]
 
 
 def linkage_to_toml(linkage: Linkage) -> str:

@@ -16,7 +16,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.files.body_tree import DENSITY, SLENDER, BodyTree
 from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.structure.mechanism import Drive
 
 _STIFF = 100.0  # 1/s: the drive follows its control at this rate
@@ -131,7 +130,7 @@ class _Model:
         if joint.pair.is_turning:
             pos = self.bodies.position(element.x, element.y)
             return f'<joint name={name} type="hinge" axis="0 0 1" pos="{pos}"{motor}/>'
-        angle = direction(element)
+        angle = element.direction
         return f'<joint name={name} type="slide" axis="{cos(angle)!r} {sin(angle)!r} 0"{motor}/>'
 
     def _shape(self, link: str, depth: int) -> Iterator[str]:

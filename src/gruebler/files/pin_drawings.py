@@ -20,8 +20,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.files.measured_lengths import MILLIMETRES, in_unit
 from gruebler.mechanics.kinematics.solve import move_in_radians
-from gruebler.mechanics.linkages import Line, Linkage, with_lower_pairs
-from gruebler.mechanics.linkages.elements import direction
+from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Pair, pair
 from gruebler.structure.mechanism import Drive, Mechanism
@@ -373,12 +372,12 @@ def _placed(lower: Linkage, number: int) -> DrawnJoint:
     joint, poses = lower.mechanism.chain.joints[number], lower.required_pose
     first, *others = joint.links
     element = lower.elements[number, first]
-    if not isinstance(element, Line):
+    if not element.is_line:
         return DrawnJoint("", *poses[first].put(element.x, element.y), joint.links)
     if others[0] == lower.mechanism.frame:
         first, others = others[0], [first]
     line, block = lower.elements[number, first], lower.elements[number, others[0]]
-    slot = remainder(poses[first].angle + direction(line), 2 * pi)
+    slot = remainder(poses[first].angle + line.direction, 2 * pi)
     return DrawnJoint("", *poses[others[0]].put(block.x, block.y), (first, others[0]), slot, turns=False)
 
 

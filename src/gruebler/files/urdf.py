@@ -13,7 +13,6 @@ from xml.sax.saxutils import quoteattr
 from gruebler.base.text import Message, message
 from gruebler.files.body_tree import DENSITY, SLENDER, BodyTree
 from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.linkages.elements import direction
 
 
 def urdf_from_linkage(linkage: Linkage, left_out: list[Message]) -> str:
@@ -78,7 +77,7 @@ class _Robot:
         turn = poses[child].angle - poses[above].angle
         turning = joint.pair.is_turning
         name = f"{self.bodies.names[number]} {child}" if again else self.bodies.names[number]
-        angle = 0.0 if turning else direction(element)
+        angle = 0.0 if turning else element.direction
         axis = "0 0 1" if turning else f"{cos(angle)!r} {sin(angle)!r} 0"
         yield f'  <joint name={quoteattr(name)} type="{"continuous" if turning else "prismatic"}">'
         yield f"    <parent link={quoteattr(above)}/>"

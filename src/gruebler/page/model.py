@@ -19,11 +19,10 @@ from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
 from gruebler.mechanics.kinematics.branches import labelled_groups
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
-from gruebler.mechanics.linkages import Linkage, Pin
-from gruebler.mechanics.linkages.elements import CENTRED, Line, direction
+from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines
+from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
-from gruebler.pictures.linkage.wheels import round_parts
 from gruebler.teaching.catalog import entries
 
 _COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks
@@ -78,9 +77,9 @@ def model_of(
             {
                 "joint": number,
                 "link": chain.index(link),
-                "kind": "line" if isinstance(e, Line) else "pin" if isinstance(e, Pin) else "round",
+                "kind": e.form,
                 "at": [e.x, e.y],
-                "angle": direction(e),
+                "angle": e.direction,
             }
             for number, link in keys
             for e in [linkage.elements[number, link]]
@@ -174,11 +173,11 @@ def _source(plan: Plan, linkage: Linkage, keys: Sequence[tuple[int, str]], numbe
     best, most = -1, -1
     for k, key in enumerate(keys):
         e = linkage.elements[key]
-        if key[1] != link or isinstance(e, CENTRED) != isinstance(element, CENTRED):
+        if key[1] != link or e.is_round != element.is_round:
             continue
         if abs(complex(e.x - element.x, e.y - element.y)) > _SAME * lower.size:
             continue
-        alike = 2 * len(near & set(linkage.mechanism.chain.joints[key[0]].links)) + (isinstance(e, type(element)))
+        alike = 2 * len(near & set(linkage.mechanism.chain.joints[key[0]].links)) + (type(e) is type(element))
         if alike > most:
             best, most = k, alike
     return best
@@ -255,7 +254,7 @@ def _element_at(plan: Plan, element: tuple[str, complex, complex]) -> int:
     link, point, line = element
     for number, (joint, owner) in enumerate(plan.keys):
         e = plan.lower.elements[joint, owner]
-        if owner == link and complex(e.x, e.y) == point and abs(rect(1, direction(e)) - line) < _SAME:
+        if owner == link and complex(e.x, e.y) == point and abs(rect(1, e.direction) - line) < _SAME:
             return number
     return -1
 

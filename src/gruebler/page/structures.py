@@ -8,7 +8,7 @@ from typing import Any
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.figure import figure_of
 from gruebler.pictures.canvas.shapes import Point, bounds
-from gruebler.pictures.linkage.contact_shapes import contact_shapes
+from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.structure import PlacedChain, draw_structure, paint, place_joints
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet, Space

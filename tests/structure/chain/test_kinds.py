@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import gruebler
-from gruebler.mechanics.linkages.elements import _WANTED as ELEMENTS
+from gruebler.mechanics.linkages.contacts import CONTACTS
 from gruebler.pictures.canvas.symbols import SIGNS
 from gruebler.structure.chain.pairs import PAIRS, Freedom, Space
 from gruebler.teaching.worksheets.joint_pictures import DRAWINGS
@@ -19,7 +19,7 @@ SYMBOLS = {symbol for pair in PAIRS for symbol in pair.symbols.values()}
 # One further row for each pair, in the wings that need something of their own of it.
 TABLES = {
     "structure/chain/pairs.py": "the table",
-    "mechanics/linkages/elements.py": "what lies on the links of a joint",
+    "mechanics/linkages/contacts.py": "what lies on the links of a joint",
     "pictures/canvas/symbols.py": "signs of structure pictures",
     "teaching/worksheets/joint_pictures.py": "drawings in perspective",
 }
@@ -128,6 +128,6 @@ def names_in(space):
 
 
 def test_every_pair_has_its_row_in_the_other_tables():
-    assert set(ELEMENTS) == names_in(Space.PLANAR)
+    assert {name for row in CONTACTS for name in row.pairs} == names_in(Space.PLANAR)
     assert set(SIGNS) == names_in(Space.PLANAR)
     assert set(DRAWINGS) == names_in(Space.SPATIAL)

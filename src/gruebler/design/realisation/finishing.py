@@ -15,7 +15,7 @@ from gruebler.design.realisation.measures import conditioning
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
-from gruebler.mechanics.linkages import Line, Linkage
+from gruebler.mechanics.linkages import Linkage
 
 Ranges = tuple[tuple[float, float], ...]
 
@@ -89,9 +89,8 @@ def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
     """Every element rounded in the coordinates of its link."""
     elements: dict[str, dict[str | int, object]] = {link: {} for link in linkage.mechanism.chain.links}
     for (number, link), e in linkage.elements.items():
-        x, y = _grid(e.x, length), _grid(e.y, length)
-        turn = [radians(_grid(degrees(e.angle) % 360, degrees(angle)) % 360)] if isinstance(e, Line) else []
-        elements[link][number] = (x, y, *turn)
+        turned = radians(_grid(degrees(e.direction) % 360, degrees(angle)) % 360)
+        elements[link][number] = e.placed(_grid(e.x, length), _grid(e.y, length), turned)
     return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=linkage.required_pose)
 
 

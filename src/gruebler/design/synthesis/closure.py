@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.mechanics.kinematics import Poses
-from gruebler.mechanics.linkages import Line, Linkage, with_lower_pairs
-from gruebler.mechanics.linkages.elements import Element, Pin, Pose2D
+from gruebler.mechanics.linkages import Linkage, with_lower_pairs
+from gruebler.mechanics.linkages.elements import Pose2D
 
 
 class _Joined(NamedTuple):
@@ -96,7 +96,7 @@ class DesignClosure:
         for key in self.keys:
             element = lower.elements[key]
             self.start[key] = len(sizes)
-            sizes += [element.x, element.y, *([element.angle] if isinstance(element, Line) else [])]
+            sizes += element.place
         self.sizes = np.array(sizes)
         joints = [
             ((number, joint.links[0]), (number, other))
@@ -255,10 +255,8 @@ class DesignClosure:
         elements: dict[str, dict[str | int, object]] = {link: {} for link in self.linkage.mechanism.chain.links}
         for key in self.keys:
             at = self.start[key]
-            element: Element = self.linkage.elements[key]
-            x, y = float(p[at]), float(p[at + 1])
-            changed: Element = Line(x, y, float(p[at + 2])) if isinstance(element, Line) else Pin(x, y)
-            elements[key[1]][key[0]] = changed
+            element = self.linkage.elements[key]
+            elements[key[1]][key[0]] = element.placed(*p[at : at + len(element.place)].tolist())
         places = {link: Pose2D(*(float(v) for v in pose[c : c + 3])) for link, c in self.column.items()}
         places[self.linkage.mechanism.frame] = Pose2D(0.0, 0.0, 0.0)
         return Linkage(

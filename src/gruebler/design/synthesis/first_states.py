@@ -20,7 +20,6 @@ from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import resampled
 from gruebler.design.synthesis.fitting import FitState, FitTargets, output_links
 from gruebler.mechanics.kinematics import circuit
-from gruebler.mechanics.linkages import Line
 
 _SAMPLES = 96  # poses along a circuit
 _WALKERS, _WALKS, _STRIDE = 10, 30, 0.25  # walks at random of several drives, of so many steps (radians or sizes)
@@ -238,7 +237,7 @@ def _similar(closure: DesignClosure, q: Reals, turn: complex, shift: complex, *,
     scale, angle = abs(turn), float(np.angle(turn))
     for key in closure.keys:
         at = closure.start[key]
-        slides = isinstance(closure.linkage.elements[key], Line)
+        slides = closure.linkage.elements[key].is_line
         if key[1] in closure.column:
             p[at : at + 2] *= scale
         else:

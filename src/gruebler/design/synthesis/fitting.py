@@ -15,7 +15,6 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
-from gruebler.mechanics.linkages.elements import Line
 from gruebler.structure.mechanism import Mechanism
 
 _STEPS = 150
@@ -313,7 +312,7 @@ def _units(closure: DesignClosure, targets: FitTargets, state: FitState, size: f
     """What counts as one of each number that is changed: a length of the order of the task, or a radian."""
     units = np.full(len(state.p) + len(state.free), size)
     for key, at in closure.start.items():
-        if isinstance(closure.linkage.elements[key], Line):
+        if closure.linkage.elements[key].is_line:
             units[at + 2] = 1.0
     constants = len(state.p) + (2 if targets.z is not None else 0)
     units[constants:] = 1.0

@@ -23,8 +23,7 @@ from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import Circuit, Poses, circuit
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.solve import move_in_radians
-from gruebler.mechanics.linkages import Linkage, Pin
-from gruebler.mechanics.linkages.elements import Line
+from gruebler.mechanics.linkages import Linkage
 
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
 _REFINEMENTS = 8
@@ -332,7 +331,7 @@ def size_ratio(linkage: Linkage) -> float:
     """The longest distance of two pins of a link by the shortest; points on slides do not count."""
     lengths = []
     for link in linkage.mechanism.chain.links:
-        pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and isinstance(e, Pin)]
+        pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and e.is_pin]
         lengths += [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
     return max(lengths) / min(lengths) if lengths else 1.0
 
@@ -342,7 +341,7 @@ def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | 
     if region is None:
         return True
     frame = linkage.mechanism.frame
-    pins = [e for (_, owner), e in linkage.elements.items() if owner == frame and not isinstance(e, Line)]
+    pins = [e for (_, owner), e in linkage.elements.items() if owner == frame and not e.is_line]
     return all(region[0] <= e.x <= region[2] and region[1] <= e.y <= region[3] for e in pins)
 
 

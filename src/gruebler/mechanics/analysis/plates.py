@@ -14,7 +14,6 @@ from gruebler.mechanics.analysis.drive_cycle import drive_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
-from gruebler.mechanics.linkages.elements import direction
 
 _ROWS = 721
 _SPREAD = 15  # the size of the linkage over the distance of the two pins that keep a slide from turning
@@ -124,7 +123,7 @@ def plates_of(motion: Motion) -> Plates:
         elif number not in blocks.values():
             other = next(link for link in joint.links if link != _base(lower, number, blocks))
             line = elements[other]
-            along = rect(lower.size / _SPREAD, direction(line))
+            along = rect(lower.size / _SPREAD, line.direction)
             for at in (complex(line.x, line.y), complex(line.x, line.y) + along):
                 add({other: at}, number)
     plates = {}
@@ -167,7 +166,7 @@ def _slot(lower: Linkage, motion: Motion, slide: int, base: str, pin: tuple[str,
     k, m = motion.link_index(base), motion.link_index(pin[0])
     track = motion.places[0, :, m] + motion.turns[:, m] * pin[1]
     seen = np.conj(motion.turns[:, k]) * (track - motion.places[0, :, k])
-    along = rect(1, direction(lower.elements[slide, base]))
+    along = rect(1, lower.elements[slide, base].direction)
     ways = (seen * along.conjugate()).real
     first = complex(seen[0]) - ways[0] * along
     return complex(first + ways.min() * along), complex(first + ways.max() * along)

@@ -18,7 +18,6 @@ from gruebler.mechanics.analysis.transmission import transmission_angle
 from gruebler.mechanics.kinematics.drive_rows import from_degrees
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.linkages.elements import LeadingElement
 from gruebler.mechanics.linkages.points import PointLike, each_point
 from gruebler.structure.chain.pairs import Alphabet
 
@@ -105,7 +104,7 @@ def motion_table(
         return np.where(speed == 0, np.nan, derivative)
 
     noise = (1e-12,) * 4
-    if any(isinstance(element, LeadingElement) for element in linkage.elements.values()):
+    if any(element.leads for element in linkage.elements.values()):
         noise = _POLYNOMIAL_NOISE
     usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
     for output in seen:

@@ -12,7 +12,6 @@ from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.forces.loads import Wrench
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.structure.chain.pairs import Space
 
 _GROWTH = 1e6  # an answer larger than this by its load (lengths in sizes): the links are not held in this pose
@@ -165,7 +164,7 @@ def _meeting(motion: Motion, joint: int, first: str, second: str, rows: slice) -
     links, near, far = lower.mechanism.chain.links, lower.elements[joint, first], lower.elements[joint, second]
     k, m = links.index(first), links.index(second)
     at = (motion.places[0, rows, m] + motion.turns[rows, m] * complex(far.x, far.y)) / lower.size
-    return at, motion.turns[rows, k] * rect(1, direction(near))
+    return at, motion.turns[rows, k] * rect(1, near.direction)
 
 
 def _loads(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reals:

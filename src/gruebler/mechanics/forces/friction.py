@@ -19,7 +19,6 @@ from gruebler.mechanics.forces.loads import Rows, Wrench
 from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.quantities import as_finite
 from gruebler.structure.chain.pairs import Freedom
 
@@ -319,7 +318,7 @@ def _line(motion: Motion, contact: RubbingContact) -> tuple[tuple[complex, Compl
     lower, connection = motion.lower_linkage, joint_connections(motion)[contact.connection]
     links = lower.mechanism.chain.links
     near, far = (lower.elements[connection.joint, links[k]] for k in (connection.first, connection.second))
-    along = motion.turns[:, connection.first] * rect(1, direction(near))
+    along = motion.turns[:, connection.first] * rect(1, near.direction)
     return (complex(near.x, near.y), along), complex(far.x, far.y)
 
 

@@ -12,7 +12,6 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.points import PointLike, place_of
 
 _HIGHEST = 40
@@ -135,7 +134,7 @@ def _solved(jacobian: Reals, right: Reals) -> Reals:
 
 def _ends(lower: Linkage, joint: int, first: str, second: str) -> tuple[complex, complex, complex]:
     near, far = lower.elements[joint, first], lower.elements[joint, second]
-    line = rect(1, direction(near))
+    line = rect(1, near.direction)
     return complex(near.x, near.y) / lower.size, complex(far.x, far.y) / lower.size, line
 
 

@@ -20,7 +20,6 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contacts import contact_conditions, law_tables
 from gruebler.mechanics.kinematics.contours import PiecewiseLaw
 from gruebler.mechanics.linkages import Element, Linkage, Pose2D
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.linkages.wheels import carriers, round_joints
 
@@ -169,7 +168,7 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
                     free.append((ends[0], ends[1]))
                     rows.append(_Row(PIN, (arm, owners[0]), ((0j, 1 + 0j), places[0])))
                     rows.append(_Row(RIDE, (arm, owners[1]), ((0j, 1 + 0j), places[1])))
-                turned = direction(lower.elements[keys[condition.sides[0]]])
+                turned = lower.elements[keys[condition.sides[0]]].direction
                 if number in held:
                     turned -= held[number].direction + (pi if condition.sides != sides else 0.0)
                 rows.append(
@@ -239,7 +238,7 @@ def _at(lower: Linkage, key: tuple[int, str]) -> tuple[complex, complex]:
 
 
 def _direction(element: Element) -> complex:
-    return rect(1, direction(element))
+    return rect(1, element.direction)
 
 
 def nearest_on_curve(system: ClosureSystem, x: Reals) -> tuple[Reals, Reals, float, int]:

@@ -15,7 +15,7 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.machines.cams import Cam, CamError, Flat, Roller, read_lift
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.kinematics.noncircular import transfer_of
-from gruebler.mechanics.linkages import CamDisc, Element, GenevaDriver, GenevaWheel, NonCircular
+from gruebler.mechanics.linkages import CamDisc, GenevaDriver, GenevaWheel, NonCircular
 
 COEFFICIENTS = 12
 _EXACT = 5e-16  # of the largest value: terms of a piece that are rounding
@@ -118,22 +118,23 @@ def _turned(cam: Cam, t: Reals, high: float, low: float) -> Reals:
 
 
 @lru_cache(maxsize=64)
-def turn_law(first: GenevaDriver | NonCircular, second: Element) -> PiecewiseLaw:
-    """The angle of a Geneva wheel, or of a non-circular wheel, by that of its driver, both against the line of centres.
+def noncircular_law(first: NonCircular, second: NonCircular) -> PiecewiseLaw:
+    """The angle of a non-circular wheel by that of the first, both against the line of centres.
 
     `LinkageError` for a pair that cannot be.
     """
-    if isinstance(first, NonCircular):
-        assert isinstance(second, NonCircular)
-        pair = transfer_of(first, second)
-        bounds = [*(pair.breaks or (0.0,)), 2 * pi]
-        law = _law(lambda t, _a, _b: -pair.at(t), bounds, advance=-2 * pi * float(pair.mean))
-        return replace(law, joints=law.joints if pair.breaks else ())
-    assert isinstance(second, GenevaWheel)
-    return _geneva_law(first, second)
+    pair = transfer_of(first, second)
+    bounds = [*(pair.breaks or (0.0,)), 2 * pi]
+    law = _law(lambda t, _a, _b: -pair.at(t), bounds, advance=-2 * pi * float(pair.mean))
+    return replace(law, joints=law.joints if pair.breaks else ())
 
 
-def _geneva_law(driver: GenevaDriver, cross: GenevaWheel) -> PiecewiseLaw:
+@lru_cache(maxsize=64)
+def geneva_law(driver: GenevaDriver, cross: GenevaWheel) -> PiecewiseLaw:
+    """The angle of a Geneva wheel by that of its driver, both against the line of centres.
+
+    `LinkageError` for a pair that cannot be.
+    """
     try:
         drive = Geneva(cross.slots, internal=cross.internal, pins=driver.pins)
     except GrueblerError as error:

@@ -16,7 +16,7 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.jets import turn_derivative, turned_derivative
 from gruebler.base.text import message
-from gruebler.mechanics.linkages import Line, Linkage, LinkPoint, Pose2D
+from gruebler.mechanics.linkages import Linkage, LinkPoint, Pose2D
 from gruebler.mechanics.linkages.points import PointLike, place_of
 from gruebler.mechanics.linkages.wheels import sliding_joint
 
@@ -99,9 +99,7 @@ class LinkPoses(ABC):
                 joints=", ".join(sliding) or message("none"),
             )
         first, other = mechanism.chain.joints[number].links[:2]
-        if not isinstance(elements[number, first], Line) or (
-            other == mechanism.frame and isinstance(elements[number, other], Line)
-        ):
+        if not elements[number, first].is_line or (other == mechanism.frame and elements[number, other].is_line):
             first, other = other, first
         return self._along_line(self.linkage, number, first, other, order, 1j if across else 1)
 
@@ -116,7 +114,6 @@ class LinkPoses(ABC):
     def _along_line(self, linkage: Linkage, joint: int, first: str, other: str, order: int, along: complex) -> Reals:
         """The way from the first link's point to the other's, seen along (or across) the first link's line."""
         line, far = linkage.elements[joint, first], linkage.elements[joint, other]
-        assert isinstance(line, Line)
         self.check_order(order)
         gaps = [
             self.complex_point(LinkPoint(other, far.x, far.y), k)
@@ -125,4 +122,4 @@ class LinkPoses(ABC):
         ]
         k = self.link_index(first)
         seen = turned_derivative(-self.rates[:, :, k], gaps, order)
-        return np.real(np.conj(self.turns[:, k] * rect(1, line.angle) * along) * seen)
+        return np.real(np.conj(self.turns[:, k] * rect(1, line.direction) * along) * seen)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from cmath import rect
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,15 +15,12 @@ from gruebler.base.columns import Table
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined
-from gruebler.mechanics.kinematics.contacts import law_at
-from gruebler.mechanics.kinematics.contours import cam_law, turn_law
 from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.kinematics.messages import stop_message, taken_for_exact_message, unbounded_message
+from gruebler.mechanics.kinematics.openings import closure_error
 from gruebler.mechanics.kinematics.plan import Plan
-from gruebler.mechanics.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, NonCircular, Wheel
-from gruebler.mechanics.linkages.elements import INVERSE, LeadingElement, RoundElement
+from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike
-from gruebler.mechanics.linkages.wheels import carriers, rolling_factors, round_joints
 
 
 @dataclass(frozen=True)
@@ -131,7 +127,7 @@ class Motion(LinkPoses):
     @cached_property
     def closure_error(self) -> float:
         """The largest distance by which a joint of any pose is open, relative to the linkage's size."""
-        return _closure_error(self)
+        return closure_error(self, self.plan.released)
 
     @property
     def branch(self) -> tuple[str, ...]:
@@ -177,115 +173,3 @@ class Motion(LinkPoses):
                     order=order,
                 )
             raise LinkageError("the order of a derivative is 0, 1, 2 or 3, not {order!r}", order=order)
-
-
-def _closure_error(motion: Motion) -> float:
-    """See `Motion.closure_error`."""
-    lower = motion.plan.lower
-    wheels = round_joints(lower.mechanism, lower.elements)
-    largest = max(
-        (_open_contact(motion, k) for k in round_joints(motion.linkage.mechanism, motion.linkage.elements)), default=0.0
-    )
-    gaps = [
-        joint_openings(motion, linkage, number)
-        for linkage, numbers in (
-            (lower, set(range(len(lower.mechanism.chain.joints))) - set(wheels)),
-            (motion.linkage, motion.plan.released),
-        )
-        for number in numbers
-    ]
-    return max([largest, *(float(gap.max(initial=0.0)) for gap in gaps)])
-
-
-def _open_contact(motion: Motion, number: int) -> float:
-    """How far wheels or circles leave each other, or turn against each other since the first row, in sizes."""
-    linkage = motion.linkage
-    chain, elements = linkage.mechanism.chain, linkage.elements
-    a, b = chain.joints[number].links
-    if isinstance(elements[number, b], Line):
-        a, b = b, a
-    element, other_element = elements[number, a], elements[number, b]
-    if isinstance(element, LeadingElement) or isinstance(other_element, LeadingElement):
-        return _open_curve(motion, number) / linkage.size
-    assert isinstance(other_element, RoundElement)
-    gap = _point_at(motion, b, other_element.x, other_element.y) - _point_at(motion, a, element.x, element.y)
-    touching = chain.joints[number].pair.rolls or isinstance(other_element, Circle)
-    if isinstance(element, Line):
-        gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, element.angle))
-        radius = np.copysign(other_element.radius, gap.imag)
-        far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
-    else:
-        assert isinstance(element, RoundElement)
-        far = np.abs(np.abs(gap) - abs(element.radius + other_element.radius))
-        arm = carriers(linkage.mechanism, elements).get(number)
-        along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
-        if isinstance(element, Wheel) and isinstance(other_element, Wheel):
-            first, second = rolling_factors(element, other_element)
-            rolled = first * (motion.angle(a) - along) + second * (motion.angle(b) - along)
-    largest = float(far.max()) if touching else 0.0
-    if isinstance(other_element, Wheel):
-        largest = max(largest, float(np.abs(rolled - rolled[0]).max()))
-    return largest / linkage.size
-
-
-def _open_curve(motion: Motion, number: int) -> float:
-    """How far a follower leaves its cam, or a Geneva or non-circular wheel its angle, times a length."""
-    elements = motion.linkage.elements
-    a, b = motion.linkage.mechanism.chain.joints[number].links
-    last = elements[number, b]
-    if isinstance(last, CamDisc | GenevaDriver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
-        a, b = b, a
-    first, second = elements[number, a], elements[number, b]
-    assert isinstance(first, LeadingElement)
-    gap = _point_at(motion, b, second.x, second.y) - _point_at(motion, a, first.x, first.y)
-    along = motion.turns[:, motion.link_index(a)] * rect(1, first.angle)
-    if isinstance(first, GenevaDriver | NonCircular):
-        law = turn_law(first, second)
-        bearing = np.unwrap(np.angle(gap))
-        turned = motion.angle(a) + first.angle - bearing
-        turned += np.angle(along[0] / gap[0] * abs(gap[0])) - turned[0]
-        wheel = motion.angle(b) - bearing
-        off = np.array([law_at(law, float(t)) for t in turned]) - wheel
-        return float(np.abs(off - off[0]).max()) * motion.linkage.size
-    law = cam_law(first)
-    if isinstance(second, Line):
-        normal = 1j * motion.turns[:, motion.link_index(b)] * rect(1, second.angle)
-        height = (np.conj(normal) * gap).real
-        normal, height = normal * np.sign(height), np.abs(height)
-        wanted = np.array([law_at(law, float(t)) for t in np.angle(normal / along)])
-    else:
-        wanted = np.exp([law_at(law, float(t)) for t in np.angle(gap / along)])
-        height = np.abs(gap)
-    return float(np.abs(height - wanted).max())
-
-
-def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
-    """By how much a joint of pins and lines is open in each row, in sizes and radians; (rows,).
-
-    The linkage is that of the motion, or the one with lower pairs.
-    """
-    joint = linkage.mechanism.chain.joints[number]
-    openings = np.zeros(len(motion))
-    for first, other in ((joint.links[0], other) for other in joint.links[1:]):
-        if not isinstance(linkage.elements[number, first], Line):
-            first, other = other, first  # noqa: PLW2901
-        element, other_element = linkage.elements[number, first], linkage.elements[number, other]
-        gap = (
-            _point_at(motion, other, other_element.x, other_element.y) - _point_at(motion, first, element.x, element.y)
-        ) / linkage.size
-        if isinstance(element, Line):
-            line = motion.turns[:, motion.link_index(first)] * rect(1, element.angle)
-            if not joint.pair.slides_two_ways:
-                openings = np.maximum(openings, np.abs((np.conj(line) * gap).imag))
-            if isinstance(other_element, Line):
-                openings = np.maximum(
-                    openings, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, other_element.angle) - line)
-                )
-        else:
-            openings = np.maximum(openings, np.abs(gap))
-    return openings
-
-
-def _point_at(motion: Motion, link: str, x: float, y: float) -> Complexes:
-    k = motion.link_index(link)
-    return motion.places[0, :, k] + motion.turns[:, k] * complex(x, y)

@@ -17,7 +17,6 @@ from gruebler.base.notebook import brief
 from gruebler.mechanics.kinematics.contacts import Condition, contact_conditions, law_tables
 from gruebler.mechanics.kinematics.redundancy import independent_part
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.assur import Decomposition, SolvedGroup, decompose
 
@@ -193,7 +192,7 @@ class Plan:
         """Points and directions (complex) of the elements of a linkage of this structure, with lower pairs."""
         elements = [lower.elements[key] for key in self.keys]
         points = np.array([complex(e.x, e.y) for e in elements], np.complex128)
-        lines = np.array([rect(1, direction(e)) for e in elements], np.complex128)
+        lines = np.array([rect(1, e.direction) for e in elements], np.complex128)
         return points, lines
 
 

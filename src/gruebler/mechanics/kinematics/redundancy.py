@@ -18,7 +18,6 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import joined, message
 from gruebler.mechanics.linkages import Element, Line, Linkage, Pin, with_lower_pairs
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.assur import decompose
@@ -162,7 +161,7 @@ class ReferenceConditions:
             if drive.turning:
                 gradients.append(self._turn(first, other))
                 continue
-            lined = first if isinstance(self.linkage.elements[drive.joint, first], Line) else other
+            lined = first if self.linkage.elements[drive.joint, first].is_line else other
             across = drive.direction == Freedom.TRAVEL_Y
             if across:
                 lined = self.chain.joints[drive.joint].links[1]
@@ -201,7 +200,7 @@ class ReferenceConditions:
             yield self._way(x, number, links, 1 + 0j, "")
             yield self._way(x, number, links, 1j, "")
             return
-        lined = first if isinstance(self.linkage.elements[number, first], Line) else other
+        lined = first if self.linkage.elements[number, first].is_line else other
         along = self._line(x, number, lined)
         if not joint.pair.slides_two_ways:
             yield self._way(x, number, links, 1j * along, lined)
@@ -210,7 +209,7 @@ class ReferenceConditions:
             yield phase(turned), self._turn(first, other)
 
     def _line(self, x: Reals, number: int, link: str) -> complex:
-        return rect(1, self.place(x, link)[1] + direction(self.linkage.elements[number, link]))
+        return rect(1, self.place(x, link)[1] + self.linkage.elements[number, link].direction)
 
     def _turn(self, first: str, other: str) -> Reals:
         gradient = np.zeros(3 * len(self.bodies))

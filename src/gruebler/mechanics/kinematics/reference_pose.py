@@ -13,7 +13,6 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contacts import reference_angles
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 
 
@@ -60,7 +59,7 @@ def _put(plan: Plan, element: int) -> complex:
 def _line(plan: Plan, element: int) -> complex:
     number, link = plan.keys[element]
     e = plan.lower.elements[number, link]
-    return rect(1, plan.lower.required_pose[link].angle + direction(e))
+    return rect(1, plan.lower.required_pose[link].angle + e.direction)
 
 
 def _drive(plan: Plan, k: int) -> float:

@@ -23,7 +23,8 @@ from gruebler.mechanics.kinematics.branches import (
 from gruebler.mechanics.kinematics.change_point_rows import set_change_point_rows
 from gruebler.mechanics.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
 from gruebler.mechanics.kinematics.kernel_calls import SolvedRows, follow_path, run_rows, without_first
-from gruebler.mechanics.kinematics.motion import Motion, Stop, joint_openings
+from gruebler.mechanics.kinematics.motion import Motion, Stop
+from gruebler.mechanics.kinematics.openings import joint_openings
 from gruebler.mechanics.kinematics.plan import Dyad, HigherGroup, Plan, plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose, check_reference, pose_at_reference
 from gruebler.mechanics.linkages import Linkage

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from math import atan2, cos, hypot, sin
 from sys import float_info
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import message
-from gruebler.mechanics.linkages.elements import CENTRED, Element, Line, Pin, Pose2D, RoundElement, read_element
+from gruebler.mechanics.linkages.elements import Element, Pin, Pose2D, read_element
 from gruebler.structure.mechanism import Mechanism
 
 ByLink = dict[str, dict[str | int, object]]
@@ -28,10 +27,7 @@ def taken_apart(
     elements: ByLink = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
         x, y = _seen_from(reference_pose[link], element.x, element.y)
-        seen_there = replace(element, x=x, y=y)
-        if not isinstance(seen_there, Pin | RoundElement):
-            seen_there = replace(seen_there, angle=seen_there.angle - reference_pose[link].angle)
-        elements[link][number] = seen_there
+        elements[link][number] = element.placed(x, y, element.direction - reference_pose[link].angle)
     seen = {}
     for name, (link, x, y) in points.items():
         if link not in reference_pose:
@@ -84,23 +80,23 @@ def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) ->
                 "{joint}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
                 joint=chain.joint_title(number),
             )
-        if isinstance(element, CENTRED):
+        if element.is_round:
             raise LinkageError("{joint}: wheels are given for each of its links", joint=chain.joint_title(number))
         for link in joint.links:
             drawn[number, link] = Pin(element.x, element.y) if slot not in (None, link) else element
     for (number, link), element in list(drawn.items()):
-        if isinstance(element, Line) and link != mechanism.frame:
+        if element.is_line and link != mechanism.frame:
             drawn[number, link] = _at_the_pin(link, element, drawn)
     return drawn
 
 
-def _at_the_pin(link: str, line: Line, drawn: Mapping[tuple[int, str], Element]) -> Line:
+def _at_the_pin(link: str, line: Element, drawn: Mapping[tuple[int, str], Element]) -> Element:
     """The line with its point where the link's first pin is nearest to it."""
     for (_, owner), element in drawn.items():
-        if owner == link and isinstance(element, Pin):
-            c, s = cos(line.angle), sin(line.angle)
+        if owner == link and element.is_pin:
+            c, s = cos(line.direction), sin(line.direction)
             displacement = c * (element.x - line.x) + s * (element.y - line.y)
-            return Line(line.x + c * displacement, line.y + s * displacement, line.angle)
+            return line.placed(line.x + c * displacement, line.y + s * displacement, line.direction)
     return line
 
 
@@ -111,10 +107,10 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
     driven = {drive.joint for drive in mechanism.drives}
     own_elements = sorted((number not in driven, number, e) for (number, owner), e in drawn.items() if owner == link)
     elements = [element for _, _, element in own_elements]
-    lines = [e for e in elements if isinstance(e, Line)]
-    pins = [e for e in elements if isinstance(e, Pin)]
+    lines = [e for e in elements if e.is_line]
+    pins = [e for e in elements if e.is_pin]
     first = pins[0] if pins else elements[0]
     if lines:
-        return Pose2D(first.x, first.y, lines[0].angle)
+        return Pose2D(first.x, first.y, lines[0].direction)
     far = next((p for p in pins[1:] if hypot(p.x - first.x, p.y - first.y) > 0), None)
     return Pose2D(first.x, first.y, atan2(far.y - first.y, far.x - first.x) if far else 0.0)

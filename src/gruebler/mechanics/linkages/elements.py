@@ -1,60 +1,200 @@
-"""What a joint is on one of its links: a pin, a line along which something slides, a wheel, or a smooth circle."""
+"""What a joint is on one of its links: a pin, a line along which something slides, a wheel, or a smooth circle.
+
+Each kind of element is one class. What two of them do together stands in `gruebler.mechanics.linkages.contacts` and
+`gruebler.mechanics.kinematics.contacts`, files in `gruebler.files.element_records`, pictures in
+`gruebler.pictures.linkage.element_pictures`.
+"""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from math import cos, hypot, isfinite, sin
-from typing import NamedTuple
+from typing import ClassVar, Literal, NamedTuple, Self, TypeVar, final
 
 from gruebler.base.angles import warn_of_degrees
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import Message, joined_by_or, message
-from gruebler.structure.chain.pairs import Pair
+from gruebler.base.text import Message, message
+
+Where = str | Message
+"""The place of an element in what was given, for messages."""
 
 
 @dataclass(frozen=True, slots=True)
-class Pin:
+class Element(ABC):
+    """What a joint is on one of its links. The class says what there is to know of its kind."""
+
+    x: float
+    y: float
+
+    title: ClassVar[Message]
+    """How it is called where one is missing, and how it is written."""
+    form: ClassVar[Literal["pin", "line", "round"]]
+    """A ``pin`` is a point, something slides or rolls along a ``line``; what is ``round`` has a centre at ``x, y`` and
+    touches another element with its outline."""
+    lengths: ClassVar[tuple[str, ...]] = ("x", "y")
+    """Its numbers that are lengths, or multiply lengths."""
+    angles: ClassVar[tuple[str, ...]] = ()
+    """Its number that is an angle in the link's coordinates, if there is one."""
+    is_smooth: ClassVar[bool] = False
+    """Whether it is the same when it turns about its centre."""
+    leads: ClassVar[bool] = False
+    """Whether it moves another element by a law."""
+
+    @property
+    def is_pin(self) -> bool:
+        """Whether it is a point and nothing else."""
+        return self.form == "pin"
+
+    @property
+    def is_line(self) -> bool:
+        """Whether something slides or rolls along it."""
+        return self.form == "line"
+
+    @property
+    def is_round(self) -> bool:
+        """Whether it has a centre and touches another element."""
+        return self.form == "round"
+
+    @property
+    def direction(self) -> float:
+        """Its angle on its link; 0 for one that has none."""
+        return float(getattr(self, self.angles[0])) if self.angles else 0.0
+
+    @property
+    def rim(self) -> float:
+        """How far a round outline reaches from the centre; 0 if there is none, or another element decides."""
+        return 0.0
+
+    @property
+    def place(self) -> tuple[float, ...]:
+        """Where it is on its link: x, y, and its angle if it has one.
+
+        >>> Pin(3.0, 4.0).place, Line(3.0, 4.0, 0.5).place
+        ((3.0, 4.0), (3.0, 4.0, 0.5))
+        """
+        return (self.x, self.y, *(getattr(self, name) for name in self.angles))
+
+    def placed(self, x: float, y: float, angle: float = 0.0) -> Self:
+        """The same at another place; one without a direction takes no notice of the angle."""
+        return replace(self, x=x, y=y, **dict.fromkeys(self.angles, angle))
+
+    def scaled(self, factor: float) -> Self:
+        """The same with every length times a factor."""
+        return replace(self, **{name: getattr(self, name) * factor for name in self.lengths})
+
+    def mirrored(self) -> Self:
+        """The mirror image in the x axis; `LinkageError` if it is an element of another law."""
+        self.check_mirrored()
+        return replace(self, y=-self.y, **{name: -getattr(self, name) for name in self.angles})
+
+    def check_mirrored(self) -> None:  # noqa: B027  # most have a mirror image
+        """`LinkageError` for an element whose mirror image has another law."""
+
+    @abstractmethod
+    def checked(self, where: Where) -> Self:
+        """The same with its numbers as floats; `LinkageError` names the first that cannot be."""
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Pin(Element):
     """The axis of a turning joint: a point of the link."""
 
-    x: float
-    y: float
+    title = message("a pin [x, y]")
+    form = "pin"
+
+    def checked(self, where: Where) -> Pin:
+        """See `Element.checked`."""
+        return Pin(_number(self.x, where), _number(self.y, where))
 
 
+@final
 @dataclass(frozen=True, slots=True)
-class Line:
+class Line(Element):
     """A slide: a line of the link through a point; ways are counted from the point, in the direction of the angle."""
 
-    x: float
-    y: float
     angle: float
 
+    title = message("a line [x, y, angle]")
+    form = "line"
+    angles = ("angle",)
 
+    def checked(self, where: Where) -> Line:
+        """See `Element.checked`; warns of an angle that looks like degrees."""
+        x, y, angle = (_number(value, where) for value in (self.x, self.y, self.angle))
+        warn_of_degrees(str(where), angle)
+        return Line(x, y, angle)
+
+
+@final
 @dataclass(frozen=True, slots=True)
-class Wheel:
+class Wheel(Element):
     """A wheel that rolls without slip, on another one or along a line; ``x, y`` is its centre.
 
     A negative radius is internal toothing. Tooth numbers, with the sign of the radius, make the ratio exact; a wheel of
     a belt or chain is ``open`` or ``crossed`` and touches nothing.
     """
 
-    x: float
-    y: float
     radius: float
     teeth: int = 0
     belt: str = ""
 
+    title = message("a wheel (at, radius or teeth)")
+    form = "round"
+    lengths = ("x", "y", "radius")
 
+    @property
+    def rim(self) -> float:
+        """See `Element.rim`."""
+        return abs(self.radius)
+
+    def checked(self, where: Where) -> Wheel:
+        """See `Element.checked`."""
+        x, y, radius = (_number(value, where) for value in (self.x, self.y, self.radius))
+        if radius or not self.teeth:
+            _check_radius(radius, where)
+        teeth = _whole(self.teeth, where)
+        if teeth * radius < 0:
+            raise LinkageError(
+                "{where}: radius and teeth are both negative (internal toothing) or both positive", where=where
+            )
+        if self.belt not in ("", "open", "crossed"):
+            raise LinkageError("{where}: a belt is 'open' or 'crossed', not {belt!r}", where=where, belt=self.belt)
+        if self.belt and radius < 0:
+            raise LinkageError(
+                "{where}: a wheel of a belt has a positive radius, not {radius:g}", where=where, radius=radius
+            )
+        return Wheel(x, y, radius, teeth, self.belt)
+
+
+@final
 @dataclass(frozen=True, slots=True)
-class Circle:
+class Circle(Element):
     """A smooth circle, on which a contact may slide: an eccentric disc, a roller; a negative radius is a hole."""
 
-    x: float
-    y: float
     radius: float
 
+    title = message("a circle (at, circle)")
+    form = "round"
+    lengths = ("x", "y", "radius")
+    is_smooth = True
 
+    @property
+    def rim(self) -> float:
+        """See `Element.rim`."""
+        return abs(self.radius)
+
+    def checked(self, where: Where) -> Circle:
+        """See `Element.checked`."""
+        x, y, radius = (_number(value, where) for value in (self.x, self.y, self.radius))
+        _check_radius(radius, where)
+        return Circle(x, y, radius)
+
+
+@final
 @dataclass(frozen=True, slots=True)
-class CamDisc:
+class CamDisc(Element):
     """A disc cam, by the lift that it gives a follower (`gruebler.machines.cams`): a roller or a flat face.
 
     ``x, y`` is the axis; the cam's own frame is turned by the angle; lengths, those of the lift too, are multiplied by
@@ -63,8 +203,6 @@ class CamDisc:
     ``face`` from the pivot.
     """
 
-    x: float
-    y: float
     angle: float
     lift: str
     base: float
@@ -76,30 +214,64 @@ class CamDisc:
     distance: float = 0.0
     face: float = 0.0
 
+    title = message("a cam (at, cam)")
+    form = "round"
+    lengths = ("x", "y", "scale")
+    angles = ("angle",)
+    leads = True
 
+    def check_mirrored(self) -> None:
+        """See `Element.check_mirrored`."""
+        raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
+
+    def checked(self, where: Where) -> CamDisc:
+        """See `Element.checked`."""
+        return _with_place_checked(self, where)
+
+
+@final
 @dataclass(frozen=True, slots=True)
-class GenevaDriver:
+class GenevaDriver(Element):
     """The driver of a Geneva drive: its axis, the direction of a pin, the number of pins."""
 
-    x: float
-    y: float
     angle: float
     pins: int = 1
 
+    title = message("pins (at, pins)")
+    form = "round"
+    angles = ("angle",)
+    leads = True
 
+    def checked(self, where: Where) -> GenevaDriver:
+        """See `Element.checked`."""
+        return _with_place_checked(self, where)
+
+
+@final
 @dataclass(frozen=True, slots=True)
-class GenevaWheel:
+class GenevaWheel(Element):
     """The slotted wheel of a Geneva drive: its axis, the direction of a slot, the number of slots."""
 
-    x: float
-    y: float
     angle: float
     slots: int
     internal: bool = False
 
+    title = message("slots (at, slots)")
+    form = "round"
+    angles = ("angle",)
 
+    def checked(self, where: Where) -> GenevaWheel:
+        """See `Element.checked`."""
+        return _with_place_checked(self, where)
+
+
+INVERSE = "inverse"
+"""The transfer function of the second of two non-circular wheels."""
+
+
+@final
 @dataclass(frozen=True, slots=True)
-class NonCircular:
+class NonCircular(Element):
     """A wheel whose curve rolls without slip on that of another one, about fixed centres, in the opposite sense.
 
     ``x, y`` is the axis; the angle that of a direction of the wheel. The turns of both wheels are counted from the
@@ -109,29 +281,27 @@ class NonCircular:
     other wheel has ``"inverse"``. The mean ratio is that of the tooth numbers, 1 without them.
     """
 
-    x: float
-    y: float
     angle: float
     transfer: str
     teeth: int = 0
 
+    title = message("a non-circular wheel (at, transfer)")
+    form = "round"
+    angles = ("angle",)
+    leads = True
 
-INVERSE = "inverse"
-"""The transfer function of the second of two non-circular wheels."""
+    def check_mirrored(self) -> None:
+        """See `Element.check_mirrored`."""
+        if self.transfer != INVERSE and not self.transfer.lstrip().startswith("ellipse"):
+            raise LinkageError("the mirror image of a non-circular wheel is another one: reverse its lift")
 
-Element = Pin | Line | Wheel | Circle | CamDisc | GenevaDriver | GenevaWheel | NonCircular
-
-RoundElement = Wheel | Circle
-"""The elements with a centre and a radius."""
-LeadingElement = CamDisc | GenevaDriver | NonCircular
-"""The elements that lead another one by a law."""
-CENTRED = (Wheel, Circle, CamDisc, GenevaDriver, GenevaWheel, NonCircular)
-"""The elements that turn about a centre and touch another element."""
-
-
-def direction(element: Element) -> float:
-    """The angle of an element on its link; 0 for one that has none."""
-    return element.angle if isinstance(element, Line | CamDisc | GenevaDriver | GenevaWheel | NonCircular) else 0.0
+    def checked(self, where: Where) -> NonCircular:
+        """See `Element.checked`."""
+        if _whole(self.teeth, where) < 0:
+            raise LinkageError(
+                "{where}: teeth: expected a positive number, but found {teeth}", where=where, teeth=self.teeth
+            )
+        return _with_place_checked(self, where)
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,112 +335,38 @@ class Pose2D(NamedTuple):
         return c * (x - self.x) + s * (y - self.y), c * (y - self.y) - s * (x - self.x)
 
 
-_KINDS = {
-    Pin: message("a pin [x, y]"),
-    Line: message("a line [x, y, angle]"),
-    Wheel: message("a wheel (at, radius or teeth)"),
-    Circle: message("a circle (at, circle)"),
-    CamDisc: message("a cam (at, cam)"),
-    GenevaDriver: message("pins (at, pins)"),
-    GenevaWheel: message("slots (at, slots)"),
-    NonCircular: message("a non-circular wheel (at, transfer)"),
-}
-
-_WANTED: dict[str, tuple[tuple[type, type], ...]] = {
-    "revolute": ((Pin, Pin),),
-    "prismatic": ((Line, Line),),
-    "roll_slide": (
-        (Line, Pin),
-        (Wheel, Wheel),
-        (Wheel, Line),
-        (Circle, Circle),
-        (Circle, Line),
-        (CamDisc, Circle),
-        (CamDisc, Pin),
-        (CamDisc, Line),
-        (GenevaDriver, GenevaWheel),
-        (NonCircular, NonCircular),
-    ),
-    "double_slide": ((Line, Line),),
-    "rolling": ((Wheel, Wheel), (Wheel, Line), (NonCircular, NonCircular)),
-}
+_E = TypeVar("_E", bound=Element)
 
 
-def check_elements_fit(pair: Pair, name: str, elements: dict[str, Element]) -> None:
-    """Check that a joint has the elements of its pair; `LinkageError` names the joint."""
-    if pair.name not in _WANTED:
-        raise LinkageError(
-            "{name}: dimensions of this kind of joint ({pair}) are not known here", name=name, pair=pair.title
-        )
-    given = {type(e) for e in elements.values()}
-    if any(given == set(kinds) for kinds in _WANTED[pair.name]):
-        return
-    wanted = [
-        message("{element} on each of its links", element=_KINDS[first])
-        if first is second
-        else message("{one} on one of its links and {other} on the other", one=_KINDS[first], other=_KINDS[second])
-        for first, second in _WANTED[pair.name]
-    ]
-    raise LinkageError("{name} needs {elements}", name=name, elements=joined_by_or(wanted))
-
-
-def read_element(raw: object, where: str | Message) -> Element:
+def read_element(raw: object, where: Where) -> Element:
     """The element that two or three numbers stand for; angles in radians.
 
     >>> read_element([3, 4], "crank")
     Pin(x=3.0, y=4.0)
     """
-    if isinstance(raw, RoundElement):
-        return _round(raw, where)
-    if isinstance(raw, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
-        if isinstance(raw, NonCircular) and _whole(raw.teeth, where) < 0:
-            raise LinkageError(
-                "{where}: teeth: expected a positive number, but found {teeth}", where=where, teeth=raw.teeth
-            )
-        x, y, angle = (_number(value, where) for value in (raw.x, raw.y, raw.angle))
-        return replace(raw, x=x, y=y, angle=angle)
-    if isinstance(raw, Pin):
-        numbers: tuple[object, ...] = (raw.x, raw.y)
-    elif isinstance(raw, Line):
-        numbers = (raw.x, raw.y, raw.angle)
-    elif isinstance(raw, list | tuple):
-        numbers = tuple(raw)
-    else:
+    if isinstance(raw, Element):
+        return raw.checked(where)
+    if not isinstance(raw, list | tuple):
         raise LinkageError("{where}: expected [x, y] or [x, y, angle], but found {raw!r}", where=where, raw=raw)
-    if len(numbers) not in (2, 3):
-        raise LinkageError("{where}: expected two or three numbers, but found {count}", where=where, count=len(numbers))
-    values = [_number(value, where) for value in numbers]
-    if len(values) == 2:
-        return Pin(*values)
-    warn_of_degrees(str(where), values[2])
-    return Line(*values)
+    if len(raw) not in (2, 3):
+        raise LinkageError("{where}: expected two or three numbers, but found {count}", where=where, count=len(raw))
+    return (Pin(*raw) if len(raw) == 2 else Line(*raw)).checked(where)
 
 
-def _round(raw: RoundElement, where: str | Message) -> RoundElement:
-    x, y, radius = (_number(value, where) for value in (raw.x, raw.y, raw.radius))
-    if not abs(radius) > 1e-100 and not (isinstance(raw, Wheel) and radius == 0 and raw.teeth):
+def _with_place_checked(element: _E, where: Where) -> _E:
+    return element.placed(*(_number(value, where) for value in element.place))
+
+
+def _check_radius(radius: float, where: Where) -> None:
+    if not abs(radius) > 1e-100:
         raise LinkageError(
             "{where}: a radius is positive, or negative for internal toothing, not {radius!r}",
             where=where,
             radius=radius,
         )
-    if isinstance(raw, Circle):
-        return Circle(x, y, radius)
-    teeth = _whole(raw.teeth, where)
-    if teeth * radius < 0:
-        raise LinkageError(
-            "{where}: radius and teeth are both negative (internal toothing) or both positive", where=where
-        )
-    if raw.belt not in ("", "open", "crossed"):
-        raise LinkageError("{where}: a belt is 'open' or 'crossed', not {belt!r}", where=where, belt=raw.belt)
-    if raw.belt and radius < 0:
-        raise LinkageError(
-            "{where}: a wheel of a belt has a positive radius, not {radius:g}", where=where, radius=radius
-        )
-    return Wheel(x, y, radius, teeth, raw.belt)
 
 
-def _whole(teeth: object, where: str | Message) -> int:
+def _whole(teeth: object, where: Where) -> int:
     if isinstance(teeth, bool) or not isinstance(teeth, int) or not -(10**6) < teeth < 10**6:
         raise LinkageError(
             "{where}: teeth: expected a whole number below 1,000,000, but found {teeth!r}", where=where, teeth=teeth
@@ -278,7 +374,7 @@ def _whole(teeth: object, where: str | Message) -> int:
     return teeth
 
 
-def _number(value: object, where: str | Message) -> float:
+def _number(value: object, where: Where) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not _usable(value):
         raise LinkageError("{where}: expected finite numbers, but found {value!r}", where=where, value=value)
     return float(value)

@@ -11,15 +11,17 @@ from collections.abc import Iterable
 from fractions import Fraction
 from itertools import count
 from math import pi, tau
+from typing import Any
 
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import LinkageError
 from gruebler.machines.gears import Mesh, Train, Unit
 from gruebler.machines.gears.stages import central_links, mesh_groups
 from gruebler.machines.gears.train import FRAME, exact_number
-from gruebler.mechanics.linkages.elements import Line, Pin, Wheel
+from gruebler.mechanics.linkages.contacts import contact_of
+from gruebler.mechanics.linkages.elements import Element, Line, Wheel
 from gruebler.mechanics.linkages.model import Linkage
-from gruebler.mechanics.linkages.wheels import carriers, round_joints
+from gruebler.mechanics.linkages.wheels import Carrier, carriers, round_joints
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Space, pair
 from gruebler.structure.mechanism import Mechanism
@@ -209,44 +211,49 @@ def train_of(linkage: Linkage) -> Train:
         raise LinkageError("in a train the frame is called 'frame', and no other link is")
     meshes = []
     for number, (a, b) in round_joints(mechanism, elements).items():
-        first, second = elements[number, a], elements[number, b]
-        joint = mechanism.chain.joint_title(number)
-        if isinstance(first, Wheel) and isinstance(second, Wheel) and number in held:
-            rolling = mechanism.chain.joints[number].pair.rolls
-            kind = {"open": "belt", "crossed": "crossed"}.get(first.belt, "friction" if rolling else "gear")
-            meshes.append(Mesh(names[a], names[b], _size(first), _size(second), names[held[number].link], kind))
-        elif {type(first), type(second)} == {Wheel, Line}:
-            meshes.append(_rack(linkage, number, names))
-        elif isinstance(first, Wheel) and isinstance(second, Wheel):
-            raise LinkageError("{joint}: no link holds the axes of both wheels", joint=joint)
-        else:
+        contact = contact_of(elements[number, a], elements[number, b])
+        if contact.kinds not in _MESHES:
+            joint = mechanism.chain.joint_title(number)
             raise LinkageError("{joint}: a train has wheels, belts and racks only", joint=joint)
+        meshes.append(_MESHES[contact.kinds](linkage, number, names, held.get(number)))
     if not meshes:
         raise LinkageError("the linkage has no wheels")
     return Train(meshes)
 
 
-def _size(wheel: Wheel) -> Fraction:
+def _size(wheel: Any) -> Fraction:
     return Fraction(wheel.teeth) if wheel.teeth else exact_number(wheel.radius, "radius")
 
 
-def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
+def _wheels(linkage: Linkage, number: int, names: dict[str, str], arm: Carrier | None) -> Mesh:
+    """Two wheels on a link that holds their axes."""
+    chain = linkage.mechanism.chain
+    a, b = chain.joints[number].links
+    first: Any = linkage.elements[number, a]
+    if arm is None:
+        raise LinkageError("{joint}: no link holds the axes of both wheels", joint=chain.joint_title(number))
+    kind = {"open": "belt", "crossed": "crossed"}.get(
+        first.belt, "friction" if chain.joints[number].pair.rolls else "gear"
+    )
+    return Mesh(names[a], names[b], _size(first), _size(linkage.elements[number, b]), names[arm.link], kind)
+
+
+def _rack(linkage: Linkage, number: int, names: dict[str, str], _: Carrier | None) -> Mesh:
     """A rack on the frame or on a slide, with a wheel whose axis is on the frame or on a slide."""
     chain, frame, pose = linkage.mechanism.chain, linkage.mechanism.frame, linkage.required_pose
     joint = chain.joint_title(number)
     a, b = chain.joints[number].links
-    if isinstance(linkage.elements[number, a], Line):
+    if linkage.elements[number, a].is_line:
         a, b = b, a
-    wheel, line = linkage.elements[number, a], linkage.elements[number, b]
-    assert isinstance(wheel, Wheel)
-    assert isinstance(line, Line)
+    wheel: Any = linkage.elements[number, a]
+    line = linkage.elements[number, b]
     guides = {
-        link: element.angle
+        link: element.direction
         for k, other in enumerate(chain.joints)
         if other.pair.is_sliding and frame in other.links
         for link in other.links
         for element in [linkage.elements[k, frame]]
-        if link != frame and isinstance(element, Line)
+        if link != frame and element.is_line
     }
     bearer = next(
         (
@@ -259,7 +266,7 @@ def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
         None,
     )
     ways = [rect(1, guides[link]) for link in (b, bearer) if link in guides]
-    direction = rect(1, pose[b].angle + line.angle)
+    direction = rect(1, pose[b].angle + line.direction)
     parallel = ways and max(abs(ways[0] - ways[-1]), abs((ways[0] / direction).imag)) <= _PARALLEL
     if bearer is None or not (b == frame or b in guides) or not parallel:
         raise LinkageError("{joint}: rack and axis are not held by the frame or by slides along the rack", joint=joint)
@@ -269,5 +276,9 @@ def _rack(linkage: Linkage, number: int, names: dict[str, str]) -> Mesh:
     return Mesh(names[a], names[b], size if below else -size, carrier=names[bearer], kind="rack")
 
 
-def _same_place(pin: object, wheel: Wheel) -> bool:
-    return isinstance(pin, Pin) and abs(complex(pin.x - wheel.x, pin.y - wheel.y)) <= _PARALLEL * wheel.radius
+def _same_place(pin: Element, wheel: Wheel) -> bool:
+    return pin.is_pin and abs(complex(pin.x - wheel.x, pin.y - wheel.y)) <= _PARALLEL * wheel.radius
+
+
+_MESHES = {(Wheel, Wheel): _wheels, (Wheel, Line): _rack}
+"""What makes a mesh of two kinds of elements that touch."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 
-from gruebler.mechanics.linkages.elements import Circle, Element, Line, Pin
+from gruebler.mechanics.linkages.elements import Element, Line, Pin
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.wheels import carriers, redundant_wheels, round_joints
 from gruebler.structure.chain import Chain, Joint
@@ -87,7 +87,7 @@ def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
     joints = mechanism.chain.joints
     wheels, held = round_joints(mechanism, elements), carriers(mechanism, elements)
     idle = redundant_wheels(mechanism, elements) | {
-        n for n in held if all(isinstance(elements[n, link], Circle) for link in wheels[n])
+        n for n in held if all(elements[n, link].is_smooth for link in wheels[n])
     }
     eased = {n for n in held if n not in idle and joints[n].pair.rolls}
     return [n for n, joint in enumerate(joints) if len(joint.pair.lower_pairs) > 1 and n not in wheels], idle, eased
@@ -99,12 +99,12 @@ def _idle_rollers(linkage: Linkage) -> list[int]:
     driven = {drive.joint for drive in linkage.mechanism.drives}
     idle = []
     for (number, link), circle in elements.items():
-        if not isinstance(circle, Circle):
+        if not circle.is_smooth:
             continue
         own_joints = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
         if len(own_joints) == 1 and own_joints[0] not in driven:
             pin = elements[own_joints[0], link]
-            if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[own_joints[0]].links) == 2:
+            if pin == Pin(circle.x, circle.y) and len(chain.joints[own_joints[0]].links) == 2:
                 idle.append(own_joints[0])
     return idle
 
@@ -115,19 +115,16 @@ def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element,
     first, second = joint.links
     element, other_element = linkage.elements[number, first], linkage.elements[number, second]
     if joint.pair.rolls_and_slides:
-        slotted, pinned = (first, second) if isinstance(element, Line) else (second, first)
-        line, pin = (element, other_element) if isinstance(element, Line) else (other_element, element)
-        assert isinstance(line, Line)
+        slotted, pinned = (first, second) if element.is_line else (second, first)
+        line, pin = (element, other_element) if element.is_line else (other_element, element)
         return [
-            ("Tx", "prismatic", slotted, line, Line(0, 0, line.angle)),
+            ("Tx", "prismatic", slotted, line, Line(0, 0, line.direction)),
             ("Rz", "revolute", pinned, pin, Pin(0, 0)),
         ]
-    assert isinstance(element, Line)
-    assert isinstance(other_element, Line)
-    turned = Line(other_element.x, other_element.y, other_element.angle + pi / 2)
+    turned = Line(other_element.x, other_element.y, other_element.direction + pi / 2)
     return [
-        ("Tx", "prismatic", first, element, Line(0, 0, element.angle)),
-        ("Ty", "prismatic", second, turned, Line(0, 0, element.angle + pi / 2)),
+        ("Tx", "prismatic", first, element, Line(0, 0, element.direction)),
+        ("Ty", "prismatic", second, turned, Line(0, 0, element.direction + pi / 2)),
     ]
 
 
@@ -135,12 +132,11 @@ def _block_pose(linkage: Linkage, number: int) -> tuple[float, float, float]:
     """Where the block of a split joint lies in the reference pose: on the line, at the pin or where the lines cross."""
     first, second = linkage.mechanism.chain.joints[number].links
     element, other_element = linkage.elements[number, first], linkage.elements[number, second]
-    lined, line = (first, element) if isinstance(element, Line) else (second, other_element)
-    assert isinstance(line, Line)
+    lined, line = (first, element) if element.is_line else (second, other_element)
     turned = linkage.required_pose[lined].angle
-    angle = turned + line.angle
-    if isinstance(element, Pin) or isinstance(other_element, Pin):
-        pinned, pin = (first, element) if isinstance(element, Pin) else (second, other_element)
+    angle = turned + line.direction
+    if element.is_pin or other_element.is_pin:
+        pinned, pin = (first, element) if element.is_pin else (second, other_element)
         return (*linkage.required_pose[pinned].put(pin.x, pin.y), turned)
     x, y = linkage.required_pose[first].put(element.x, element.y)
     u, v = linkage.required_pose[second].put(other_element.x, other_element.y)

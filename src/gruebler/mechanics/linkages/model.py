@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import hypot
 from types import MappingProxyType
@@ -14,16 +14,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.linkages.drawing import taken_apart
-from gruebler.mechanics.linkages.elements import (
-    INVERSE,
-    CamDisc,
-    Element,
-    LinkPoint,
-    NonCircular,
-    Pin,
-    Pose2D,
-    RoundElement,
-)
+from gruebler.mechanics.linkages.elements import Element, LinkPoint, Pose2D
 from gruebler.mechanics.linkages.points import PointLike, points_of
 from gruebler.mechanics.linkages.soundness import checked_elements, checked_link, checked_points, checked_pose
 from gruebler.structure.chain.pairs import Space
@@ -171,7 +162,7 @@ class Linkage(Immutable):
         for link in self.mechanism.chain.links:
             own_elements = [e for (_, owner), e in self.elements.items() if owner == link]
             extent = max([extent, *(hypot(a.x - b.x, a.y - b.y) for a in own_elements for b in own_elements)])
-            extent = max([extent, *(abs(e.radius) for e in own_elements if isinstance(e, RoundElement))])
+            extent = max([extent, *(e.rim for e in own_elements)])
         return extent or 1.0
 
     def reference(self, drive: int) -> tuple[str, str]:
@@ -245,15 +236,8 @@ class Linkage(Immutable):
         if not 0 < factor < 1e100:
             raise LinkageError("a scale is a positive number, not {factor!r}", factor=factor)
 
-        def element(e: Element) -> Element:
-            if isinstance(e, RoundElement):
-                return replace(e, x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
-            if isinstance(e, CamDisc):
-                return replace(e, x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
-            return replace(e, x=e.x * factor, y=e.y * factor)
-
         return self._changed(
-            elements=self._by_link(element),
+            elements=self._by_link(lambda e: e.scaled(factor)),
             points={n: (p.link, p.x * factor, p.y * factor) for n, p in self.points.items()},
             reference_pose=None
             if self.reference_pose is None
@@ -262,16 +246,8 @@ class Linkage(Immutable):
 
     def mirrored(self) -> Linkage:
         """The mirror image in the x axis: every y and every angle with the other sign."""
-
-        def element(e: Element) -> Element:
-            if isinstance(e, CamDisc):
-                raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
-            if isinstance(e, NonCircular) and e.transfer != INVERSE and not e.transfer.lstrip().startswith("ellipse"):
-                raise LinkageError("the mirror image of a non-circular wheel is another one: reverse its lift")
-            return replace(e, y=-e.y) if isinstance(e, Pin | RoundElement) else replace(e, y=-e.y, angle=-e.angle)
-
         return self._changed(
-            elements=self._by_link(element),
+            elements=self._by_link(lambda e: e.mirrored()),
             points={n: (p.link, p.x, -p.y) for n, p in self.points.items()},
             reference_pose=None
             if self.reference_pose is None

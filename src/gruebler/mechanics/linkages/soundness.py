@@ -7,17 +7,9 @@ from math import hypot, pi
 
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.text import Message, message
-from gruebler.mechanics.linkages.elements import (
-    CENTRED,
-    Element,
-    Line,
-    LinkPoint,
-    Pin,
-    Pose2D,
-    check_elements_fit,
-    read_element,
-)
-from gruebler.mechanics.linkages.wheels import check_wheels, resolve_wheels
+from gruebler.mechanics.linkages.contacts import check_contacts, check_elements_fit
+from gruebler.mechanics.linkages.elements import Element, LinkPoint, Pose2D, read_element
+from gruebler.mechanics.linkages.wheels import resolve_wheels
 from gruebler.structure.mechanism import Mechanism
 
 
@@ -36,7 +28,7 @@ def checked_elements(
             checked[number, link] = read_element(raw, f"{link}, {names[number]}")
     _check_joints(mechanism, checked)
     checked = resolve_wheels(mechanism, checked)
-    check_wheels(mechanism, checked)
+    check_contacts(mechanism, checked)
     return checked
 
 
@@ -49,10 +41,10 @@ def _check_joints(mechanism: Mechanism, elements: Mapping[tuple[int, str], Eleme
                     "{joint} has no dimensions on {link!r}", joint=mechanism.chain.joint_title(number), link=link
                 )
         check_elements_fit(joint.pair, names[number], {link: elements[number, link] for link in joint.links})
-    if any(isinstance(element, CENTRED) for element in elements.values()):
+    if any(element.is_round for element in elements.values()):
         return  # shafts on one axis
     for link in mechanism.chain.links:
-        pins = [(n, e) for (n, owner), e in elements.items() if owner == link and isinstance(e, Pin)]
+        pins = [(n, e) for (n, owner), e in elements.items() if owner == link and e.is_pin]
         for k, (n, pin) in enumerate(pins):
             for m, other in pins[:k]:
                 size = max(hypot(pin.x, pin.y), hypot(other.x, other.y), 1e-300)
@@ -103,9 +95,9 @@ def checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, fl
         if link not in poses_given and link != mechanism.frame:
             raise LinkageError("reference pose: the position of {link!r} is missing", link=link)
         line = read_element(tuple(poses_given.get(link, (0.0, 0.0, 0.0))), message("reference pose, {link}", link=link))
-        if not isinstance(line, Line):
+        if not line.is_line:
             raise LinkageError("reference pose, {link}: expected x, y and an angle", link=link)
-        poses[link] = Pose2D(line.x, line.y, line.angle)
+        poses[link] = Pose2D(line.x, line.y, line.direction)
     for link in poses_given:
         checked_link(mechanism, link, message("reference pose"))
     if any(abs(v) > 1e-12 for v in (*poses[mechanism.frame][:2], poses[mechanism.frame].angle % (2 * pi))):

@@ -1,4 +1,4 @@
-"""Wheels in pairs: what fits together, which link holds their centres, and what ties their angles.
+"""Wheels in pairs: which link holds their centres, and what ties their angles.
 
 Two wheels tie the angles of their links against the direction of the line of centres: ``a (one - line) + b (other -
 line)`` stays what it is. docs/theory/wheels.md.
@@ -13,20 +13,7 @@ from math import atan2, floor, hypot, log2
 from typing import NamedTuple, Protocol
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import Readable
-from gruebler.mechanics.linkages.elements import (
-    CENTRED,
-    INVERSE,
-    CamDisc,
-    Circle,
-    Element,
-    GenevaDriver,
-    Line,
-    NonCircular,
-    Pin,
-    RoundElement,
-    Wheel,
-)
+from gruebler.mechanics.linkages.elements import Element, Wheel
 from gruebler.structure.mechanism import Mechanism
 
 Elements = Mapping[tuple[int, str], Element]
@@ -67,19 +54,19 @@ def rolling_factors(first: Wheel, second: Wheel) -> tuple[float, float]:
 
 
 def round_joints(mechanism: Mechanism, elements: Elements) -> dict[int, tuple[str, str]]:
-    """The joints with a wheel or circle, and their links."""
+    """The joints with a wheel or another round element, and their links."""
     chain = mechanism.chain
     return {
         number: (joint.links[0], joint.links[1])
         for number, joint in enumerate(chain.joints)
-        if any(isinstance(elements[number, link], CENTRED) for link in joint.links)
+        if any(elements[number, link].is_round for link in joint.links)
     }
 
 
 def sliding_joint(linkage: _Sized, number: int) -> bool:
     """Whether one link of a joint slides, or rolls, along a line of the other."""
     links = linkage.mechanism.chain.joints[number].links
-    return any(isinstance(linkage.elements[number, link], Line) for link in links)
+    return any(linkage.elements[number, link].is_line for link in links)
 
 
 def carriers(mechanism: Mechanism, elements: Elements) -> dict[int, Carrier]:
@@ -90,7 +77,7 @@ def carriers(mechanism: Mechanism, elements: Elements) -> dict[int, Carrier]:
     axis = _axes(mechanism, elements)
     arms = {}
     for number, (a, b) in wheels.items():
-        if not all(isinstance(elements[number, link], CENTRED) for link in (a, b)):
+        if not all(elements[number, link].is_round for link in (a, b)):
             continue
         for link in mechanism.chain.links:
             ends = [
@@ -108,7 +95,7 @@ def carriers(mechanism: Mechanism, elements: Elements) -> dict[int, Carrier]:
 
 def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tuple[int, str]]:
     """For each pin and centre one that stands for all on the same axis."""
-    centres = {key: e for key, e in elements.items() if isinstance(e, (Pin, *CENTRED))}
+    centres = {key: e for key, e in elements.items() if not e.is_line}
     axis = {key: key for key in centres}
 
     def merge(first: tuple[int, str], second: tuple[int, str]) -> None:
@@ -145,120 +132,6 @@ def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, 
         for link, wheel in zip(links, wheels, strict=True):
             resolved[number, link] = replace(wheel, radius=held[number].distance * wheel.teeth / abs(teeth))
     return resolved
-
-
-def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
-    """`LinkageError` names the joint whose wheels do not fit together."""
-    held = carriers(mechanism, elements)
-    for number, links in round_joints(mechanism, elements).items():
-        name = mechanism.chain.joint_title(number)
-        joint = mechanism.chain.joints[number]
-        if len(joint.links) > 2:
-            raise LinkageError("{name}: wheels touch in pairs; write a joint for each two of them", name=name)
-        if any(drive.joint == number for drive in mechanism.drives):
-            raise LinkageError("{name}: a pair of wheels is not driven; drive a shaft", name=name)
-        first, second = (elements[number, link] for link in links)
-        if isinstance(first, CamDisc) or isinstance(second, CamDisc):
-            _check_disc(name, *((first, second) if isinstance(first, CamDisc) else (second, first)))
-            continue
-        if isinstance(first, GenevaDriver) or isinstance(second, GenevaDriver):
-            continue
-        if isinstance(first, NonCircular):
-            assert isinstance(second, NonCircular)
-            _check_noncircular(name, first, second)
-            if number not in held:
-                raise LinkageError(
-                    "{name}: non-circular wheels need a link that carries both centres by pins", name=name
-                )
-            if not held[number].distance > _SAME * _reach(elements, held[number].link):
-                raise LinkageError(
-                    "{name}: the centre distance on {link!r} is too small: it is 0", name=name, link=held[number].link
-                )
-            continue
-        if isinstance(first, Line) or isinstance(second, Line):
-            _check_rack(name, second if isinstance(first, Line) else first)
-            continue
-        assert isinstance(first, RoundElement)
-        assert isinstance(second, RoundElement)
-        _check_pair(name, joint.pair.rolls, first, second)
-        apart = abs(first.radius + second.radius)
-        touching = joint.pair.rolls or isinstance(first, Circle)
-        if number in held and touching and abs(held[number].distance - apart) > _SAME * apart:
-            raise LinkageError(
-                "{name}: the centres are {distance:.12g} apart on {link!r}, but the radii make {apart:.12g}",
-                name=name,
-                distance=held[number].distance,
-                link=held[number].link,
-                apart=apart,
-            )
-
-
-def _check_noncircular(name: Readable, first: NonCircular, second: NonCircular) -> None:
-    if not all(isinstance(wheel.transfer, str) and wheel.transfer.strip() for wheel in (first, second)):
-        raise LinkageError(
-            "{name}: transfer: expected a text such as 'ellipse 0.5' or 'rise 20 180; fall 20 180'", name=name
-        )
-    if (first.transfer == INVERSE) == (second.transfer == INVERSE):
-        raise LinkageError(
-            "{name}: one of two non-circular wheels has a transfer function, the other {inverse!r}",
-            name=name,
-            inverse=INVERSE,
-        )
-    if bool(first.teeth) != bool(second.teeth):
-        raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
-
-
-def _reach(elements: Elements, link: str) -> float:
-    """The largest distance of a joint on a link from its origin."""
-    return max(hypot(e.x, e.y) for (_, owner), e in elements.items() if owner == link)
-
-
-def _check_disc(name: Readable, disc: Element, other: Element) -> None:
-    assert isinstance(disc, CamDisc)
-    if disc.flat != isinstance(other, Line):
-        raise LinkageError(
-            "{name}: a cam for a flat face touches a line, one for a roller a circle or a pin", name=name
-        )
-    radius = other.radius if isinstance(other, Circle) else 0.0
-    if abs(radius - disc.roller * disc.scale) > _SAME * disc.base * disc.scale:
-        raise LinkageError(
-            "{name}: the cam is made for a roller of {roller:g}, not {radius:g}",
-            name=name,
-            roller=disc.roller * disc.scale,
-            radius=radius,
-        )
-
-
-def _check_rack(name: Readable, wheel: Element) -> None:
-    assert isinstance(wheel, RoundElement)
-    if wheel.radius < 0 or (isinstance(wheel, Wheel) and wheel.belt):
-        raise LinkageError("{name}: along a line rolls a wheel of positive radius, without a belt", name=name)
-
-
-def _check_pair(name: Readable, rolling: bool, first: RoundElement, second: RoundElement) -> None:
-    low, high = sorted((first.radius, second.radius))
-    if high < 0:
-        raise LinkageError("{name}: two internal wheels do not touch", name=name)
-    if low < 0 <= low + high:
-        raise LinkageError(
-            "{name}: the internal wheel (minus) must be larger than the one in it: {low:g} and {high:g}",
-            name=name,
-            low=low,
-            high=high,
-        )
-    if not isinstance(first, Wheel) or not isinstance(second, Wheel):
-        return
-    if first.belt != second.belt:
-        raise LinkageError("{name}: both wheels of a belt are 'open' or both 'crossed'", name=name)
-    if first.belt and rolling:
-        raise LinkageError("{name}: a belt is not a rolling contact; write it as a roll-slide joint G", name=name)
-    if bool(first.teeth) != bool(second.teeth):
-        raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
-    if first.teeth and abs(first.radius / first.teeth - second.radius / second.teeth) > _SAME * abs(
-        first.radius / first.teeth
-    ):
-        modules = " and ".join(f"{2 * wheel.radius / wheel.teeth:.9g}" for wheel in (first, second))
-        raise LinkageError("{name}: the modules differ: {modules}", name=name, modules=modules)
 
 
 def redundant_wheels(mechanism: Mechanism, elements: Elements) -> set[int]:

@@ -9,9 +9,8 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.linkages import Line, Linkage, Pin
+from gruebler.mechanics.linkages import Element, Linkage
 from gruebler.mechanics.linkages.branch import Branch
-from gruebler.mechanics.linkages.elements import direction
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.screws.closing import CLOSED, RANK, Closing, JointFrames
 from gruebler.mechanics.screws.double_roots import refined_at_double_root
@@ -51,7 +50,7 @@ def closed_pose(
 
 def has_only_lower_pairs(linkage: Linkage) -> bool:
     """Whether all its joints are pins and lines; others are given by their screws."""
-    return all(isinstance(element, Pin | Line) for element in linkage.elements.values())
+    return not any(element.is_round for element in linkage.elements.values())
 
 
 def _planar(linkage: Linkage) -> Closing:
@@ -61,19 +60,19 @@ def _planar(linkage: Linkage) -> Closing:
         first = joint.links[0]
         for other in joint.links[1:]:
             element, other_element = linkage.elements[number, first], linkage.elements[number, other]
-            radii = (inf if isinstance(element, Line) else 0.0, inf if isinstance(other_element, Line) else 0.0)
+            radii = (inf if element.is_line else 0.0, inf if other_element.is_line else 0.0)
             place = JointPlace(radii=radii if joint.pair.rolls_and_slides else None)
             ends = _frame(element, size), _frame(other_element, size)
             ties.append(JointFrames(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
     return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
 
 
-def _frame(element: object, size: float) -> Reals:
-    if not isinstance(element, Pin | Line):
+def _frame(element: Element, size: float) -> Reals:
+    if element.is_round:
         raise LinkageError(
             "mobility with dimensions knows pins and lines, not {element!r}; give the joints' screws", element=element
         )
-    return _matrix(element.x / size, element.y / size, direction(element))
+    return _matrix(element.x / size, element.y / size, element.direction)
 
 
 def _matrix(x: float, y: float, angle: float) -> Reals:

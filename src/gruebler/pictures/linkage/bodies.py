@@ -14,11 +14,11 @@ import numpy as np
 
 from gruebler.base.convex_hull import convex_hull
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.linkages import Line, Linkage, LinkPoint, Pin
+from gruebler.mechanics.linkages import Element, Linkage, LinkPoint
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.pictures.canvas.symbols import JointMember, joint_sign, ticks
+from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
-from gruebler.pictures.linkage.wheels import round_parts
 
 FRAME, BODIES, BLOCKS, PINS = range(4)
 """Layers, from below."""
@@ -74,10 +74,8 @@ def _slide(posed: PosedLinkage, number: int) -> Slide:
     lower = posed.lower
     guide, block = _guide_and_block(posed, number)
     line, block_line = lower.elements[number, guide], lower.elements[number, block]
-    assert isinstance(line, Line)
-    assert isinstance(block_line, Line)
     middle = _foot(lower, block, block_line)
-    start, along = complex(line.x, line.y), cmath.rect(1, line.angle)
+    start, along = complex(line.x, line.y), cmath.rect(1, line.direction)
     places = np.concatenate([_seen(motion, guide, block, middle) for motion in (posed.path, posed.pose)])
     offsets = ((places - start) * along.conjugate()).real
     low, high = float(offsets.min()), float(offsets.max())
@@ -113,16 +111,16 @@ def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
 
 def pins_of(lower: Linkage, link: str) -> list[complex]:
     """The pins of a link, in its coordinates."""
-    elements = [e for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)]
+    elements = [e for (_, owner), e in lower.elements.items() if owner == link and e.is_pin]
     return [complex(e.x, e.y) for e in elements]
 
 
-def _foot(lower: Linkage, link: str, line: Line) -> complex:
+def _foot(lower: Linkage, link: str, line: Element) -> complex:
     """The middle of a block: its single pin if that is on its line, else the origin of the displacement."""
     start, pins = complex(line.x, line.y), pins_of(lower, link)
     if len(pins) != 1:
         return start
-    along = cmath.rect(1, line.angle)
+    along = cmath.rect(1, line.direction)
     return start + ((pins[0] - start) * along.conjugate()).real * along
 
 
@@ -241,10 +239,9 @@ def _cylinder(posed: PosedLinkage, slide: Slide, link: str) -> tuple[tuple[tuple
     if link == slide.guide:
         return ((posed.local(pin), barrel(posed, slide)[0]),), "bar"
     line = lower.elements[slide.joint, link]
-    assert isinstance(line, Line)
     forward = ((slide.low - pin) * slide.along.conjugate()).real > 0
     length = 0.9 * min(abs(slide.low - pin), abs(slide.high - pin)) * (-1 if forward else 1)
-    return ((posed.local(slide.middle), posed.local(slide.middle + cmath.rect(length, line.angle))),), "rod"
+    return ((posed.local(slide.middle), posed.local(slide.middle + cmath.rect(length, line.direction))),), "rod"
 
 
 def _extent(shapes: list[Shape]) -> float:
@@ -258,8 +255,7 @@ def _block(posed: PosedLinkage, slide: Slide) -> BodyPart:
         a, b = barrel(posed, slide)
         return BodyPart(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
     line = posed.lower.elements[slide.joint, slide.block]
-    assert isinstance(line, Line)
-    u = Point(math.cos(line.angle), -math.sin(line.angle))
+    u = Point(math.cos(line.direction), -math.sin(line.direction))
     at = posed.local(slide.middle)
     return BodyPart(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
 
@@ -309,7 +305,7 @@ def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[compl
     covered = []
     for number, joint in enumerate(lower.mechanism.chain.joints):
         element = lower.elements.get((number, frame))
-        if not isinstance(element, Pin):
+        if element is None or not element.is_pin:
             continue
         foot = Point(*posed.place(LinkPoint(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
         for link in lower.mechanism.chain.links:

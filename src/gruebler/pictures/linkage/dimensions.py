@@ -11,7 +11,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.convex_hull import convex_hull
-from gruebler.mechanics.linkages import Line, LinkPoint
+from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.axes import as_text
 from gruebler.pictures.canvas.free_space import HALF, Obstacles, complexes
 from gruebler.pictures.canvas.labels import note_near
@@ -105,8 +105,8 @@ def _beside(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]
     joints = linkage.mechanism.chain.joints
     link_elements = [(n, e) for (n, owner), e in linkage.elements.items() if owner == link]
     for number, line in link_elements:
-        if isinstance(line, Line) and joints[number].pair.is_sliding:
-            start, along = complex(line.x, line.y), cmath.rect(1.0, line.angle)
+        if line.is_line and joints[number].pair.is_sliding:
+            start, along = complex(line.x, line.y), cmath.rect(1.0, line.direction)
             for other, e in link_elements:
                 if joints[other].pair.is_turning:
                     pin = complex(e.x, e.y)

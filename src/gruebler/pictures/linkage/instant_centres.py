@@ -11,7 +11,7 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from gruebler.mechanics.linkages import Line, LinkPoint
+from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.axes import as_text
 from gruebler.pictures.canvas.labels import note_near, short_names
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
@@ -67,8 +67,8 @@ def _permanent(posed: PosedLinkage) -> Iterator[Pole]:
             at = complex(posed.pose.complex_point(LinkPoint(first, element.x, element.y))[0])
             if joint.pair.is_turning:
                 yield Pole((first, second), at, permanent=True)
-            elif joint.pair.is_sliding and isinstance(element, Line):
-                across = cmath.rect(1.0, float(posed.pose.angle(first)[0]) + element.angle) * 1j
+            elif joint.pair.is_sliding and element.is_line:
+                across = cmath.rect(1.0, float(posed.pose.angle(first)[0]) + element.direction) * 1j
                 pins = [
                     complex(posed.pose.complex_point(LinkPoint(link, e.x, e.y))[0])
                     for link in (second, first)

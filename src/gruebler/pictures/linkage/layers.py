@@ -21,7 +21,7 @@ from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.plates import plates_of
 from gruebler.mechanics.analysis.transmission import PushingLink, pushing_links
 from gruebler.mechanics.kinematics import Motion, circuit
-from gruebler.mechanics.linkages import Line, LinkPoint
+from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.points import PointLike, place_of
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
@@ -103,8 +103,8 @@ def drive_parts(posed: PosedLinkage) -> list[BodyPart]:
         first, other = lower.reference(number)
         e, f = lower.elements[drive.joint, first], lower.elements[drive.joint, other]
         at = posed.place(LinkPoint(other, f.x, f.y))
-        if isinstance(e, Line):
-            angle = e.angle + float(posed.pose.angle(first)[0])
+        if e.is_line:
+            angle = e.direction + float(posed.pose.angle(first)[0])
             axis = Point(math.cos(angle), -math.sin(angle))
             cylinder = [s for s in slides(posed) if s.joint == drive.joint and s.sign == "cylinder"]
             if cylinder:

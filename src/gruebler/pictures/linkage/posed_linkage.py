@@ -18,10 +18,9 @@ from gruebler.mechanics.analysis.drive_cycle import Course, drive_cycle, path_cy
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
-from gruebler.mechanics.linkages import Linkage, LinkPoint, Pin
+from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
-from gruebler.mechanics.linkages.elements import Circle, Wheel
 from gruebler.pictures.canvas.shapes import Point
 from gruebler.structure.mechanism import Mechanism
 
@@ -275,11 +274,7 @@ def _reached(lower: Linkage, path: Motion) -> Complexes:
 
 def _round_extent(lower: Linkage, path: Motion) -> float:
     """The longer side of all that wheels and circles reach; 0 without any."""
-    rims = [
-        (path.complex_point(LinkPoint(link, e.x, e.y)), abs(e.radius))
-        for (_, link), e in lower.elements.items()
-        if isinstance(e, Wheel | Circle)
-    ]
+    rims = [(path.complex_point(LinkPoint(link, e.x, e.y)), e.rim) for (_, link), e in lower.elements.items() if e.rim]
     sides = (
         max((float(part(z).max()) + r for z, r in rims), default=0.0)
         - min((float(part(z).min()) - r for z, r in rims), default=0.0)
@@ -294,8 +289,7 @@ def _scale(lower: Linkage, path: Motion) -> float:
     extent = max(float(np.ptp(z.real)), float(np.ptp(z.imag)), 1e-9 * lower.size)
     usual = min(_PIXELS / extent, _WITH_WHEELS / max(_round_extent(lower, path), extent))
     pins = {
-        link: {(e.x, e.y) for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)}
-        for link in links
+        link: {(e.x, e.y) for (_, owner), e in lower.elements.items() if owner == link and e.is_pin} for link in links
     }
     pins.pop(lower.mechanism.frame)
     sides = [math.dist(a, b) for link_pins in pins.values() for a, b in combinations(sorted(link_pins), 2)]

@@ -12,8 +12,8 @@ from gruebler.files.catalog_records import source_text
 from gruebler.mechanics.analysis.measures import measures
 from gruebler.mechanics.linkages import Linkage, Pin
 from gruebler.pictures.canvas.figure import Figure
-from gruebler.pictures.linkage.contact_shapes import contact_shapes
 from gruebler.pictures.linkage.curve_plots import coupler_plot
+from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.structure import draw_structure
@@ -119,7 +119,7 @@ def _lengths(linkage: Linkage, lang: str) -> Iterator[tuple[str, str, str]]:
     alphabet = Alphabet.of_language(lang)
     names = [f"{joint.pair.symbol(alphabet)} {' / '.join(joint.links)}" for joint in chain.joints]
     for link in chain.links:
-        pins = [(names[k], e) for (k, holder), e in linkage.elements.items() if holder == link and isinstance(e, Pin)]
+        pins = [(names[k], e) for (k, holder), e in linkage.elements.items() if holder == link and e.is_pin]
         points = [(name, Pin(point.x, point.y)) for name, point in linkage.points.items() if point.link == link]
         for k, (first, pin) in enumerate(pins):
             others = [*pins[k + 1 :], *(points if k == 0 else [])]
