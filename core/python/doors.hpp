@@ -56,5 +56,6 @@ auto run(Work work) {
 }
 
 void add_counting(nb::module_& module);
+void add_labelling(nb::module_& module);
 
 }  // namespace gruebler::doors

@@ -10,4 +10,5 @@ NB_MODULE(_core, module) {
         throw nb::python_error();
     }
     gruebler::doors::add_counting(module);
+    gruebler::doors::add_labelling(module);
 }
