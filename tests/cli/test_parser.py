@@ -2,6 +2,7 @@
 
 import pytest
 
+from gruebler.cli import main
 from gruebler.cli.parser import Parser
 
 
@@ -33,3 +34,21 @@ def test_a_value_that_is_no_number_is_called_so(parser, words, answer, capsys):
 def test_after_two_dashes_nothing_is_an_option(parser):
     parser.add_argument("words", nargs="*")
     assert parser.parse_args(["--", "--pose"]).words == ["--pose"]
+
+
+@pytest.mark.parametrize(
+    ("american", "british"),
+    [
+        (["analyze", "wiper", "--at", "30"], ["analyse", "wiper", "--at", "30"]),
+        (["synthesize", "dead-centers", "--swing", "60"], ["synthesise", "dead-centres", "--swing", "60"]),
+        (
+            ["curve", "lambda", "C", "--straight", "--ratio", "0.01", "--center", "170"],
+            ["curve", "lambda", "C", "--straight", "--ratio", "0.01", "--centre=170"],
+        ),
+    ],
+)
+def test_american_spellings_are_taken(capsys, american, british):
+    status = main(british)
+    wanted = capsys.readouterr()
+    assert main(american) == status
+    assert capsys.readouterr() == wanted

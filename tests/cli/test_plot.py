@@ -117,3 +117,19 @@ def test_animations_by_suffix(capsys, tmp_path, monkeypatch, suffix, start):
     assert run(capsys, "animate", FOUR_BAR, "-o", str(path), "--seconds", "1")[0] == 0
     assert path.read_bytes().startswith(start)
     assert "cannot be written" in run(capsys, "animate", FOUR_BAR, "-o", str(tmp_path / "no" / "x.html"))[2]
+
+
+def test_on_a_terminal_a_picture_goes_into_a_new_file(capsys, monkeypatch, tmp_path):
+    """What is there already is not written over; elsewhere the SVG is printed."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    words = {"draw": [FOUR_BAR], "plot": [FOUR_BAR, "--kind", "transmission"]}
+    for command in ("draw", "draw", "plot"):
+        status, out, err = run(capsys, command, *words[command])
+        assert (status, out) == (0, "")
+        assert err.startswith("Written: four-bar-25-70-40-70")
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "four-bar-25-70-40-70.svg",
+        "four-bar-25-70-40-70-2.svg",
+        "four-bar-25-70-40-70-transmission.svg",
+    }

@@ -6,7 +6,7 @@ from argparse import Namespace
 import pytest
 
 from gruebler import Chain, GrueblerError, code
-from gruebler.cli import assur, extend
+from gruebler.cli import assur, extend, main
 from gruebler.structure.assur import AssurGroup
 from gruebler.structure.transformations import Derivation
 
@@ -168,3 +168,16 @@ def test_a_list_without_names_has_no_column_for_them(capsys):
     assert run(capsys, assur, list=6)[1].splitlines()[0].split() == ["class", "order", "group"]
     _, out = run(capsys, assur, list=4)
     assert [line.split()[0] for line in out.splitlines()] == ["form", "3-RR", "IV"]
+
+
+def test_many_chains_are_summed_up_and_those_that_fail_are_named(capsys, tmp_path):
+    path = tmp_path / "chains.txt"
+    four, three = "R(0-1) R(1-2) R(2-3) R(3-0)", "P(0-1) P(1-2) P(2-0)"  # a wedge moves, its count is 0
+    path.write_text(f"{four}\n" * 50 + f"{three}\n", encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[:2] + line.split()[-1:] for line in lines[1:3]] == [["1", "1", "50"], ["0", "1", "1"]]
+    assert lines[4].startswith("The count is not right of 1: ")
+    assert lines[5] == "Chains: 51; --all lists them, --json has them."
+    assert main(["check", str(path), "--all"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 52

@@ -2,10 +2,11 @@
 
 import io
 import re
+from argparse import Namespace
 
 import pytest
 
-from gruebler.cli.tables import print_table, print_text
+from gruebler.cli.tables import cut_tables, print_table, print_text
 
 
 class Terminal(io.StringIO):
@@ -72,3 +73,18 @@ def test_paragraphs_are_folded_on_a_terminal(monkeypatch, width):
 def test_paragraphs_in_a_pipe_are_as_they_are(capsys):
     print_text(TEXT)
     assert capsys.readouterr().out == TEXT + "\n"
+
+
+def test_a_long_table_is_cut_and_says_so(capsys):
+    rows = [[str(k)] for k in range(1200)]
+    for arguments in ({"all": True}, {"out": "x.txt", "all": False}, {}):
+        with cut_tables(Namespace(lang="de", **arguments)):
+            print_table(["k"], rows)
+        assert len(capsys.readouterr().out.splitlines()) == 1201
+    with cut_tables(Namespace(lang="de", all=False)):
+        print_table(["k"], rows)
+        print_table(["k"], rows[:25])
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[20] == "19"
+    assert lines[21] == "... und 1.180 weitere Zeilen: --all gibt sie aus."
+    assert lines[22:] == ["k", *map(str, range(25))]

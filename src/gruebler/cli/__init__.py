@@ -19,7 +19,7 @@ from gruebler.base.errors import GrueblerError, shortened
 from gruebler.base.text import LANGUAGES, error_in_language, reason_of, translate
 from gruebler.cli.commands import command, command_names, overview, welcome
 from gruebler.cli.left_out import print_left_out
-from gruebler.cli.parser import argparse_in_language, wanted_language
+from gruebler.cli.parser import argparse_in_language, british, wanted_language
 
 __all__ = ["main"]
 
@@ -74,11 +74,12 @@ def _run(words: list[str], lang: str) -> int:
     from gruebler.cli.compiling_progress import show_compiling
     from gruebler.cli.link_names import spell_links_alike
     from gruebler.cli.printed_file import printed_to_file
+    from gruebler.cli.tables import cut_tables
 
     spell_links_alike(parser, arguments)
     show_compiling(lang)
     try:
-        with _interrupts_raised(), printed_to_file(arguments):
+        with _interrupts_raised(), printed_to_file(arguments), cut_tables(arguments):
             status = int(chosen.module().run(arguments))
             sys.stdout.flush()
     except KeyboardInterrupt:
@@ -116,7 +117,7 @@ def _with_command_first(words: list[str]) -> list[str]:
 
 def _complain(words: list[str], text: str) -> int:
     """Say what is wrong with a command; returns its exit status."""
-    known = words[:1] if words and words[0] in command_names() else []
+    known = [british(word) for word in words[:1] if british(word) in command_names()]
     print(f"{' '.join(['gruebler', *known])}: {text}", file=sys.stderr)
     return 2
 

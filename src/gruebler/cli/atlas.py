@@ -88,7 +88,7 @@ def add(parser: Parser) -> None:
     )
     columns = parser.add_command("columns", help="list the columns of all tables, with their units and definitions")
     for action in (query, columns):
-        action.add_argument("--json", action="store_true", help="print JSON")
+        action.add_json(help="print JSON")
         action.add_out(
             help="write into a file instead: .txt, .json, .csv or .parquet", endings=("txt", "json", "csv", "parquet")
         )

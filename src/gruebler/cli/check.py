@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import translate
+from gruebler.base.text import joined, message, number, translate
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word, value_of_another_program
@@ -35,6 +36,8 @@ from gruebler.structure.mobility.report import verdict_word
 from gruebler.teaching.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
 
 _WIDEST_NAME = 44
+_MOST_LISTED, _MOST_NAMED = 50, 20
+"""More chains are summed up; of those that fail so many are named."""
 
 
 def add(parser: Parser) -> None:
@@ -93,6 +96,8 @@ def run(arguments: argparse.Namespace) -> int:
         print_json([checked_as_dict(each) for each in checked_entries])
     elif arguments.explain:
         print_text("\n\n".join(explanation(each, arguments.lang) for each in checked_entries))
+    elif len(checked_entries) > _MOST_LISTED and not (arguments.all or arguments.out):
+        print_summary(checked_entries, arguments.lang)
     else:
         print_checked(checked_entries, arguments.lang)
     _complain(checked_entries, arguments.lang)
@@ -111,6 +116,29 @@ def checked_as_dict(checked_entry: CheckedEntry) -> dict[str, Any]:
     }
 
 
+def print_summary(checked_entries: Sequence[CheckedEntry], lang: str) -> None:
+    """How many chains there are of each mobility and verdict, and of which the count is wrong."""
+    kinds = Counter((each.report.counted, each.report.generic, each.report.verdict) for each in checked_entries)
+    rows = [
+        (str(counted), str(generic), verdict_word(verdict, lang), number(chains, lang, ","))
+        for (counted, generic, verdict), chains in sorted(kinds.items(), key=lambda kind: -kind[1])
+    ]
+    headers = (message("F counted"), message("generic"), message("verdict"), message("chains"))
+    print_table(headers, rows, numbers=(0, 1, 3), lang=lang)
+    print()
+    failing = [each.id for each in checked_entries if not each.holds or each.report.counted != each.report.generic]
+    if failing:
+        named = joined([_shortened(name) for name in failing[:_MOST_NAMED]] + ["..."] * (len(failing) > _MOST_NAMED))
+        print(translate("The count is not right of {count:,}: {names}.", lang, count=len(failing), names=named))
+    else:
+        print(translate("The count is right of all of them.", lang))
+    print(translate("Chains: {count:,}; --all lists them, --json has them.", lang, count=len(checked_entries)))
+
+
+def _shortened(name: str) -> str:
+    return name if len(name) <= _WIDEST_NAME else name[: _WIDEST_NAME - 3] + "..."
+
+
 def print_checked(checked_entries: Iterable[CheckedEntry], lang: str) -> None:
     """The table, and a line that sums it up where there are claims."""
     claims = {True: translate("hold", lang), False: translate("WRONG", lang), None: "-"}
@@ -118,10 +146,9 @@ def print_checked(checked_entries: Iterable[CheckedEntry], lang: str) -> None:
     holding = []
     for checked in checked_entries:
         holding.append(None if checked.claims == Claims() else checked.holds)
-        name = checked.id
         rows.append(
             (
-                name if len(name) <= _WIDEST_NAME else name[: _WIDEST_NAME - 3] + "...",
+                _shortened(checked.id),
                 str(checked.report.chain.n),
                 " ".join(f"g{f}={g}" for f, g in checked.report.count.by_freedom),
                 str(checked.report.counted),

@@ -11,7 +11,7 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.text import Message, message, translate
-from gruebler.cli.parser import Parser
+from gruebler.cli.parser import Parser, british
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ def command_names() -> list[str]:
 def command(name: str) -> Command:
     """The command of a name; `GrueblerError` with the nearest one if there is none."""
     for each in _commands():
-        if each.name == name:
+        if each.name == british(name):
             return each
     raise GrueblerError(
         "there is no command {name!r}{suggestion}; see gruebler --help",

@@ -37,7 +37,7 @@ def add(parser: Parser) -> None:
         "scotch-yoke (default: an example)",
     )
     parser.add_argument("--step", type=int, metavar="N", help="only this step, in a picture")
-    parser.add_argument("--json", action="store_true", help="print an object with title, steps and values")
+    parser.add_json(help="print an object with title, steps and values")
     parser.add_out(
         help="write into a file instead: .html with a slider for the steps, .pdf with one step a page, .svg or .png of "
         "the last step; or the steps as text: .txt, or .json as with --json"

@@ -51,15 +51,15 @@ def _is_file(word: str) -> bool:
     return not is_lengths(word) and (path.suffix != "" or len(path.parts) > 1)
 
 
-def _value_of(word: str, lang: str) -> Linkage | Chain:
+def _value_of(word: str) -> Linkage | Chain:
     """The linkage of lengths or of a catalog entry with dimensions, else the chain of a text or an entry."""
     from gruebler.files.structures import is_structure_text
     from gruebler.teaching.catalog import entry
 
     lengths = is_lengths(word) or (":" in word and "(" not in word)
     if is_structure_text(word) or not (lengths or entry(word).dimensions is not None):
-        return chain_from_word(word, lang=lang)
-    return linkage_of_word(word, lang)[0]
+        return chain_from_word(word)
+    return linkage_of_word(word)[0]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
         notes = convert(arguments.source, arguments.target, arguments.source_format, arguments.target_format)
     else:
         notes = []
-        value = _value_of(arguments.source, lang)
+        value = _value_of(arguments.source)
         write(value, arguments.target, arguments.target_format, left_out=notes)
     say_written(Path(arguments.target), lang)
     say_left_out(notes, lang)

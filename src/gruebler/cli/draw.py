@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 import sys
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from itertools import chain, count
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +62,8 @@ def add(parser: Parser) -> None:
         "hatched, drives as arrows. Linkages, and catalog entries with --at, --curve, --show or --ghosts, are drawn to "
         "scale.",
         epilog="Examples: gruebler draw geartrain -o geartrain.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
-        "poles. Without -o, the SVG is printed. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
+        "poles. Without -o, the SVG goes to standard output, on a "
+        "terminal into a new file. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
     parser.add_argument(
         "chain",
@@ -120,10 +123,27 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Draw one chain, mechanism or linkage into a file, or as SVG on standard output."""
+    view = [key for key in _VIEWS if getattr(arguments, key)]
+    arguments.out = picture_path(arguments.out, arguments.chain, *view)
     suffix = picture_suffix(arguments.out, arguments.dark)
     figure = _figure(arguments)
     write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
     return 0
+
+
+def picture_path(given: Path | None, word: str, *kind: str) -> Path | None:
+    """The file for a picture: the one given, on a terminal a new one in this folder, else None for standard output.
+
+    >>> picture_path(Path("a.svg"), "wiper")
+    PosixPath('a.svg')
+    """
+    if given is not None or not sys.stdout.isatty():
+        return given
+    word = Path(word).stem if Path(word).is_file() else word
+    name = "chain" if "(" in word else re.sub(r"[^\w.]+", "-", word).strip("-.") or "picture"
+    stem = "-".join([name[:60], *kind])
+    names = chain([stem], (f"{stem}-{number}" for number in count(2)))
+    return next(path for name in names if not (path := Path(f"{name}.svg")).exists())
 
 
 def picture_suffix(path: Path | None, dark: bool, known: tuple[str, ...] = SUFFIXES) -> str:

@@ -13,7 +13,7 @@ from typing import BinaryIO
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError, RunError
-from gruebler.base.text import joined, message, plural, translate
+from gruebler.base.text import joined, message, number, plural, translate
 from gruebler.cli.assortments import print_assortments
 from gruebler.cli.executors import add_executor, executor_of
 from gruebler.cli.inputs import assortment_of
@@ -88,7 +88,7 @@ def add(parser: Parser) -> None:
     add_executor(parser)
     parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="folder for finished parts of the work")
     parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
-    parser.add_argument("--json", action="store_true", help="print JSON")
+    parser.add_json(help="print JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -177,12 +177,12 @@ def _check_size(size: Estimate, arguments: argparse.Namespace) -> None:
     print(f"gruebler enumerate: {joined(extent).in_language(arguments.lang)}", file=sys.stderr)
 
 
-def _bytes(number: float) -> str:
+def _bytes(size: float) -> str:
     for unit in ("B", "kB", "MB", "GB", "TB"):
-        if number < 1000:
-            return f"{number:.0f} {unit}"
-        number /= 1000
-    return f"{number:.0f} PB"
+        if size < 1000:
+            return f"{size:.0f} {unit}"
+        size /= 1000
+    return f"{size:.0f} PB"
 
 
 def _count(
@@ -216,16 +216,15 @@ def _count(
 
 def _print_count(count: ChainCount, request: Request, lang: str) -> None:
     if count.by_assortment:
-        rows = [(",".join(map(str, numbers)), str(n)) for numbers, n in count.by_assortment.items()]
+        rows = [(",".join(map(str, numbers)), number(n, lang, ",")) for numbers, n in count.by_assortment.items()]
         print_table([translate("binary, ternary, ...", lang), translate("chains", lang)], rows, numbers=(1,))
         print()
     if request.fractionated == "all":
-        for kind, number in count.by_fractionation.items():
-            print(f"{_FRACTIONATED[kind].in_language(lang)}: {number}")
+        for kind, chains in count.by_fractionation.items():
+            print(f"{_FRACTIONATED[kind].in_language(lang)}: {number(chains, lang, ',')}")
     for name, title in _COUNTS.items():
-        number = getattr(count, name)
-        if number is not None:
-            print(f"{title.in_language(lang)}: {number}")
+        if (total := getattr(count, name)) is not None:
+            print(f"{title.in_language(lang)}: {number(total, lang, ',')}")
 
 
 def _list(
@@ -250,13 +249,15 @@ def _list(
     ):
         if arguments.out is None:
             sys.stdout.flush()  # what follows goes past its buffer
-            number = _write(listings, form, request, sys.stdout.buffer)
-            if not number:
+            written = _write(listings, form, request, sys.stdout.buffer)
+            if not written:
                 _say_none(request, arguments.lang)
             return 0
         with atomic_file(arguments.out) as file:
-            number = _write(listings, form, request, file)
-    say_written(arguments.out, arguments.lang, ", " + plural("{count} chain", "{count} chains", number, arguments.lang))
+            written = _write(listings, form, request, file)
+    say_written(
+        arguments.out, arguments.lang, ", " + plural("{count} chain", "{count} chains", written, arguments.lang)
+    )
     return 0
 
 
@@ -273,20 +274,20 @@ def _say_none(request: Request, lang: str) -> None:
 
 def _write(listings: Iterator[PieceListing], form: str, request: Request, file: BinaryIO) -> int:
     """Write the chains; returns their number. Text says in a comment where chains of another class begin."""
-    number = 0
+    written = 0
     last = ""
     for listing in listings:
         if not listing.chains:
             continue
         text = listing.text
         if form == "json":
-            file.write(b",\n" if number else b"[\n")
+            file.write(b",\n" if written else b"[\n")
             text = text.rstrip(b"\n").replace(b"\n", b",\n")
         elif form == "text" and request.fractionated == "all" and listing.kind != last:
             file.write(f"# {listing.kind}\n".encode())
             last = listing.kind
         file.write(text)
-        number += listing.chains
+        written += listing.chains
     if form == "json":
-        file.write(b"\n]\n" if number else b"[]\n")
-    return number
+        file.write(b"\n]\n" if written else b"[]\n")
+    return written

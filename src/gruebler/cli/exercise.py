@@ -98,7 +98,7 @@ def add(parser: Parser) -> None:
     sheet.add_out(help="the sheet: .pdf, .html, .tex or .md", required=True, endings=("pdf", "html", "tex", "md"))
     for action in (listing, show, new, check):
         action.add_printed(help="print JSON, with texts in both languages")
-    solve.add_argument("--json", action="store_true", help="print JSON, with texts in both languages")
+    solve.add_json(help="print JSON, with texts in both languages")
     solve.add_out(
         help="write into a file instead: with figures .pdf, .html, .tex or .md; as text .txt, or .json as with --json"
     )

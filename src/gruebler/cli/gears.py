@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import re
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import message, reason_of, translate
+from gruebler.base.text import LANGUAGES, message, reason_of, translate
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -85,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
             raise GrueblerError("--{option} goes with gears search", option=option)
     if arguments.teeth not in (None, _DRAWN):
         raise GrueblerError("--teeth {range} goes with gears search; --teeth alone draws teeth", range=arguments.teeth)
-    reading = _read(arguments.train)
+    reading = _read(arguments.train, language_of_names(arguments))
     solution = speeds(reading.train, reading.drives)
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
     possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
@@ -150,9 +152,9 @@ def _picture(arguments: argparse.Namespace, reading: TrainReading) -> None:
     )
 
 
-def _read(word: str) -> TrainReading:
+def _read(word: str, lang: str) -> TrainReading:
     path = Path(word)
-    if (known := _of_the_catalog(word)) is not None:
+    if (known := _of_the_catalog(word, lang)) is not None:
         return known
     if "\n" in word or ";" in word or ":" in word or path.suffix not in (".toml", ".txt"):
         return read_train(word)
@@ -163,8 +165,11 @@ def _read(word: str) -> TrainReading:
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 
 
-def _of_the_catalog(word: str) -> TrainReading | None:
-    """The train of a machine of the catalog, named in place of its wheels; None where the word begins otherwise."""
+def _of_the_catalog(word: str, lang: str) -> TrainReading | None:
+    """The train of a machine of the catalog, named in place of its wheels; None where the word begins otherwise.
+
+    Links have their names in the language, without blanks; the statements behind may name them in any language.
+    """
     from gruebler.teaching.catalog import entries, entry
 
     first, _, others = word.partition(";")
@@ -172,8 +177,17 @@ def _of_the_catalog(word: str) -> TrainReading | None:
         return None
     from gruebler.mechanics.linkages import train_of
 
-    meshes = "; ".join(str(mesh) for mesh in train_of(entry(first.strip()).linkage()).meshes)
-    return read_train(f"{meshes}; {others}" if others.strip() else meshes)
+    record = entry(first.strip())
+    meshes = "; ".join(str(mesh) for mesh in train_of(record.linkage()).meshes)
+    spelled = {each: [_word(link) for link in record.in_language(each).chain().links] for each in LANGUAGES}
+    names = {name: new for each in spelled.values() for name, new in zip(each, spelled[lang], strict=True)}
+    text = f"{meshes}; {others}" if others.strip() else meshes
+    return read_train(re.sub(r"[^\W\d]\w*", lambda match: names.get(match[0], match[0]), text))
+
+
+def _word(link: str) -> str:
+    """The name of a link as the text of a train can have it."""
+    return re.sub(r"\W", "", link)
 
 
 def _driver(reading: TrainReading) -> str | None:

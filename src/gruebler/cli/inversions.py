@@ -52,7 +52,7 @@ def add(parser: Parser) -> None:
     parser.add_argument("--with-output", action="store_true", help="choose an output link as well")
     parser.add_argument("--text", action="store_true", help="one mechanism per line, as other commands read it")
     parser.add_argument("--count", action="store_true", help="print only the number")
-    parser.add_argument("--json", action="store_true", help="print an object with count and items")
+    parser.add_json(help="print an object with count and items")
     parser.add_out(
         help="write into a file instead: every inversion drawn to scale, .html or .pdf; or what is printed: .txt, or "
         ".json as with --json"

@@ -63,6 +63,19 @@ _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+")
 _KINDS = {int: message("a whole number"), float: message("a number")}
 
 
+_AMERICAN = {"center": "centre", "color": "colour", "analyz": "analys", "synthesiz": "synthesis", "realiz": "realis"}
+_AMERICAN_WORD = re.compile("|".join(_AMERICAN))
+
+
+def british(word: str) -> str:
+    """A word of the command line as the commands spell it.
+
+    >>> british("dead-centers"), british("synthesize"), british("--size-ratio")
+    ('dead-centres', 'synthesise', '--size-ratio')
+    """
+    return _AMERICAN_WORD.sub(lambda match: _AMERICAN[match[0]], word)
+
+
 class Parser(argparse.ArgumentParser):
     """argparse whose help is translated and whose errors are one sentence with the nearest known word.
 
@@ -105,6 +118,11 @@ class Parser(argparse.ArgumentParser):
         kind = partial(_path_with_ending, endings=endings, lang=self.lang) if endings else Path
         self.add_argument("-o", "--out", type=kind, metavar="FILE", required=required, help=help)
 
+    def add_json(self, *, help: str) -> None:
+        """`--json`, and `--all` for tables that are cut otherwise (`tables.cut_tables`)."""
+        self.add_argument("--json", action="store_true", help=help)
+        self.add_argument("--all", action="store_true", help="print all rows of long tables")
+
     def add_printed(self, *, help: str, table: bool = False, pictures: bool = False) -> None:
         """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).
 
@@ -113,7 +131,7 @@ class Parser(argparse.ArgumentParser):
             table: Whether the command itself writes a table to a .csv or .parquet file.
             pictures: Whether it writes pictures, besides what it prints.
         """
-        self.add_argument("--json", action="store_true", help=help)
+        self.add_json(help=help)
         if pictures:
             self.add_out(
                 help="also a picture: .svg, .png or .pdf, with --animate .svg, .html, .gif, .webp or .png (APNG); or "
@@ -139,8 +157,15 @@ class Parser(argparse.ArgumentParser):
                 action.metavar = _placeholder(action.metavar, self.lang)
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As argparse; placeholders are translated."""
+        """As argparse; placeholders are translated, and American spellings of options taken for the British ones."""
         self.translate_placeholders()
+        words = list(args or ())
+        options = words[: words.index("--")] if "--" in words else words
+        for k, word in enumerate(options):
+            option, equals, value = word.partition("=")
+            if option.startswith("--") and (known := british(option)) in self._option_string_actions:
+                words[k] = f"{known}{equals}{value}"
+        args = words
         if self._commands is None:
             self._refuse_unknown_options(args or ())
         return super().parse_known_args(args, namespace)
@@ -173,7 +198,9 @@ class Parser(argparse.ArgumentParser):
         )
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
-        """As argparse; numbers are called so, not int and float."""
+        """As argparse; numbers are called so, not int and float; choices may be spelt the American way."""
+        if action.choices is not None and british(arg_string) in action.choices:
+            arg_string = british(arg_string)
         try:
             return super()._get_value(action, arg_string)
         except argparse.ArgumentError:

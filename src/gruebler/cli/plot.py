@@ -10,7 +10,7 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or, translate
-from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, write_picture
+from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_path, picture_suffix, write_picture
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, with_points
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.linkages import Linkage
@@ -65,6 +65,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Plot into a file, or as SVG on standard output."""
+    arguments.out = picture_path(arguments.out, arguments.linkage, arguments.kind)
     suffix = picture_suffix(arguments.out, arguments.dark)
     _check(arguments)
     linkage, between = linkage_and_range(arguments.linkage, arguments.lang)

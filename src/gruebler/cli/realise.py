@@ -34,7 +34,7 @@ def add(parser: Parser) -> None:
         "--tries", type=int, default=1500, metavar="N", help="number of layouts the search tries (default: 1500)"
     )
     parser.add_out(help="write the linkage to a file: .toml or .json", endings=("toml", "json"))
-    parser.add_argument("--json", action="store_true", help="print an object with the linkage, ranges and quality")
+    parser.add_json(help="print an object with the linkage, ranges and quality")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -101,11 +101,11 @@ def _list(arguments: argparse.Namespace) -> None:
 
 
 def _draw(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> None:
+    if arguments.out is not None and arguments.out.suffix.lower() in (".tex", ".md"):
+        raise GrueblerError("this sheet has a page of its own: end the name with .svg, .html, .pdf or .png")
     from gruebler.teaching.sheets.layout import page
 
     sheet_page = page(mechanism_sheet, arguments.lang)
-    if arguments.out is not None and arguments.out.suffix.lower() in (".tex", ".md"):
-        raise GrueblerError("this sheet has a page of its own: end the name with .svg, .html, .pdf or .png")
     if arguments.out is None:
         print_svg(sheet_page.svg())
     else:
@@ -115,6 +115,11 @@ def _draw(mechanism_sheet: Sheet, arguments: argparse.Namespace) -> None:
 
 def _draw_machine(arguments: argparse.Namespace) -> None:
     """The sheet of any machine."""
+    if arguments.out is not None and arguments.out.suffix.lower() in (".svg", ".png"):
+        raise GrueblerError(
+            "the sheet of a machine has several pages: end the name with .pdf, .html, .tex or .md, not with {suffix}",
+            suffix=arguments.out.suffix,
+        )
     from gruebler.teaching.catalog import entries
     from gruebler.teaching.worksheets import machine_document
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.columns import Column, shown
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
@@ -233,13 +233,18 @@ def _friction(arguments: argparse.Namespace) -> Friction | None:
         )
         if options[option]
     }
-    return Friction(
-        _by_joint("--friction", arguments.friction),
-        **sizes,
-        guide_on=dict(_pair("--guide-on", text) for text in arguments.guide_on),
-        sleeves=tuple(arguments.sleeve),
-        backward=arguments.backward,
-    )
+    try:
+        return Friction(
+            _by_joint("--friction", arguments.friction),
+            **sizes,
+            guide_on=dict(_pair("--guide-on", text) for text in arguments.guide_on),
+            sleeves=tuple(arguments.sleeve),
+            backward=arguments.backward,
+        )
+    except LinkageError as error:
+        key = error.values.get("name")
+        option = "--friction" if key == "coefficient" else f"--{str(key).replace('_', '-')}"
+        raise LinkageError(error.text, **{**error.values, "name": option}) from None
 
 
 def _by_joint(option: str, given: Sequence[str]) -> dict[str, float]:

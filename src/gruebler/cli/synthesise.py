@@ -224,7 +224,7 @@ def add(parser: Parser) -> None:
             help="give the N best designs only, where there are infinitely many or targets are approached",
         )
         kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
-        kind.add_argument("--json", action="store_true", help="print an object with all linkages")
+        kind.add_json(help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
         kind.add_argument("--design", type=int, metavar="K", help="with -o: write design K of the list (default: 1)")
         kind.add_argument(

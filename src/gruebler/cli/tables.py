@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from shutil import get_terminal_size
 from textwrap import fill
 
 from gruebler.base.errors import visible
-from gruebler.base.text import LANGUAGES, Readable
+from gruebler.base.text import LANGUAGES, Readable, translate
 
 Cell = str | Readable
 """A text of a table; messages are translated."""
@@ -29,6 +32,9 @@ def print_table(
     """
     terminal = sys.stdout.isatty()
     width = terminal_width() if terminal else _WIDE
+    whole = len(rows)
+    said_in = _cut_in.get()
+    rows = rows[:_CUT_TO] if said_in is not None and whole > _CUT_ABOVE else rows
     columns = [[_text(cell, lang) for cell in column] for column in zip(headers, *rows, strict=True)]
     if _width(columns) > width:
         longest = 0 if terminal else _HEADER
@@ -43,6 +49,25 @@ def print_table(
             _print_rich([head for head, *_ in chosen], list(zip(*(cells for _, *cells in chosen), strict=True)), right)
         else:
             _print_plain(chosen, right)
+    if said_in is not None and len(rows) < whole:
+        print(translate("... and {count:,} more rows: --all prints them.", said_in, count=whole - len(rows)))
+
+
+@contextmanager
+def cut_tables(arguments: argparse.Namespace) -> Iterator[None]:
+    """Within, tables of commands that have --all are cut unless it is given, or a file takes what is printed."""
+    cut = not (getattr(arguments, "all", True) or getattr(arguments, "out", None))
+    before = _cut_in.set(str(arguments.lang) if cut else None)
+    try:
+        yield
+    finally:
+        _cut_in.reset(before)
+
+
+_CUT_ABOVE, _CUT_TO = 25, 20
+"""Longer tables are cut to so many rows; a few more than these are not worth a second command."""
+_cut_in: ContextVar[str | None] = ContextVar("cut_in", default=None)
+"""The language in which what is cut is said; None where tables stay whole."""
 
 
 def _text(cell: Cell, lang: str) -> str:

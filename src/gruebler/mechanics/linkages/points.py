@@ -11,6 +11,7 @@ import numpy as np
 
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.mechanics.linkages.elements import Element, LinkPoint
+from gruebler.structure.chain.pairs import in_alphabets
 from gruebler.structure.mechanism import Mechanism
 
 PointLike = Annotated[str | LinkPoint | tuple[str, float, float] | tuple[float, float], "checked by points_of"]
@@ -59,11 +60,12 @@ def points_of(linkage: Dimensioned, point: PointLike) -> tuple[LinkPoint, ...]:
             link = _coupler(linkage)
         case str(name):
             known = [*linkage.points, *chain.joint_names()]
+            names = in_alphabets(lambda alphabet: ", ".join([*linkage.points, *chain.joint_names(alphabet)]))
             raise LinkageError(
                 "there is no point {name!r}{suggestion}; known are {known}",
                 name=name,
                 suggestion=nearest(name, known),
-                known=", ".join(known),
+                known=names,
             )
         case _:
             raise LinkageError(

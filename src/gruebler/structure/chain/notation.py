@@ -16,7 +16,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from gruebler.base.errors import NotationError, PairError
-from gruebler.base.text import Message, message
+from gruebler.base.text import LANGUAGES, Message, message
 from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space
 from gruebler.structure.chain.symbols import read_symbols
 
@@ -68,12 +68,17 @@ def _read_space(text: str, space: str | Space | None) -> tuple[Space, int]:
     requested = None if space is None else space_of(space)
     if prefix is None:
         return requested or Space.PLANAR, 0
-    written = space_of(prefix[1].lower())
+    written = _space_in_any_language(prefix[1].lower())
     if requested is not None and requested is not written:
         raise NotationError(
             "the text says {written}, but {wanted} was asked for", written=written.adjective, wanted=requested.adjective
         )
     return written, prefix.end()
+
+
+def _space_in_any_language(word: str) -> Space:
+    named = (space for space in Space for lang in LANGUAGES if space.adjective.in_language(lang) == word)
+    return next(named, None) or space_of(word)
 
 
 def _read_joint(text: str, position: int) -> tuple[str, tuple[str, ...], int]:
