@@ -92,22 +92,22 @@ export function closing(
     const slot = 2 * (c - from);
     const a = p.owners[2 * c]!;
     const b = p.owners[2 * c + 1]!;
-    let hx = s.points[6 * slot]!,
-      hy = s.points[6 * slot + 1]!;
-    let tx = s.points[6 * slot + 6]!,
-      ty = s.points[6 * slot + 7]!;
-    let lx = s.lines[2 * slot]!,
-      ly = s.lines[2 * slot + 1]!;
-    let ox = s.lines[2 * slot + 2]!,
-      oy = s.lines[2 * slot + 3]!;
-    let armAx = 0,
-      armAy = 0,
-      armBx = 0,
-      armBy = 0;
+    let hx = s.points[6 * slot]!;
+    let hy = s.points[6 * slot + 1]!;
+    let tx = s.points[6 * slot + 6]!;
+    let ty = s.points[6 * slot + 7]!;
+    let lx = s.lines[2 * slot]!;
+    let ly = s.lines[2 * slot + 1]!;
+    let ox = s.lines[2 * slot + 2]!;
+    let oy = s.lines[2 * slot + 3]!;
+    let armAx = 0;
+    let armAy = 0;
+    let armBx = 0;
+    let armBy = 0;
     if (a >= 0) {
       const k = base + 3 * a;
-      const cos = T[2 * a]!,
-        sin = T[2 * a + 1]!;
+      const cos = T[2 * a]!;
+      const sin = T[2 * a + 1]!;
       armAx = cos * hx - sin * hy;
       armAy = sin * hx + cos * hy;
       const x = lx;
@@ -118,8 +118,8 @@ export function closing(
     }
     if (b >= 0) {
       const k = base + 3 * b;
-      const cos = T[2 * b]!,
-        sin = T[2 * b + 1]!;
+      const cos = T[2 * b]!;
+      const sin = T[2 * b + 1]!;
       armBx = cos * tx - sin * ty;
       armBy = sin * tx + cos * ty;
       const x = ox;
@@ -128,8 +128,8 @@ export function closing(
       tx = armBx + y[k]!;
       ty = armBy + y[k + 1]!;
     }
-    const gx = tx - hx,
-      gy = ty - hy;
+    const gx = tx - hx;
+    const gy = ty - hy;
     const kind: Kind = p.kinds[c]!;
     const rows = kind === Kind.PIN || kind === Kind.SLIDE ? 2 : 1;
     for (let k = row; k < row + rows; k++) J.fill(0, k * W, k * W + n);
@@ -150,24 +150,24 @@ export function closing(
       continue;
     }
     const v = 8 * (c - from);
-    const one = s.values[v]!,
-      two = s.values[v + 1]!,
-      value = s.values[v + 2]!;
-    const first = s.values[v + 5]!,
-      count = s.values[v + 6]!,
-      advance = s.values[v + 7]!;
+    const one = s.values[v]!;
+    const two = s.values[v + 1]!;
+    const value = s.values[v + 2]!;
+    const first = s.values[v + 5]!;
+    const count = s.values[v + 6]!;
+    const advance = s.values[v + 7]!;
     if (kind === Kind.SLIDE) {
-      const real = lx * ox + ly * oy,
-        imag = lx * oy - ly * ox;
+      const real = lx * ox + ly * oy;
+      const imag = lx * oy - ly * ox;
       R[row] = imag * p.size;
       if (a >= 0) J[row * W + 3 * a + 2]! -= real * p.size;
       if (b >= 0) J[row * W + 3 * b + 2]! += real * p.size;
       row += 1;
     }
-    let turnA = 0,
-      turnB = 0,
-      mx = 0,
-      my = 0;
+    let turnA = 0;
+    let turnB = 0;
+    let mx = 0;
+    let my = 0;
     if (kind === Kind.SLIDE || kind === Kind.RIDE) {
       mx = -ly;
       my = lx;
@@ -188,8 +188,8 @@ export function closing(
       mx = ((turnA + two) * gy) / d;
       my = (-(turnA + two) * gx) / d;
     } else if (kind === Kind.POLAR) {
-      const sx = lx * gx + ly * gy,
-        sy = lx * gy - ly * gx;
+      const sx = lx * gx + ly * gy;
+      const sy = lx * gy - ly * gx;
       evaluateLaw(p.pieces, first, count, advance, unwoundAngle(sx, sy, 0));
       R[row] = one * (Math.log(Math.hypot(sx, sy)) - law.value);
       const d = gx * gx + gy * gy;
@@ -246,8 +246,8 @@ export function factor(matrix: Float64Array, W: number, n: number, pivots: Int32
     const pivot = matrix[k * W + k]!;
     determinant *= pivot;
     if (pivot === 0) return 0;
-    const from = k * W + k + 1,
-      count = n - k - 1;
+    const from = k * W + k + 1;
+    const count = n - k - 1;
     for (let i = k + 1; i < n; i++) {
       const to = i * W + k + 1;
       if (matrix[to - 1] === 0) continue;
@@ -395,8 +395,8 @@ export function closingRates(
         }
         continue;
       }
-      const w = rates[2 * body]!,
-        al = rates[2 * body + 1]!;
+      const w = rates[2 * body]!;
+      const al = rates[2 * body + 1]!;
       for (let k = 0; k <= order; k++) {
         rotated(k, turns[2 * body]!, turns[2 * body + 1]!, w, al, s.points, q);
         g[2 * k]! += sign * (places[6 * body + 2 * k]! + jet.x);
@@ -404,15 +404,15 @@ export function closingRates(
       }
       spun[2 * side]! += w;
       spun[2 * side + 1]! += al;
-      const tx = turns[2 * body]!,
-        ty = turns[2 * body + 1]!;
-      const x = line[2 * side]!,
-        yy = line[2 * side + 1]!;
+      const tx = turns[2 * body]!;
+      const ty = turns[2 * body + 1]!;
+      const x = line[2 * side]!;
+      const yy = line[2 * side + 1]!;
       line[2 * side] = tx * x - ty * yy;
       line[2 * side + 1] = tx * yy + ty * x;
     }
-    const w = spun[0]!,
-      al = spun[1]!;
+    const w = spun[0]!;
+    const al = spun[1]!;
     const difference = spun[2 + order - 1]! - spun[order - 1]!;
     const kind: Kind = p.kinds[c]!;
     const R = s.residual;
@@ -427,8 +427,8 @@ export function closingRates(
       row += 1;
     }
     const v = 8 * (c - from);
-    const one = s.values[v]!,
-      two = s.values[v + 1]!;
+    const one = s.values[v]!;
+    const two = s.values[v + 1]!;
     if (kind === Kind.REACH) {
       let rate = 2 * (g[0]! * g[2 * order]! + g[1]! * g[2 * order + 1]!);
       if (order === 2) rate += 2 * (g[2]! ** 2 + g[3]! ** 2);
@@ -437,28 +437,28 @@ export function closingRates(
       continue;
     }
     const d = g[0]! ** 2 + g[1]! ** 2;
-    const log1x = (g[2]! * g[0]! + g[3]! * g[1]!) / d,
-      log1y = (g[3]! * g[0]! - g[2]! * g[1]!) / d;
+    const log1x = (g[2]! * g[0]! + g[3]! * g[1]!) / d;
+    const log1y = (g[3]! * g[0]! - g[2]! * g[1]!) / d;
     const log2x = (g[4]! * g[0]! + g[5]! * g[1]!) / d - (log1x * log1x - log1y * log1y);
     const log2y = (g[5]! * g[0]! - g[4]! * g[1]!) / d - 2 * log1x * log1y;
     let first = 1;
     if (kind === Kind.MESH || kind === Kind.POLAR) first = log1y - w;
     else if (kind === Kind.FACE) first = w - spun[2]!;
-    let bent = 0,
-      slope = 1;
+    let bent = 0;
+    let slope = 1;
     if (s.values[v + 6]! > 0 || kind === Kind.MESH) {
       let angle: number;
-      const lx = line[0]!,
-        ly = line[1]!,
-        ox = line[2]!,
-        oy = line[3]!;
+      const lx = line[0]!;
+      const ly = line[1]!;
+      const ox = line[2]!;
+      const oy = line[3]!;
       if (kind === Kind.MESH) {
         angle = unwoundAngle(lx * g[0]! + ly * g[1]!, ly * g[0]! - lx * g[1]!, s.values[v + 3]!);
         first = -first;
       } else if (kind === Kind.POLAR) angle = unwoundAngle(lx * g[0]! + ly * g[1]!, lx * g[1]! - ly * g[0]!, 0);
       else {
-        const mx = -two * ly,
-          my = two * lx;
+        const mx = -two * ly;
+        const my = two * lx;
         angle = unwoundAngle(-(mx * ox + my * oy), -(my * ox - mx * oy), 0);
       }
       evaluateLaw(p.pieces, s.values[v + 5]!, s.values[v + 6]!, s.values[v + 7]!, angle);
@@ -469,8 +469,8 @@ export function closingRates(
       const turning = order === 1 ? log1y : log2y;
       R[row] = -one * (slope * (spun[order - 1]! - turning) + bent) - two * (spun[2 + order - 1]! - turning);
     } else if (kind === Kind.POLAR) {
-      const real = order === 1 ? log1x : log2x,
-        imag = order === 1 ? log1y : log2y;
+      const real = order === 1 ? log1x : log2x;
+      const imag = order === 1 ? log1y : log2y;
       R[row] = one * (slope * (imag - spun[order - 1]!) + bent - real);
     } else {
       rotated(order, line[0]!, -line[1]!, -w, -al, g, 0);
@@ -495,16 +495,16 @@ export function rotated(
   b: ArrayLike<number>,
   at: number,
 ): void {
-  let x = b[at]!,
-    y = b[at + 1]!;
+  let x = b[at]!;
+  let y = b[at + 1]!;
   if (order === 1) {
-    const x0 = x,
-      y0 = y;
+    const x0 = x;
+    const y0 = y;
     x = b[at + 2]! - w * y0;
     y = b[at + 3]! + w * x0;
   } else if (order === 2) {
-    const x0 = x,
-      y0 = y;
+    const x0 = x;
+    const y0 = y;
     x = b[at + 4]! - 2 * w * b[at + 3]! - w * w * x0 - a * y0;
     y = b[at + 5]! + 2 * w * b[at + 2]! - w * w * y0 + a * x0;
   }

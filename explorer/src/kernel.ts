@@ -159,8 +159,8 @@ export class Kernel {
 
   /** Move along rows of drive values, (rows * drives,); speeds are those of the drives for order 1 and 2. */
   run(path: Float64Array, start: State, order = 0, speeds: readonly Float64Array[] = []): Rows {
-    const D = this.p.drives,
-      n = this.links;
+    const D = this.p.drives;
+    const n = this.links;
     const count = D ? path.length / D : 1;
     this.path = path;
     this.speeds = speeds.slice(0, order);
@@ -309,8 +309,8 @@ export class Kernel {
   private record(row: number, rows: Rows): void {
     this.before.set(this.turns);
     if (row < 0) return;
-    const n = this.links,
-      order = rows.order;
+    const n = this.links;
+    const order = rows.order;
     rows.turns.set(this.turns, row * 2 * n);
     for (let link = 0; link < n; link++) {
       for (let k = 0; k <= order; k++) {
@@ -337,8 +337,8 @@ export class Kernel {
   private reversed(): number {
     for (const operation of this.p.operations) {
       if (operation[0] !== Code.RPR && !this.drivenArm(operation)) continue;
-      const number = operation[9]!,
-        body = operation[7]!;
+      const number = operation[9]!;
+      const body = operation[7]!;
       if (this.change[number]! < Infinity && this.after[number] === this.signs[number]) continue;
       const dot =
         this.turns[2 * body]! * this.before[2 * body]! + this.turns[2 * body + 1]! * this.before[2 * body + 1]!;
@@ -349,11 +349,11 @@ export class Kernel {
 
   private remembered(row: number): boolean {
     if (row < 2) return false;
-    const D = this.p.drives,
-      path = this.path;
-    let most = 0,
-      ratio = 0,
-      off = 0;
+    const D = this.p.drives;
+    const path = this.path;
+    let most = 0;
+    let ratio = 0;
+    let off = 0;
     for (let d = 0; d < D; d++) {
       const past = path[(row - 1) * D + d]! - path[(row - 2) * D + d]!;
       if (Math.abs(past) > most) {
@@ -378,8 +378,8 @@ export class Kernel {
 
   /** Whether the drives go on to a row as they came, not back and not much faster: then the past foretells. */
   private steady(row: number): boolean {
-    const D = this.p.drives,
-      path = this.path;
+    const D = this.p.drives;
+    const path = this.path;
     let moved = false;
     for (let d = 0; d < D; d++) {
       const way = path[row * D + d]! - path[(row - 1) * D + d]!;
@@ -447,8 +447,8 @@ export class Kernel {
           this.which = number;
           return verdict;
         }
-        const one = operation[7]!,
-          two = operation[8]!;
+        const one = operation[7]!;
+        const two = operation[8]!;
         if ((kind === Code.RRR || kind === Code.RPR || driven) && this.meeting(kind)) {
           if (this.met[number] !== at) {
             this.which = number;
@@ -480,16 +480,16 @@ export class Kernel {
   ): void {
     const p = this.p;
     const link = p.links[e]!;
-    const tx = this.turns[2 * link]!,
-      ty = this.turns[2 * link + 1]!;
-    const px = p.points[2 * e]!,
-      py = p.points[2 * e + 1]!;
-    const lx = p.lines[2 * e]!,
-      ly = p.lines[2 * e + 1]!;
-    const ax = tx * px - ty * py,
-      ay = tx * py + ty * px;
-    const q = 6 * slot,
-      o = 6 * link;
+    const tx = this.turns[2 * link]!;
+    const ty = this.turns[2 * link + 1]!;
+    const px = p.points[2 * e]!;
+    const py = p.points[2 * e + 1]!;
+    const lx = p.lines[2 * e]!;
+    const ly = p.lines[2 * e + 1]!;
+    const ax = tx * px - ty * py;
+    const ay = tx * py + ty * px;
+    const q = 6 * slot;
+    const o = 6 * link;
     points[q] = this.places[o]! + ax;
     points[q + 1] = this.places[o + 1]! + ay;
     lines[2 * slot] = tx * lx - ty * ly;
@@ -509,27 +509,27 @@ export class Kernel {
   }
 
   private drive(operation: readonly number[], order: number): void {
-    const p = this.p,
-      D = p.drives;
+    const p = this.p;
+    const D = p.drives;
     const [kind, d, one, other, sign] = operation as [number, number, number, number, number];
-    const near = p.links[one]!,
-      far = p.links[other]!;
+    const near = p.links[one]!;
+    const far = p.links[other]!;
     this.setElement(order, one, 0, this.points, this.lines, this.spins);
     const point = [p.points[2 * other]!, p.points[2 * other + 1]!, 0, 0, 0, 0];
     if (kind === Code.TURN) {
       const angle = sign * this.drives[d]!;
-      const cos = Math.cos(angle),
-        sin = Math.sin(angle);
-      const nx = this.turns[2 * near]!,
-        ny = this.turns[2 * near + 1]!;
-      const tx = nx * cos - ny * sin,
-        ty = nx * sin + ny * cos;
+      const cos = Math.cos(angle);
+      const sin = Math.sin(angle);
+      const nx = this.turns[2 * near]!;
+      const ny = this.turns[2 * near + 1]!;
+      const tx = nx * cos - ny * sin;
+      const ty = nx * sin + ny * cos;
       this.turns[2 * far] = tx;
       this.turns[2 * far + 1] = ty;
       for (let k = 0; k < order; k++)
         this.rates[2 * far + k] = this.rates[2 * near + k]! + sign * this.drives[(k + 1) * D + d]!;
-      const w = this.rates[2 * far]!,
-        a = this.rates[2 * far + 1]!;
+      const w = this.rates[2 * far]!;
+      const a = this.rates[2 * far + 1]!;
       for (let k = 0; k <= order; k++) {
         rotated(k, tx, ty, w, a, point, 0);
         this.places[6 * far + 2 * k] = this.points[2 * k]! - jet.x;
@@ -537,23 +537,23 @@ export class Kernel {
       }
       return;
     }
-    const lx = this.lines[0]!,
-      ly = this.lines[1]!;
-    const ox = p.lines[2 * other]!,
-      oy = p.lines[2 * other + 1]!;
-    const tx = lx * ox + ly * oy,
-      ty = ly * ox - lx * oy;
+    const lx = this.lines[0]!;
+    const ly = this.lines[1]!;
+    const ox = p.lines[2 * other]!;
+    const oy = p.lines[2 * other + 1]!;
+    const tx = lx * ox + ly * oy;
+    const ty = ly * ox - lx * oy;
     this.turns[2 * far] = tx;
     this.turns[2 * far + 1] = ty;
     const way = [0, 0, 0, 0, 0, 0];
     for (let k = 0; k <= order; k++) way[2 * k] = sign < 0 ? -this.drives[k * D + d]! : this.drives[k * D + d]!;
     for (let k = 0; k < order; k++) this.rates[2 * far + k] = this.rates[2 * near + k]!;
-    const w = this.rates[2 * near]!,
-      a = this.rates[2 * near + 1]!;
+    const w = this.rates[2 * near]!;
+    const a = this.rates[2 * near + 1]!;
     for (let k = 0; k <= order; k++) {
       rotated(k, lx, ly, w, a, way, 0);
-      const x = jet.x,
-        y = jet.y;
+      const x = jet.x;
+      const y = jet.y;
       rotated(k, tx, ty, w, a, point, 0);
       this.places[6 * far + 2 * k] = this.points[2 * k]! + x - jet.x;
       this.places[6 * far + 2 * k + 1] = this.points[2 * k + 1]! + y - jet.y;
@@ -561,21 +561,21 @@ export class Kernel {
   }
 
   private carry(order: number, link: number, body: number): void {
-    const l = 6 * link,
-      b = 6 * body;
-    const tx = this.turns[2 * body]!,
-      ty = this.turns[2 * body + 1]!;
+    const l = 6 * link;
+    const b = 6 * body;
+    const tx = this.turns[2 * body]!;
+    const ty = this.turns[2 * body + 1]!;
     const held = this.places.slice(l, l + 6);
-    const w = order >= 1 ? this.rates[2 * body]! : 0,
-      a = order >= 2 ? this.rates[2 * body + 1]! : 0;
+    const w = order >= 1 ? this.rates[2 * body]! : 0;
+    const a = order >= 2 ? this.rates[2 * body + 1]! : 0;
     for (let k = 0; k <= order; k++) {
       rotated(k, tx, ty, w, a, held, 0);
       this.places[l + 2 * k] = this.places[b + 2 * k]! + jet.x;
       this.places[l + 2 * k + 1] = this.places[b + 2 * k + 1]! + jet.y;
     }
     for (let k = 0; k < order; k++) this.rates[2 * link + k]! += this.rates[2 * body + k]!;
-    const x = this.turns[2 * link]!,
-      y = this.turns[2 * link + 1]!;
+    const x = this.turns[2 * link]!;
+    const y = this.turns[2 * link + 1]!;
     this.turns[2 * link] = x * tx - y * ty;
     this.turns[2 * link + 1] = x * ty + y * tx;
   }
@@ -584,41 +584,41 @@ export class Kernel {
 
   /** The square of the number whose sign is the assembly mode; of PRP and RPP the sine between the lines. */
   private dyadSquare(kind: Code, driven: boolean): number {
-    const P = this.points,
-      L = this.lines,
-      size = this.p.size;
+    const P = this.points;
+    const L = this.lines;
+    const size = this.p.size;
     if (kind === Code.RRR) {
-      const wx = P[30]! - P[0]!,
-        wy = P[31]! - P[1]!;
-      const fx = P[12]! - P[6]!,
-        fy = P[13]! - P[7]!;
-      const sx = P[18]! - P[24]!,
-        sy = P[19]! - P[25]!;
-      const d = Math.sqrt(wx * wx + wy * wy),
-        r = Math.sqrt(fx * fx + fy * fy),
-        s = Math.sqrt(sx * sx + sy * sy);
+      const wx = P[30]! - P[0]!;
+      const wy = P[31]! - P[1]!;
+      const fx = P[12]! - P[6]!;
+      const fy = P[13]! - P[7]!;
+      const sx = P[18]! - P[24]!;
+      const sy = P[19]! - P[25]!;
+      const d = Math.sqrt(wx * wx + wy * wy);
+      const r = Math.sqrt(fx * fx + fy * fy);
+      const s = Math.sqrt(sx * sx + sy * sy);
       const square = ((r + s - d) * (s + d - r) * (d + r - s) * (d + r + s)) / (2 * r * s) ** 2;
       const noise = (4e-16 * (d + r + s) ** 2) / (r * s);
       return -noise < square && square < 0 ? 0 : square;
     }
     if (kind === Code.RRP) {
-      const fx = P[12]! - P[6]!,
-        fy = P[13]! - P[7]!;
+      const fx = P[12]! - P[6]!;
+      const fy = P[13]! - P[7]!;
       this.turned(10, 8, P[18]! - P[24]!, P[19]! - P[25]!);
-      const rx = P[30]! + jet.x - P[0]!,
-        ry = P[31]! + jet.y - P[1]!;
+      const rx = P[30]! + jet.x - P[0]!;
+      const ry = P[31]! + jet.y - P[1]!;
       const across = L[10]! * ry - L[11]! * rx;
       if (driven) return (fx * fx + fy * fy - across * across) / (size * size);
       return 1 - (across * across) / (fx * fx + fy * fy);
     }
     if (kind === Code.RPR) {
-      const wx = P[30]! - P[0]!,
-        wy = P[31]! - P[1]!;
+      const wx = P[30]! - P[0]!;
+      const wy = P[31]! - P[1]!;
       const off = this.offset();
       return (wx * wx + wy * wy - off * off) / (size * size);
     }
-    let x = L[0]!,
-      y = L[1]!;
+    let x = L[0]!;
+    let y = L[1]!;
     if (kind === Code.RPP) {
       this.turned(10, 8, L[6]!, L[7]!);
       x = jet.x;
@@ -636,26 +636,26 @@ export class Kernel {
   /** A vector times line `by` over line `from` (places in the array of lines). */
   private turned(by: number, from: number, x: number, y: number): void {
     const L = this.lines;
-    const tx = L[by]! * L[from]! + L[by + 1]! * L[from + 1]!,
-      ty = L[by + 1]! * L[from]! - L[by]! * L[from + 1]!;
+    const tx = L[by]! * L[from]! + L[by + 1]! * L[from + 1]!;
+    const ty = L[by + 1]! * L[from]! - L[by]! * L[from + 1]!;
     jet.x = tx * x - ty * y;
     jet.y = tx * y + ty * x;
   }
 
   /** RPR: how far the second outer joint lies left of the first, seen along the slide. */
   private offset(): number {
-    const P = this.points,
-      L = this.lines;
+    const P = this.points;
+    const L = this.lines;
     const first = L[4]! * (P[7]! - P[13]!) - L[5]! * (P[6]! - P[12]!);
     const second = L[6]! * (P[25]! - P[19]!) - L[7]! * (P[24]! - P[18]!);
     return second - first;
   }
 
   private meeting(kind: Code): boolean {
-    const P = this.points,
-      size = this.p.size;
-    let wx = P[30]! - P[0]!,
-      wy = P[31]! - P[1]!;
+    const P = this.points;
+    const size = this.p.size;
+    let wx = P[30]! - P[0]!;
+    let wy = P[31]! - P[1]!;
     let near = 1e-13;
     if (kind !== Code.RRR) {
       let off: number;
@@ -709,74 +709,76 @@ export class Kernel {
 
   /** Place a link so that slot `inner` of it (against its origin) lies at x, y. */
   private hang(link: number, slot: number, x: number, y: number): void {
-    const tx = this.turns[2 * link]!,
-      ty = this.turns[2 * link + 1]!;
-    const px = this.points[6 * slot]!,
-      py = this.points[6 * slot + 1]!;
+    const tx = this.turns[2 * link]!;
+    const ty = this.turns[2 * link + 1]!;
+    const px = this.points[6 * slot]!;
+    const py = this.points[6 * slot + 1]!;
     this.places[6 * link] = x - (tx * px - ty * py);
     this.places[6 * link + 1] = y - (tx * py + ty * px);
   }
 
   private placeDyad(kind: Code, root: number, one: number, two: number, driven: boolean): void {
-    const P = this.points,
-      L = this.lines,
-      size = this.p.size;
-    const ax = P[0]!,
-      ay = P[1]!,
-      bx = P[30]!,
-      by = P[31]!;
+    const P = this.points;
+    const L = this.lines;
+    const size = this.p.size;
+    const ax = P[0]!;
+    const ay = P[1]!;
+    const bx = P[30]!;
+    const by = P[31]!;
     if (kind === Code.RRR) {
-      const wx = bx - ax,
-        wy = by - ay;
-      const fx = P[12]! - P[6]!,
-        fy = P[13]! - P[7]!;
-      const sx = P[18]! - P[24]!,
-        sy = P[19]! - P[25]!;
-      const d = wx * wx + wy * wy,
-        l1 = fx * fx + fy * fy,
-        l2 = sx * sx + sy * sy;
-      let armX: number, armY: number;
+      const wx = bx - ax;
+      const wy = by - ay;
+      const fx = P[12]! - P[6]!;
+      const fy = P[13]! - P[7]!;
+      const sx = P[18]! - P[24]!;
+      const sy = P[19]! - P[25]!;
+      const d = wx * wx + wy * wy;
+      const l1 = fx * fx + fy * fy;
+      const l2 = sx * sx + sy * sy;
+      let armX: number;
+      let armY: number;
       if (!this.meeting(kind)) {
-        const cx = (d + l1 - l2) / (2 * d),
-          cy = (root * Math.sqrt(l1 * l2)) / d;
+        const cx = (d + l1 - l2) / (2 * d);
+        const cy = (root * Math.sqrt(l1 * l2)) / d;
         armX = wx * cx - wy * cy;
         armY = wx * cy + wy * cx;
         this.setTurn(one, (armX * fx + armY * fy) / l1, (armY * fx - armX * fy) / l1);
       } else {
-        const tx = this.turns[2 * one]!,
-          ty = this.turns[2 * one + 1]!;
+        const tx = this.turns[2 * one]!;
+        const ty = this.turns[2 * one + 1]!;
         armX = tx * fx - ty * fy;
         armY = tx * fy + ty * fx;
       }
-      const gx = armX - wx,
-        gy = armY - wy;
+      const gx = armX - wx;
+      const gy = armY - wy;
       this.setTurn(two, (gx * sx + gy * sy) / l2, (gy * sx - gx * sy) / l2);
     } else if (kind === Code.RRP) {
-      const fx = P[12]! - P[6]!,
-        fy = P[13]! - P[7]!;
+      const fx = P[12]! - P[6]!;
+      const fy = P[13]! - P[7]!;
       const l1 = fx * fx + fy * fy;
       this.turned(10, 8, 1, 0);
       this.setTurn(two, jet.x, jet.y);
       this.turned(10, 8, P[18]! - P[24]!, P[19]! - P[25]!);
-      const rx = bx + jet.x - ax,
-        ry = by + jet.y - ay;
+      const rx = bx + jet.x - ax;
+      const ry = by + jet.y - ay;
       const way = root * (driven ? size : Math.sqrt(l1)) - (L[10]! * rx + L[11]! * ry);
-      const vx = rx + way * L[10]!,
-        vy = ry + way * L[11]!;
+      const vx = rx + way * L[10]!;
+      const vy = ry + way * L[11]!;
       if (!(driven && this.meeting(kind))) this.setTurn(one, (vx * fx + vy * fy) / l1, (vy * fx - vx * fy) / l1);
       this.hang(two, 4, bx + way * L[10]!, by + way * L[11]!);
     } else if (kind === Code.RPR) {
-      let lx: number, ly: number;
+      let lx: number;
+      let ly: number;
       if (this.meeting(kind)) {
-        const tx = this.turns[2 * one]!,
-          ty = this.turns[2 * one + 1]!;
+        const tx = this.turns[2 * one]!;
+        const ty = this.turns[2 * one + 1]!;
         lx = tx * L[4]! - ty * L[5]!;
         ly = tx * L[5]! + ty * L[4]!;
       } else {
-        const wx = bx - ax,
-          wy = by - ay;
-        const cx = root * size,
-          cy = -this.offset();
+        const wx = bx - ax;
+        const wy = by - ay;
+        const cx = root * size;
+        const cy = -this.offset();
         lx = wx * cx - wy * cy;
         ly = wx * cy + wy * cx;
         const length = Math.sqrt(lx * lx + ly * ly);
@@ -791,29 +793,29 @@ export class Kernel {
       this.turned(10, 8, 1, 0);
       this.setTurn(two, jet.x, jet.y);
       this.turned(0, 2, P[12]! - P[6]!, P[13]! - P[7]!);
-      const sx = ax + jet.x,
-        sy = ay + jet.y;
+      const sx = ax + jet.x;
+      const sy = ay + jet.y;
       this.turned(10, 8, P[18]! - P[24]!, P[19]! - P[25]!);
-      const gx = bx + jet.x - sx,
-        gy = by + jet.y - sy;
+      const gx = bx + jet.x - sx;
+      const gy = by + jet.y - sy;
       const sine = L[0]! * L[11]! - L[1]! * L[10]!;
-      const m = (gx * L[11]! - gy * L[10]!) / sine,
-        n = (gx * L[1]! - gy * L[0]!) / sine;
+      const m = (gx * L[11]! - gy * L[10]!) / sine;
+      const n = (gx * L[1]! - gy * L[0]!) / sine;
       this.hang(one, 1, ax + L[0]! * m, ay + L[1]! * m);
       this.hang(two, 4, bx + L[10]! * n, by + L[11]! * n);
     } else {
       this.turned(10, 8, 1, 0);
-      const tx = jet.x,
-        ty = jet.y;
+      const tx = jet.x;
+      const ty = jet.y;
       this.setTurn(two, tx, ty);
-      const sx = tx * L[6]! - ty * L[7]!,
-        sy = tx * L[7]! + ty * L[6]!;
-      const ux = sx * L[4]! + sy * L[5]!,
-        uy = sy * L[4]! - sx * L[5]!;
+      const sx = tx * L[6]! - ty * L[7]!;
+      const sy = tx * L[7]! + ty * L[6]!;
+      const ux = sx * L[4]! + sy * L[5]!;
+      const uy = sy * L[4]! - sx * L[5]!;
       this.setTurn(one, ux, uy);
       this.hang(one, 1, ax, ay);
-      const dx = P[18]! - P[24]!,
-        dy = P[19]! - P[25]!;
+      const dx = P[18]! - P[24]!;
+      const dy = P[19]! - P[25]!;
       const mx = bx + tx * dx - ty * dy - this.places[6 * one]! - (ux * P[12]! - uy * P[13]!);
       const my = by + tx * dy + ty * dx - this.places[6 * one + 1]! - (ux * P[13]! + uy * P[12]!);
       const way = -(sx * my - sy * mx) / (sx * L[11]! - sy * L[10]!);
@@ -827,8 +829,8 @@ export class Kernel {
 
   /** The k-th derivative of the vector from slot `from` to slot `to` of a body (`from` -1: from its origin). */
   private arm(k: number, body: number, from: number, to: number): void {
-    const v = this.between,
-      P = this.points;
+    const v = this.between;
+    const P = this.points;
     for (let m = 0; m < 6; m++) v[m] = P[6 * to + m]! - (from < 0 ? 0 : P[6 * from + m]!);
     rotated(
       k,
@@ -842,31 +844,31 @@ export class Kernel {
   }
 
   private rateDyad(kind: Code, order: number, one: number, two: number): void {
-    const P = this.points,
-      L = this.lines,
-      S = this.spins,
-      Z = this.places,
-      W = this.rates;
+    const P = this.points;
+    const L = this.lines;
+    const S = this.spins;
+    const Z = this.places;
+    const W = this.rates;
     for (let k = order; k < 2; k++)
       for (let slot = 0; slot < 6; slot++) {
         P[6 * slot + 2 * (k + 1)] = P[6 * slot + 2 * (k + 1) + 1] = 0;
         S[2 * slot + k] = 0;
       }
     W[2 * one] = W[2 * one + 1] = W[2 * two] = W[2 * two + 1] = 0;
-    const t1x = this.turns[2 * one]!,
-      t1y = this.turns[2 * one + 1]!;
-    const t2x = this.turns[2 * two]!,
-      t2y = this.turns[2 * two + 1]!;
-    const fx = t1x * (P[12]! - P[6]!) - t1y * (P[13]! - P[7]!),
-      fy = t1x * (P[13]! - P[7]!) + t1y * (P[12]! - P[6]!);
-    const sx = t2x * (P[18]! - P[24]!) - t2y * (P[19]! - P[25]!),
-      sy = t2x * (P[19]! - P[25]!) + t2y * (P[18]! - P[24]!);
-    const inner1x = Z[6 * one]! + t1x * P[12]! - t1y * P[13]!,
-      inner1y = Z[6 * one + 1]! + t1x * P[13]! + t1y * P[12]!;
-    const slideX = t1x * L[4]! - t1y * L[5]!,
-      slideY = t1x * L[5]! + t1y * L[4]!;
-    const way = [0, 0, 0, 0, 0, 0],
-      other = [0, 0, 0, 0, 0, 0]; // ways with their derivatives, imaginary parts 0
+    const t1x = this.turns[2 * one]!;
+    const t1y = this.turns[2 * one + 1]!;
+    const t2x = this.turns[2 * two]!;
+    const t2y = this.turns[2 * two + 1]!;
+    const fx = t1x * (P[12]! - P[6]!) - t1y * (P[13]! - P[7]!);
+    const fy = t1x * (P[13]! - P[7]!) + t1y * (P[12]! - P[6]!);
+    const sx = t2x * (P[18]! - P[24]!) - t2y * (P[19]! - P[25]!);
+    const sy = t2x * (P[19]! - P[25]!) + t2y * (P[18]! - P[24]!);
+    const inner1x = Z[6 * one]! + t1x * P[12]! - t1y * P[13]!;
+    const inner1y = Z[6 * one + 1]! + t1x * P[13]! + t1y * P[12]!;
+    const slideX = t1x * L[4]! - t1y * L[5]!;
+    const slideY = t1x * L[5]! + t1y * L[4]!;
+    const way = [0, 0, 0, 0, 0, 0];
+    const other = [0, 0, 0, 0, 0, 0]; // ways with their derivatives, imaginary parts 0
     if (kind === Code.RRP) way[0] = L[10]! * (inner1x - P[30]! - sx) + L[11]! * (inner1y - P[31]! - sy);
     else if (kind === Code.PRP) {
       way[0] = L[0]! * (inner1x - P[0]! - fx) + L[1]! * (inner1y - P[1]! - fy);
@@ -874,15 +876,16 @@ export class Kernel {
     } else if (kind === Code.RPR) {
       way[0] = slideX * (sx + P[30]! - P[0]! - fx) + slideY * (sy + P[31]! - P[1]! - fy);
     } else if (kind === Code.RPP) {
-      const ox = Z[6 * two]! + t2x * P[24]! - t2y * P[25]!,
-        oy = Z[6 * two + 1]! + t2x * P[25]! + t2y * P[24]!;
+      const ox = Z[6 * two]! + t2x * P[24]! - t2y * P[25]!;
+      const oy = Z[6 * two + 1]! + t2x * P[25]! + t2y * P[24]!;
       way[0] = L[10]! * (ox - P[30]!) + L[11]! * (oy - P[31]!);
-      const ix = Z[6 * two]! + t2x * P[18]! - t2y * P[19]!,
-        iy = Z[6 * two + 1]! + t2x * P[19]! + t2y * P[18]!;
+      const ix = Z[6 * two]! + t2x * P[18]! - t2y * P[19]!;
+      const iy = Z[6 * two + 1]! + t2x * P[19]! + t2y * P[18]!;
       other[0] = slideX * (ix - inner1x) + slideY * (iy - inner1y);
     }
     for (let k = 1; k <= order; k++) {
-      let gx: number, gy: number; // target
+      let gx: number;
+      let gy: number; // target
       const add = (sign: number) => {
         gx += sign * jet.x;
         gy += sign * jet.y;
@@ -918,8 +921,8 @@ export class Kernel {
         const w = k > 1 ? W[2 * one]! + S[4]! : 0;
         rotated(k, slideX, slideY, w, 0, way, 0);
         add(-1);
-        const dx = fx - sx + way[0]! * slideX,
-          dy = fy - sy + way[0]! * slideY;
+        const dx = fx - sx + way[0]! * slideX;
+        const dy = fy - sy + way[0]! * slideY;
         solved(-dy, dx, slideX, slideY, gx!, gy!);
         W[2 * one + k - 1]! += pair.first;
         W[2 * two + k - 1]! += pair.first;
@@ -936,8 +939,8 @@ export class Kernel {
       } else {
         W[2 * two + k - 1] = S[10 + k - 1]! - S[8 + k - 1]!;
         W[2 * one + k - 1] = W[2 * two + k - 1]! + S[6 + k - 1]! - S[4 + k - 1]!;
-        const w = W[2 * one]! + S[4]!,
-          a = k > 1 ? W[2 * one + 1]! + S[5]! : 0;
+        const w = W[2 * one]! + S[4]!;
+        const a = k > 1 ? W[2 * one + 1]! + S[5]! : 0;
         ends();
         gx = -gx!;
         gy = -gy!;
@@ -989,16 +992,16 @@ export class Kernel {
   }
 
   private zeroAhead(number: number): number {
-    const now = this.determinants[0]![number]!,
-      past = this.determinants[1]![number]!;
+    const now = this.determinants[0]![number]!;
+    const past = this.determinants[1]![number]!;
     if (now * past <= 0 || Math.abs(now) >= Math.abs(past) || this.at[0]! <= this.at[1]!) return Infinity;
     return ((this.at[0]! - this.at[1]!) * now) / (past - now);
   }
 
   private expected(number: number, first: number, last: number, at: number): boolean {
     const size = this.p.size;
-    let missed = 0,
-      moved = 0;
+    let missed = 0;
+    let moved = 0;
     for (let k = first; k < last; k++) {
       const scale = k % 3 === 2 ? size : 1;
       missed = Math.max(missed, scale * Math.abs(this.unknowns[3]![k]! - this.foretold[k - first]!));
@@ -1012,27 +1015,27 @@ export class Kernel {
   }
 
   private wind(start: number, end: number, root: number): boolean {
-    const p = this.p,
-      s = this.s,
-      y = this.unknowns[3]!;
+    const p = this.p;
+    const s = this.s;
+    const y = this.unknowns[3]!;
     for (let c = start; c < end; c++) {
       const first = p.windings[c]!;
       if (first < 0) continue;
-      const xs = [0, 0],
-        ys = [0, 0],
-        lxs = [0, 0],
-        lys = [0, 0];
+      const xs = [0, 0];
+      const ys = [0, 0];
+      const lxs = [0, 0];
+      const lys = [0, 0];
       for (let side = 0; side < 2; side++) {
         const slot = 2 * (c - start) + side;
         const body = p.owners[2 * c + side]!;
-        let x = s.points[6 * slot]!,
-          yy = s.points[6 * slot + 1]!;
-        let lx = s.lines[2 * slot]!,
-          ly = s.lines[2 * slot + 1]!;
+        let x = s.points[6 * slot]!;
+        let yy = s.points[6 * slot + 1]!;
+        let lx = s.lines[2 * slot]!;
+        let ly = s.lines[2 * slot + 1]!;
         if (body >= 0) {
           const k = 3 * (root + body);
-          const cos = Math.cos(y[k + 2]!),
-            sin = Math.sin(y[k + 2]!);
+          const cos = Math.cos(y[k + 2]!);
+          const sin = Math.sin(y[k + 2]!);
           [x, yy] = [y[k]! + cos * x - sin * yy, y[k + 1]! + sin * x + cos * yy];
           [lx, ly] = [cos * lx - sin * ly, sin * lx + cos * ly];
         }
@@ -1043,8 +1046,8 @@ export class Kernel {
       }
       const near = [this.unknowns[0]![first]!, this.unknowns[0]![first + 1]!];
       if (p.kinds[c] === Kind.MESH) {
-        const gx = xs[1]! - xs[0]!,
-          gy = ys[1]! - ys[0]!;
+        const gx = xs[1]! - xs[0]!;
+        const gy = ys[1]! - ys[0]!;
         for (let k = 0; k < 2; k++)
           y[first + k] = unwoundAngle(lxs[k]! * gx + lys[k]! * gy, lys[k]! * gx - lxs[k]! * gy, near[k]!);
       } else {
@@ -1057,16 +1060,16 @@ export class Kernel {
   }
 
   private group(number: number, order: number, at: number): boolean {
-    const p = this.p,
-      s = this.s;
-    const start = p.conditions[number]!,
-      end = p.conditions[number + 1]!;
-    const first = p.bodies[number]!,
-      last = p.bodies[number + 1]!;
+    const p = this.p;
+    const s = this.s;
+    const start = p.conditions[number]!;
+    const end = p.conditions[number + 1]!;
+    const first = p.bodies[number]!;
+    const last = p.bodies[number + 1]!;
     for (let slot = 0; slot < 2 * (end - start); slot++)
       this.setElement(order, p.sides[2 * start + slot]!, slot, s.points, s.lines, s.spins);
-    const base = 3 * first,
-      n = 3 * (last - first);
+    const base = 3 * first;
+    const n = 3 * (last - first);
     this.foretell(at, base, base + n);
     const y = this.unknowns[3]!;
     for (let k = 0; k < n; k++) this.foretold[k] = y[base + k]!;
@@ -1142,17 +1145,17 @@ export class Kernel {
       this.foundChange.place = place;
       this.foundChange.negative = negative;
     };
-    let low = this.at[0]!,
-      high = reach;
+    let low = this.at[0]!;
+    let high = reach;
     const ratio = 0.6180339887498949;
-    let inner = high - ratio * (high - low),
-      outer = low + ratio * (high - low);
-    let atInner = this.squareAt(inner, number),
-      atOuter = this.squareAt(outer, number);
-    let at = reach,
-      least = Infinity;
-    let far = low,
-      beyond = -Infinity; // the farthest place at which all before this dyad is placed, and the square there
+    let inner = high - ratio * (high - low);
+    let outer = low + ratio * (high - low);
+    let atInner = this.squareAt(inner, number);
+    let atOuter = this.squareAt(outer, number);
+    let at = reach;
+    let least = Infinity;
+    let far = low;
+    let beyond = -Infinity; // the farthest place at which all before this dyad is placed, and the square there
     for (let k = 0; k < 200; k++) {
       if (atInner < least) [at, least] = [inner, atInner];
       if (atOuter < least) [at, least] = [outer, atOuter];
@@ -1185,8 +1188,8 @@ export class Kernel {
   }
 
   private turnAhead(at: number, reach: number): number {
-    const D = this.p.drives,
-      path = this.path;
+    const D = this.p.drives;
+    const path = this.path;
     let row = Math.floor(at) + 1;
     while (row < this.count - 1 && row < reach) {
       let forth = 0;
@@ -1199,9 +1202,9 @@ export class Kernel {
   }
 
   private approach(step: number, number: number): number {
-    const at = this.at[0]!,
-      now = this.roots[0]![number]!,
-      past = this.roots[1]![number]!;
+    const at = this.at[0]!;
+    const now = this.roots[0]![number]!;
+    const past = this.roots[1]![number]!;
     const slope = (now - past) / (at - this.at[1]!);
     const ahead = slope !== 0 ? Math.abs(now / slope) : step;
     this.change[number] = NaN;
@@ -1230,8 +1233,8 @@ export class Kernel {
     for (const operation of this.p.operations)
       if (operation[0]! >= 2 && operation[0]! < Code.GROUP && operation[9] === number) body = operation[7]!;
     const weights = [3, -3, 1];
-    let tx = 0,
-      ty = 0;
+    let tx = 0;
+    let ty = 0;
     for (let k = 0; k < 3; k++) {
       if (this.count > 1) {
         const row = Math.max(1, Math.ceil(at));
@@ -1258,16 +1261,16 @@ export class Kernel {
   private straight(number: number): boolean {
     const ahead = this.zeroAhead(number) / this.unit;
     if (this.filled < 3 || !(10 * NEAREST < ahead && ahead < 1e-3)) return false;
-    const t = this.at,
-      y = this.unknowns,
-      d = this.determinants;
+    const t = this.at;
+    const y = this.unknowns;
+    const d = this.determinants;
     const growth = (d[2]![number]! - d[0]![number]!) / (d[0]![number]! + d[1]![number]!);
-    let bend = 0,
-      slope = 0;
+    let bend = 0;
+    let slope = 0;
     for (let k = 3 * this.p.bodies[number]!; k < 3 * this.p.bodies[number + 1]!; k++) {
       const scale = k % 3 === 2 ? this.p.size : 1;
-      const late = (y[0]![k]! - y[1]![k]!) / (t[0]! - t[1]!),
-        early = (y[1]![k]! - y[2]![k]!) / (t[1]! - t[2]!);
+      const late = (y[0]![k]! - y[1]![k]!) / (t[0]! - t[1]!);
+      const early = (y[1]![k]! - y[2]![k]!) / (t[1]! - t[2]!);
       bend = Math.max(bend, scale * Math.abs(late - early));
       slope = Math.max(slope, scale * Math.abs(early));
     }
@@ -1275,13 +1278,13 @@ export class Kernel {
   }
 
   private cross(row: number, number: number, rows: Rows): boolean {
-    const D = this.p.drives,
-      path = this.path;
-    const at = this.at[0]!,
-      unit = this.unit,
-      order = rows.order;
-    const ahead = this.zeroAhead(number),
-      left = row - at;
+    const D = this.p.drives;
+    const path = this.path;
+    const at = this.at[0]!;
+    const unit = this.unit;
+    const order = rows.order;
+    const ahead = this.zeroAhead(number);
+    const left = row - at;
     const inside = left < 6 * ahead;
     if (inside && ahead > 3e-5 * unit) return false;
     const beyond = inside ? row + Math.min(1e-2 * unit, 0.5) : Math.min(at + 8 * ahead, row);

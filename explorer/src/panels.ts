@@ -3,12 +3,18 @@
 import { applyDocument, documentOf } from "./document";
 import { h } from "./dom";
 import type { Dragging, Length } from "./dragging";
-import { Cancelled } from "./host";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { LinkageDocument } from "./model";
 import { ownColour, type Shown } from "./shown";
 import type { Page } from "./view";
+import { awaited } from "./waiting";
+
+/** An assembly mode that the library found. */
+interface Mode {
+  label: string;
+  document: LinkageDocument;
+}
 
 /** What the panels show and change. */
 export interface Editor {
@@ -116,28 +122,18 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
   const { linkage } = editor;
   const drives = [...linkage.drives].slice(0, linkage.model.drives.length);
   const question = { document: documentOf(linkage), drives };
-  const request = editor.page.ask<{ label: string; document: LinkageDocument }[]>("modes", question);
-  place.replaceChildren(
-    h("progress", {}),
-    h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel")),
-  );
+  const found = await awaited(place, () => editor.page.ask<Mode[]>("modes", question));
+  if (!found || linkage !== editor.linkage) return;
   const take = (document: LinkageDocument) => {
     const drive = drives[linkage.active] ?? linkage.drives[linkage.active]!;
     const elements = documentOf(linkage).elements!;
     editor.attempt(() => applyDocument(linkage, { ...document, elements }, drive));
     editor.show();
   };
-  try {
-    const found = await request;
-    if (linkage !== editor.linkage) return;
-    const choices = found.map(({ label, document }) =>
-      h("button", { class: "plain", "data-mode": label, onclick: () => take(document) }, label),
-    );
-    place.replaceChildren(...choices);
-  } catch (error) {
-    const text = error instanceof Cancelled ? t("Cancelled.") : (error as Error).message;
-    place.replaceChildren(h("span", { class: "error" }, text));
-  }
+  const choices = found.map(({ label, document }) =>
+    h("button", { class: "plain", "data-mode": label, onclick: () => take(document) }, label),
+  );
+  place.replaceChildren(...choices);
 }
 
 // --- options ---------------------------------------------------------------------------------------------------------

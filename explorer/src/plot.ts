@@ -13,10 +13,10 @@ export interface Series {
 
 const WIDTH = 300;
 const HEIGHT = 128;
-const LEFT = 44,
-  RIGHT = 8,
-  TOP = 20,
-  BOTTOM = 18;
+const LEFT = 44;
+const RIGHT = 8;
+const TOP = 20;
+const BOTTOM = 18;
 
 export class Plot {
   readonly element = svg("svg", {
@@ -68,8 +68,8 @@ export class Plot {
     const { low, high, wide } = plotRange(series.values);
     const room = 0.06 * (high - low);
     [this.low, this.high] = [low - room, high + room];
-    let d = "",
-      on = false;
+    let d = "";
+    let on = false;
     series.values.forEach((value, k) => {
       if (!Number.isFinite(value) || value > this.high + 10 * wide || value < this.low - 10 * wide) on = false;
       else {

@@ -1,10 +1,10 @@
 /** The view of the structure: a chain out of all, its frame, drive and joint types, its mobility; then dimensions. */
 
 import { h, picture, svg, thumbnail } from "./dom";
-import { Cancelled } from "./host";
 import { t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
+import { awaited } from "./waiting";
 
 interface Choice {
   text: string;
@@ -46,6 +46,11 @@ interface Chains {
   items: { text: string; picture: string }[];
 }
 
+interface Realised {
+  model: Model;
+  message: string;
+}
+
 export class StructureView implements View {
   readonly element = h("div", { class: "view", "data-page": "structure" });
   private text = "";
@@ -62,7 +67,6 @@ export class StructureView implements View {
   private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
   private typing = 0;
   private asked = 0;
-  private stop: (() => void) | null = null;
 
   constructor(private readonly page: Page) {
     this.field.addEventListener("input", () => {
@@ -124,26 +128,11 @@ export class StructureView implements View {
   }
 
   private async listChains(start: number): Promise<void> {
-    const bar = h("span", {}, "…");
-    const request = this.page.ask<Chains>(
-      "chains",
-      { links: this.links, mobility: this.mobility, start },
-      (text) => (bar.textContent = text),
-    );
-    this.stop = () => request.cancel();
-    this.status.replaceChildren(
-      h("progress", {}),
-      bar,
-      h("button", { class: "plain", onclick: () => this.stop?.() }, t("Cancel")),
-    );
-    try {
-      const found = await request;
-      this.chains = start && this.chains ? { ...found, items: [...this.chains.items, ...found.items] } : found;
-      this.status.replaceChildren();
-    } catch (error) {
-      this.status.replaceChildren(
-        h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message),
-      );
+    const question = { links: this.links, mobility: this.mobility, start };
+    const found = await awaited(this.status, (progress) => this.page.ask<Chains>("chains", question, progress));
+    if (found) {
+      const before = start && this.chains ? this.chains.items : [];
+      this.chains = { ...found, items: [...before, ...found.items] };
     }
     this.showChains();
   }
@@ -374,25 +363,13 @@ export class StructureView implements View {
   }
 
   private async realise(): Promise<void> {
-    const bar = h("span", {}, "…");
-    const request = this.page.ask<{ model: Model; message: string }>(
-      "realise",
-      { text: this.field.value },
-      (text) => (bar.textContent = text),
-    ); // as it stands, described or not yet
-    const cancel = h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel"));
-    const place = this.detail.querySelector('[data-act="realise"]')!.parentElement!;
-    const waiting = h("span", { class: "form" }, h("progress", {}), bar, cancel);
-    place.append(waiting);
-    try {
-      const { model, message } = await request;
-      waiting.remove();
-      this.page.open({ ...model, name: t("A mechanism with found dimensions") });
-      this.page.say(message);
-    } catch (error) {
-      waiting.replaceChildren(
-        h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message),
-      );
-    }
+    const text = this.field.value; // as it stands, described or not yet
+    const place = h("span", { class: "form" });
+    this.detail.querySelector('[data-act="realise"]')!.parentElement!.append(place);
+    const found = await awaited(place, (progress) => this.page.ask<Realised>("realise", { text }, progress));
+    if (!found) return;
+    place.remove();
+    this.page.open({ ...found.model, name: t("A mechanism with found dimensions") });
+    this.page.say(found.message);
   }
 }

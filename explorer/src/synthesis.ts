@@ -1,10 +1,10 @@
 /** The view of the synthesis: points that a coupler point is to pass, clicked into a plane; four-bars that do it. */
 
 import { h, svg, thumbnail } from "./dom";
-import { Cancelled } from "./host";
 import { angle, number, parsed, t } from "./language";
 import type { LinkageDocument, Model } from "./model";
 import type { Page, View } from "./view";
+import { awaited } from "./waiting";
 
 interface Item {
   document: LinkageDocument;
@@ -20,8 +20,8 @@ interface Designs {
   items: Item[];
 }
 
-const WIDE = 240,
-  HIGH = 150; // the plane, in units of length
+const WIDE = 240;
+const HIGH = 150; // the plane, in units of length
 const FEWEST = 5; // fewer points leave infinitely many four-bars
 const STEP = 10; // between lines of its grid
 
@@ -227,30 +227,10 @@ export class SynthesisView implements View {
       return this.status.replaceChildren(
         h("span", { class: "error", role: "alert" }, t("Give at least {count} points.", { count: FEWEST })),
       );
-    const bar = h("span", {}, "…");
-    const request = this.page.ask<Designs>(
-      "synthesise",
-      { points: this.points, closed: this.closed, crank: this.crank, transmission: this.least },
-      (text) => (bar.textContent = text),
-    );
-    this.status.replaceChildren(
-      h("progress", {}),
-      bar,
-      h("button", { class: "plain", "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel")),
-    );
-    try {
-      this.designs = await request;
-      this.status.replaceChildren();
-    } catch (error) {
-      this.status.replaceChildren(
-        h(
-          "span",
-          { class: "error", role: "alert" },
-          error instanceof Cancelled ? t("Cancelled.") : (error as Error).message,
-        ),
-      );
-      return;
-    }
+    const question = { points: this.points, closed: this.closed, crank: this.crank, transmission: this.least };
+    const found = await awaited(this.status, (progress) => this.page.ask<Designs>("synthesise", question, progress));
+    if (!found) return;
+    this.designs = found;
     this.showDesigns();
     this.found.scrollIntoView({ block: "nearest", behavior: "smooth" });
   }
