@@ -116,6 +116,25 @@ def test_animations_are_saved_by_their_ending(value, suffix, tmp_path):
 CHAIN = gr.Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
 TASK = DeadCentreTask(stroke=50, time_ratio=1.2)
 MECHANISM = gr.Mechanism(CHAIN, "0", [0])
+
+
+def test_what_a_user_guesses_first_works(tmp_path):
+    assert gr.read("wiper").mechanism == entry("wiper").linkage().mechanism
+    assert gr.read("four-bar:25,70,40,70") == gr.read("25,70,40,70") == CRANK_ROCKER.linkage()
+    assert gr.read(str(CHAIN)) == CHAIN
+    assert gr.read(str(MECHANISM)) == MECHANISM
+    motion = gr.move(CRANK_ROCKER.linkage({"K": (45, 40)}), gr.from_degrees(0, 360, 1), speed=gr.rpm(60))
+    steps = np.gradient(motion.point("K"), 1 / 360, axis=0)[5:-5]  # a turn a second, by differences
+    np.testing.assert_allclose(motion.velocity("K")[5:-5], steps, rtol=0, atol=0.1)
+    steps = np.gradient(motion.velocity("K"), 1 / 360, axis=0)[5:-5]
+    np.testing.assert_allclose(motion.acceleration("K")[5:-5], steps, rtol=0, atol=2)
+    frame = motion.to_dataframe()
+    assert len(frame) == 361
+    assert gr.plot(motion).svg() == gr.plot(motion.linkage, between=(0, 2 * np.pi)).svg()
+    assert gr.draw(CHAIN).save(tmp_path / "x.png").read_bytes()[:4] == b"\x89PNG"
+    assert gr.Chain.from_networkx(CHAIN.to_networkx()) == CHAIN
+
+
 FOUND_A_MECHANISM = "expected Chain, but found Mechanism: take its chain"
 MISTAKES = [
     (lambda: gr.Chain.parse(5), "text: expected a text, but found 5"),
@@ -123,6 +142,15 @@ MISTAKES = [
     (lambda: gr.move(CHAIN, [0.0]), "a Chain has no dimensions: realise(mechanism) finds some"),
     (lambda: gr.move(gr.FourBar, [0.0]), "expected a linkage, a FourBar"),
     (lambda: gr.measures(entry("loco3").placed()), "expected a planar linkage, but found a SpatialLinkage"),
+    (lambda: gr.inversions(CRANK_ROCKER), "but found FourBar: take its linkage().mechanism.chain"),
+    (lambda: gr.code(CRANK_ROCKER.linkage()), "but found Linkage: take its mechanism.chain"),
+    (lambda: gr.decompose(CRANK_ROCKER.linkage()), "but found Linkage: take its mechanism"),
+    (lambda: gr.move(CRANK_ROCKER, None), "drives: expected numbers (radians, or lengths), but found None"),
+    (lambda: gr.move(CRANK_ROCKER, "30"), "drives: expected numbers (radians, or lengths), but found '30'"),
+    (lambda: gr.move(CRANK_ROCKER, True), "drives: expected numbers (radians, or lengths), but found True"),
+    (lambda: gr.Chain([("R", ["a", "b"])]), "unknown pair 'R': expected a full name such as 'revolute'"),
+    (lambda: gr.read("wipr"), "'wipr' is no file and no entry of the catalog (did you mean 'wiper'?)"),
+    (lambda: gr.read("four-bar:25,70"), "four-bar: expected a,b,c,d, but found 2 numbers"),
     (lambda: gr.draw(7), "values of type int have no picture"),
     (lambda: gr.draw(CRANK_ROCKER, poses=3), "draw has no option 'poses'"),
     (lambda: gr.draw(CRANK_ROCKER, teeth=True), "the picture of a FourBar has no option 'teeth'; it has branch, at, "),

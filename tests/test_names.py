@@ -12,6 +12,7 @@ from tests.test_floors import FILES, room, tree
 SHARED = {
     "add": "the protocol of a command: its arguments",
     "run": "the protocol of a command: what it does",
+    "read": "one word: of a file, and at the front door of a catalog entry or lengths as well",
     "main": "where a process begins",
     "central_crank_rocker": "a fact of dead centres: constructed, and as an exercise",
     "write_graph6": "one format: of many chains at once, and of one chain with its links in canonical order",

@@ -5,7 +5,7 @@ from . import base, design, files, machines, mechanics, page, pictures, structur
 from .base.errors import GrueblerError, UnitWarning
 from .design.realisation.realise import realise
 from .design.synthesis import synthesise
-from .files.values import read, write
+from .files.values import write
 from .machines.cams import Cam
 from .machines.gears import Train
 from .machines.geneva import Geneva
@@ -31,6 +31,7 @@ from .structure.mechanism.inversion import driven_mechanisms, inversions
 from .structure.mobility import mobility_report
 from .structure.transformations import derive, extend
 from .structure.type_synthesis import Requirements, variants
+from .teaching.catalog.words import read
 
 __version__: str
 

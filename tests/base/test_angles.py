@@ -29,6 +29,8 @@ DEGREES = {
     "steps of ten degrees": np.linspace(0, 360, 37),
     "fifty values": np.linspace(0, 360, 50),
     "a thousand values": np.linspace(0, 360, 1000),
+    "half degrees without the end": np.arange(0, 360, 0.5),
+    "tenths of degrees downward": np.arange(90, -90, -0.1),
     "half degrees": np.linspace(-90, 90, 361),
     "a list": [0, 30, 60, 90],
     "one value": [90],
@@ -41,6 +43,7 @@ RADIANS = {
     "whole numbers within a turn": np.arange(7.0),
     "a number behind a turn": [7.5],
     "at a constant speed": 12.5 * np.linspace(0, 3, 300),
+    "twenty turns in even steps": np.linspace(0, 40 * pi, 4000, endpoint=False),
     "seven turns by tenths": 0.1 * np.arange(450),
 }
 

@@ -9,12 +9,14 @@ import warnings
 from math import pi
 
 import numpy as np
+import numpy.typing as npt
 from numpy.typing import ArrayLike
 
 from gruebler.base.errors import UnitWarning, level_of_user
 from gruebler.base.text import Message, message
 
 _TURN = 2 * pi * (1 + 1e-9)
+_EVEN = 1e-12  # of the largest: steps that differ by less are equal
 _RIGHT = 90.0  # degrees: few ranges in radians are a whole number of these
 
 
@@ -46,7 +48,19 @@ def doubt_of_angles(values: ArrayLike, *, path: bool = False, once: bool = False
             doubt = message("all are whole numbers, up to {value:g}", value=largest)
         elif first == round(first) and first != last and (last - first) % _RIGHT == 0:
             doubt = message("they go from {first:g} to {last:g}", first=first, last=last)
+        elif first == round(first) and (end := _behind(angles)) and abs(end - first) >= _RIGHT:
+            doubt = message("they go from {first:g} in equal steps up to {end:g}", first=first, end=end)
     return doubt
+
+
+def _behind(angles: npt.NDArray[np.float64]) -> float | None:
+    """What follows in equal steps (`numpy.arange`), if it lies a whole multiple of 90 from the first."""
+    steps = np.diff(angles)
+    if len(steps) < 2 or np.abs(steps - steps[0]).max() > _EVEN * np.abs(angles).max():
+        return None
+    end = float(angles[0] + steps.mean() * len(angles))
+    turns = (end - float(angles[0])) / _RIGHT
+    return float(round(end)) if turns and abs(turns - round(turns)) < _EVEN * len(angles) else None
 
 
 def warn_of_degrees(name: str, values: ArrayLike, *, path: bool = False, once: bool = False) -> None:

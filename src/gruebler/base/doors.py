@@ -204,10 +204,23 @@ def _refusal(error: type[GrueblerError], name: str, hint: Any, value: object) ->
     wanted = joined_by_or(list({str(kind): kind for kind in _wanted(hint)}.values()))
     said = message("{name}: expected {wanted}, but found {found}", name=name, wanted=wanted, found=shown)
     for part in typing.get_args(hint) or (hint,):
-        attribute = getattr(part, "__name__", "").lower()
-        if isinstance(part, type) and part not in _PLAIN and isinstance(getattr(value, attribute, None), part):
-            return error(message("{said}: take its {attribute}", said=said, attribute=attribute))
+        if isinstance(part, type) and part not in _PLAIN and (path := _path_to(part, value)):
+            return error(message("{said}: take its {attribute}", said=said, attribute=path))
     return error(said)
+
+
+def _path_to(kind: type, value: object) -> str:
+    """The attributes that lead from a value to what was wanted, such as mechanism.chain; empty if none do."""
+    name = kind.__name__.lower()
+    for path in (name, f"mechanism.{name}", f"linkage.mechanism.{name}", "linkage()", f"linkage().mechanism.{name}"):
+        reached: object = value
+        for word in path.split("."):
+            reached = getattr(reached, word.removesuffix("()"), None)
+            if word.endswith("()"):
+                reached = reached() if callable(reached) else None
+        if isinstance(reached, kind) and not isinstance(value, type):
+            return path
+    return ""
 
 
 def _wanted(hint: Any) -> Iterator[Message | str]:

@@ -14,7 +14,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined, message, number, translate
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word, value_of_another_program
+from gruebler.cli.linkage_inputs import linkage_of_word, value_of_another_program
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
@@ -28,6 +28,7 @@ from gruebler.files.structures import (
     structures_of_json,
     structures_of_lines,
 )
+from gruebler.mechanics.fourbar.length_texts import is_lengths
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import SpatialLinkage, freedoms, has_only_lower_pairs
 from gruebler.structure.chain import Chain

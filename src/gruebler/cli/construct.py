@@ -6,11 +6,11 @@ import argparse
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, number
-from gruebler.cli.linkage_inputs import is_lengths, size_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.fourbar.length_texts import is_lengths, size_of
 from gruebler.pictures.canvas.construction_files import CONSTRUCTION_SUFFIXES, construction_bytes
 from gruebler.teaching.constructions import CONSTRUCTIONS, construction, construction_forms
 

@@ -10,10 +10,11 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.left_out import say_left_out
-from gruebler.cli.linkage_inputs import is_lengths, linkage_of_word
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
+from gruebler.mechanics.fourbar.length_texts import is_lengths
 
 if TYPE_CHECKING:
     from gruebler.mechanics.linkages import Linkage
@@ -81,7 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         notes = []
         value = _value_of(arguments.source)
-        write(value, arguments.target, arguments.target_format, left_out=notes)
+        write(value, arguments.target, format_name=arguments.target_format, left_out=notes)
     say_written(Path(arguments.target), lang)
     say_left_out(notes, lang)
     return 0

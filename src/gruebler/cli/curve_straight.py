@@ -9,11 +9,12 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import translate
 from gruebler.cli.coupler_inputs import coupler_point
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of_word, size_of
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json
 from gruebler.cli.point_inputs import point_of
 from gruebler.files.measured_lengths import length_of, same_unit
 from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.mechanics.geometry.straight import (
     Path,
     PathPiece,

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, joined, joined_by_or, message, number, translate
-from gruebler.cli.linkage_inputs import size_of
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.extremes import CrankRange
 from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
+from gruebler.mechanics.fourbar.length_texts import size_of
 
 _HEADERS = (message("from"), message("to"), message("type"), message("below"), message("above"))
 

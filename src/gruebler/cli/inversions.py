@@ -10,11 +10,11 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, translate
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import is_lengths, size_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.mechanics.fourbar import SizedInversion, double_slide_inversions, sized_inversions
+from gruebler.mechanics.fourbar.length_texts import is_lengths, size_of
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
 

@@ -40,7 +40,8 @@ def spell_links_alike(parser: Parser, arguments: argparse.Namespace) -> None:
 
 def _names(words: Iterable[Any], lang: str) -> dict[str, str]:
     """For each link of the catalog entries and lengths among the words, the name of each language: that in this one."""
-    from gruebler.cli.linkage_inputs import linkage_of_lengths, size_of
+    from gruebler.cli.linkage_inputs import linkage_of_lengths
+    from gruebler.mechanics.fourbar.length_texts import size_of
     from gruebler.teaching.catalog import entries
 
     names: dict[str, str] = {}

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from pathlib import Path
 
 from gruebler.base.errors import GrueblerError
@@ -12,16 +11,9 @@ from gruebler.cli.left_out import say_left_out
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.fourbar.length_texts import LENGTH_FORMS, LENGTH_KINDS, size_of
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.structure.chain import Chain
-
-_BARE = re.compile(r"[-+.\deE]+(,[-+.\deE]+){3}")
-
-_KINDS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {
-    "four-bar": ("a,b,c,d", 4, FourBar),
-    "slider-crank": ("a,b[,e]", 2, SliderCrank),
-    "inverted-slider-crank": ("a,d[,e]", 2, InvertedSliderCrank),
-}
 
 
 def add_linkage(command: Parser) -> None:
@@ -59,24 +51,6 @@ def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
     return linkage
 
 
-def is_lengths(word: str) -> bool:
-    """Whether a word gives a kind of linkage and its lengths, or only the lengths of a four-bar."""
-    kind, colon, _ = word.partition(":")
-    return kind in _KINDS if colon else _BARE.fullmatch(word) is not None
-
-
-def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
-    """The linkage of a kind and its lengths, or of the four lengths of a four-bar; None for any other word.
-
-    >>> size_of("slider-crank:25,70"), size_of("25,70,40,70"), size_of("lambda")
-    (SliderCrank(a=25.0, b=70.0, e=0.0), FourBar(a=25.0, b=70.0, c=40.0, d=70.0), None)
-    """
-    if not is_lengths(word):
-        return None
-    kind, _, lengths = word.rpartition(":")
-    return _of_lengths(kind or "four-bar", lengths)
-
-
 def linkage_of_lengths(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str = "en") -> Linkage:
     """The linkage of given lengths, its links by their names in a language.
 
@@ -112,14 +86,17 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
         raise GrueblerError(
             "{word!r} has no dimensions, which `gruebler realise` finds; give a file, a catalog entry or {forms}",
             word=word[:40],
-            forms=_forms(),
+            forms=LENGTH_FORMS,
         )
     from gruebler.base.errors import nearest
     from gruebler.teaching.catalog import entries, entry
 
     if word not in entries() and colon:
         raise GrueblerError(
-            "{word!r}: expected {forms}{suggestion}", word=word, forms=_forms(), suggestion=nearest(kind, _KINDS)
+            "{word!r}: expected {forms}{suggestion}",
+            word=word,
+            forms=LENGTH_FORMS,
+            suggestion=nearest(kind, LENGTH_KINDS),
         )
     record = entry(word).in_language(lang)
     if record.dimensions is None:
@@ -152,23 +129,3 @@ def value_of_another_program(word: str, lang: str = "en") -> Linkage | Chain | l
     say_left_out(left_out, lang)
     assert isinstance(value, Linkage | Chain | list)
     return value
-
-
-def _of_lengths(kind: str, text: str) -> FourBar | SliderCrank | InvertedSliderCrank:
-    names, least, make = _KINDS[kind]
-    most = names.replace("[", "").replace("]", "").count(",") + 1
-    try:
-        lengths = [float(part) for part in text.split(",")]
-    except ValueError:
-        raise GrueblerError(
-            "{kind}: expected numbers {names}, but found {text!r}", kind=kind, names=names, text=text
-        ) from None
-    if not least <= len(lengths) <= most:
-        raise GrueblerError(
-            "{kind}: expected {names}, but found {count} numbers", kind=kind, names=names, count=len(lengths)
-        )
-    return make(*lengths)
-
-
-def _forms() -> str:
-    return ", ".join(f"{kind}:{names}" for kind, (names, _, _) in _KINDS.items())

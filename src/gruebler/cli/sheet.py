@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import error_in_language, joined, message, number, translate
-from gruebler.cli.linkage_inputs import linkage_of_word, size_of
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.files.measured_lengths import length_of, same_unit
+from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
 from gruebler.teaching.sheets.messages import explanation_paragraphs, typeset_number

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 
 from gruebler.base.errors import GrueblerError
-from gruebler.cli.linkage_inputs import size_of
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.teaching.exercises import lines_of_table, table_as_dict, teaching_table
 
 _TABLES = ("joints", "links", "inversions", "grashof", "transfer")

@@ -66,7 +66,7 @@ def is_of_another_program(path: Path) -> bool:
 
 
 @door
-def read(path: str | PathLike[str], format_name: str | None = None, *, left_out: list[Message] | None = None) -> Value:
+def read(path: str | PathLike[str], *, format_name: str | None = None, left_out: list[Message] | None = None) -> Value:
     """The value in a file: a linkage, a chain or a list of chains, a task, a gear train.
 
     Args:
@@ -97,8 +97,8 @@ def _say(notes: list[Message], left_out: list[Message] | None, text: Message) ->
 def write(
     value: object,
     path: str | PathLike[str],
-    format_name: str | None = None,
     *,
+    format_name: str | None = None,
     left_out: list[Message] | None = None,
 ) -> Path:
     """Write a value into a file that `read` takes back, a motion as a table; returns the path.
@@ -178,5 +178,10 @@ def convert(
     if from_form.name in LINES and to_form.name in LINES:
         write_lines(read_lines(source, from_form.name), target, to_form.name)
     else:
-        write(read(source, source_format, left_out=left_out), target, target_format, left_out=left_out)
+        write(
+            read(source, format_name=source_format, left_out=left_out),
+            target,
+            format_name=target_format,
+            left_out=left_out,
+        )
     return left_out

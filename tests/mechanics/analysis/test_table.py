@@ -97,7 +97,7 @@ def test_rates_do_not_go_with_a_motion_of_another_speed():
 def test_the_same_numbers_in_every_form(lang, tmp_path):
     """Structured array and CSV in two forms."""
     motion = move(FourBar(25, 70, 40, 70).linkage(), from_degrees(0, 90, 30), speed=1.0)
-    table = motion.table(["rocker", "rocker"], ["R(crank-coupler)"], transmission="rocker", lang=lang)
+    table = motion.table(outputs=["rocker", "rocker"], points=["R(crank-coupler)"], transmission="rocker", lang=lang)
     array = table.structured()
     names = list(array.dtype.names)
     assert names[:3] == [f"{'R' if lang == 'en' else 'D'}(frame-crank) [°]", "rocker [°]", "rocker′"]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
+from numbers import Real
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -96,9 +99,13 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     """(rows, drives) values, checked."""
     wanted = len(plan.linkage.mechanism.drives)
     try:
-        path = np.array(drives, np.float64)
+        given = np.asarray(drives)
+        numbers = given.dtype.kind in "iuf" or (given.dtype.kind == "O" and all(map(_is_real, given.ravel())))
+        path = np.array(given, np.float64) if numbers or not given.size else None
     except (TypeError, ValueError, OverflowError):
-        raise LinkageError("drive values are numbers, but found {drives!r}", drives=drives) from None
+        path = None
+    if path is None:
+        raise LinkageError("drives: expected numbers (radians, or lengths), but found {drives!r}", drives=drives)
     if path.ndim == 0:
         path = path.reshape(1, 1)
     if path.ndim == 1:
@@ -119,6 +126,10 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
             "drive values are finite numbers, but row {row} has {numbers}", row=row, numbers=path[row].tolist()
         )
     return np.ascontiguousarray(path)
+
+
+def _is_real(value: object) -> bool:
+    return isinstance(value, Real | Decimal) and not isinstance(value, bool)
 
 
 def warn_of_path(plan: Plan, path: Reals) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,6 +125,24 @@ class Motion(LinkPoses):
         rates: Reals = self.rates[order - 1, :, self.link_index(link)] if order else self.angle(link)
         return rates
 
+    def velocity(self, point: PointLike) -> Reals:
+        """The velocity of a point or joint, (rows, 2), in lengths a second; `angular` gives that of a link.
+
+        Raises `LinkageError` for an unknown point, and unless the motion was solved with velocities.
+        """
+        return self.point(point, 1)
+
+    def acceleration(self, point: PointLike) -> Reals:
+        """The acceleration of a point or joint, (rows, 2), in lengths per second squared.
+
+        Raises `LinkageError` for an unknown point, and unless the motion was solved with accelerations.
+        """
+        return self.point(point, 2)
+
+    def to_dataframe(self) -> Any:
+        """The `table` as a `pandas.DataFrame`, a row for each pose; `GrueblerError` without pandas."""
+        return self.table().pandas()
+
     @cached_property
     def closure_error(self) -> float:
         """The largest distance by which a joint of any pose is open, relative to the linkage's size."""
@@ -138,9 +157,9 @@ class Motion(LinkPoses):
 
     def table(
         self,
+        *,
         outputs: Sequence[str] | None = None,
         points: Sequence[PointLike] = (),
-        *,
         transmission: str | None = None,
         lang: str = "en",
     ) -> Table:

@@ -350,6 +350,14 @@ class Chain(Immutable):
             raise ChainError("the graph has a frame: Mechanism.from_networkx(graph) takes it, its chain is .chain")
         return cls(joints, links=links, space=space)
 
+    def to_networkx(self) -> nx.MultiGraph:
+        """The graph of networkx that `from_networkx` takes back: `link_graph`.
+
+        >>> sorted(Chain.parse("R(0-1) R(1-2) R(2-0)").to_networkx().edges())
+        [('0', '1'), ('0', '2'), ('1', '2')]
+        """
+        return self.link_graph()
+
     def link_graph(self) -> nx.MultiGraph:
         """Links as nodes; an edge for every two links of a joint, with its number as ``joint``, ``pair`` and ``first``.
 

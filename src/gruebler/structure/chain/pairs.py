@@ -602,5 +602,9 @@ def pair(name: str) -> Pair:
     """
     row = _BY_NAME.get(name) or BY_FULL_NAME.get(name.replace("-", "_").casefold())
     if row is None:
+        if len(name) < 3:
+            raise PairError(
+                "unknown pair {name!r}: expected a full name such as 'revolute'; Chain.parse() reads letters", name=name
+            )
         raise PairError("unknown pair {name!r}{suggestion}", name=name, suggestion=nearest(name, BY_FULL_NAME))
     return row
