@@ -168,6 +168,27 @@ def line_length(links: int) -> int:
 
 
 @njit(cache=True, nogil=True)
+def begin_graph6(links: int, line: UInt8) -> int:
+    """Write the number of vertices and no edge; where the edges begin."""
+    line[:] = 63
+    if links <= 62:
+        line[0] = 63 + links
+        return 1
+    line[0] = 126
+    line[2] = 63 + (links >> 6)
+    line[3] = 63 + (links & 63)
+    return 4
+
+
+@njit(cache=True, nogil=True)
+def add_graph6_edge(u: int, v: int, head: int, line: UInt8) -> None:
+    """Add an edge to a line whose edges begin at `head`."""
+    low, high = np.int64(min(u, v)), np.int64(max(u, v))
+    place = high * (high - 1) // 2 + low
+    line[head + place // 6] += 32 >> (place % 6)
+
+
+@njit(cache=True, nogil=True)
 def write_graph6(edges: UInt8, links: int, out: UInt8) -> None:
     """Turn the edges of chains into graph6 lines.
 
@@ -178,23 +199,9 @@ def write_graph6(edges: UInt8, links: int, out: UInt8) -> None:
 
     Format: B. D. McKay, Description of graph6, sparse6 and digraph6 encodings.
     """
-    length = out.shape[1]
-    head = 1
-    if links > 62:
-        head = 4
+    end = out.shape[1] - 1
     for k in range(edges.shape[0]):
-        for i in range(length - 1):
-            out[k, i] = 63
-        out[k, length - 1] = 10
-        if links <= 62:
-            out[k, 0] = 63 + links
-        else:
-            out[k, 0] = 126
-            out[k, 2] = 63 + (links >> 6)
-            out[k, 3] = 63 + (links & 63)
+        head = begin_graph6(links, out[k, :end])
+        out[k, end] = 10
         for j in range(edges.shape[1]):
-            u, v = np.int64(edges[k, j, 0]), np.int64(edges[k, j, 1])
-            if u > v:
-                u, v = v, u
-            place = v * (v - 1) // 2 + u
-            out[k, head + place // 6] += 32 >> (place % 6)
+            add_graph6_edge(edges[k, j, 0], edges[k, j, 1], head, out[k])

@@ -1,6 +1,7 @@
 """The canonical texts of a chain: its code, and its graph6 form."""
 
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.counting.chain_lists import add_graph6_edge, begin_graph6
 from gruebler._numeric.labelling.label_workspace import LABELLING
 from gruebler.structure.atlas.chain_memory import DIGIT, MOST_MEMBERS, ChainMemory, UInt8
 
@@ -63,11 +64,8 @@ def write_code(joints: int, letters: UInt8, at: int, desk: ChainMemory, text: UI
 @njit(cache=True)
 def write_graph6(n: int, joints: int, desk: ChainMemory, line: UInt8) -> None:
     """The graph6 form with the links in canonical order, without a line end."""
-    line[0] = 63 + n
-    for i in range(1, line.size):
-        line[i] = 63
+    head = begin_graph6(n, line)
     for j in range(joints):
         key = desk.keys[j] >> (DIGIT * (MOST_MEMBERS - 2))
         u, v = (key >> DIGIT) - 1, (key & ((1 << DIGIT) - 1)) - 1
-        place = v * (v - 1) // 2 + u
-        line[1 + place // 6] += 32 >> (place % 6)
+        add_graph6_edge(u, v, head, line)

@@ -69,9 +69,8 @@ def count_chains(
     >>> count_chains(9, 2, fractionated="all").to_json()["by_fractionation"]
     {'none': 35, 'link': 5, 'joint': 0}
     """
-    from gruebler.structure.enumeration.work_units import PieceCounter, add_tallies, work_units
-    from gruebler.structure.enumeration.worker_pool import run_work
+    from gruebler.structure.enumeration.run_request import run_count
 
     numbers = None if assortment is None else tuple(assortment)
     request = Request(links, mobility, fractionated, numbers, multiple_joints)
-    return add_tallies(request, orbits, run_work(PieceCounter(request, orbits), work_units(request), executor))
+    return run_count(request, orbits=orbits, executor=executor)

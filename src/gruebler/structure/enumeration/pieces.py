@@ -13,7 +13,7 @@ from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from functools import cache
 from itertools import islice
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -191,10 +191,21 @@ def list_piece(piece: WorkPiece, form: str = "edges") -> NDArray[np.uint8]:
     return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
 
 
+def graph6_lines(edges: NDArray[np.unsignedinteger[Any]], links: int) -> NDArray[np.uint8]:
+    """Chains as lines of graph6, line ends included: uint8[k, bytes of a line] from [k, joints, 2]."""
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.counting.chain_lists import line_length, write_graph6
+    from gruebler._numeric.work_estimates import writing
+
+    lines = np.empty((len(edges), line_length(links)), np.uint8)
+    for_work(write_graph6, writing(len(edges), links))(edges, links, lines)
+    return lines
+
+
 def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.chain_lists import line_length, list_chains, make_list_memory, write_graph6
-    from gruebler._numeric.work_estimates import census, writing
+    from gruebler._numeric.counting.chain_lists import list_chains, make_list_memory
+    from gruebler._numeric.work_estimates import census
 
     loops, joints = loop_count(piece.links, piece.mobility), joint_count(piece.links, piece.mobility)
     assert loops is not None
@@ -208,9 +219,7 @@ def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
         count = listed(graphs, piece.mobility, memory, edges)
         edges = edges[:count]
         if form == "graph6":
-            lines = np.empty((count, line_length(piece.links)), np.uint8)
-            for_work(write_graph6, writing(count, piece.links))(edges, piece.links, lines)
-            yield lines
+            yield graph6_lines(edges, piece.links)
         else:
             yield edges
         if count < capacity:

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.assortment import loop_count
 from gruebler.structure.enumeration.contracted import ContractedGraph, pack
-from gruebler.structure.enumeration.pieces import WorkPiece, list_piece, pieces, run_pieces
+from gruebler.structure.enumeration.pieces import WorkPiece, graph6_lines, list_piece, pieces, run_pieces
 
-_LAZY = 100_000  # work of a piece when chains are requested one by one: a few thousand chains
+LAZY = 100_000  # work of a piece when chains are requested one by one: a few thousand chains
 _BULK = 200_000  # ... and in bulk: some ten thousand chains, a megabyte or two
 
 
@@ -49,8 +49,8 @@ def simple_chains(
     R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1)
     R(0-2) R(2-1) R(0-3) R(3-1) R(0-4) R(4-5) R(5-1)
     """
-    blocks = _blocks(links, mobility, assortment, executor, "edges", _LAZY)
-    return (_chain(links, edges) for block in blocks for edges in block.tolist())
+    blocks = _blocks(links, mobility, assortment, executor, "edges", LAZY)
+    return (chain_of_edges(links, edges) for block in blocks for edges in block.tolist())
 
 
 def chains_of(graph: ContractedGraph, mobility: int = 1) -> Iterator[Chain]:
@@ -62,7 +62,7 @@ def chains_of(graph: ContractedGraph, mobility: int = 1) -> Iterator[Chain]:
     """
     links = 2 * graph.loops + 1 + mobility
     edges = list_piece(WorkPiece(links, mobility, pack([graph]), _BULK))
-    return (_chain(links, joints) for joints in edges.tolist())
+    return (chain_of_edges(links, joints) for joints in edges.tolist())
 
 
 def edge_blocks(
@@ -113,16 +113,9 @@ def _ring(links: int, form: str) -> NDArray[np.uint8]:
     """The chain of one loop, in a block of its own."""
     link = np.arange(links)
     edges = np.stack([link, (link + 1) % links], axis=1).astype(np.uint8)[None]
-    if form == "edges":
-        return edges
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.chain_lists import line_length, write_graph6
-    from gruebler._numeric.work_estimates import writing
-
-    lines = np.empty((1, line_length(links)), np.uint8)
-    for_work(write_graph6, writing(1, links))(edges, links, lines)
-    return lines
+    return edges if form == "edges" else graph6_lines(edges, links)
 
 
-def _chain(links: int, edges: list[list[int]]) -> Chain:
+def chain_of_edges(links: int, edges: list[list[int]]) -> Chain:
+    """The chain of simple revolute joints with links 0, 1, 2, ..."""
     return Chain([("revolute", edge) for edge in edges], links=range(links))

@@ -24,11 +24,11 @@ from gruebler.structure.enumeration.fractionated import (
     block_additions,
     composed,
     edges_of,
-    fractionated_chains,
 )
 from gruebler.structure.enumeration.multiple import grown_joints, with_multiple_joints
-from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, list_piece, pieces
+from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, graph6_lines, list_piece, pieces
 from gruebler.structure.enumeration.request import Request
+from gruebler.structure.enumeration.simple_chains import LAZY, chain_of_edges
 from gruebler.structure.enumeration.simple_chains import simple_chains as plain_chains
 from gruebler.structure.isomorphism import orbits as orbits_of
 from gruebler.structure.isomorphism import symmetry
@@ -36,6 +36,8 @@ from gruebler.structure.isomorphism import symmetry
 _GROWN_AT_ONCE = 256  # chains with simple joints in a piece; at 12 links some ten thousand chains grow from them
 
 Edges = tuple[tuple[int, int], ...]
+Joints = list[list[int]]
+"""The links of each joint."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,24 +104,14 @@ def work_units(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
 
 def chains_of_request(request: Request) -> Iterator[Chain]:
     """The requested chains, lazily, in the order of the pieces of work."""
-    if request.only_simple and request.classes == ("none",):
-        yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
-        return
-    if request.only_simple:
-        for kind in request.classes:
-            if kind == "none":
-                yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
-            else:
-                chains = fractionated_chains(plain_chains, request.links, request.mobility, kind)
-                yield from (chain for chain in chains if request.assortment in (None, chain.assortment))
-        return
-    for work in work_units(request):
-        yield from (chain for _, chain in chains_of_piece(request, work))
+    return (chain for work in work_units(request, size=LAZY) for _, chain in chains_of_piece(request, work))
 
 
 def chains_of_piece(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
-    """The chains of a piece with their classes, for pieces without contracted graphs."""
-    if isinstance(work, RingPiece):
+    """The chains of a piece with their classes."""
+    if isinstance(work, WorkPiece):
+        yield from (("none", chain_of_edges(work.links, edges)) for edges in list_piece(work).tolist())
+    elif isinstance(work, RingPiece):
         yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
     elif isinstance(work, BlockAddition):
         kind = "joint" if work.bridges else "link"
@@ -233,14 +225,14 @@ class PieceLister:
         if isinstance(work, WorkPiece) and self.format == "graph6":
             block = list_piece(work, "graph6")
             return [PieceListing("none", len(block), block.tobytes())]
-        lines_by_kind: dict[str, list[str]] = {}
+        by_kind: dict[str, list[Joints]] = {}
         for kind, joints in self._joints(work):
-            lines_by_kind.setdefault(kind, []).append(self._written(kind, joints))
+            by_kind.setdefault(kind, []).append(joints)
         return [
-            PieceListing(kind, len(lines), "".join(lines).encode()) for kind, lines in sorted(lines_by_kind.items())
+            PieceListing(kind, len(chains), self._written(kind, chains)) for kind, chains in sorted(by_kind.items())
         ]
 
-    def _joints(self, work: Work) -> Iterator[tuple[str, Iterable[Iterable[int]]]]:
+    def _joints(self, work: Work) -> Iterator[tuple[str, Joints]]:
         if isinstance(work, WorkPiece):
             yield from (("none", edges) for edges in list_piece(work).tolist())
         elif isinstance(work, MultipleJointPiece) and self.request.mobility < 2 and self.request.assortment is None:
@@ -250,22 +242,16 @@ class PieceLister:
             for kind, chain in chains_of_piece(self.request, work):
                 yield kind, [[chain.index(link) for link in joint.links] for joint in chain.joints]
 
-    def _written(self, kind: str, joints: Iterable[Iterable[int]]) -> str:
-        if self.format == "text":
-            return " ".join(f"R({'-'.join(map(str, links))})" for links in joints) + "\n"
+    def _written(self, kind: str, chains: list[Joints]) -> bytes:
+        links = self.request.links
         if self.format == "graph6":
-            return _graph6(self.request.links, joints)
-        label = {"fractionation": kind} if self.request.fractionated == "all" else {}
-        names = [str(i) for i in range(self.request.links)]
-        joint_documents = [{"pair": "revolute", "links": [names[i] for i in links]} for links in joints]
-        return json.dumps({**label, "space": "planar", "links": names, "joints": joint_documents}) + "\n"
-
-
-def _graph6(links: int, joints: Iterable[Iterable[int]]) -> str:
-    """One line; format: B. D. McKay, Description of graph6, sparse6 and digraph6 encodings."""
-    import networkx as nx
-
-    graph = nx.empty_graph(links)
-    graph.add_edges_from(tuple(joint) for joint in joints)
-    text: str = nx.to_graph6_bytes(graph, header=False).decode("ascii")
-    return text
+            return graph6_lines(np.array(chains, np.min_scalar_type(links)), links).tobytes()
+        if self.format == "text":
+            texts = (" ".join(f"R({'-'.join(map(str, links))})" for links in joints) for joints in chains)
+        else:
+            label = {"fractionation": kind} if self.request.fractionated == "all" else {}
+            names = [str(i) for i in range(links)]
+            head = {**label, "space": "planar", "links": names}
+            documents = ([{"pair": "revolute", "links": [names[i] for i in each]} for each in c] for c in chains)
+            texts = (json.dumps({**head, "joints": joints}) for joints in documents)
+        return "".join(f"{text}\n" for text in texts).encode()
