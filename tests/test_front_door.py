@@ -1,6 +1,7 @@
 """What `import gruebler as gr` gives: every name opens, shorthands are taken everywhere, mistakes are one sentence."""
 
 import ast
+import inspect
 import re
 from pathlib import Path
 
@@ -233,3 +234,58 @@ def test_reports_and_sheets_show_themselves_in_notebooks():
     mzc = gr.teaching.sheet("mzc")
     assert mzc._repr_svg_() == page(mzc).svg()
     assert f"<title>{mzc.record.title}</title>" in mzc._repr_svg_()
+
+
+# --- the form of the front door -------------------------------------------------------------------
+
+FUNCTIONS = [name for name in gr.__all__ if inspect.isfunction(inspect.unwrap(getattr(gr, name)))]
+# Optional arguments that are taken by place: a class of chains is (links, mobility), a diagram has its kind.
+BY_PLACE = {
+    "chains": {"mobility"},
+    "count_chains": {"mobility"},
+    "plot": {"kind"},
+}
+ORDER = ["branch", "at", "speed", "acceleration", "jerk"]
+SECTIONS = ["Args", "Returns", "Raises", "Cost", "Example", "See Also", "Theory"]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_options_are_given_by_name_in_one_order(name):
+    options = inspect.signature(getattr(gr, name)).parameters.values()
+    placed = {p.name for p in options if p.kind is p.POSITIONAL_OR_KEYWORD and p.default is not p.empty}
+    assert placed == BY_PLACE.get(name, set())
+    assert all(p.kind in (p.POSITIONAL_OR_KEYWORD, p.KEYWORD_ONLY) for p in options)  # no names that an editor misses
+    named = [p.name for p in options]
+    assert [word for word in ORDER if word in named] == [word for word in named if word in ORDER]
+    assert "lang" not in named or named[-1] == "lang"
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_docstrings_have_all_sections(name):
+    text = inspect.getdoc(getattr(gr, name))
+    assert text.split("\n")[0].endswith(".")
+    assert re.findall(r"^(\w[\w ]+):\n", text, re.MULTILINE) == SECTIONS
+    section = dict(zip(SECTIONS, re.split(r"^\w[\w ]+:\n", text, flags=re.MULTILINE)[1:], strict=True))
+    parameters = inspect.signature(getattr(gr, name)).parameters
+    described = re.findall(r"^ {4}((?:\w+(?:, )?)+):", section["Args"], re.MULTILINE)
+    assert [word for words in described for word in words.split(", ")] == list(parameters)
+    assert ">>>" in section["Example"]
+    assert all(text for text in section.values())
+    for other in re.findall(r"`([\w.]+)`", section["See Also"]):
+        first, _, rest = other.partition(".")
+        assert first != name
+        assert hasattr(getattr(gr, first), rest) if rest else hasattr(gr, first)
+    (page,) = re.findall(r"docs/theory/[\w-]+\.md", section["Theory"])
+    assert (Path(__file__).parents[1] / page).is_file()
+
+
+def test_the_method_is_chosen_and_said():
+    for method in ("rank", "pebble", "both"):
+        report = gr.mobility_report(CHAIN, method=method)
+        assert (report.generic, report.method, report.exact) == (1, method, True)  # a four-bar
+    slider = gr.Chain.parse("R(0-1) R(1-2) R(2-3) P(3-0)")
+    assert gr.mobility_report(slider).generic == 1
+    with pytest.raises(gr.GrueblerError, match="the pebble game cannot answer: no theorem covers prismatic joints"):
+        gr.mobility_report(slider, method="both")
+    with pytest.raises(gr.GrueblerError, match=r"no method 'pebbles' .did you mean 'pebble'"):
+        gr.mobility_report(CHAIN, method="pebbles")

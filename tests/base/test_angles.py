@@ -139,7 +139,7 @@ def test_the_library_does_not_doubt_its_own_angles(capsys):
     press = gr.SliderCrank(20, 50).linkage()
     loads = gr.Loads(forces={"R(coupler-slider)": (-100, 0)})
     motion = gr.move(press, np.radians([0.0, 90.0, 180.0, 270.0]))
-    assert gr.statics(motion, loads, 0.1).drive.shape == (4, 1)
+    assert gr.statics(motion, loads, friction=0.1).drive.shape == (4, 1)
     assert main(["statics", "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1", *AT]) == 0
     assert "radians" not in capsys.readouterr().err
     FunctionTask(np.linspace(0, 4 * pi, 5), [0.0, 0.3, 0.5, 0.3, 0.1])  # two turns of the input

@@ -139,7 +139,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not len(motion):
         print(motion.message(lang))
         return 1
-    held = statics(motion, loads, friction)
+    held = statics(motion, loads, friction=friction)
     columns_lang = language_of_names(arguments)
     table = statics_table(held, lang=columns_lang)
     if is_table(arguments.out):

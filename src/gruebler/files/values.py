@@ -110,7 +110,27 @@ def write(
         left_out: gets a message for each thing of the value that the file does not have; without it such things are
             warnings, `FormatWarning`.
 
-    Raises `GrueblerError` for a value and a format that do not go together, and if value and path are exchanged.
+    Returns:
+        The path of the file.
+
+    Raises:
+        GrueblerError: a value and a format that do not go together, value and path exchanged.
+
+    Cost:
+        Below 1 ms for a linkage; some microseconds a chain or row.
+
+    Example:
+        >>> import tempfile
+        >>> from gruebler.structure.chain import Chain
+        >>> folder = Path(tempfile.mkdtemp())
+        >>> write(Chain.parse("R(0-1) R(1-2) R(2-0)"), folder / "triangle.txt").name
+        'triangle.txt'
+
+    See Also:
+        `read`, `draw`, `Motion`
+
+    Theory:
+        docs/theory/formats.md
     """
     if isinstance(value, str | PathLike) and not isinstance(path, str | PathLike):
         raise GrueblerError("write(value, path): the value comes first, then {path!r}", path=fspath(value))

@@ -55,7 +55,7 @@ def test_rivals(e, backward, load):
     """The closed form and the equilibrium of all links."""
     size, phi = SliderCrank(20, 50, e), np.linspace(0.1, 6.2, 40)
     held = statics(
-        move(size.linkage(), phi), Loads({"R(coupler-slider)": (-load, 0)}), Friction(0.7, backward=backward)
+        move(size.linkage(), phi), Loads({"R(coupler-slider)": (-load, 0)}), friction=Friction(0.7, backward=backward)
     )
     closed = slider_friction(size, phi, load, 0.7, backward=backward)
     assert np.allclose(held.friction.normal[:, 0], np.abs(closed.side))
@@ -89,7 +89,7 @@ def test_figures(size, coefficient, phi, torque):
     a, b, e = size
     alpha = np.arcsin((a * sin(radians(phi)) - e) / b)
     formula = -100 * a * sin(radians(phi) + alpha) / (cos(alpha) - coefficient * abs(sin(alpha)))
-    held = statics(move(SliderCrank(*size).linkage(), [radians(phi)]), PUSHED, coefficient)
+    held = statics(move(SliderCrank(*size).linkage(), [radians(phi)]), PUSHED, friction=coefficient)
     assert held.drive[0, 0] == pytest.approx(torque, abs=6e-4)
     assert held.drive[0, 0] == pytest.approx(formula, rel=1e-13)
 
@@ -97,7 +97,7 @@ def test_figures(size, coefficient, phi, torque):
 def test_a_compressor():
     """The catalog's, a 30, b 100: the same program found 3225.2 at 288 degrees, the first-order estimate was 3222.3."""
     motion = move(entry("compressor").linkage(), [radians(288)])
-    held = statics(motion, Loads({"R(conrod-piston)": (-100, 0)}), 0.1)
+    held = statics(motion, Loads({"R(conrod-piston)": (-100, 0)}), friction=0.1)
     assert held.drive[0, 0] == pytest.approx(3225.2, abs=0.05)
 
 
@@ -107,7 +107,7 @@ def test_a_v_engine_is_two_slider_cranks():
     motion = move(entry("vcomp").linkage(), phi)
     axes = np.radians([45, 135])
     loads = {f"R(conrod{k}-piston{k})": (-100 * cos(axis), -100 * sin(axis)) for k, axis in enumerate(axes, 1)}
-    held = statics(motion, Loads(loads), 0.1)
+    held = statics(motion, Loads(loads), friction=0.1)
     size, torque = SliderCrank(30, 110), np.zeros(len(phi))
     for axis in axes:
         rod = slider_friction(size, phi - axis, 100, 0.1)
@@ -123,7 +123,7 @@ def test_self_locking_rows_have_no_torque():
     """mu |tan(alpha)| >= 1 against the load: NaN, and the message names the joint, the angle and the factor."""
     phi = from_degrees(0, 360, 1)
     size = SliderCrank(30, 50, 10)
-    held = statics(move(size.linkage(), phi), PUSHED, 1.0)
+    held = statics(move(size.linkage(), phi), PUSHED, friction=1.0)
     alpha = np.arcsin((30 * np.sin(phi) - 10) / 50)
     against = np.sin(phi + alpha) < 0  # the slider goes forth, against its load
     expected = against & (np.abs(np.tan(alpha)) >= 1)
@@ -157,8 +157,8 @@ def test_isosceles_slider_cranks_lock_near_their_dead_centres(name, degree, back
     slider = linkage.mechanism.chain.joint_names()[2]
     motion = move(linkage, np.radians([degree]))
     loads = Loads({slider: (-100, 0)})
-    locked = statics(motion, loads, Friction(0.1, backward=backward))
-    free = statics(motion, loads, Friction(0.1, backward=not backward))
+    locked = statics(motion, loads, friction=Friction(0.1, backward=backward))
+    free = statics(motion, loads, friction=Friction(0.1, backward=not backward))
     assert locked.locked.all()
     assert np.isnan(locked.drive).all()
     assert locked.friction.locking_factor == pytest.approx([1 / (0.1 * tan(radians(85)))], rel=1e-7)
@@ -174,13 +174,13 @@ def test_isosceles_slider_cranks_lock_near_their_dead_centres(name, degree, back
 
 @pytest.mark.parametrize("mu", [1e-300, 1e-12])
 def test_hardly_any_friction_locks_nothing(mu):
-    held = statics(move(SliderCrank(30, 50, 10).linkage(), [radians(270)]), PUSHED, mu)
+    held = statics(move(SliderCrank(30, 50, 10).linkage(), [radians(270)]), PUSHED, friction=mu)
     assert held.friction.locking_factor.tolist() == [inf]
     assert held.drive == pytest.approx(held.friction.frictionless)
 
 
 def test_without_a_load_nothing_locks():
-    held = statics(move(SliderCrank(30, 50, 10).linkage(), [radians(270)]), Loads(moments={"crank": 5}), 1.0)
+    held = statics(move(SliderCrank(30, 50, 10).linkage(), [radians(270)]), Loads(moments={"crank": 5}), friction=1.0)
     assert held.drive == pytest.approx(np.array([[-5.0]]))
     assert not held.locked.any()
 
@@ -204,7 +204,7 @@ def test_wedge(slope, mu):
     motion = move(linkage, np.array([-1.0, 0.0, 1.0]))
     beta, rho = radians(slope), atan(mu)
     loads = Loads({LinkPoint("2", 0, 0): (0, -100)})
-    up, down = (statics(motion, loads, Friction(mu, backward=backward)) for backward in (False, True))
+    up, down = (statics(motion, loads, friction=Friction(mu, backward=backward)) for backward in (False, True))
     assert motion.displacement("P(0-2)")[2] > motion.displacement("P(0-2)")[0]
     assert up.drive[:, 0] == pytest.approx(np.full(3, 100 * tan(beta + 2 * rho)), rel=1e-12)
     lowered = tan(beta - 2 * rho) if beta > rho else -sin(2 * rho - beta) / cos(beta)
@@ -217,7 +217,7 @@ def test_wedge(slope, mu):
 def test_a_wedge_jams():
     """Two of 25 degrees and rho = 35 degrees: 25 + 70 > 90."""
     motion = move(wedge(-radians(25)), [0.0])
-    held = statics(motion, Loads({LinkPoint("2", 0, 0): (0, -100)}), tan(radians(35)))
+    held = statics(motion, Loads({LinkPoint("2", 0, 0): (0, -100)}), friction=tan(radians(35)))
     assert held.locked.all()
     assert held.message().startswith("At the drive values 0 the linkage is self-locking")
     assert held.friction.equilibria.tolist() == [0]
@@ -229,7 +229,7 @@ def test_friction_circles(phi, backward):
     """The force of the rod is tangent to the friction circles of its pins, on the side that resists the turning."""
     a, b, mu, radius = 25.0, 70.0, 0.3, {PINS[0]: 9.0, PINS[1]: 6.0, PINS[2]: 4.0}
     friction = Friction(dict.fromkeys(PINS, mu), pin_radius=radius, backward=backward)
-    held = statics(move(SliderCrank(a, b).linkage(), [radians(phi)]), PUSHED, friction)
+    held = statics(move(SliderCrank(a, b).linkage(), [radians(phi)]), PUSHED, friction=friction)
     way = -1 if backward else 1
     alpha = np.arcsin(a * sin(radians(phi)) / b)  # the rod points to -alpha
     rod = way * -a * cos(radians(phi)) / (b * cos(alpha))  # its angular velocity
@@ -262,14 +262,14 @@ def test_drawer(mu):
     length, phi = 24.0, np.radians([210, 230, 250, 269])  # the yoke goes to the right, against its load
     motion = move(scotch_yoke(), phi)
     friction = Friction({"P(0-2)": mu}, guide_length=length)
-    held = statics(motion, Loads({LinkPoint("2", 0, 0): (-100, 0)}), friction)
+    held = statics(motion, Loads({LinkPoint("2", 0, 0): (-100, 0)}), friction=friction)
     arm = np.abs(20 * np.sin(phi))
     jams = mu >= length / (2 * arm)
     expected = np.where(jams, np.nan, 100 / np.where(jams, 1, 1 - 2 * mu * arm / length) * arm)
     assert held.locked.tolist() == jams.tolist()
     assert held.drive[:, 0] == pytest.approx(expected, rel=1e-12, nan_ok=True)
     assert held.friction.locking_factor == pytest.approx(length / (2 * arm * mu), rel=1e-7)
-    long = statics(motion, Loads({LinkPoint("2", 0, 0): (-100, 0)}), Friction({"P(0-2)": mu}))
+    long = statics(motion, Loads({LinkPoint("2", 0, 0): (-100, 0)}), friction=Friction({"P(0-2)": mu}))
     assert long.drive[:, 0] == pytest.approx(100 * arm)  # a long guide takes the couple without friction
 
 
@@ -307,7 +307,7 @@ def test_two_edges(phi, on, sleeve):
         guide_on={SLIDE: on},
         sleeves=[SLIDE] if sleeve else [],
     )
-    held = statics(motion, PUSHED, friction)
+    held = statics(motion, PUSHED, friction=friction)
     alpha = np.arcsin((25 * sin(radians(phi)) - 10) / 70)
     way = np.sign(motion.displacement(SLIDE, 1)[0])
     offset = motion.displacement(SLIDE)[0] if on == "frame" else 0.0
@@ -373,7 +373,7 @@ def test_friction_put_back_as_a_load(name):
     motion = move(linkage, rows[::60])
     loads = Loads({"K": (30.0, -80.0)}, {one: 4.0 * linkage.size})
     friction = Friction(0.12, pin_radius=0.03 * linkage.size)
-    held, rival = statics(motion, loads, friction), put_back(motion, loads, friction, 80)
+    held, rival = statics(motion, loads, friction=friction), put_back(motion, loads, friction, 80)
     assert np.allclose(held.drive, rival.drive, rtol=1e-9)
     assert np.abs(held.drive - held.friction.frictionless).min() > 1e-3 * np.abs(held.drive).max()
     assert held.friction.proved.all()
@@ -427,7 +427,7 @@ def test_every_link_is_in_equilibrium_and_power_adds_up(name, backward):
     friction = Friction(
         0.15, pin_radius=0.03 * size, guide_length=0.4 * size, guide_height=0.2 * size, backward=backward
     )
-    held = statics(motion, loads, friction)
+    held = statics(motion, loads, friction=friction)
     assert free_bodies(held, loads, "K", one) < 1e-9 * 100
     assert held.disagreement < 1e-12
     way = -1.7 if backward else 1.7
@@ -451,7 +451,8 @@ def test_efficiency_and_sense(name, mu, fx, fy, radius):
     motion = move(linkage, rows[::60])
     loads = Loads({"K": (fx, fy)})
     forward, backward = (
-        statics(motion, loads, Friction(mu, pin_radius=radius * linkage.size, backward=way)) for way in (False, True)
+        statics(motion, loads, friction=Friction(mu, pin_radius=radius * linkage.size, backward=way))
+        for way in (False, True)
     )
     noise = 1e-9 * linkage.size * 100
     for held, way in ((forward, 1), (backward, -1)):
@@ -473,13 +474,13 @@ def test_less_and_less_friction_is_none(name):
     free = statics(motion, loads)
     off = []
     for mu in (1e-3, 1e-4, 1e-5):
-        held = statics(motion, loads, Friction(mu, pin_radius=0.05 * linkage.size))
+        held = statics(motion, loads, friction=Friction(mu, pin_radius=0.05 * linkage.size))
         pressed = held.friction.normal * [1 if c.slides else 0.05 * linkage.size for c in held.friction.contacts]
         slope = (pressed * np.abs(held.friction.rates[..., 0])).sum(axis=1)
         off.append(np.abs(held.drive - free.drive).max() / mu)
         assert np.allclose((held.drive - free.drive)[:, 0], mu * slope, rtol=1e-6)
     assert off[1] == pytest.approx(off[2], rel=1e-2)
-    none = statics(motion, loads, Friction(0.0, pin_radius=5))
+    none = statics(motion, loads, friction=Friction(0.0, pin_radius=5))
     assert np.array_equal(none.drive, free.drive)
     assert "Nothing rubs" in none.message()
 
@@ -506,7 +507,7 @@ def test_scale_rotation_mirror(scale, turn, mirrored, mu):
             mu, pin_radius=0.2 * abs(factor), guide_length=2 * abs(factor), guide_height=0.5 * abs(factor)
         )
         motion = move(linkage, abs(factor) * np.array([3.1, 3.4]))
-        return statics(motion, Loads({"K": (force.real, force.imag)}), friction)
+        return statics(motion, Loads({"K": (force.real, force.imag)}), friction=friction)
 
     one, other = held(1 + 0j, False), held(scale * np.exp(1j * turn), mirrored)
     assert np.array_equal(one.locked, other.locked)
@@ -595,7 +596,7 @@ def test_the_joint_named_is_the_one_that_matters_most(phi, radius):
 
     def factor(more=""):
         mu = {name: 0.3 * (1.01 if name == more else 1.0) for name in names}
-        found = statics(motion, PUSHED, Friction(mu, pin_radius=radius)).friction
+        found = statics(motion, PUSHED, friction=Friction(mu, pin_radius=radius)).friction
         return found.locking_factor[0], found.locking_joint(0)
 
     plain, named = factor()
@@ -612,11 +613,13 @@ def test_rounding_locks_nothing(turn):
     drawn = {k: (z.real, z.imag) for k, z in enumerate(places)}
     linkage = Linkage.from_drawing(mechanism, {**drawn, 3: (*drawn[2], turn)})
     motion = move(linkage, -1.4 + turn + np.linspace(-0.3, 0.3, 7))
-    pressed = statics(motion, Loads({"R(2-3)": tuple(-100 * np.array([cos(turn), sin(turn)]))}), 1.2)
+    pressed = statics(motion, Loads({"R(2-3)": tuple(-100 * np.array([cos(turn), sin(turn)]))}), friction=1.2)
     ends = [LinkPoint("2", *(getattr(linkage.elements[k, "2"], axis) for axis in "xy")) for k in (1, 2)]
     along = motion.complex_point(ends[1]) - motion.complex_point(ends[0])
     pull = 1000 * np.stack([along.real, along.imag], axis=1) / np.abs(along)[:, None]
-    held = statics(motion, Loads({ends[0]: pull, ends[1]: -pull}), Friction(1.2, guide_length=10, pin_radius=4))
+    held = statics(
+        motion, Loads({ends[0]: pull, ends[1]: -pull}), friction=Friction(1.2, guide_length=10, pin_radius=4)
+    )
     assert pressed.locked.any()
     assert not held.locked.any()
     pins = [contact.joint in (0, 3) for contact in held.friction.contacts]  # the others carry the forces
@@ -629,7 +632,7 @@ def test_rounding_locks_nothing(turn):
 def test_a_joint_of_three_links_has_two_pins():
     motion = move(FORKED, from_degrees(90, 130, 10))
     loads = Loads({"R(2-4)": (0, -50), "R(3-5)": (0, -20)})
-    held = statics(motion, loads, Friction({"R(1-2-3)": 0.2}, pin_radius=0.5))
+    held = statics(motion, loads, friction=Friction({"R(1-2-3)": 0.2}, pin_radius=0.5))
     assert [(contact.joint, contact.link) for contact in held.friction.contacts] == [(1, "2"), (1, "3")]
     pressed = [np.hypot(*held.force("R(1-2-3)", link).T) for link in "23"]
     assert np.allclose(held.friction.friction, 0.2 * 0.5 * np.stack(pressed, axis=1))
@@ -642,7 +645,7 @@ def test_a_block_in_a_guide():
     chain = guide.mechanism.chain
     number = next(k for k, joint in enumerate(chain.joints) if joint.pair.is_sliding)
     motion, loads = move(guide, [0.7, 0.9]), Loads(moments={chain.links[-1]: 100})
-    held = statics(motion, loads, 0.3)
+    held = statics(motion, loads, friction=0.3)
     line = motion.turns[:, motion.link_index(chain.joints[number].links[0])]
     force = held.force(number) @ [1, 1j]
     along, across = (np.conj(line) * force).real, (np.conj(line) * force).imag
@@ -654,9 +657,9 @@ def test_two_drives_need_speeds():
     loads, friction = Loads({"K": (1, -2)}, {"3": 0.5}), Friction(0.2, pin_radius=0.3)
     rows = np.array([[np.pi / 2, np.pi / 2], [1.6, 1.5]])
     with pytest.raises(LinkageError, match="with 2 drives the direction of friction depends on their speeds"):
-        statics(move(FIVE_BAR, rows), loads, friction)
+        statics(move(FIVE_BAR, rows), loads, friction=friction)
     motion = move(FIVE_BAR, rows, speed=(1.0, -0.4), order=1)
-    held = statics(motion, loads, friction)
+    held = statics(motion, loads, friction=friction)
     assert held.disagreement < 1e-13
     power = held.drive @ [1.0, -0.4] + motion.point("K", 1) @ [1, -2] + 0.5 * motion.angular("3")
     turning = [motion.angular(b) - motion.angular(a) for a, b in ("01", "12", "23", "34", "04")]
@@ -670,7 +673,7 @@ def test_a_driven_slide_rubs():
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) P(0-3); frame=0; drive=P(0-3)")
     engine = Linkage.from_drawing(mechanism, {0: (0, 0), 1: (0, 20), 2: (45, 0), 3: (45, 0, 0.0)})
     motion = move(engine, [0.0], order=1)
-    held = statics(motion, Loads(moments={"1": 100.0}), Friction({"P(0-3)": 0.25}))
+    held = statics(motion, Loads(moments={"1": 100.0}), friction=Friction({"P(0-3)": 0.25}))
     rod = np.hypot(*held.force("R(2-3)")[0])
     assert held.friction.normal[0, 0] == pytest.approx(rod * 20 / hypot(45, 20), rel=1e-12)
     assert held.drive[0, 0] - held.friction.frictionless[0, 0] == pytest.approx(0.25 * held.friction.normal[0, 0])
@@ -679,13 +682,13 @@ def test_a_driven_slide_rubs():
 @pytest.mark.parametrize("speed", [2.0, -2.0])
 def test_the_motion_says_in_which_sense(speed):
     size, phi = SliderCrank(20, 50), np.radians([60.0])
-    held = statics(move(size.linkage(), phi, speed=speed), PUSHED, 0.3)
-    other = statics(move(size.linkage(), phi), PUSHED, Friction(0.3, backward=speed < 0))
+    held = statics(move(size.linkage(), phi, speed=speed), PUSHED, friction=0.3)
+    other = statics(move(size.linkage(), phi), PUSHED, friction=Friction(0.3, backward=speed < 0))
     assert held.drive == pytest.approx(other.drive, rel=1e-14)
 
 
 def test_in_a_dead_centre_the_slide_has_no_direction():
-    held = statics(move(SliderCrank(20, 50).linkage(), [0.0, np.pi]), PUSHED, Friction(0.3, pin_radius=4))
+    held = statics(move(SliderCrank(20, 50).linkage(), [0.0, np.pi]), PUSHED, friction=Friction(0.3, pin_radius=4))
     slide = [contact.slides for contact in held.friction.contacts].index(True)
     assert held.friction.directions[:, slide].tolist() == [0, 0]
     assert not held.friction.friction[:, slide].any()
@@ -694,7 +697,7 @@ def test_in_a_dead_centre_the_slide_has_no_direction():
 
 def test_where_links_are_not_held_nothing_is_known():
     motion = move(FourBar(25, 70, 25, 70).linkage(), np.radians([10, 0, -10]), branch="+")
-    held = statics(motion, Loads(moments={"rocker": -5}), Friction(0.1, pin_radius=2))
+    held = statics(motion, Loads(moments={"rocker": -5}), friction=Friction(0.1, pin_radius=2))
     assert np.isnan(held.drive[:, 0]).tolist() == [False, True, False]
     assert not held.locked.any()
     assert "not determined" in held.message()
@@ -703,8 +706,8 @@ def test_where_links_are_not_held_nothing_is_known():
 
 def test_friction_in_the_middle_of_many_rows():
     linkage, rows = SliderCrank(20, 50).linkage(), np.linspace(0, 6, 5000)
-    whole = statics(move(linkage, rows), PUSHED, 0.1)
-    part = statics(move(linkage, rows[2040:2060]), PUSHED, 0.1)
+    whole = statics(move(linkage, rows), PUSHED, friction=0.1)
+    part = statics(move(linkage, rows[2040:2060]), PUSHED, friction=0.1)
     assert np.allclose(whole.drive[2040:2060], part.drive, rtol=1e-12)
 
 
@@ -732,7 +735,7 @@ def test_friction_in_the_middle_of_many_rows():
 )
 def test_wrong_friction(make, message):
     with pytest.raises(LinkageError, match=message):
-        statics(move(SLIDER_CRANK, [0.5]), PUSHED, make())
+        statics(move(SLIDER_CRANK, [0.5]), PUSHED, friction=make())
 
 
 def test_wrong_calls():
@@ -743,9 +746,11 @@ def test_wrong_calls():
     with pytest.raises(LinkageError, match="load"):
         slider_friction(SliderCrank(2, 5), 0.1, float("nan"), 0.1)
     with pytest.raises(LinkageError, match="stands still in row 1"):
-        statics(move(SLIDER_CRANK, [0.5, 0.6], speed=[1.0, 0.0]), PUSHED, 0.1)
+        statics(move(SLIDER_CRANK, [0.5, 0.6], speed=[1.0, 0.0]), PUSHED, friction=0.1)
 
 
 def test_all_others_have_a_star():
-    held = statics(move(SLIDER_CRANK, [0.5]), PUSHED, Friction({"*": 0.1, SLIDE: 0.2}, pin_radius={PINS[1]: 3}))
+    held = statics(
+        move(SLIDER_CRANK, [0.5]), PUSHED, friction=Friction({"*": 0.1, SLIDE: 0.2}, pin_radius={PINS[1]: 3})
+    )
     assert [(c.joint, c.coefficient, c.radius) for c in held.friction.contacts] == [(1, 0.1, 3.0), (3, 0.2, 0.0)]

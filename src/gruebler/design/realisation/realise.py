@@ -38,15 +38,26 @@ def realise(
             degrees.
         unit: the name of the unit of lengths; the largest length on a link is about 100.
 
-    A failure (drives that do not fix the motion, nothing found) is a result with ``found`` False and a
-    ``message``. Cost: about 0.3 ms a drawing, 1 to 3 ms with groups beyond dyads.
+    Returns:
+        `Realisation`: ``linkage``, ``quality``, ``full``; a failure (drives that do not fix the motion, nothing found)
+        has ``found`` False and a ``message``.
 
     Raises:
         LinkageError: joints whose dimensions are not known (rolling pairs), other spaces, numbers out of range.
 
-    >>> result = realise(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)"), seed=1)
-    >>> result.full, result.quality > 0.4
-    (True, True)
+    Cost:
+        About 0.3 ms a drawing, 1 to 3 ms with groups beyond dyads.
+
+    Example:
+        >>> result = realise(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)"), seed=1)
+        >>> result.full, result.quality > 0.4
+        (True, True)
+
+    See Also:
+        `synthesise`, `move`, `driven_mechanisms`
+
+    Theory:
+        docs/theory/realisation.md
     """
     _check("seed", seed, 0)
     _check("budget", budget, 1)

@@ -66,13 +66,33 @@ def rotatability(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> tu
     They turn fully if there is a net turn over the closed circuit, or if the relative angle takes all values. The
     answer holds for one circuit: that of the branch, or of the linkage's reference pose.
 
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> for row in rotatability(FourBar(25, 70, 40, 70).linkage()):
-    ...     print(row.joint, row.full, round(row.range / pi * 180, 3))
-    R(frame-crank) True 360.0
-    R(crank-coupler) True 360.0
-    R(coupler-rocker) False 79.846
-    R(frame-rocker) False 79.846
+    Args:
+        linkage: with one drive, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`, or its `Circuit`.
+        branch: the assembly mode, as for `move`; not with a circuit.
+
+    Returns:
+        A tuple of `Rotatability`, one for each pair of neighbouring links: ``joint``, ``full``, ``range`` in radians.
+
+    Raises:
+        LinkageError: a linkage that cannot be assembled, several drives, a circuit together with a branch.
+
+    Cost:
+        That of the circuit, 10 to 200 ms.
+
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> for row in rotatability(FourBar(25, 70, 40, 70).linkage()):
+        ...     print(row.joint, row.full, round(row.range / pi * 180, 3))
+        R(frame-crank) True 360.0
+        R(crank-coupler) True 360.0
+        R(coupler-rocker) False 79.846
+        R(frame-rocker) False 79.846
+
+    See Also:
+        `circuit`, `motion_roles`, `drive_range`
+
+    Theory:
+        docs/theory/circuits.md
     """
     traced = _circuit(linkage, branch)
     return tuple(_row(traced, *which) for which in _pairs(traced.linkage))
@@ -127,9 +147,29 @@ def motion_roles(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> di
     At the frame a link with a turning joint is a crank if it turns fully, else a rocker; one with a slide is a slider;
     a link that is not joined to the frame is a coupler.
 
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> [role.in_language("de") for role in motion_roles(FourBar(40, 25, 40, 60).linkage()).values()]
-    ['Gestell', 'Schwinge', 'Koppel', 'Schwinge']
+    Args:
+        linkage: with one drive, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`, or its `Circuit`.
+        branch: the assembly mode, as for `move`; not with a circuit.
+
+    Returns:
+        A dict from link to `Role`: frame, crank, rocker, slider or coupler.
+
+    Raises:
+        LinkageError: a linkage that cannot be assembled, several drives, a circuit together with a branch.
+
+    Cost:
+        That of the circuit, 10 to 200 ms.
+
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> [role.in_language("de") for role in motion_roles(FourBar(40, 25, 40, 60).linkage()).values()]
+        ['Gestell', 'Schwinge', 'Koppel', 'Schwinge']
+
+    See Also:
+        `rotatability`, `drive_range`, `measures`
+
+    Theory:
+        docs/theory/circuits.md
     """
     traced = _circuit(linkage, branch)
     mechanism = traced.linkage.mechanism
@@ -167,9 +207,29 @@ def slide_directions(linkage: LinkageLike | Circuit, *, branch: Branch = None) -
 def drive_range(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> DriveRange:
     """How far the drive can be moved, both ways, without passing a limit.
 
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> drive_range(FourBar(25, 70, 40, 70).linkage()).full
-    True
+    Args:
+        linkage: with one drive, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`, or its `Circuit`.
+        branch: the assembly mode, as for `move`; not with a circuit.
+
+    Returns:
+        `DriveRange`: ``full``, or the limits in radians or the linkage's unit.
+
+    Raises:
+        LinkageError: a linkage that cannot be assembled, several drives, a circuit together with a branch.
+
+    Cost:
+        That of the circuit, 10 to 200 ms.
+
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> drive_range(FourBar(25, 70, 40, 70).linkage()).full
+        True
+
+    See Also:
+        `circuit`, `rotatability`, `measures`
+
+    Theory:
+        docs/theory/circuits.md
     """
     traced = _circuit(linkage, branch)
     if not traced.drive_limits:

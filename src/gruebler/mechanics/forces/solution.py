@@ -243,12 +243,11 @@ class Statics:
 
 
 @door_that_raises(LinkageError)
-def statics(motion: Motion, loads: Loads, friction: Friction | PerJoint | None = None) -> Statics:
+def statics(motion: Motion, loads: Loads, *, friction: Friction | PerJoint | None = None) -> Statics:
     """Drive efforts and joint forces that hold the loads at every row of a motion, by two independent methods.
 
     Equilibrium of every link gives all forces; the drives' efforts also come from virtual work, with the velocities of
-    the loads' points for each drive alone. Error: that of the poses times the condition of the pose. Cost: some 20 us a
-    row of a four-bar, with friction 0.5 ms (one slide) to 3 ms (four contacts).
+    the loads' points for each drive alone. Error: that of the poses times the condition of the pose.
 
     Args:
         motion: The poses; with speeds, if given, they say in which sense friction acts, else the drive goes forward.
@@ -257,22 +256,37 @@ def statics(motion: Motion, loads: Loads, friction: Friction | PerJoint | None =
             by joint, or `Friction` with radii of pins and guides. Where it locks, forces are NaN and `Statics.message`
             says so.
 
-    Raises `LinkageError` for loads on points that are not there, for a linkage without drives, and for friction in
-    joints that are not there.
+    Returns:
+        `Statics`: (rows, drives) efforts of the drives (N, or N times the unit of length), (rows, 2) forces of the
+        joints; where it locks they are NaN and ``message`` says so.
 
-    >>> from gruebler.mechanics.kinematics import move
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> pose = move(FourBar(25, 70, 40, 70).linkage(), np.radians([55.0]))
-    >>> held = statics(pose, Loads(moments={"rocker": -1000}))
-    >>> held.drive.round(6).tolist(), held.work.round(6).tolist()  # the rocker turns 0.478521 times as fast
-    ([[478.520528]], [[478.520528]])
-    >>> from gruebler.mechanics.fourbar import SliderCrank
-    >>> press = move(SliderCrank(3, 5).linkage(), np.radians([90.0, 270.0]))  # tan(alpha) = 3/4
-    >>> rubbing = statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)}), friction=0.5)
-    >>> rubbing.drive.round(6).ravel().tolist()  # the slider goes back, then forth: 300/(1 + 3/8), 300/(1 - 3/8)
-    [-218.181818, 480.0]
-    >>> rubbing.friction.locking_factor.round(6).tolist()  # 4/3 of the coefficient; going back it never locks
-    [inf, 2.666667]
+    Raises:
+        LinkageError: loads on points that are not there, a linkage without drives, friction in joints that are not
+            there.
+
+    Cost:
+        Some 20 us a row of a four-bar, with friction 0.5 ms (one slide) to 3 ms (four contacts).
+
+    Example:
+        >>> from gruebler.mechanics.kinematics import move
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> pose = move(FourBar(25, 70, 40, 70).linkage(), np.radians([55.0]))
+        >>> held = statics(pose, Loads(moments={"rocker": -1000}))
+        >>> held.drive.round(6).tolist(), held.work.round(6).tolist()  # the rocker turns 0.478521 times as fast
+        ([[478.520528]], [[478.520528]])
+        >>> from gruebler.mechanics.fourbar import SliderCrank
+        >>> press = move(SliderCrank(3, 5).linkage(), np.radians([90.0, 270.0]))  # tan(alpha) = 3/4
+        >>> rubbing = statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)}), friction=0.5)
+        >>> rubbing.drive.round(6).ravel().tolist()  # the slider goes back, then forth: 300/(1 + 3/8), 300/(1 - 3/8)
+        [-218.181818, 480.0]
+        >>> rubbing.friction.locking_factor.round(6).tolist()  # 4/3 of the coefficient; going back it never locks
+        [inf, 2.666667]
+
+    See Also:
+        `Loads`, `Statics`, `move`
+
+    Theory:
+        docs/theory/statics.md
     """
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")

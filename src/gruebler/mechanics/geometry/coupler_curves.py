@@ -174,13 +174,28 @@ def coupler_curve(
         drives: (rows, drives) a straight path of the drives, from its first row to its last; events then have the part
             of it, 0 to 1, instead of a drive value.
 
-    Error: events are exact to some 1e-13 of the parameter. Within 1/720 of the parameter's range from a limit of the
-    drive none are looked for. Cost: some milliseconds; with double points some tens.
+    Returns:
+        `CouplerCurve`: the polygon (rows, 2), cusps, inflections, double points and extremes, in the linkage's unit;
+        drive values in radians or the unit. Events are exact to some 1e-13 of the parameter; within 1/720 of its range
+        from a limit of the drive none are looked for.
 
-    >>> from gruebler.mechanics.fourbar import InvertedSliderCrank
-    >>> conchoid = coupler_curve(InvertedSliderCrank(30, 50).linkage({"C": (90, 0)}), "C")
-    >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
-    [80.56, 147.1, 212.9, 279.44]
+    Raises:
+        LinkageError: a point that does not move, several drives without a path of them, an unknown point.
+
+    Cost:
+        Some milliseconds; with double points some tens.
+
+    Example:
+        >>> from gruebler.mechanics.fourbar import InvertedSliderCrank
+        >>> conchoid = coupler_curve(InvertedSliderCrank(30, 50).linkage({"C": (90, 0)}), "C")
+        >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
+        [80.56, 147.1, 212.9, 279.44]
+
+    See Also:
+        `move`, `plot`, `measures`
+
+    Theory:
+        docs/theory/coupler-curves.md
     """
     trail = point_path(as_linkage(linkage), point, branch=branch, drives=drives)
     return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

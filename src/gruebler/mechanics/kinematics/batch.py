@@ -240,10 +240,10 @@ def move_many(
     many: Designs | Sequence[Linkage],
     drives: ArrayLike,
     *,
+    branch: Branch = None,
     speed: ArrayLike | None = None,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-    branch: Branch = None,
     order: int | None = None,
     links: Sequence[str] | None = None,
     threads: int | None = None,
@@ -253,22 +253,36 @@ def move_many(
     Args:
         many: designs, or linkages of one mechanism.
         drives: as in `move`, likewise what follows.
+        branch: the assembly mode at the first row.
         speed: the drives' velocity.
         acceleration: the drives' acceleration.
         jerk: the drives' jerk.
-        branch: the assembly mode at the first row.
         order: the highest derivative.
         links: the links whose motion is kept; all that move if None. One link takes 32 bytes a pose, and 40 more for
             each order.
         threads: how many threads share the designs; as many as there are processors if None.
 
-    Returns `Motions`. Rates in a row that is exactly a change point are not finite or inexact: call `Motions.motion`.
-    Cost: 20 to 50 ns a pose of a four-bar. Raises `LinkageError` as `move` does.
+    Returns:
+        `Motions`: (designs, rows) angles in radians, (designs, rows, 2) places; ``complete`` says which designs reached
+        the end. Rates in a row that is exactly a change point are not finite or inexact: call `Motions.motion`.
 
-    >>> many = four_bars(25, np.linspace(60, 80, 5), 40, 70)
-    >>> motions = move_many(many, np.linspace(0, 6, 100), links=["rocker"])
-    >>> motions.angle("rocker").shape, motions.complete.all()
-    ((5, 100), np.True_)
+    Raises:
+        LinkageError: as for `move`; linkages of different mechanisms, unknown links.
+
+    Cost:
+        20 to 50 ns a pose of a four-bar.
+
+    Example:
+        >>> many = four_bars(25, np.linspace(60, 80, 5), 40, 70)
+        >>> motions = move_many(many, np.linspace(0, 6, 100), links=["rocker"])
+        >>> motions.angle("rocker").shape, motions.complete.all()
+        ((5, 100), np.True_)
+
+    See Also:
+        `move`, `Motion`
+
+    Theory:
+        docs/theory/kinematics.md
     """
     from gruebler._numeric.motion.batch import DesignPoses
 

@@ -302,15 +302,27 @@ def circuit(
         step: the longest distance of samples, in sizes; extremes nearer to each other than that may be missed in pairs.
         most: the length at which to give up, in sizes.
 
+    Returns:
+        `Circuit`: the closed curve of all connected positions by arc length (in sizes of the linkage), with limits of
+        the drive and change points.
+
     Raises:
         LinkageError: no start, several drives or freedoms, a start that cannot move or that is singular.
 
-    Cost: 10 (four-bar) to 200 us (ten links) a sample, some 100 to 1000 samples.
+    Cost:
+        10 (four-bar) to 200 us (ten links) a sample, some 100 to 1000 samples.
 
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> made = circuit(FourBar(30, 30, 50, 60).linkage())
-    >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
-    (True, [121.855431, -121.855431])
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> made = circuit(FourBar(30, 30, 50, 60).linkage())
+        >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
+        (True, [121.855431, -121.855431])
+
+    See Also:
+        `Circuit`, `move`, `rotatability`, `drive_range`
+
+    Theory:
+        docs/theory/circuits.md
     """
     linkage = as_linkage(linkage)
     for name, value in {"at": 0.0 if at is None else at, "step": step, "most": most}.items():

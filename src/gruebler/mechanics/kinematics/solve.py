@@ -47,10 +47,10 @@ def move(
     linkage: LinkageLike | Plan,
     drives: ArrayLike,
     *,
+    branch: Branch = None,
     speed: ArrayLike | None = None,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-    branch: Branch = None,
     order: int | None = None,
 ) -> Motion:
     """Move a linkage along a path of its drives.
@@ -59,25 +59,36 @@ def move(
         linkage: a linkage whose drives fix the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
         drives: (rows,) for one drive, (rows, drives) for several: angles in radians, displacements in the linkage's
             unit. Between rows the drives move on straight lines.
+        branch: the assembly mode at the first row, such as ``"+-"`` (`kinematics.branches`); without it the
+            one that leads from the linkage's reference pose to the first row, or all ``+`` and 1.
         speed: the drives' velocity, one number or like ``drives``; 1 if only an order is given.
         acceleration: likewise.
         jerk: likewise.
-        branch: the assembly mode at the first row, such as ``"+-"`` (`kinematics.branches`); without it the
-            one that leads from the linkage's reference pose to the first row, or all ``+`` and 1.
         order: 0 positions, 1 with velocities, 2 with accelerations, 3 with jerks; 2 if a speed is given, else 0.
 
-    Returns a `Motion`; if the path cannot be followed to its end it says where it stopped and why. Cost: 10 to 30 ns a
-    pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked to, 1 to 3 us of a group of four
-    links.
+    Returns:
+        `Motion`: (rows, 2) places, (rows,) angles in radians and their rates; ``stop`` says where and why the path
+        could not be followed to its end.
 
-    Raises `LinkageError` if the drives do not fix the motion or the numbers are not usable. Gives a `UnitWarning` if
-    angles look like degrees (`gruebler.base.angles`).
+    Raises:
+        LinkageError: drives that do not fix the motion, numbers that are not usable, an unknown branch.
 
-    >>> from gruebler.mechanics.kinematics import from_degrees
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), from_degrees(0, 360, 1), speed=10)
-    >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
-    (361, True, True)
+    Cost:
+        10 to 30 ns a pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked to, 1 to 3 us of
+        a group of four links.
+
+    Example:
+        >>> from gruebler.mechanics.kinematics import from_degrees
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), from_degrees(0, 360, 1), speed=10)
+        >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
+        (361, True, True)
+
+    See Also:
+        `Motion`, `move_many`, `circuit`, `measures`, `from_degrees`, `rpm`
+
+    Theory:
+        docs/theory/kinematics.md
     """
     plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
     path = drive_path(plan, drives)
@@ -89,10 +100,10 @@ def move_in_radians(
     linkage: LinkageLike | Plan,
     drives: ArrayLike,
     *,
+    branch: Branch = None,
     speed: ArrayLike | None = None,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-    branch: Branch = None,
     order: int | None = None,
 ) -> Motion:
     """`move` where the drive values cannot be degrees, however far apart they are."""
@@ -251,11 +262,25 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
         linkage: whose drives fix the motion.
         drives: a value for each drive: angles in radians, displacements in the linkage's unit.
 
-    Cost: one solution for each mode. Raises `LinkageError` as `move`.
+    Returns:
+        The modes as texts that ``branch`` takes, such as ``"+-"``.
 
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> assembly_modes(FourBar(25, 70, 40, 70), 1.0)
-    ['+', '-']
+    Raises:
+        LinkageError: drives that do not fix the motion, values that are no numbers.
+
+    Cost:
+        One solution for each mode.
+
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> assembly_modes(FourBar(25, 70, 40, 70), 1.0)
+        ['+', '-']
+
+    See Also:
+        `move`, `circuit`
+
+    Theory:
+        docs/theory/assembly-modes.md
     """
     plan = cached_plan(as_linkage(linkage))
     row = drive_path(plan, drives)[:1]

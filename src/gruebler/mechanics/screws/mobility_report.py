@@ -208,32 +208,44 @@ class Freedoms:
 def freedoms(
     linkage: LinkageLike | SpatialLinkage,
     *,
-    at: float | Sequence[float] | None = None,
     branch: Branch = None,
+    at: float | Sequence[float] | None = None,
     tolerance: float = 1e-8,
 ) -> Freedoms:
     """Mobility with dimensions at a pose, and what of it is a motion.
 
     Args:
         linkage: with its sizes.
+        branch: the assembly mode, as for `move`.
         at: drive values, in radians and the unit; of a `SpatialLinkage` from the reference pose. Without them the pose
             is the reference pose, or, where there is none, one that is regular if one is found.
-        branch: the assembly mode, as for `move`.
         tolerance: singular values below that times the largest count as zero, and joints that open by less than a
             hundredth of that times the way as closed.
+
+    Returns:
+        `Freedoms`: ``counted``, ``generic``, ``instant`` and ``finite`` mobility side by side, ``mobility`` of what
+        really moves.
 
     Raises:
         LinkageError: no such pose, or a tolerance that is not a positive number below 0.01.
 
-    Cost: a few milliseconds for ten links; up to a second where motions branch.
+    Cost:
+        A few milliseconds for ten links; up to a second where motions branch.
 
-    >>> from gruebler.mechanics.fourbar import FourBar
-    >>> found = freedoms(FourBar(25, 70, 40, 70).linkage())
-    >>> found.counted, found.generic, found.instant.mobility, found.mobility
-    (1, 1, 1, 1)
-    >>> stretched = freedoms(FourBar(2, 5, 2, 5).linkage(), at=0.0)  # a parallelogram with its cranks on one line
-    >>> stretched.instant.mobility, stretched.mobility, stretched.finite.ways
-    (2, 1, 2)
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> found = freedoms(FourBar(25, 70, 40, 70).linkage())
+        >>> found.counted, found.generic, found.instant.mobility, found.mobility
+        (1, 1, 1, 1)
+        >>> stretched = freedoms(FourBar(2, 5, 2, 5).linkage(), at=0.0)  # a parallelogram with its cranks on one line
+        >>> stretched.instant.mobility, stretched.mobility, stretched.finite.ways
+        (2, 1, 2)
+
+    See Also:
+        `mobility_report`, `circuit`, `SpatialLinkage`
+
+    Theory:
+        docs/theory/freedoms.md
     """
     if not isinstance(linkage, SpatialLinkage):
         linkage = as_linkage(linkage)

@@ -224,11 +224,28 @@ def decompose(mechanism: Mechanism) -> Decomposition:
     drives conflict there are no groups (see `Decomposition.complete`). Among groups that may be solved
     in any order the one with the earliest link of the chain comes first.
 
-    Raises `AssurError` for a chain that is not planar. Cost O(links · joints) for simple turning, rolling and
-    roll-slide joints; others need one exact rank.
+    Args:
+        mechanism: planar, with drives.
 
-    >>> decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)")).formula()
-    'drive R(0-1) -> RRR{2, 3} -> RRR{4, 5}'
+    Returns:
+        `Decomposition`: ``groups`` in solving order, ``formula()``, ``complete``; if the drives do not fix the motion,
+        the links that they fix are decomposed and the others listed.
+
+    Raises:
+        AssurError: a chain that is not planar.
+
+    Cost:
+        O(links · joints) for simple turning, rolling and roll-slide joints; others need one exact rank.
+
+    Example:
+        >>> decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)")).formula()
+        'drive R(0-1) -> RRR{2, 3} -> RRR{4, 5}'
+
+    See Also:
+        `assur_groups`, `driven_mechanisms`, `move`
+
+    Theory:
+        docs/theory/assur.md
     """
     locked = lock_drives(mechanism)
     if locked.counted < 0 or not independent(mechanism, locked):

@@ -43,11 +43,27 @@ class GroupRow:
 def assur_groups(links: int) -> Iterator[AssurGroup]:
     """Every Assur group with this many links and simple turning joints, each once, in canonical form.
 
-    Raises `AssurError` unless the number is even and positive: each link brings three constraints, each joint two.
-    Cost: about 70 us for each group, most of it for the chain of the group; `group_rows` leaves that out.
+    Args:
+        links: an even number.
 
-    >>> [group.form for group in assur_groups(2)]
-    ['RRR']
+    Returns:
+        An iterator of `AssurGroup`, in a fixed order.
+
+    Raises:
+        AssurError: a number that is not even and positive (each link brings three constraints, each joint two).
+
+    Cost:
+        About 70 us for each group.
+
+    Example:
+        >>> [group.form for group in assur_groups(2)]
+        ['RRR']
+
+    See Also:
+        `decompose`, `chains`
+
+    Theory:
+        docs/theory/assur.md
     """
     return (row.group() for row in group_rows(links))
 

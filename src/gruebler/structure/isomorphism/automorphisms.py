@@ -39,11 +39,30 @@ class Symmetry:
 def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> Symmetry:
     """The automorphisms that keep space, pairs, a marked frame and marked joints.
 
-    Cost: as for the canonical code, plus O(generators · joint elements).
+    Args:
+        chain: any chain.
+        frame: a link that must be kept.
+        drives: joints that must be kept as a set, by number or in part.
 
-    >>> four_bar = symmetry(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
-    >>> four_bar.order, len(four_bar.link_orbits), len(four_bar.flag_orbits)
-    (8, 1, 1)
+    Returns:
+        `Symmetry`: ``order`` of the group, orbits of links, joints and flags, generators.
+
+    Raises:
+        ChainError: a frame or a drive that the chain does not have.
+
+    Cost:
+        As for the canonical code, plus O(generators · joint elements).
+
+    Example:
+        >>> four_bar = symmetry(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
+        >>> four_bar.order, len(four_bar.link_orbits), len(four_bar.flag_orbits)
+        (8, 1, 1)
+
+    See Also:
+        `code`, `inversions`
+
+    Theory:
+        docs/theory/canonical-code.md
     """
     from gruebler._numeric.labelling.canonical import canonical_form
 

@@ -36,18 +36,34 @@ def extend(
 ) -> list[Extension]:
     """All different extensions of a chain by one dyad of this form, or by one coupler with these joints.
 
+    Different up to isomorphism, by canonical code, in the order of their first places.
+
     Args:
         chain: a planar or spherical chain.
         dyad: the form, RRR, RRP, RPR, PRP or RPP; or
         coupler: the joints, such as RR.
         at_joints: whether new links may also join existing joints, which become multiple joints.
 
-    Different up to isomorphism, by canonical code, in the order of their first places. Cost: one code for each pair of
-    places.
+    Returns:
+        A list of `Extension`: ``chain`` and ``places``; different up to isomorphism, in the order of their first
+        places.
 
-    >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
-    >>> [len(extension.places) for extension in extend(four_bar, dyad="RRR")]  # Watt between neighbours, Stephenson
-    [4, 2]
+    Raises:
+        ChainError: neither or both of dyad and coupler, an unknown form, a spatial chain.
+
+    Cost:
+        One canonical code for each pair of places.
+
+    Example:
+        >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
+        >>> [len(extension.places) for extension in extend(four_bar, dyad="RRR")]  # Watt between neighbours, Stephenson
+        [4, 2]
+
+    See Also:
+        `derive`, `chains`
+
+    Theory:
+        docs/theory/transformations.md
     """
     if (dyad is None) == (coupler is None):
         raise TransformationError("say what extends the chain: a dyad of some form, or a coupler")

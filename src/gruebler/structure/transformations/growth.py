@@ -122,12 +122,30 @@ def derive(chain: Chain) -> Growth:
     """The growth of a chain by dyads from a closed loop; without one, from the smallest core found.
 
     Exact: that there is no growth from a loop is proved by trying all orders, or by the theorem for sound chains with
-    F = 1. Only for other chains of many dyads the search ends early, and `Growth.exact` is False. Cost O(dyads · links)
-    where the order does not matter.
+    F = 1. Only for other chains of many dyads the search ends early, and `Growth.exact` is False.
 
-    >>> growth = derive(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
-    >>> print(growth.core)
-    R(2-3) R(2-4) R(4-5) R(5-3)
+    Args:
+        chain: any planar or spherical chain.
+
+    Returns:
+        `Growth`: ``core`` and the steps that lead from it to the chain; ``exact`` False if the search ended early.
+
+    Raises:
+        GrueblerError: a chain that is neither planar nor spherical.
+
+    Cost:
+        O(dyads · links) where the order does not matter.
+
+    Example:
+        >>> growth = derive(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
+        >>> print(growth.core)
+        R(2-3) R(2-4) R(4-5) R(5-3)
+
+    See Also:
+        `extend`, `mobility_report`, `decompose`
+
+    Theory:
+        docs/theory/transformations.md
     """
     longest: list[Insertion] = []
     visited: set[frozenset[str]] = set()

@@ -64,12 +64,32 @@ def variants(
 ) -> Iterator[Chain | DrivenMechanism]:
     """All results that satisfy the requirements: typed chains, or mechanisms where frame, drive or output matter.
 
+    Drives fix the motion: as many as the mobility, none of them in conflict.
+
     Args:
         requirements: what is required.
         executor: see `enumeration.worker_pool.run_work`; a piece of work is what one chain of revolutes gives. The
             results and their order are the same.
 
-    Drives fix the motion: as many as the mobility, none of them in conflict.
+    Returns:
+        An iterator of chains, or of `DrivenMechanism` where frame, drive or output matter; drives fix the motion.
+
+    Raises:
+        GrueblerError: requirements that contradict themselves.
+
+    Cost:
+        That of the chains, times the choices of joint types.
+
+    Example:
+        >>> from gruebler.structure.type_synthesis import Requirements
+        >>> len(list(variants(Requirements(4))))>0
+        True
+
+    See Also:
+        `Requirements`, `chains`, `synthesise`
+
+    Theory:
+        docs/theory/joint-types.md
     """
     turning = _turning_chains(requirements)
     if executor is None:
