@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 from gruebler.design.synthesis import Demands, PathTask, synthesise_path
 from gruebler.design.synthesis.curves import Fit, linkages_of
 from gruebler.design.synthesis.four_bar_curves import FOUR_BAR
-from gruebler.design.synthesis.judging import Probe, Targets, judge_design, point_targets
+from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.ordered_matching import Places, SmoothCurve, TargetDistances
+from gruebler.design.synthesis.targets import Probe, Targets, point_targets
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.mechanics.linkages import Linkage

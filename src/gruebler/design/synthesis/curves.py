@@ -19,9 +19,10 @@ from gruebler.base.text import message
 from gruebler.design.synthesis.curve_matching import PLACES, CurveMatch, best_matches, drive_angles, evenly_along
 from gruebler.design.synthesis.dyads import GuidingDyad
 from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
-from gruebler.design.synthesis.judging import Demands, Probe, Targets, best_of
+from gruebler.design.synthesis.judging import Demands, best_of
 from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.linkages import Linkage
 

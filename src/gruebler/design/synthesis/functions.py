@@ -24,11 +24,12 @@ from gruebler.design.synthesis.coordination import (
 )
 from gruebler.design.synthesis.dyads import GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
-from gruebler.design.synthesis.judging import Demands, Probe, Targets, judge_design
+from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
 from gruebler.design.synthesis.positions import NEAR, guiding_dyads, ranked
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.structural_error import coordination_of
+from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism

@@ -9,33 +9,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, joined, message
-from gruebler.design.synthesis.ordered_matching import OrderedMatch, Places, SmoothCurve, TargetDistances, preferred
 from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict
+from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
+from gruebler.design.synthesis.target_places import places_approached, places_met
+from gruebler.design.synthesis.targets import Targets
 from gruebler.mechanics.analysis import transmission_angle
-from gruebler.mechanics.kinematics import Circuit, Poses, circuit
+from gruebler.mechanics.kinematics import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage
 
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
-_REFINEMENTS = 8
-_SHARPENINGS = 3
-_INSIDE = 1e-6  # of the length: `move` cannot be led to a limit of the drive itself
 _ROWS = 16  # poses from one target to the next, with several drives
 
 
 EXACT_AT_MOST = 1e-6
 """With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
-Piece = tuple[float, float] | None
-"""From which arc of a circuit to which; None for a whole closed circuit, from any start."""
 
 
 @dataclass(frozen=True)
@@ -108,64 +104,6 @@ def _is_rectangle(value: object) -> bool:
     return bool(value[0] <= value[2] and value[1] <= value[3])
 
 
-@dataclass(frozen=True, slots=True)
-class Probe:
-    """A complex quantity of a pose: a point, or the direction of a link times a length."""
-
-    point: str = ""
-    """The named point; empty for a direction."""
-    link: str = ""
-    joint: int = -1
-    """A sliding joint whose travel is looked at."""
-    length: float = 1.0
-
-    def value(self, poses: Poses, order: int) -> Complexes:
-        """It or its derivative by the arc; (rows,)."""
-        if self.point:
-            return poses.complex_point(self.point, order)
-        if self.joint >= 0:
-            return poses.displacement(self.joint, order).astype(np.complex128)
-        value: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
-        return value
-
-    def of_motion(self, motion: Motion) -> Complexes:
-        """Its value in each row of a motion."""
-        if self.point:
-            return motion.complex_point(self.point)
-        if self.joint >= 0:
-            return motion.displacement(self.joint).astype(np.complex128)
-        value: Complexes = self.length * np.exp(1j * motion.angle(self.link))
-        return value
-
-
-class Targets(NamedTuple):
-    """What is to be met: for each probe its value at each target; NaN where it is free."""
-
-    probes: tuple[Probe, ...]
-    values: Complexes
-    """(targets, probes)"""
-    size: float
-    """The size of the task: errors are relative to it."""
-
-    def gaps(self, poses: Poses, which: NDArray[np.int64]) -> tuple[Complexes, Complexes]:
-        """How far each row is from its target, and the derivatives by the arc; (rows, probes)."""
-        values = np.stack([probe.value(poses, 0) for probe in self.probes], axis=1) - self.values[which]
-        rates = np.stack([probe.value(poses, 1) for probe in self.probes], axis=1)
-        free = np.isnan(values)
-        return np.where(free, 0, values), np.where(free, 0, rates)
-
-
-def position_targets(point: str, link: str, origins: Complexes, angles: Iterable[float | None], size: float) -> Targets:
-    """Positions of a link: the places of one of its points, and its angles where they are given."""
-    turned = np.array([np.nan if a is None else size * np.exp(1j * a) for a in angles], np.complex128)
-    return Targets((Probe(point), Probe(link=link, length=size)), np.stack([origins, turned], axis=1), size)
-
-
-def point_targets(point: str, z: Complexes, size: float) -> Targets:
-    """Places of a point."""
-    return Targets((Probe(point),), z[:, None], size)
-
-
 def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
     """The first accepted one of linkages that differ in their drive, else the one with the fewest faults.
 
@@ -205,16 +143,16 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     try:
         course = circuit(linkage, step=0.05)
         limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
-        met = (_met if demands.tolerance <= EXACT_AT_MOST else _approached)(course, targets, limit)
+        met = (places_met if demands.tolerance <= EXACT_AT_MOST else places_approached)(course, targets, limit)
         if met.places.empty:
             reasons.append(_missed([k + 1 for k in met.places.empty], met.error))
             verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
             return Design(linkage, verdict, form)
-        path, full = _path(course, met, limit), _turns_fully(course)
+        path, full = path_through(course, met, limit), _turns_fully(course)
         drives: tuple[float, ...] = ()
         missed_by, transmission = met.error if path.in_order else path.error, np.nan
         if path.one_branch:
-            if _limit_before(course, float(path.arcs[0])):
+            if limit_before(course, float(path.arcs[0])):
                 linkage = linkage.with_reference_pose(course.at(path.arcs[:1]).pose(0))
             drives, missed_by, transmission = _carried(linkage, course, path, targets)
     except LinkageError as error:
@@ -345,201 +283,6 @@ def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | 
     return all(region[0] <= e.x <= region[2] and region[1] <= e.y <= region[3] for e in pins)
 
 
-class _Met(NamedTuple):
-    """Where a circuit meets the targets."""
-
-    places: Places
-    error: float
-    """The largest over the targets of the smallest deviation, relative to the size."""
-    in_order: Callable[[Piece], OrderedMatch | None]
-    """The best match in order on a piece of the circuit, its error relative to the size."""
-
-
-def _met(course: Circuit, targets: Targets, limit: float) -> _Met:
-    """Where the circuit meets each target exactly: zeros of the derivative of the squared distance, refined."""
-    samples, count = course.samples, len(targets.values)
-    gaps, rates = _against_all(samples, targets)
-    square = np.sum(np.abs(gaps) ** 2, axis=2)
-    slope = np.sum(np.real(np.conj(gaps) * rates), axis=2)
-    target, segment = np.nonzero((slope[:, :-1] <= 0) & (slope[:, 1:] >= 0))
-    arcs = course.arcs
-    low, high = arcs[segment], arcs[segment + 1]
-    falls, rises = -slope[target, segment], slope[target, segment + 1]
-    speed = np.sqrt(np.sum(np.abs(rates[target, segment]) ** 2, axis=1))
-    near = np.sqrt(np.minimum(square[target, segment], square[target, segment + 1]))
-    nearest = np.full(count, np.inf)
-    np.minimum.at(nearest, target, near)
-    # Of a target that is missed the nearest place is refined all the same: the verdict says how near it is.
-    keep = near <= np.maximum(2 * (high - low) * speed + 2e-3 * targets.size, nearest[target])
-    target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)
-    for _ in range(_REFINEMENTS):
-        if not len(at):
-            break
-        gap, rate = targets.gaps(course.at(at), target)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
-        at = np.clip(at - np.nan_to_num(step), low, high)
-    ends = np.full(len(at), np.inf)
-    if len(at):
-        gap, _ = targets.gaps(course.at(at), target)
-        ends = np.sqrt(np.sum(np.abs(gap) ** 2, axis=1)) / targets.size
-    found_at, error = [], 0.0
-    for k in range(count):
-        of_target = target == k
-        # Where an open or closed circuit begins exactly at a target, both ends of it are looked at too.
-        border = np.sqrt(square[k, [0, -1]]) / targets.size
-        all_arcs = np.concatenate([at[of_target], arcs[[0, -1]]])
-        misses = np.concatenate([ends[of_target], border])
-        error = max(error, min(float(misses.min()), float(np.sqrt(square[k].min())) / targets.size))
-        found_at.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
-    places = Places.of_points(found_at, course.length, closed=course.closed)
-
-    def in_order(piece: Piece) -> OrderedMatch | None:
-        matches = [OrderedMatch(0.0, 0.0, arcs) for arcs in places.matches(piece)]
-        return preferred(matches, 1.0) if matches else None
-
-    return _Met(places, error, in_order)
-
-
-def _approached(course: Circuit, targets: Targets, limit: float) -> _Met:
-    """Where the circuit comes near the targets; in order, so that the farthest of them is as near as possible."""
-    size = targets.size
-    arcs = np.insert(course.arcs, slice(1, None), (course.arcs[:-1] + course.arcs[1:]) / 2)
-    poses = course.at(arcs)
-    values, rates = (np.stack([probe.value(poses, n) for probe in targets.probes], axis=1) for n in (0, 1))
-    distances = TargetDistances(SmoothCurve(arcs, values, rates, course.closed), targets.values, size)
-
-    def in_order(piece: Piece) -> OrderedMatch:
-        match = distances.best_in_order(piece)
-        arcs = _sharpened(course, targets, distances, match.arcs, piece)
-        return OrderedMatch(match.error / size, match.mean / size, arcs)
-
-    return _Met(distances.places(limit * size), float(distances.nearest.max()) / size, in_order)
-
-
-def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, arcs: Reals, piece: Piece) -> Reals:
-    """Places put right by the circuit itself, between their neighbours: a target that is met is met exactly."""
-    sense = 1.0 if arcs[-1] >= arcs[0] else -1.0
-    low, high = (-np.inf, np.inf) if piece is None else piece
-    if piece is not None and not course.closed:
-        low, high = max(low, 0.0), min(high, course.length)
-    inside = _INSIDE * course.length if course.drive_limits else 0.0
-    arcs = np.clip(arcs, low + inside, high - inside)
-    which = np.arange(len(arcs))
-    for _ in range(_SHARPENINGS):
-        gap, rate = targets.gaps(course.at(arcs), which)
-        slope = np.sum(np.real(np.conj(gap) * rate), axis=1)
-        bend = distances.bend(arcs)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            step = np.where(bend > 0, -slope / bend, 0.0)
-        rising, lap = sense * arcs, course.length if piece is None else np.inf
-        before, after = np.append(rising[-1] - lap, rising[:-1]), np.append(rising[1:], rising[0] + lap)
-        rising = np.maximum.accumulate(np.clip(rising + sense * np.nan_to_num(step), before, after))
-        rising = np.minimum(rising, rising[0] + lap)
-        arcs = np.clip(sense * rising, low + inside, high - inside)
-    return arcs
-
-
-def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes]:
-    """(targets, samples, probes): the distance of every sample from every target, and the derivatives by the arc."""
-    values = np.stack([probe.value(samples, 0) for probe in targets.probes], axis=1)
-    rates = np.stack([probe.value(samples, 1) for probe in targets.probes], axis=1)
-    gaps = values[None] - targets.values[:, None, :]
-    free = np.isnan(gaps)
-    return np.where(free, 0, gaps), np.where(free, 0, np.broadcast_to(rates, gaps.shape))
-
-
-def _distinct(arcs: Reals, course: Circuit) -> Reals:
-    """Arcs without those that stand for one place: neighbours by rounding, and both ends of a closed circuit."""
-    distinct: list[float] = []
-    for arc in arcs % course.length if course.closed else arcs:
-        gaps = [abs(arc - other) for other in distinct]
-        if course.closed:
-            gaps += [course.length - gap for gap in gaps]
-        if not gaps or min(gaps) > 1e-6 * course.length:
-            distinct.append(float(arc))
-    return np.sort(np.array(distinct))
-
-
-class _TargetPath(NamedTuple):
-    """A way along the circuit through all targets."""
-
-    arcs: Reals
-    """The arc of each target, monotonic if ``in_order``."""
-    in_order: bool
-    one_branch: bool
-    error: float = np.nan
-    """How far the farthest target is missed in order, relative to the size; NaN if no way in order is known."""
-
-
-def _path(course: Circuit, met: _Met, limit: float) -> _TargetPath:
-    """The best way through the targets: in order and without a limit of the drive if there is one within a limit."""
-    branches, whole = _branches(course), None if course.closed else (0.0, course.length)
-    ways = [match for branch in branches if (match := met.in_order(branch)) is not None]
-    if ways and (best := preferred(ways, 1.0)).error <= limit:
-        return _TargetPath(best.arcs, True, True, best.error)
-    match = met.in_order(whole) if branches != [whole] else ways[0] if ways else None
-    if match is not None and match.error <= limit:
-        return _TargetPath(match.arcs, True, False, match.error)
-    return _unordered(course, met.places, np.nan if match is None else match.error)
-
-
-def _limit_before(course: Circuit, arc: float) -> bool:
-    """Whether a limit of the drive lies between the position that a circuit was followed from and a place of it."""
-    inside = [
-        piece.start <= start <= piece.end
-        for piece in course.monotone_pieces
-        if any(piece.start <= arc + lap <= piece.end for lap in _laps(course))
-        for start in (course.start + lap for lap in _laps(course))
-    ]
-    return bool(course.drive_limits) and not any(inside)
-
-
-def _laps(course: Circuit) -> tuple[float, ...]:
-    return (-course.length, 0.0, course.length) if course.closed else (0.0,)
-
-
-def _branches(course: Circuit) -> list[Piece]:
-    """The pieces of the circuit between limits of the drive; None for all of a closed one."""
-    if course.closed and not course.drive_limits:
-        return [None]
-    return [(piece.start, piece.end) for piece in course.monotone_pieces]
-
-
-def _unordered(course: Circuit, places: Places, error: float) -> _TargetPath:
-    """The shortest way through the targets in any order, without a limit of the drive if there is one."""
-    limits = np.array([extreme.at for extreme in course.drive_limits])
-    laps = (-1, 0, 1) if course.closed else (0,)
-    met = places.best_of_each
-    ways = []
-    for start in met[0]:
-        arcs = _nearest(course, met, float(start), limits)
-        low, high = arcs.min(), arcs.max()
-        free = all(not ((limits + k * course.length > low) & (limits + k * course.length < high)).any() for k in laps)
-        ways.append((not free, float(high - low), arcs))
-    crosses, _, arcs = min(ways, key=lambda each: each[:2])
-    return _TargetPath(arcs, False, not crosses, error)
-
-
-def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> Reals:
-    """An arc of each target without order: on the branch of the start if possible."""
-    low, high = -np.inf, np.inf
-    shifted = np.concatenate([limits + k * course.length for k in ((-1, 0, 1) if course.closed else (0,))])
-    if len(shifted):
-        low = max([v for v in shifted if v <= start], default=-np.inf)
-        high = min([v for v in shifted if v > start], default=np.inf)
-    chosen_arcs = [start]
-    for arcs in met[1:]:
-        laps = (-1, 0, 1) if course.closed else (0,)
-        all_arcs = np.concatenate([arcs + k * course.length for k in laps])
-        within = all_arcs[(all_arcs >= low) & (all_arcs <= high)]
-        chosen = within if len(within) else all_arcs
-        chosen_arcs.append(float(chosen[np.argmin(np.abs(chosen - start))]))
-    return np.array(chosen_arcs)
-
-
 def _turns_fully(course: Circuit) -> bool:
     drives = course.linkage.mechanism.drives
     if not drives or not drives[0].turning or course.drive_limits or not course.closed:
@@ -549,7 +292,7 @@ def _turns_fully(course: Circuit) -> bool:
 
 
 def _carried(
-    linkage: Linkage, course: Circuit, path: _TargetPath, targets: Targets
+    linkage: Linkage, course: Circuit, path: TargetPath, targets: Targets
 ) -> tuple[tuple[float, ...], float, float]:
     """`move` through the targets: drive values, the largest error, the smallest transmission angle."""
     order = np.argsort(path.arcs, kind="stable")

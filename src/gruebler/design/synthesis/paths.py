@@ -5,9 +5,9 @@ docs/theory/synthesis-points.md has the equations and the counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
-from functools import partial
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from itertools import combinations
 from typing import NamedTuple
 
@@ -18,18 +18,10 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
 from gruebler.design.synthesis.dyads import GuidingDyad
-from gruebler.design.synthesis.judging import (
-    Demands,
-    Probe,
-    Targets,
-    best_of,
-    judge_design,
-    missing_alike,
-    point_targets,
-    position_targets,
-)
+from gruebler.design.synthesis.judging import Demands, best_of, judge_design, missing_alike
 from gruebler.design.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
 from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.targets import Probe, Targets, point_targets, position_targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, SAME, PathTask, PositionTask
 from gruebler.mechanics.linkages import Linkage
 
@@ -74,41 +66,74 @@ def synthesise_path(
     >>> str(count.what), count.theorem, count.found, count.real
     ('four-bars', 36, 36, 14)
     """
-    wanted = demands or Demands()
-    oriented = [k for k, angle in enumerate(task.angles) if angle is not None]
-    if task.crank_angles:
-        if oriented or task.fixed_pivots:
-            raise SynthesisError("crank angles go with points alone, without coupler angles and fixed pivots")
-        return _timed(task, wanted, number)
-    if task.fixed_pivots and len(oriented) > 1:
+    run = _Run(task, demands or Demands(), number, threads, progress)
+    if task.fixed_pivots and len(run.oriented) > 1 and not task.crank_angles:
         raise SynthesisError("fixed pivots go with points alone, without coupler angles")
-    if len(oriented) == len(task) and len(task) > 1 and not task.closed:
-        return _as_positions(task, wanted, progress)
-    points_alone = not oriented and not task.fixed_pivots and not task.closed
-    if points_alone and len(task) <= MOST_TIMED:
-        return _sampled(task, wanted, number, progress)
-    if points_alone and len(task) < MOST_POINTS:
-        from gruebler.design.synthesis.curves import fit_open_points
+    return next((method.solve for method in _METHODS if method.suits(run)), _finite)(run)
 
-        _check_general(task)
-        return fit_open_points(task, wanted, number=number, progress=progress)
-    poses = max(0, len(oriented) - 1)
-    needed = 4 if task.fixed_pivots else 8 - 2 * poses
-    free = len(task) - 1 - poses
-    if task.closed or needed < free or poses > 3:
-        from gruebler.design.synthesis.curves import fit_path
 
-        if oriented or task.fixed_pivots:
-            raise SynthesisError(
-                "this number of points is met by least squares, without coupler angles and fixed pivots"
-            )
-        if len(task) == MOST_POINTS and not _crowded(task):
-            through = _exact(replace(task, closed=False), wanted, PROBLEMS[0], [], threads, progress).designs
-        else:
-            through = ()
-        return _with_exact(fit_path(task, wanted, number=number, progress=progress), through, number)
-    problem = next(p for p in PROBLEMS if p.poses == poses and p.given_pivots == bool(task.fixed_pivots))
-    return _exact(task, wanted, problem, oriented, threads, progress)
+@dataclass(frozen=True)
+class _Run:
+    """A task with all that its method may ask."""
+
+    task: PathTask
+    demands: Demands
+    number: int
+    threads: int | None
+    progress: Progress | None
+
+    @cached_property
+    def oriented(self) -> list[int]:
+        """The numbers of the points that have coupler angles."""
+        return [k for k, angle in enumerate(self.task.angles) if angle is not None]
+
+    @property
+    def points_alone(self) -> bool:
+        """Whether nothing but points of an open curve is given."""
+        return not (self.oriented or self.task.fixed_pivots or self.task.closed)
+
+    @property
+    def poses(self) -> int:
+        """Positions besides the first."""
+        return max(0, len(self.oriented) - 1)
+
+    @property
+    def too_many(self) -> bool:
+        """Whether no linkage meets all that is given."""
+        needed = 4 if self.task.fixed_pivots else MOST_POINTS - 1 - 2 * self.poses
+        return self.task.closed or needed < len(self.task) - 1 - self.poses or self.poses > 3
+
+
+def _with_crank_angles(run: _Run) -> SynthesisResult:
+    if run.oriented or run.task.fixed_pivots:
+        raise SynthesisError("crank angles go with points alone, without coupler angles and fixed pivots")
+    return _timed(run.task, run.demands, run.number)
+
+
+def _open_points(run: _Run) -> SynthesisResult:
+    from gruebler.design.synthesis.curves import fit_open_points
+
+    _check_general(run.task)
+    return fit_open_points(run.task, run.demands, number=run.number, progress=run.progress)
+
+
+def _nearest(run: _Run) -> SynthesisResult:
+    """By least squares; of a closed curve through nine points first those that pass through all of them."""
+    from gruebler.design.synthesis.curves import fit_path
+
+    task = run.task
+    if run.oriented or task.fixed_pivots:
+        raise SynthesisError("this number of points is met by least squares, without coupler angles and fixed pivots")
+    through: tuple[Design, ...] = ()
+    if len(task) == MOST_POINTS and not _crowded(task):
+        through = _exact(replace(run, task=replace(task, closed=False)), PROBLEMS[0]).designs
+    return _with_exact(fit_path(task, run.demands, number=run.number, progress=run.progress), through, run.number)
+
+
+def _finite(run: _Run) -> SynthesisResult:
+    """All of finitely many solutions."""
+    pivots = bool(run.task.fixed_pivots)
+    return _exact(run, next(p for p in PROBLEMS if p.poses == run.poses and p.given_pivots == pivots))
 
 
 def _with_exact(fitted: SynthesisResult, through: Sequence[Design], number: int) -> SynthesisResult:
@@ -127,10 +152,11 @@ def _with_exact(fitted: SynthesisResult, through: Sequence[Design], number: int)
     return replace(fitted, designs=designs, notes=(*fitted.notes, note))
 
 
-def _as_positions(task: PathTask, demands: Demands, progress: Progress | None) -> SynthesisResult:
+def _as_positions(run: _Run) -> SynthesisResult:
     """Every point has its coupler angle: positions."""
+    task = run.task
     rows = [(*p, a) for p, a in zip(task.points, task.angles, strict=True) if a is not None]
-    result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), demands, progress=progress)
+    result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), run.demands, progress=run.progress)
     return SynthesisResult(task, result.designs, result.rejected, result.count, result.notes)
 
 
@@ -146,16 +172,10 @@ class _Reduced(NamedTuple):
     """The number of the point that is the origin."""
 
 
-def _exact(
-    task: PathTask,
-    demands: Demands,
-    problem: Problem,
-    oriented: list[int],
-    threads: int | None,
-    progress: Progress | None,
-) -> SynthesisResult:
+def _exact(run: _Run, problem: Problem) -> SynthesisResult:
+    task, demands, progress = run.task, run.demands, run.progress
     _check_general(task)
-    reduced, complete = _best_reference(task, problem, oriented, threads, progress)
+    reduced, complete = _best_reference(task, problem, run.oriented, run.threads, progress)
     designs: list[Design] = []
     for done, alike in enumerate(classes := list(_classes(problem, complete)), 1):
         if progress is not None:
@@ -383,11 +403,12 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
     return SynthesisResult(task, accepted, rejected, count, () if theorem else (family,))
 
 
-def _sampled(task: PathTask, demands: Demands, number: int, progress: Progress | None) -> SynthesisResult:
+def _sampled(run: _Run) -> SynthesisResult:
     """At most five points: with every choice of crank angles there are solutions, some of which are taken.
 
     The crank turns evenly with the way between the points, so that their order and its sense come by themselves.
     """
+    task, progress = run.task, run.progress
     z = task.z if len(task) > 2 else np.insert(task.z, 1, _between(task.z, 1))
     points = tuple((float(w.real), float(w.imag)) for w in z)
     lengths = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
@@ -396,8 +417,8 @@ def _sampled(task: PathTask, demands: Demands, number: int, progress: Progress |
     real = 0
     for done, turn in enumerate(turns, 1):
         timing = tuple(float(angle) for angle in turn * lengths / lengths[-1])
-        few = max(2, number * _SHARES.get(len(task), 1) // 2)
-        result = _timed(PathTask(points, crank_angles=timing, unit=task.unit), demands, few)
+        few = max(2, run.number * _SHARES.get(len(task), 1) // 2)
+        result = _timed(PathTask(points, crank_angles=timing, unit=task.unit), run.demands, few)
         designs += [*result.designs, *result.rejected]
         real += result.count.real
         if progress is not None:
@@ -424,3 +445,18 @@ def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: Gui
     probes = (Probe("P"), Probe(link="crank", length=task.size))
     targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
     return [judge_design(linkage, targets, demands, f"RR-{other.form}")]
+
+
+class _Method(NamedTuple):
+    suits: Callable[[_Run], bool]
+    solve: Callable[[_Run], SynthesisResult]
+
+
+_METHODS = (
+    _Method(lambda run: bool(run.task.crank_angles), _with_crank_angles),
+    _Method(lambda run: len(run.oriented) == len(run.task) > 1 and not run.task.closed, _as_positions),
+    _Method(lambda run: run.points_alone and len(run.task) <= MOST_TIMED, _sampled),
+    _Method(lambda run: run.points_alone and len(run.task) < MOST_POINTS, _open_points),
+    _Method(lambda run: run.too_many, _nearest),
+)
+"""What solves a task: the first row that suits it, else `_finite`."""

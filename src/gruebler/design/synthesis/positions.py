@@ -27,8 +27,9 @@ from gruebler.design.synthesis.dyads import (
     misfit,
     sliding_dyads,
 )
-from gruebler.design.synthesis.judging import Demands, Targets, best_of, position_targets
+from gruebler.design.synthesis.judging import Demands, best_of
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import PositionTask
 from gruebler.mechanics.fourbar import grashof
 from gruebler.mechanics.linkages import Linkage

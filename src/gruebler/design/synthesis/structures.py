@@ -22,10 +22,11 @@ from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import best_matches, drive_angles
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
-from gruebler.design.synthesis.judging import Demands, Probe, Targets, judge_design, judge_with_drives
+from gruebler.design.synthesis.judging import Demands, judge_design, judge_with_drives
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import FITTED, Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
+from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import PathTask, Task
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.enumeration.worker_pool import run_work

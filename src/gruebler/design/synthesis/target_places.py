@@ -1,0 +1,138 @@
+"""Where a circuit meets targets: exactly, or as near as it comes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes, Reals
+from gruebler.design.synthesis.ordered_matching import OrderedMatch, Places, SmoothCurve, TargetDistances, preferred
+from gruebler.design.synthesis.targets import Targets
+from gruebler.mechanics.kinematics import Circuit, Poses
+
+_REFINEMENTS = 8
+_SHARPENINGS = 3
+_INSIDE = 1e-6  # of the length: `move` cannot be led to a limit of the drive itself
+
+Piece = tuple[float, float] | None
+"""From which arc of a circuit to which; None for a whole closed circuit, from any start."""
+
+
+class TargetPlaces(NamedTuple):
+    """Where a circuit meets the targets."""
+
+    places: Places
+    error: float
+    """The largest over the targets of the smallest deviation, relative to the size."""
+    in_order: Callable[[Piece], OrderedMatch | None]
+    """The best match in order on a piece of the circuit, its error relative to the size."""
+
+
+def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
+    """Where the circuit meets each target exactly: zeros of the derivative of the squared distance, refined."""
+    samples, count = course.samples, len(targets.values)
+    gaps, rates = _against_all(samples, targets)
+    square = np.sum(np.abs(gaps) ** 2, axis=2)
+    slope = np.sum(np.real(np.conj(gaps) * rates), axis=2)
+    target, segment = np.nonzero((slope[:, :-1] <= 0) & (slope[:, 1:] >= 0))
+    arcs = course.arcs
+    low, high = arcs[segment], arcs[segment + 1]
+    falls, rises = -slope[target, segment], slope[target, segment + 1]
+    speed = np.sqrt(np.sum(np.abs(rates[target, segment]) ** 2, axis=1))
+    near = np.sqrt(np.minimum(square[target, segment], square[target, segment + 1]))
+    nearest = np.full(count, np.inf)
+    np.minimum.at(nearest, target, near)
+    # Of a target that is missed the nearest place is refined all the same: the verdict says how near it is.
+    keep = near <= np.maximum(2 * (high - low) * speed + 2e-3 * targets.size, nearest[target])
+    target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)
+    for _ in range(_REFINEMENTS):
+        if not len(at):
+            break
+        gap, rate = targets.gaps(course.at(at), target)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
+        at = np.clip(at - np.nan_to_num(step), low, high)
+    ends = np.full(len(at), np.inf)
+    if len(at):
+        gap, _ = targets.gaps(course.at(at), target)
+        ends = np.sqrt(np.sum(np.abs(gap) ** 2, axis=1)) / targets.size
+    found_at, error = [], 0.0
+    for k in range(count):
+        of_target = target == k
+        # Where an open or closed circuit begins exactly at a target, both ends of it are looked at too.
+        border = np.sqrt(square[k, [0, -1]]) / targets.size
+        all_arcs = np.concatenate([at[of_target], arcs[[0, -1]]])
+        misses = np.concatenate([ends[of_target], border])
+        error = max(error, min(float(misses.min()), float(np.sqrt(square[k].min())) / targets.size))
+        found_at.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
+    places = Places.of_points(found_at, course.length, closed=course.closed)
+
+    def in_order(piece: Piece) -> OrderedMatch | None:
+        matches = [OrderedMatch(0.0, 0.0, arcs) for arcs in places.matches(piece)]
+        return preferred(matches, 1.0) if matches else None
+
+    return TargetPlaces(places, error, in_order)
+
+
+def places_approached(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
+    """Where the circuit comes near the targets; in order, so that the farthest of them is as near as possible."""
+    size = targets.size
+    arcs = np.insert(course.arcs, slice(1, None), (course.arcs[:-1] + course.arcs[1:]) / 2)
+    poses = course.at(arcs)
+    values, rates = (np.stack([probe.value(poses, n) for probe in targets.probes], axis=1) for n in (0, 1))
+    distances = TargetDistances(SmoothCurve(arcs, values, rates, course.closed), targets.values, size)
+
+    def in_order(piece: Piece) -> OrderedMatch:
+        match = distances.best_in_order(piece)
+        arcs = _sharpened(course, targets, distances, match.arcs, piece)
+        return OrderedMatch(match.error / size, match.mean / size, arcs)
+
+    return TargetPlaces(distances.places(limit * size), float(distances.nearest.max()) / size, in_order)
+
+
+def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, arcs: Reals, piece: Piece) -> Reals:
+    """Places put right by the circuit itself, between their neighbours: a target that is met is met exactly."""
+    sense = 1.0 if arcs[-1] >= arcs[0] else -1.0
+    low, high = (-np.inf, np.inf) if piece is None else piece
+    if piece is not None and not course.closed:
+        low, high = max(low, 0.0), min(high, course.length)
+    inside = _INSIDE * course.length if course.drive_limits else 0.0
+    arcs = np.clip(arcs, low + inside, high - inside)
+    which = np.arange(len(arcs))
+    for _ in range(_SHARPENINGS):
+        gap, rate = targets.gaps(course.at(arcs), which)
+        slope = np.sum(np.real(np.conj(gap) * rate), axis=1)
+        bend = distances.bend(arcs)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = np.where(bend > 0, -slope / bend, 0.0)
+        rising, lap = sense * arcs, course.length if piece is None else np.inf
+        before, after = np.append(rising[-1] - lap, rising[:-1]), np.append(rising[1:], rising[0] + lap)
+        rising = np.maximum.accumulate(np.clip(rising + sense * np.nan_to_num(step), before, after))
+        rising = np.minimum(rising, rising[0] + lap)
+        arcs = np.clip(sense * rising, low + inside, high - inside)
+    return arcs
+
+
+def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes]:
+    """(targets, samples, probes): the distance of every sample from every target, and the derivatives by the arc."""
+    values = np.stack([probe.value(samples, 0) for probe in targets.probes], axis=1)
+    rates = np.stack([probe.value(samples, 1) for probe in targets.probes], axis=1)
+    gaps = values[None] - targets.values[:, None, :]
+    free = np.isnan(gaps)
+    return np.where(free, 0, gaps), np.where(free, 0, np.broadcast_to(rates, gaps.shape))
+
+
+def _distinct(arcs: Reals, course: Circuit) -> Reals:
+    """Arcs without those that stand for one place: neighbours by rounding, and both ends of a closed circuit."""
+    distinct: list[float] = []
+    for arc in arcs % course.length if course.closed else arcs:
+        gaps = [abs(arc - other) for other in distinct]
+        if course.closed:
+            gaps += [course.length - gap for gap in gaps]
+        if not gaps or min(gaps) > 1e-6 * course.length:
+            distinct.append(float(arc))
+    return np.sort(np.array(distinct))

@@ -1,0 +1,72 @@
+"""What is to be met: quantities of a pose, and the values that they are to have at each target."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Complexes
+from gruebler.mechanics.kinematics import Poses
+from gruebler.mechanics.kinematics.motion import Motion
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """A complex quantity of a pose: a point, or the direction of a link times a length."""
+
+    point: str = ""
+    """The named point; empty for a direction."""
+    link: str = ""
+    joint: int = -1
+    """A sliding joint whose travel is looked at."""
+    length: float = 1.0
+
+    def value(self, poses: Poses, order: int) -> Complexes:
+        """It or its derivative by the arc; (rows,)."""
+        if self.point:
+            return poses.complex_point(self.point, order)
+        if self.joint >= 0:
+            return poses.displacement(self.joint, order).astype(np.complex128)
+        value: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
+        return value
+
+    def of_motion(self, motion: Motion) -> Complexes:
+        """Its value in each row of a motion."""
+        if self.point:
+            return motion.complex_point(self.point)
+        if self.joint >= 0:
+            return motion.displacement(self.joint).astype(np.complex128)
+        value: Complexes = self.length * np.exp(1j * motion.angle(self.link))
+        return value
+
+
+class Targets(NamedTuple):
+    """What is to be met: for each probe its value at each target; NaN where it is free."""
+
+    probes: tuple[Probe, ...]
+    values: Complexes
+    """(targets, probes)"""
+    size: float
+    """The size of the task: errors are relative to it."""
+
+    def gaps(self, poses: Poses, which: NDArray[np.int64]) -> tuple[Complexes, Complexes]:
+        """How far each row is from its target, and the derivatives by the arc; (rows, probes)."""
+        values = np.stack([probe.value(poses, 0) for probe in self.probes], axis=1) - self.values[which]
+        rates = np.stack([probe.value(poses, 1) for probe in self.probes], axis=1)
+        free = np.isnan(values)
+        return np.where(free, 0, values), np.where(free, 0, rates)
+
+
+def position_targets(point: str, link: str, origins: Complexes, angles: Iterable[float | None], size: float) -> Targets:
+    """Positions of a link: the places of one of its points, and its angles where they are given."""
+    turned = np.array([np.nan if a is None else size * np.exp(1j * a) for a in angles], np.complex128)
+    return Targets((Probe(point), Probe(link=link, length=size)), np.stack([origins, turned], axis=1), size)
+
+
+def point_targets(point: str, z: Complexes, size: float) -> Targets:
+    """Places of a point."""
+    return Targets((Probe(point),), z[:, None], size)
