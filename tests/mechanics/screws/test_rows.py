@@ -12,12 +12,11 @@ from gruebler.structure.chain.pairs import PAIRS, Space
 from tests.mechanics.screws import machines
 
 RANDOM = np.random.default_rng(7)
-ROUND = ("rolling", "roll_slide")
 EVERY = [(p, s) for p in PAIRS for s in Space if s in p.freedoms]
 
 
 def place(pair, space, radii=None):
-    return JointPlace(pitch=0.3 * (pair.name == "helical"), radii=radii)
+    return JointPlace(pitch=0.3 * pair.has_pitch, radii=radii)
 
 
 def values(made, e):
@@ -35,7 +34,7 @@ def unit(direction, pitch=0.0):
 @pytest.mark.parametrize(("pair", "space"), EVERY, ids=lambda v: getattr(v, "name", v))
 def test_a_pair_takes_away_what_its_table_says(pair, space):
     radii = (1.0, 0.5) if space is not Space.SPHERICAL else (0.6, 0.4)
-    made = joint_rows(pair, space, place(pair, space, radii if pair.name in ROUND else None))
+    made = joint_rows(pair, space, place(pair, space, radii if pair.has_contours else None))
     assert len(made) == pair.u(space)
     assert abs(values(made, np.eye(4))).max() < 1e-15
     directions = [unit(d) for d in space.directions]
@@ -48,7 +47,7 @@ def test_a_pair_takes_away_what_its_table_says(pair, space):
 
 
 @pytest.mark.parametrize(
-    ("pair", "space"), [(p, s) for p, s in EVERY if p.name not in ROUND], ids=lambda v: getattr(v, "name", v)
+    ("pair", "space"), [(p, s) for p, s in EVERY if not p.has_contours], ids=lambda v: getattr(v, "name", v)
 )
 def test_finite_motions_of_a_pair_keep_it_closed(pair, space):
     """Shifts first, then the turns in the order of the table: the first link's axis, then the second's."""
@@ -57,8 +56,8 @@ def test_finite_motions_of_a_pair_keep_it_closed(pair, space):
         amount = RANDOM.uniform(-1, 1, 6)
         e = np.eye(4)
         free = pair.freedoms[space]
-        order = free if pair.name == "double_cylindrical" else sorted(free, key=lambda d: d[0] != "T")
-        if pair.name == "double_cylindrical":  # both freedoms of the first link's axis, then both of the second's
+        order = free if pair.has_body_between else sorted(free, key=lambda d: d[0] != "T")
+        if pair.has_body_between:  # both freedoms of the first link's axis, then both of the second's
             order = sorted(free, key=lambda d: d[1])
         for k, direction in enumerate(order):
             e = e @ exponential(amount[k] * unit(direction, 0.3))

@@ -17,6 +17,7 @@ import numpy as np
 from gruebler.pictures.canvas.figure import Figure, figure_of
 from gruebler.pictures.canvas.shapes import Point, Shape, TextShape
 from gruebler.pictures.canvas.symbols import (
+    SIGNS,
     JointMember,
     JointSign,
     arrow,
@@ -215,8 +216,8 @@ def _sign(placed: PlacedChain, number: int, lang: str) -> tuple[JointSign, list[
     joint = placed.chain.joints[number]
     links = sorted(joint.links, key=lambda link: _precedence(placed, link))
     members = [JointMember(towards(placed, link, number), link == placed.frame) for link in links]
-    flat = placed.chain.space is Space.PLANAR
-    letter = "" if flat else letters(joint.pair, lang)
+    has_sign = placed.chain.space is Space.PLANAR and joint.pair.name in SIGNS
+    letter = "" if has_sign else letters(joint.pair, lang)
     known = [placed.contacts[number, link] for link in links if (number, link) in placed.contacts]
     return joint_sign(joint.pair, placed.joints[number], members, letter=letter, shapes=known), links
 
