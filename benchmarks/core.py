@@ -1,0 +1,156 @@
+"""The kernels of core/ beside those of numba, in turns in one process; cold, each in a process of its own.
+
+`make core` builds the module first. Seconds are those of the processor, which other work on the machine disturbs least;
+the least of some rounds is printed. Every answer is compared.
+"""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import process_time
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+BUILD = Path(__file__).parents[1] / "build" / "core"
+ROUNDS = 9
+
+Calls = dict[str, Callable[[], Any]]
+
+COLD = {
+    "census and growth, to 10 links": (
+        "import gruebler; gruebler.count_chains(10, orbits=True)",
+        "graphs = np.array([[48, 3] + [0] * 14])\n"
+        "for loops in 2, 3: graphs, _ = _core.add_loop(graphs, loops, 0, 10**9)\n"
+        "_core.take_census(graphs, 4, 1, True)",
+    ),
+    "one labelling": (
+        "from gruebler._numeric.labelling.canonical import canonical_form; "
+        "canonical_form(3, None, np.array([[0, 1], [1, 2]]))",
+        "_core.canonical_form(3, np.zeros(3, np.int64), np.array([[0, 1], [1, 2]], np.int32), np.zeros(2, np.int32))",
+    ),
+}
+
+
+def main() -> None:
+    """Print both tables."""
+    if not any(BUILD.glob("_core*")):
+        print("not built: make core")
+        return
+    sys.path.insert(0, str(BUILD))
+    print("| warm, ms | numba | core | numba / core |\n|---|---|---|---|")
+    for name, calls in [*counting(), *labelling()]:
+        times = measured(calls)
+        for level in [key for key in times if key != "numba"]:
+            row = f"{1000 * times['numba']:.2f} | {1000 * times[level]:.2f} | {times['numba'] / times[level]:.2f}"
+            print(f"| {name}, {level} | {row} |")
+    print("| cold, s | numba, nothing compiled | numba, compiled before | core |\n|---|---|---|---|")
+    for name, (numba, core) in COLD.items():
+        with TemporaryDirectory() as cache:
+            environment = {"NUMBA_CACHE_DIR": cache, "GRUEBLER_KERNELS": "compiled"}
+            first, second = (alone("import numpy as np\n" + numba, environment) for _ in range(2))
+        own = alone(f"import sys; sys.path.insert(0, {str(BUILD)!r})\nimport numpy as np, _core\n" + core, {})
+        print(f"| {name} | {first:.1f} | {second:.2f} | {own:.2f} |")
+
+
+def measured(calls: Calls) -> dict[str, float]:
+    """The least seconds of each; all must answer the same."""
+    answers = [call() for call in calls.values()]
+    assert all(np.array_equal(answers[0], answer) for answer in answers[1:])
+    least = dict.fromkeys(calls, float("inf"))
+    for _ in range(ROUNDS):
+        for name, call in calls.items():
+            begun = process_time()
+            call()
+            least[name] = min(least[name], process_time() - begun)
+    return least
+
+
+def alone(code: str, environment: dict[str, str]) -> float:
+    """The processor's seconds of a process, the start of Python included."""
+    before = os.times()
+    subprocess.run([sys.executable, "-c", code], env={**os.environ, **environment}, check=True)
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system
+
+
+def counting() -> list[tuple[str, Calls]]:
+    """Census and growth of 14 and 16 links."""
+    import _core
+
+    from gruebler._numeric.compiling import compiled
+    from gruebler._numeric.counting.census import COLUMNS, make_census_memory, take_census
+    from gruebler._numeric.counting.contracted import add_loop, make_growth_memory
+    from gruebler.structure.enumeration.contracted import packed_graphs
+
+    def numba_census(graphs: NDArray[np.int64], loops: int, orbits: bool) -> NDArray[np.int64]:
+        table = np.zeros((len(graphs), COLUMNS), np.int64)
+        compiled(take_census)(graphs, 1, orbits, make_census_memory(loops, 1), table)
+        return table
+
+    def numba_growth(parents: NDArray[np.int64], room: int) -> NDArray[np.int64]:
+        children = np.empty((room, 16), np.int64)
+        total, _ = compiled(add_loop)(parents, 0, children, make_growth_memory())
+        return children[:total]
+
+    rows: list[tuple[str, Calls]] = []
+    for links, loops in ((14, 6), (16, 7)):
+        graphs, parents = (np.concatenate([block.copy() for block in packed_graphs(k)]) for k in (loops, loops - 1))
+        for orbits in (False, True):
+            calls: Calls = {"numba": lambda g=graphs, k=loops, o=orbits: numba_census(g, k, o)}  # type: ignore[misc]
+            for level in _core.level_names():
+                calls[level] = lambda g=graphs, k=loops, o=orbits, n=level: _core.take_census(g, k, 1, o, level=n)  # type: ignore[misc]
+            rows.append((f"census of {links} links" + (" with orbits" if orbits else ""), calls))
+        rows.append(
+            (
+                f"growth to {loops} loops",
+                {
+                    "numba": lambda p=parents, g=graphs: numba_growth(p, len(g) + 1024),  # type: ignore[misc]
+                    "core": lambda p=parents, k=loops: _core.add_loop(p, k - 1, 0, 1 << 62)[0],  # type: ignore[misc]
+                },
+            )
+        )
+    return rows
+
+
+def labelling() -> list[tuple[str, Calls]]:
+    """Chains in bulk, and graphs with much symmetry."""
+    import _core
+    import networkx as nx
+
+    from gruebler._numeric.labelling.canonical import canonical_bulk
+    from gruebler.structure.enumeration import edge_blocks
+
+    rows: list[tuple[str, Calls]] = []
+    symmetric = {
+        "the 8-cube": nx.hypercube_graph(8),
+        "K2,400": nx.complete_bipartite_graph(2, 400),
+        "12 Petersen graphs": nx.disjoint_union_all([nx.petersen_graph()] * 12),
+    }
+    named: dict[str, tuple[int, NDArray[np.integer]]] = {}
+    for links in (12, 14):
+        chains = next(iter(edge_blocks(links)))
+        named[f"{len(chains)} chains of {links} links"] = links, chains
+    for name, graph in symmetric.items():
+        plain = nx.convert_node_labels_to_integers(graph)
+        named[name] = len(plain), np.array([list(plain.edges())])
+    for name, (n, edges) in named.items():
+        ends, bounds = edges.astype(np.int32), np.arange(len(edges) + 1) * edges.shape[1]
+        rows.append(
+            (
+                f"labelling {name}",
+                {
+                    "numba": lambda n=n, e=ends: canonical_bulk(n, e),  # type: ignore[misc]
+                    "core": lambda n=n, e=ends, b=bounds: _core.canonical_bulk(n, e.reshape(-1, 2), b),  # type: ignore[misc]
+                },
+            )
+        )
+    return rows
+
+
+if __name__ == "__main__":
+    main()
