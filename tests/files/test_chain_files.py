@@ -101,7 +101,7 @@ def test_what_is_no_chain_is_one_sentence(form, text, tmp_path):
     path = tmp_path / f"a.{form}"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(GrueblerError) as caught:
-        files.read(path, form)
+        files.read(path, format_name=form)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
 

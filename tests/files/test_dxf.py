@@ -111,7 +111,7 @@ def test_layers_name_planes():
 def test_a_file_for_each_link(tmp_path):
     ezdxf = pytest.importorskip("ezdxf")
     left_out = []
-    folder = files.write(LINKAGES["four-bar"], tmp_path / "plates", "dxf-links", left_out=left_out)
+    folder = files.write(LINKAGES["four-bar"], tmp_path / "plates", format_name="dxf-links", left_out=left_out)
     assert sorted(path.name for path in folder.iterdir()) == [
         "1 frame.dxf",
         "2 crank.dxf",

@@ -255,15 +255,15 @@ def test_every_format_of_a_linkage_has_its_parser():
 def test_what_is_written_has_its_true_size(name, unit, tmp_path):
     if name == "dxf":
         pytest.importorskip("ezdxf")
-    path = files.write(FourBar(25, 70, 40, 70).linkage(unit=unit), tmp_path / "a", name, left_out=[])
+    path = files.write(FourBar(25, 70, 40, 70).linkage(unit=unit), tmp_path / "a", format_name=name, left_out=[])
     assert WRITTEN[name](path.read_text(encoding="utf-8")) == pytest.approx(25 * MM[unit], rel=1e-9)
 
 
 @pytest.mark.parametrize("unit", MM)
 @pytest.mark.parametrize("name", ["linkage2", "pmks", "pyslvs", "motiongen", "pylinkage", "four-bar-rs"])
 def test_what_is_written_is_read_in_its_true_size(name, unit, tmp_path):
-    path = files.write(FourBar(25, 70, 40, 70).linkage(unit=unit), tmp_path / "a.json", name, left_out=[])
-    read = files.read(path, name, left_out=[])
+    path = files.write(FourBar(25, 70, 40, 70).linkage(unit=unit), tmp_path / "a.json", format_name=name, left_out=[])
+    read = files.read(path, format_name=name, left_out=[])
     assert [length * MM[read.unit] for length in sides(read)] == pytest.approx([k * MM[unit] for k in (25, 40, 70)])
 
 
@@ -272,7 +272,7 @@ def test_a_unit_that_nobody_knows_is_said(name, tmp_path):
     if name == "dxf":
         pytest.importorskip("ezdxf")
     left_out = []
-    files.write(FourBar(25, 70, 40, 70).linkage(unit="furlong"), tmp_path / "a", name, left_out=left_out)
+    files.write(FourBar(25, 70, 40, 70).linkage(unit="furlong"), tmp_path / "a", format_name=name, left_out=left_out)
     assert any("furlong" in str(note) for note in left_out)
 
 

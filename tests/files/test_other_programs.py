@@ -520,7 +520,7 @@ def test_a_file_of_a_hundred_megabytes_is_refused_unread(form, tmp_path):
         file.seek(100_000_000)
         file.write(b"x")  # a hole: the disk holds two blocks
     with pytest.raises(GrueblerError) as caught:
-        files.read(path, form.name)
+        files.read(path, format_name=form.name)
     assert str(path) in str(caught.value)
     assert len(str(caught.value)) < 700
 
@@ -547,7 +547,7 @@ def test_links_that_are_welded_in_a_ring_are_one():
 
 def test_json_of_others_is_named_by_its_format(tmp_path):
     path = tmp_path / "leg.json"
-    files.write(FourBar(25, 70, 40, 70), path, "pylinkage", left_out=[])
+    files.write(FourBar(25, 70, 40, 70), path, format_name="pylinkage", left_out=[])
     assert json.loads(path.read_text())["ground"] == "frame"
     assert files.read(path, left_out=[]).length("crank", 0, 1) == pytest.approx(25)
 

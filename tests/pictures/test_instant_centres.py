@@ -129,6 +129,6 @@ def test_larger_linkages_show_permanent_poles_and_those_against_the_frame():
 
 @pytest.mark.parametrize("angle", range(0, 360, 30))
 def test_the_picture_stays_of_a_size(angle):
-    plain = draw_linkage(CRANK_ROCKER.linkage(), math.radians(angle))
-    with_poles = draw_linkage(CRANK_ROCKER.linkage(), math.radians(angle), show=["poles"])
+    plain = draw_linkage(CRANK_ROCKER.linkage(), at=math.radians(angle))
+    with_poles = draw_linkage(CRANK_ROCKER.linkage(), at=math.radians(angle), show=["poles"])
     assert max(with_poles.width, with_poles.height) < 3.5 * max(plain.width, plain.height)

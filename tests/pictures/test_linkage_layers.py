@@ -307,7 +307,7 @@ if __name__ == "__main__":  # writes the golden file anew
 
 
 def test_the_inflection_circle_is_whole_with_tangent_and_normal():
-    figure = draw_linkage(CRANK_ROCKER.linkage(), np.radians(200), show=["inflection"])
+    figure = draw_linkage(CRANK_ROCKER.linkage(), at=np.radians(200), show=["inflection"])
     motion = move(CRANK_ROCKER.linkage(), np.radians([200]), speed=1.0, order=2)
     circle = inflection_circle(motion, "coupler")
     texts = {shape.text for shape in figure.shapes if isinstance(shape, TextShape)}

@@ -249,7 +249,7 @@ def test_names_stay_text():
 
 def test_several_drives_have_a_pose_but_no_course():
     assert len(styles(draw_linkage(FIVE_BAR, labels=True), "drive")) == 2
-    assert draw_linkage(FIVE_BAR, [2.0, 1.2]).svg() != draw_linkage(FIVE_BAR).svg()
+    assert draw_linkage(FIVE_BAR, at=[2.0, 1.2]).svg() != draw_linkage(FIVE_BAR).svg()
     for options in ({"curves": ["R(2-3)"]}, *({"show": [name]} for name in LAYERS if name != "scale")):
         with pytest.raises(LinkageError, match="one drive"):
             draw_linkage(FIVE_BAR, **options)

@@ -107,7 +107,7 @@ def test_the_same_numbers_in_every_form(lang, tmp_path):
         header, *rows = csv.reader(file)
     assert [float(row[1]) for row in rows] == table["rocker"].tolist()
     assert header[1] == "rocker [°]"
-    content = gr.write(table, tmp_path / "s.csv", "spreadsheet").read_bytes()
+    content = gr.write(table, tmp_path / "s.csv", format_name="spreadsheet").read_bytes()
     assert content.startswith(b"\xef\xbb\xbf")
     header, *rows = csv.reader(io.StringIO(content.decode("utf-8-sig")), delimiter=";")
     assert [float(row[1].replace(",", ".")) for row in rows] == table["rocker"].tolist()
