@@ -258,10 +258,10 @@ def test_several_drives_have_a_pose_but_no_course():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"drive": float("nan")}, "finite drive value"),
-        ({"drive": "north"}, "drive: expected a number"),
-        ({"drive": [1.0, 2.0]}, "one finite drive value"),
-        ({"drive": 3.0}, "no pose at 171.887 degrees"),
+        ({"at": float("nan")}, "finite drive value"),
+        ({"at": "north"}, "at: expected a number"),
+        ({"at": [1.0, 2.0]}, "one finite drive value"),
+        ({"at": 3.0}, "no pose at 171.887 degrees"),
         ({"curves": ["Z"]}, "no point 'Z'"),
         ({"show": ["shadow"]}, "there are dead-centres"),
         ({"output": "nothing"}, "an output is a link"),

@@ -335,9 +335,9 @@ def test_an_open_circuit_says_so():
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"drive": float("inf")}, "finite number"),
-        ({"drive": "1"}, "drive: expected a number, but found '1'"),
-        ({"drive": 3.0}, "cannot be assembled at 3"),
+        ({"at": float("inf")}, "finite number"),
+        ({"at": "1"}, "at: expected a number, but found '1'"),
+        ({"at": 3.0}, "cannot be assembled at 3"),
         ({"step": 0.0}, "between"),
         ({"most": -1}, "above 0"),
         ({"branch": "++"}, "branch"),
