@@ -89,13 +89,21 @@ def coupler_curve_by_points(
     return board.done(**values, **{f"y{k}": point.imag for k, point in enumerate(points)})
 
 
-def _third_proportional(board: Board, name: str, at: complex, pole: complex, centre: complex) -> complex:
-    """The point J of a ray with AJ · AA0 = AP², on the side of A0, by two parallels."""
+def _proportional(at: complex, pole: complex, centre: complex) -> tuple[complex, complex, complex]:
+    """By two parallels the point J of the ray to a centre with at-J · at-centre = at-pole².
+
+    Returns the length at-pole carried to an auxiliary line, where the parallel cuts that line, and J.
+    """
     unit = (centre - at) / abs(centre - at)
     helper = unit * _HELPER
     carried = at + abs(pole - at) * helper
     cut = lines_meet(at, helper, pole, centre - carried)
-    third = at + abs(cut - at) * unit
+    return carried, cut, at + abs(cut - at) * unit
+
+
+def _third_proportional(board: Board, name: str, at: complex, pole: complex, centre: complex) -> complex:
+    """The point J of a ray with AJ · AA0 = AP², on the side of A0, by two parallels."""
+    carried, cut, third = _proportional(at, pole, centre)
     board.step(
         message(
             "Euler and Savary: {name}J · {name}{name}₀ = {name}P². On a line through {name} the length {name}P is laid "
@@ -104,7 +112,7 @@ def _third_proportional(board: Board, name: str, at: complex, pole: complex, cen
             name=name,
             length=abs(third - at),
         ),
-        DrawnLine(at, helper),
+        DrawnLine(at, (centre - at) / abs(centre - at) * _HELPER),
         Segment(carried, centre),
         Segment(pole, cut),
         Dot(third, f"J_{name}"),
@@ -158,11 +166,7 @@ def inflection_circle(
     point = _coupler_point(pin, joint, u, v)
     ends = line_meets_circle(pole, point - pole, middle, abs(middle - pole))
     inflection = max(ends, key=lambda z: abs(z - pole))
-    unit = (inflection - point) / abs(inflection - point)
-    helper = unit * _HELPER
-    carried = point + abs(pole - point) * helper
-    cut = lines_meet(point, helper, pole, inflection - carried)
-    centre = point + abs(cut - point) * unit
+    carried, cut, centre = _proportional(point, pole, inflection)
     board.step(
         message(
             "A coupler point K: its polar ray meets the circle again in J. The same construction backwards, KK₀ · KJ = "

@@ -8,9 +8,10 @@ the Scotch yoke, PRP the tangent mechanism.
 from __future__ import annotations
 
 import cmath
+from dataclasses import dataclass
 from math import radians
 
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.pictures.canvas.construction import Arrow, Construction, Dot, DrawnLine
 from gruebler.teaching.constructions.compass import Board, lines_meet
 from gruebler.teaching.constructions.given_linkages import (
@@ -25,9 +26,12 @@ _LONG = 1.1  # of the linkage: the longest known arrow of a polygon
 
 
 class VectorPlan:
-    """A polygon beside the linkage: its pole and its scale."""
+    """A polygon beside the linkage: its pole, its scale and what its arrows are; vectors count from the pole."""
 
-    def __init__(self, pins: tuple[complex, ...], longest: float, down: float = 0.0) -> None:
+    def __init__(
+        self, board: Board, pins: tuple[complex, ...], longest: float, down: float = 0.0, style: str = "velocity"
+    ) -> None:
+        self.board, self.style = board, style
         low, high = min(z.real for z in pins), max(z.real for z in pins)
         size = max(high - low, max(z.imag for z in pins) - min(z.imag for z in pins))
         self.scale = _LONG * size / longest
@@ -37,43 +41,62 @@ class VectorPlan:
         """The tip of a vector from the pole."""
         return self.pole + self.scale * vector
 
+    def arrow(self, name: str, begin: complex, end: complex) -> Arrow:
+        """The arrow between the tips of two vectors."""
+        return Arrow(self.at(begin), self.at(end), name, self.style)
+
+    def meet(self, text: Message, first: complex, along: complex, second: complex, other: complex) -> complex:
+        """A step: two lines through the tips of two vectors, each in a direction; the vector to where they meet."""
+        self.board.step(text, DrawnLine(self.at(first), along), DrawnLine(self.at(second), other))
+        return (lines_meet(self.at(first), along, self.at(second), other) - self.pole) / self.scale
+
+
+@dataclass(frozen=True)
+class VelocityPolygon:
+    """A construction whose polygon of velocities is drawn: where the linkage stands, and two of its velocities."""
+
+    board: Board
+    pins: tuple[complex, ...]
+    known: complex
+    """That of the crank's pin A, or of the lever's point C."""
+    sought: complex
+    """That of B, or of the point C under A."""
+
+    def done(self, known: str, sought: str, relative: str, **values: float) -> Construction:
+        """The construction, if nothing is added, with the velocities by their names."""
+        speeds = {known: abs(self.known), sought: abs(self.sought), relative: abs(self.sought - self.known)}
+        return self.board.done(**speeds, **values)
+
 
 def velocities_of_four_bar(
     a: float = 25, b: float = 70, c: float = 40, d: float = 70, phi: float = 55, omega: float = 10
 ) -> Construction:
     """The triangle v_B = v_A + v_BA: v_B across the rocker, v_BA across the coupler."""
-    board = Board(message("Velocities of a four-bar"))
+    return four_bar_velocities(message("Velocities of a four-bar"), a, b, c, d, phi, omega).done("v_A", "v_B", "v_BA")
+
+
+def four_bar_velocities(
+    title: Message, a: float, b: float, c: float, d: float, phi: float, omega: float, down: float = 0.0
+) -> VelocityPolygon:
+    """The four-bar and its polygon of velocities."""
+    board = Board(title)
     pins = four_bar_given(board, a, b, c, d, phi)
-    plan = VectorPlan(pins, abs(a * omega))
-    v_a, v_b = add_four_bar_velocities(board, plan, pins, omega)
-    return board.done(v_A=abs(v_a), v_B=abs(v_b), v_BA=abs(v_b - v_a))
-
-
-def add_four_bar_velocities(
-    board: Board, plan: VectorPlan, pins: tuple[complex, complex, complex, complex], omega: float
-) -> tuple[complex, complex]:
-    """Add the steps of the polygon; v_A and v_B."""
     a0, pin, joint, b0 = pins
-    v_a = _crank(board, plan, pin - a0, omega)
-    across_coupler, across_rocker = 1j * (joint - pin), 1j * (joint - b0)
-    board.step(
-        message(
-            "v_BA is perpendicular to AB: its line goes through the tip a. v_B is perpendicular to B₀B: its line goes "
-            "through the pole p_v."
-        ),
-        DrawnLine(plan.at(v_a), across_coupler),
-        DrawnLine(plan.pole, across_rocker),
+    plan = VectorPlan(board, pins, abs(a * omega), down)
+    v_a = _crank(plan, pin - a0, omega)
+    text = message(
+        "v_BA is perpendicular to AB: its line goes through the tip a. v_B is perpendicular to B₀B: its line goes "
+        "through the pole p_v."
     )
-    tip = lines_meet(plan.at(v_a), across_coupler, plan.pole, across_rocker)
-    v_b = (tip - plan.pole) / plan.scale
-    _velocity_triangle(board, plan, v_a, v_b)
-    return v_a, v_b
+    v_b = plan.meet(text, v_a, 1j * (joint - pin), 0, 1j * (joint - b0))
+    _velocity_triangle(plan, v_a, v_b)
+    return VelocityPolygon(board, pins, v_a, v_b)
 
 
-def _crank(board: Board, plan: VectorPlan, arm: complex, omega: float) -> complex:
+def _crank(plan: VectorPlan, arm: complex, omega: float) -> complex:
     """The velocity of the crank's pin."""
     v_a = 1j * omega * arm
-    board.step(
+    plan.board.step(
         message(
             "The crank turns with ω = {omega:g} 1/s: v_A = a ω = {speed:.4g}, perpendicular to A₀A. It is drawn from "
             "the pole p_v; 1 mm of the linkage's scale stands for {scale:.4g} mm/s.",
@@ -82,21 +105,21 @@ def _crank(board: Board, plan: VectorPlan, arm: complex, omega: float) -> comple
             scale=1 / plan.scale,
         ),
         Dot(plan.pole, "p_v"),
-        Arrow(plan.pole, plan.at(v_a), "v_A"),
+        plan.arrow("v_A", 0, v_a),
         Dot(plan.at(v_a), "a"),
     )
     return v_a
 
 
-def _velocity_triangle(board: Board, plan: VectorPlan, v_a: complex, v_b: complex) -> None:
-    board.step(
+def _velocity_triangle(plan: VectorPlan, v_a: complex, v_b: complex) -> None:
+    plan.board.step(
         message(
             "The lines meet in b: v_B = {v_b:.4g} from p_v to b, v_BA = {v_ba:.4g} from a to b.",
             v_b=abs(v_b),
             v_ba=abs(v_b - v_a),
         ),
-        Arrow(plan.pole, plan.at(v_b), "v_B"),
-        Arrow(plan.at(v_a), plan.at(v_b), "v_BA"),
+        plan.arrow("v_B", 0, v_b),
+        plan.arrow("v_BA", v_a, v_b),
         Dot(plan.at(v_b), "b"),
     )
 
@@ -105,63 +128,52 @@ def velocities_of_slider_crank(
     a: float = 20, b: float = 50, e: float = 0, phi: float = 60, omega: float = 10
 ) -> Construction:
     """The triangle v_B = v_A + v_BA: v_B along the line of the slider, v_BA across the coupler."""
-    board = Board(message("Velocities of a slider-crank"))
-    pins = slider_crank_given(board, a, b, e, phi)
-    plan = VectorPlan(pins, abs(a * omega))
-    v_a, v_b = add_slider_crank_velocities(board, plan, pins, omega)
-    return board.done(v_A=abs(v_a), v_B=abs(v_b), v_BA=abs(v_b - v_a))
-
-
-def add_slider_crank_velocities(
-    board: Board, plan: VectorPlan, pins: tuple[complex, complex, complex], omega: float
-) -> tuple[complex, complex]:
-    """Add the steps of the polygon; v_A and v_B."""
-    a0, pin, joint = pins
-    v_a = _crank(board, plan, pin - a0, omega)
-    across = 1j * (joint - pin)
-    board.step(
-        message(
-            "v_BA is perpendicular to AB: its line goes through the tip a. v_B lies along the line of the slider, "
-            "through the pole p_v."
-        ),
-        DrawnLine(plan.at(v_a), across),
-        DrawnLine(plan.pole, 1 + 0j),
+    return slider_crank_velocities(message("Velocities of a slider-crank"), a, b, e, phi, omega).done(
+        "v_A", "v_B", "v_BA"
     )
-    tip = lines_meet(plan.at(v_a), across, plan.pole, 1 + 0j)
-    v_b = (tip - plan.pole) / plan.scale
-    _velocity_triangle(board, plan, v_a, v_b)
-    return v_a, v_b
+
+
+def slider_crank_velocities(
+    title: Message, a: float, b: float, e: float, phi: float, omega: float, down: float = 0.0
+) -> VelocityPolygon:
+    """The slider-crank and its polygon of velocities."""
+    board = Board(title)
+    pins = slider_crank_given(board, a, b, e, phi)
+    a0, pin, joint = pins
+    plan = VectorPlan(board, pins, abs(a * omega), down)
+    v_a = _crank(plan, pin - a0, omega)
+    text = message(
+        "v_BA is perpendicular to AB: its line goes through the tip a. v_B lies along the line of the slider, "
+        "through the pole p_v."
+    )
+    v_b = plan.meet(text, v_a, 1j * (joint - pin), 0, 1 + 0j)
+    _velocity_triangle(plan, v_a, v_b)
+    return VelocityPolygon(board, pins, v_a, v_b)
 
 
 def velocities_of_inverted_slider_crank(
     a: float = 30, d: float = 50, phi: float = 70, omega: float = 10
 ) -> Construction:
     """The triangle v_A = v_C + v_rel: the point C of the lever under A goes across the lever, the block along it."""
-    board = Board(message("Velocities of an inverted slider-crank"))
+    polygon = lever_velocities(message("Velocities of an inverted slider-crank"), a, d, phi, omega)
+    _, pin, b0 = polygon.pins
+    return polygon.done("v_A", "v_C", "v_rel", omega_lever=abs(polygon.sought) / abs(pin - b0))
+
+
+def lever_velocities(
+    title: Message, a: float, d: float, phi: float, omega: float, down: float = 0.0
+) -> VelocityPolygon:
+    """The inverted slider-crank and its polygon of velocities."""
+    board = Board(title)
     pins = lever_given(board, a, d, phi)
-    plan = VectorPlan(pins, abs(a * omega))
-    v_a, v_c = add_lever_velocities(board, plan, pins, omega)
-    arm = abs(pins[1] - pins[2])
-    return board.done(v_A=abs(v_a), v_C=abs(v_c), v_rel=abs(v_a - v_c), omega_lever=abs(v_c) / arm)
-
-
-def add_lever_velocities(
-    board: Board, plan: VectorPlan, pins: tuple[complex, complex, complex], omega: float
-) -> tuple[complex, complex]:
-    """Add the steps of the polygon; v_A and v_C."""
     a0, pin, b0 = pins
-    v_a = _crank(board, plan, pin - a0, omega)
-    lever = pin - b0
-    board.step(
-        message(
-            "C is the point of the lever under A. v_C is perpendicular to B₀A: its line goes through the pole p_v; the "
-            "block slides along the lever: the line of v_rel goes through a."
-        ),
-        DrawnLine(plan.pole, 1j * lever),
-        DrawnLine(plan.at(v_a), lever),
+    plan = VectorPlan(board, pins, abs(a * omega), down)
+    v_a, lever = _crank(plan, pin - a0, omega), pin - b0
+    text = message(
+        "C is the point of the lever under A. v_C is perpendicular to B₀A: its line goes through the pole p_v; the "
+        "block slides along the lever: the line of v_rel goes through a."
     )
-    tip = lines_meet(plan.pole, 1j * lever, plan.at(v_a), lever)
-    v_c = (tip - plan.pole) / plan.scale
+    v_c = plan.meet(text, 0, 1j * lever, v_a, lever)
     board.step(
         message(
             "The lines meet in c: v_C = {v_c:.4g} from p_v to c, v_rel = {v_rel:.4g} from c to a. The lever turns with "
@@ -170,37 +182,31 @@ def add_lever_velocities(
             v_rel=abs(v_a - v_c),
             omega=abs(v_c) / abs(lever),
         ),
-        Arrow(plan.pole, tip, "v_C"),
-        Arrow(tip, plan.at(v_a), "v_rel"),
-        Dot(tip, "c"),
+        plan.arrow("v_C", 0, v_c),
+        plan.arrow("v_rel", v_c, v_a),
+        Dot(plan.at(v_c), "c"),
     )
-    return v_a, v_c
+    return VelocityPolygon(board, pins, v_a, v_c)
 
 
 def velocities_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 55, omega: float = 10) -> Construction:
     """The triangle v_A = v_C + v_rel: the yoke moves along its guide, the block along the slot."""
-    board = Board(message("Velocities of a Scotch yoke"))
+    return yoke_velocities(message("Velocities of a Scotch yoke"), a, slot, phi, omega).done("v_A", "v_C", "v_rel")
+
+
+def yoke_velocities(
+    title: Message, a: float, slot: float, phi: float, omega: float, down: float = 0.0
+) -> VelocityPolygon:
+    """The Scotch yoke and its polygon of velocities."""
+    board = Board(title)
     pins = scotch_yoke_given(board, a, slot, phi)
-    plan = VectorPlan(pins, abs(a * omega))
-    v_a, v_c = add_yoke_velocities(board, plan, pins, slot, omega)
-    return board.done(v_A=abs(v_a), v_C=abs(v_c), v_rel=abs(v_a - v_c))
-
-
-def add_yoke_velocities(
-    board: Board, plan: VectorPlan, pins: tuple[complex, complex, complex], slot: float, omega: float
-) -> tuple[complex, complex]:
-    """Add the steps of the polygon; v_A and v_C."""
-    v_a, direction = _crank(board, plan, pins[1] - pins[0], omega), cmath.rect(1.0, radians(slot))
-    board.step(
-        message(
-            "C is the point of the yoke under A. The yoke does not turn: v_C lies along its guide, through the pole "
-            "p_v; the block slides along the slot: the line of v_rel goes through a."
-        ),
-        DrawnLine(plan.pole, 1 + 0j),
-        DrawnLine(plan.at(v_a), direction),
+    plan = VectorPlan(board, pins, abs(a * omega), down)
+    v_a = _crank(plan, pins[1] - pins[0], omega)
+    text = message(
+        "C is the point of the yoke under A. The yoke does not turn: v_C lies along its guide, through the pole "
+        "p_v; the block slides along the slot: the line of v_rel goes through a."
     )
-    tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_a), direction)
-    v_c = (tip - plan.pole) / plan.scale
+    v_c = plan.meet(text, 0, 1 + 0j, v_a, cmath.rect(1.0, radians(slot)))
     board.step(
         message(
             "The lines meet in c: v_C = {v_c:.4g} from p_v to c, v_rel = {v_rel:.4g} from c to a. The whole yoke has "
@@ -208,27 +214,24 @@ def add_yoke_velocities(
             v_c=abs(v_c),
             v_rel=abs(v_a - v_c),
         ),
-        Arrow(plan.pole, tip, "v_C"),
-        Arrow(tip, plan.at(v_a), "v_rel"),
-        Dot(tip, "c"),
+        plan.arrow("v_C", 0, v_c),
+        plan.arrow("v_rel", v_c, v_a),
+        Dot(plan.at(v_c), "c"),
     )
-    return v_a, v_c
+    return VelocityPolygon(board, pins, v_a, v_c)
 
 
 def velocities_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: float = 2) -> Construction:
     """The triangle v_B = v_C + v_rel: the lever's point C under B goes across the lever, the block along it."""
-    board = Board(message("Velocities of a tangent mechanism"))
+    return tangent_velocities(message("Velocities of a tangent mechanism"), d, phi, omega).done("v_C", "v_B", "v_rel")
+
+
+def tangent_velocities(title: Message, d: float, phi: float, omega: float, down: float = 0.0) -> VelocityPolygon:
+    """The tangent mechanism and its polygon of velocities."""
+    board = Board(title)
     pins = tangent_mechanism_given(board, d, phi)
-    plan = VectorPlan(pins, abs(abs(pins[1]) * omega))
-    v_c, v_b = add_tangent_velocities(board, plan, pins, omega)
-    return board.done(v_C=abs(v_c), v_B=abs(v_b), v_rel=abs(v_b - v_c))
-
-
-def add_tangent_velocities(
-    board: Board, plan: VectorPlan, pins: tuple[complex, complex], omega: float
-) -> tuple[complex, complex]:
-    """Add the steps of the polygon; v_C and v_B."""
     arm = pins[1] - pins[0]
+    plan = VectorPlan(board, pins, abs(abs(arm) * omega), down)
     v_c = 1j * omega * arm
     board.step(
         message(
@@ -240,27 +243,22 @@ def add_tangent_velocities(
             scale=1 / plan.scale,
         ),
         Dot(plan.pole, "p_v"),
-        Arrow(plan.pole, plan.at(v_c), "v_C"),
+        plan.arrow("v_C", 0, v_c),
         Dot(plan.at(v_c), "c"),
     )
-    board.step(
-        message(
-            "The slider moves along its guide: the line of v_B goes through the pole p_v. The block slides along the "
-            "lever: the line of v_rel goes through c."
-        ),
-        DrawnLine(plan.pole, 1 + 0j),
-        DrawnLine(plan.at(v_c), arm),
+    text = message(
+        "The slider moves along its guide: the line of v_B goes through the pole p_v. The block slides along the "
+        "lever: the line of v_rel goes through c."
     )
-    tip = lines_meet(plan.pole, 1 + 0j, plan.at(v_c), arm)
-    v_b = (tip - plan.pole) / plan.scale
+    v_b = plan.meet(text, 0, 1 + 0j, v_c, arm)
     board.step(
         message(
             "The lines meet in b: v_B = {v_b:.4g} from p_v to b, v_rel = {v_rel:.4g} from c to b.",
             v_b=abs(v_b),
             v_rel=abs(v_b - v_c),
         ),
-        Arrow(plan.pole, tip, "v_B"),
-        Arrow(plan.at(v_c), tip, "v_rel"),
-        Dot(tip, "b"),
+        plan.arrow("v_B", 0, v_b),
+        plan.arrow("v_rel", v_c, v_b),
+        Dot(plan.at(v_b), "b"),
     )
-    return v_c, v_b
+    return VelocityPolygon(board, pins, v_c, v_b)
