@@ -3,6 +3,7 @@
 from argparse import Namespace
 
 from gruebler import GrueblerError
+from gruebler.cli import main
 from gruebler.cli.commands import command
 from gruebler.cli.link_names import spell_links_alike
 
@@ -12,6 +13,15 @@ def arguments_of(name, *words, **options):
     given = vars(command(name).parser().parse_args(words))
     assert set(options) <= set(given)
     return Namespace(**(given | options))
+
+
+def run_main(capture, *words):
+    """The exit status of a command line, and what it wrote to both streams; bytes need `capfd`, they go past Python."""
+    try:
+        status = main(words)
+    except SystemExit as stop:
+        status = stop.code
+    return status, *capture.readouterr()
 
 
 def run_command(capsys, name, *arguments):

@@ -15,17 +15,13 @@ from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.teaching.catalog import entries, entry
+from tests.commands import run_main
 
 CRANK_ROCKER = "four-bar:25,70,40,70"
 
 
 def run(capsys, *arguments):
-    try:
-        status = main(("analyse", *arguments))
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
+    return run_main(capsys, "analyse", *arguments)
 
 
 def table(capsys, *arguments):

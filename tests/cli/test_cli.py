@@ -7,10 +7,10 @@ import sys
 
 import pytest
 
-from gruebler.cli import main
 from gruebler.cli.commands import command as command_named
 from gruebler.cli.commands import command_names
 from gruebler.teaching.catalog import entries
+from tests.commands import run_main as run
 
 FOUR_BAR = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
 KEYS = {
@@ -31,15 +31,6 @@ KEYS = {
     "reasons",
     "claims_hold",
 }
-
-
-def run(capsys, *arguments):
-    try:
-        status = main(arguments)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
 
 
 def test_the_whole_catalog(capsys):

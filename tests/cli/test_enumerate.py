@@ -10,16 +10,7 @@ import pytest
 from gruebler import Chain
 from gruebler.cli import main
 from gruebler.structure.enumeration.listing import chains
-
-
-def run(capfd, *arguments):
-    """Bytes go past Python's streams, hence the descriptors."""
-    try:
-        status = main(arguments)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capfd.readouterr()
-    return status, out, err
+from tests.commands import run_main as run
 
 
 def test_a_list_is_taken_back_by_the_parser(capfd):

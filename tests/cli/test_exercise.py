@@ -4,19 +4,10 @@ import json
 
 import pytest
 
-from gruebler.cli import main
 from gruebler.cli.exercise import _KINDS
 from gruebler.cli.table import _TABLES
 from gruebler.teaching.exercises import KINDS, TABLES
-
-
-def run(capsys, *arguments):
-    try:
-        status = main(arguments)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
+from tests.commands import run_main as run
 
 
 def test_the_parser_knows_what_there_is():

@@ -6,19 +6,10 @@ import re
 
 import pytest
 
-from gruebler.cli import main
+from tests.commands import run_main as run
 
 PLANETARY = "sun:24 planet:18 ring:-60 on arm"
 LIFT = "rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell"
-
-
-def run(capsys, *arguments):
-    try:
-        status = main(arguments)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
 
 
 def test_gears_in_words(capsys):

@@ -5,19 +5,10 @@ import json
 
 import pytest
 
-from gruebler.cli import main
 from gruebler.files.linkages import read_linkage
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.inversion import DrivenMechanism
-
-
-def run(capsys, *arguments):
-    try:
-        status = main(arguments)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
+from tests.commands import run_main as run
 
 
 def test_inversions_of_the_slider_crank_chain_by_name(capsys):

@@ -10,15 +10,7 @@ from gruebler.cli import main
 from gruebler.files.screws import screws_to_json, spatial_from_json
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.teaching.catalog import entries, exercises
-
-
-def run(capsys, *arguments):
-    try:
-        status = main(arguments)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
+from tests.commands import run_main as run
 
 
 def no_constant(word):
