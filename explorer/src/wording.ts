@@ -18,7 +18,7 @@ export function placeOf({ cycle, drive }: Linkage, value: number): number {
 
 /** Why the motion ends, or why the linkage cannot be assembled. */
 export function stopText(linkage: Linkage, stop: Stop): string {
-  const drives = `${linkage.drive?.name ?? ""} = ${driveText(linkage, stop.value, 9)}`;
+  const drives = `${linkage.drive?.name ?? ""} = ${driveText(linkage, stop.value, 4)}`;
   const links = linkage.linkList(stop.links);
   const { form } = stop;
   if (stop.status === "open") return t("The motion ends at {drives}: there {form} is open.", { drives, form });

@@ -132,6 +132,8 @@ test("why a motion ends", () => {
   const stop = { value: Math.PI / 2, status: Status.LIMIT, form: "RRR", links: ["coupler", "rocker"] };
   const said = "there RRR {coupler, rocker} can no longer be assembled.";
   assert.equal(stopText(linkage, stop), `The motion ends at R(frame-crank) = 90°: ${said}`);
+  const third = { ...stop, value: Math.PI / 3 + 0.001 }; // 60.0573 degrees, in four digits as the library says it
+  assert.equal(stopText(linkage, third), `The motion ends at R(frame-crank) = 60.06°: ${said}`);
   const open = { ...stop, status: "open" as const, form: "R(a-b)", links: [] };
   assert.equal(stopText(linkage, open), "The motion ends at R(frame-crank) = 90°: there R(a-b) is open.");
 });
