@@ -18,12 +18,16 @@ from babel.messages.catalog import Catalog
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
+from gruebler.cli.arguments import rows_of
+
 SOURCES = Path(__file__).parents[1] / "src" / "gruebler"
 LOCALE = SOURCES / "base" / "locale"
 TEXTS = {"translate": 1, "message": 1, "plural": 2}
 """Functions whose first argument (first two) is a message."""
 HELP = frozenset({"help", "description", "epilog", "title"})
 """Keywords of argparse whose values are messages."""
+TABLES = frozenset({"take", "rows_of"})
+"""Functions that take a table of arguments with their helps."""
 
 
 ARGPARSE = (
@@ -105,13 +109,20 @@ def in_file(path: Path) -> Iterator[Found | Unreadable]:
             elif isinstance(node.args[0], ast.JoinedStr | ast.BinOp):
                 yield Unreadable(file, node.lineno, ast.unparse(node.args[0]))
         if file.startswith("cli/"):
-            for keyword in node.keywords:
-                if keyword.arg in HELP:
-                    strings = _strings(keyword.value)
-                    if strings is not None:
-                        yield from (Found(file, node.lineno, text) for text in strings if _has_words(text))
-                    elif isinstance(keyword.value, ast.JoinedStr | ast.BinOp):
-                        yield Unreadable(file, node.lineno, ast.unparse(keyword.value))
+            yield from _of_arguments(file, node, name)
+
+
+def _of_arguments(file: str, node: ast.Call, name: str) -> Iterator[Found | Unreadable]:
+    """The helps of arguments: in the rows of a table, or among the keywords of argparse."""
+    tables = [text for argument in node.args for text in _strings(argument) or ()] if name in TABLES else []
+    yield from (Found(file, node.lineno, row.help) for table in tables for row in rows_of(table) if row.help)
+    for keyword in node.keywords:
+        if keyword.arg in HELP:
+            strings = _strings(keyword.value)
+            if strings is not None:
+                yield from (Found(file, node.lineno, text) for text in strings if _has_words(text))
+            elif isinstance(keyword.value, ast.JoinedStr | ast.BinOp):
+                yield Unreadable(file, node.lineno, ast.unparse(keyword.value))
 
 
 def messages() -> list[Found | Unreadable]:

@@ -15,9 +15,9 @@ from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
-from gruebler.cli.drive_rows import add_range, given_rows, turning_drives
+from gruebler.cli.drive_rows import given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word, with_points
+from gruebler.cli.linkage_inputs import add_linkage, linkage_of_word, with_points
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
@@ -54,64 +54,22 @@ def add(parser: Parser) -> None:
         "2 wrong usage or unreadable input.",
     )
     add_linkage(parser)
-    add_range(parser)
-    parser.add_argument(
-        "--at",
-        action="append",
-        default=[],
-        metavar="VALUE[,VALUE]",
-        help="a row of the table: the values of all drives (repeatable)",
-    )
-    parser.add_argument(
-        "--speed",
-        action="append",
-        type=float,
-        default=[],
-        metavar="N",
-        help="speed of the drive in rpm, of a slide in lengths per second; repeat it for each drive",
-    )
-    parser.add_argument(
-        "--acceleration",
-        action="append",
-        type=float,
-        default=[],
-        metavar="A",
-        help="with --speed: acceleration in rad/s² or lengths per s²; repeat it for each drive",
-    )
-    parser.add_argument(
-        "--jerk",
-        action="append",
-        type=float,
-        default=[],
-        metavar="J",
-        help="with --speed: jerk in rad/s³ or lengths per s³, repeat it for each drive; adds the third derivatives",
-    )
-    add_branch(parser)
-    parser.add_argument(
-        "--point",
-        action="append",
-        default=[],
-        metavar="POINT",
-        help="a named point, a joint, or LINK:X,Y: its position and derivatives (repeatable)",
-    )
-    parser.add_argument(
-        "--output",
-        action="append",
-        default=[],
-        metavar="LINK",
-        help="the output: a link or a sliding joint (repeatable)",
-    )
-    parser.add_argument(
-        "--poles", action="store_true", help="the instant centres of all pairs of links; with --at as a list"
-    )
-    parser.add_argument(
-        "--curvature", action="store_true", help="radius and centre of curvature of each --point; inflection circles"
-    )
-    parser.add_argument(
-        "--planes",
-        action="store_true",
-        help="the planes in which the links, as plates, do not collide over the whole motion, or over the rows of "
-        "--range",
+    parser.take(
+        """
+        --range
+        --at VALUE[,VALUE] ...  a row of the table: the values of all drives (repeatable)
+        --speed N float ...  speed of the drive in rpm, of a slide in lengths per second; repeat it for each drive
+        --acceleration A float ...  with --speed: acceleration in rad/s² or lengths per s²; repeat it for each drive
+        --jerk J float ...  with --speed: jerk in rad/s³ or lengths per s³, repeat it for each drive; adds the third
+            derivatives
+        --branch
+        --point POINT ...  a named point, a joint, or LINK:X,Y: its position and derivatives (repeatable)
+        --output LINK ...  the output: a link or a sliding joint (repeatable)
+        --poles  the instant centres of all pairs of links; with --at as a list
+        --curvature  radius and centre of curvature of each --point; inflection circles
+        --planes  the planes in which the links, as plates, do not collide over the whole motion, or over the rows of
+            --range
+        """
     )
     parser.add_printed(help="print an object with linkage, measures, columns and rows", table=True)
 

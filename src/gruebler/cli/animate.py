@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from gruebler.cli.draw import entry_of, linkage_and_range, picture_suffix
-from gruebler.cli.drive_rows import add_range, driven_path
-from gruebler.cli.linkage_inputs import add_branch, add_curves, add_linkage, with_points
+from gruebler.cli.drive_rows import driven_path
+from gruebler.cli.linkage_inputs import add_linkage, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.linkages import Linkage
@@ -26,12 +26,12 @@ def add(parser: Parser) -> None:
     )
     add_linkage(parser)
     parser.add_out(help="the file: .svg, .html, .gif, .webp or .png (APNG)")
-    add_curves(parser)
+    parser.take("--curve")
     parser.add_argument(
         "--seconds", type=float, default=4.0, metavar="S", help="duration of a turn, or of back and forth (default: 4)"
     )
-    add_branch(parser)
-    add_range(parser)
+    parser.take("--branch")
+    parser.take("--range")
     parser.add_argument("--dark", action="store_true", help="dark background for GIF, WebP and PNG")
 
 

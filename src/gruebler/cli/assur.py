@@ -31,19 +31,18 @@ def add(parser: Parser) -> None:
         epilog="Examples: gruebler assur loader; gruebler assur --list 4 --count. Exit status: 0 the drives determine "
         "the motion, 1 they do not, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument(
-        "mechanism",
-        nargs="?",
-        metavar="MECHANISM",
-        help="a mechanism such as 'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)', a code, g6:CODE, a catalog "
-        "entry or a linkage file",
+    parser.take(
+        """
+        mechanism MECHANISM ?  a mechanism such as 'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)', a code,
+            g6:CODE, a catalog entry or a linkage file
+        --frame
+        --drive
+        --anywhere  without a drive: also drives between moving links
+        --list N int  list all groups with N links
+        --count
+        --yes
+        """
     )
-    parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
-    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint (repeatable)")
-    parser.add_argument("--anywhere", action="store_true", help="without a drive: also drives between moving links")
-    parser.add_argument("--list", type=int, metavar="N", help="list all groups with N links")
-    parser.add_argument("--count", action="store_true", help="print only the number")
-    parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
     parser.add_printed(help="print an object with count and items")
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gruebler.base.columns import FORMULA, harmless_cell
 from gruebler.base.errors import GrueblerError, visible
 from gruebler.base.text import plural
-from gruebler.cli.executors import add_executor, executor_of
+from gruebler.cli.executors import executor_of
 from gruebler.cli.long_work import ask_before, run_progress
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
@@ -74,17 +74,17 @@ def add(parser: Parser) -> None:
         default="none",
         help="also the driven mechanisms with their Assur groups: drives at the frame, or any drives",
     )
-    add_executor(build)
+    build.take("--jobs\n--scheduler")
     build.add_argument("--yes", action="store_true", help="start even if it takes long")
     query = parser.add_command("query", help="answer a query in SQL")
     query.add_argument(
         "words", nargs="+", metavar="[DIR] SQL", help="the folder of an atlas (default: the small one), and the query"
     )
-    query.add_argument(
-        "--structures",
-        action="store_true",
-        help="print each row as a chain or mechanism that other commands read; the query selects code, or chain and "
-        "frame, perhaps drives",
+    query.take(
+        """
+        --structures  print each row as a chain or mechanism that other commands read; the query selects code, or chain
+            and frame, perhaps drives
+        """
     )
     columns = parser.add_command("columns", help="list the columns of all tables, with their units and definitions")
     for action in (query, columns):

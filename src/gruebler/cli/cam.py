@@ -70,17 +70,13 @@ def add(parser: Parser) -> None:
         metavar="E",
         help="flat-faced follower; E: its distance from the pivot",
     )
-    parser.add_argument(
-        "--offset", type=float, default=0.0, metavar="E", help="distance of the guide to the right of the cam's axis"
+    parser.take(
+        """
+        --offset E float =0  distance of the guide to the right of the cam's axis
+        --swing ARM D float  swinging follower: length of its arm (0 for a flat face) and distance of its pivot
+        --step DEG float  also a table over the turn with this step
+        """
     )
-    parser.add_argument(
-        "--swing",
-        type=float,
-        nargs=2,
-        metavar=("ARM", "D"),
-        help="swinging follower: length of its arm (0 for a flat face) and distance of its pivot",
-    )
-    parser.add_argument("--step", type=float, metavar="DEG", help="also a table over the turn with this step")
     parser.add_printed(help="print an object; with --laws a list", pictures=True)
     parser.add_argument(
         "--at", type=float, metavar="DEG", help="with -o: the cam angle shown (default: greatest pressure angle)"

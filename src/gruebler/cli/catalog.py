@@ -26,11 +26,11 @@ def add(parser: Parser) -> None:
     parser.describe(description="The machines and exercises of the teaching documents.")
     listing = parser.add_command("list", help="list all entries")
     show = parser.add_command("show", help="show entries in full")
-    show.add_argument("ids", nargs="+", metavar="ID", help="a catalog entry or an exercise")
-    show.add_argument(
-        "--full",
-        action="store_true",
-        help="with everything derived: mobility, finite mobility, features, measures, paths",
+    show.take(
+        """
+        ids ID +  a catalog entry or an exercise
+        --full  with everything derived: mobility, finite mobility, features, measures, paths
+        """
     )
     for action in (listing, show):
         action.add_printed(help="print JSON")

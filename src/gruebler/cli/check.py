@@ -51,38 +51,22 @@ def add(parser: Parser) -> None:
         "variants --links 6 --prismatic 1 | gruebler check -. Exit status: 0 success, 1 a claim of a catalog entry is "
         "wrong, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument(
-        "chains",
-        nargs="*",
-        metavar="CHAIN|ID|FILE",
-        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', g6:CODE, a catalog entry, lengths such as "
-        "four-bar:25,70,40,70, a file (.toml: entry or linkage; .json: chains or linkages; .g6; otherwise one "
-        "chain per line), or - for lines or JSON on standard input",
+    parser.take(
+        """
+        chains CHAIN|ID|FILE *  a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', g6:CODE, a catalog entry, lengths such
+            as four-bar:25,70,40,70, a file (.toml: entry or linkage; .json: chains or linkages; .g6; otherwise one
+            chain per line), or - for lines or JSON on standard input
+        --space {planar,spherical,spatial}  space of the chains (default: planar)
+        --b B int  freedoms of a free link in the formula (2 for a screw group)
+        --frame
+        --at VALUE[,VALUE]  with dimensions: the pose, one value per drive in degrees or the unit; joint screws count
+            from their given position (default: the given position, otherwise a regular pose)
+        --branch LABELS  with dimensions: the assembly mode, such as +- (write --branch=-+)
+        --tolerance T float  with dimensions: singular values below T times the largest count as zero (default: 1e-8)
+        --explain  explain the result step by step
+        --yes
+        """
     )
-    parser.add_argument(
-        "--space", choices=("planar", "spherical", "spatial"), help="space of the chains (default: planar)"
-    )
-    parser.add_argument(
-        "--b", type=int, metavar="B", help="freedoms of a free link in the formula (2 for a screw group)"
-    )
-    parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
-    parser.add_argument(
-        "--at",
-        metavar="VALUE[,VALUE]",
-        help="with dimensions: the pose, one value per drive in degrees or the unit; joint screws count from their "
-        "given position (default: the given position, otherwise a regular pose)",
-    )
-    parser.add_argument(
-        "--branch", metavar="LABELS", help="with dimensions: the assembly mode, such as +- (write --branch=-+)"
-    )
-    parser.add_argument(
-        "--tolerance",
-        type=float,
-        metavar="T",
-        help="with dimensions: singular values below T times the largest count as zero (default: 1e-8)",
-    )
-    parser.add_argument("--explain", action="store_true", help="explain the result step by step")
-    parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
     parser.add_printed(help="print a list of objects, one per chain")
 
 

@@ -28,15 +28,14 @@ def add(parser: Parser) -> None:
         "accelerations inverted-slider-crank:30,50 phi=70 omega=10 -o plan.pdf --lang de; gruebler construct cam "
         "'lift=rise 20 90; dwell 90; fall 20 90; dwell' --step 3 -o cam.svg.",
     )
-    parser.add_argument("name", nargs="?", metavar="NAME", help="such as dead-centres, velocities or roberts")
-    parser.add_argument(
-        "values",
-        nargs="*",
-        metavar="KEY=VALUE|LENGTHS|FORM",
-        help="quantities, such as a=25 phi=55, and lengths, such as four-bar:25,70,40,70, or a form, such as "
-        "scotch-yoke (default: an example)",
+    parser.take(
+        """
+        name NAME ?  such as dead-centres, velocities or roberts
+        values KEY=VALUE|LENGTHS|FORM *  quantities, such as a=25 phi=55, and lengths, such as four-bar:25,70,40,70, or
+            a form, such as scotch-yoke (default: an example)
+        --step N int  only this step, in a picture
+        """
     )
-    parser.add_argument("--step", type=int, metavar="N", help="only this step, in a picture")
     parser.add_json(help="print an object with title, steps and values")
     parser.add_out(
         help="write into a file instead: .html with a slider for the steps, .pdf with one step a page, .svg or .png of "

@@ -32,13 +32,12 @@ def add(parser: Parser) -> None:
         "four-bar:25,70,40,70 four-bar.mjcf; gruebler convert chains.g6.gz chains.txt; gruebler convert --formats. "
         "Exit status: 0, 2 wrong usage or a file that cannot be read.",
     )
-    parser.add_argument(
-        "source",
-        nargs="?",
-        metavar="IN",
-        help="the file to read, a catalog entry, lengths such as four-bar:25,70,40,70, or the text of a chain",
+    parser.take(
+        """
+        source IN ?  the file to read, a catalog entry, lengths such as four-bar:25,70,40,70, or the text of a chain
+        target OUT ?  the file to write
+        """
     )
-    parser.add_argument("target", nargs="?", metavar="OUT", help="the file to write")
     parser.add_argument("--from", dest="source_format", metavar="FORMAT", help="the format of IN (default: its ending)")
     parser.add_argument("--to", dest="target_format", metavar="FORMAT", help="the format of OUT (default: its ending)")
     parser.add_argument("--formats", action="store_true", help="list the formats, their endings and what they hold")

@@ -15,9 +15,10 @@ from gruebler.base.columns import Column
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, joined_by_or, message, number, translate
 from gruebler.cli import curve_cognates, curve_guidance, curve_straight
-from gruebler.cli.drive_rows import add_range, driven_path
+from gruebler.cli.arguments import take
+from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_branch, linkage_of_word
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -63,51 +64,34 @@ def add(parser: Parser) -> None:
         "gruebler curve --guidance lambda --length 15cm --band 0.75mm. Exit status: 0 success, 1 no part is straight "
         "enough, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument(
-        "linkage",
-        nargs="?",
-        metavar="LINKAGE",
-        help="a .toml or .json file, a catalog entry with dimensions, or "
-        "lengths: four-bar:A,B,C,D, slider-crank:A,B[,E], inverted-slider-crank:A,D[,E], A,B,C,D",
-    )
-    parser.add_argument(
-        "point",
-        nargs="?",
-        metavar="POINT",
-        help="a named point, a joint, or LINK:X,Y in the coordinates of the link; X,Y alone: on the coupler",
+    parser.take(
+        """
+        linkage LINKAGE ?  a .toml or .json file, a catalog entry with dimensions, or lengths: four-bar:A,B,C,D,
+            slider-crank:A,B[,E], inverted-slider-crank:A,D[,E], A,B,C,D
+        point POINT ?  a named point, a joint, or LINK:X,Y in the coordinates of the link; X,Y alone: on the coupler
+        """
     )
     question = parser.add_mutually_exclusive_group()
-    question.add_argument(
-        "--straight",
-        action="store_true",
-        help="the part of the path with a relative deviation Q_G = deviation/length (--ratio), in a band (--band) or "
-        "between two drive values (--window)",
-    )
-    question.add_argument(
-        "--cognates", action="store_true", help="the cognates of a four-bar or slider-crank (Roberts, Chebyshev)"
+    take(
+        question,
+        """
+        --straight  the part of the path with a relative deviation Q_G = deviation/length (--ratio), in a band (--band)
+            or between two drive values (--window)
+        --cognates  the cognates of a four-bar or slider-crank (Roberts, Chebyshev)
+        """,
     )
     question.add_argument(
         "--guidance", nargs="?", const="", metavar="NAME", help="a straight-line linkage such as watt; alone: all"
     )
-    add_range(parser)
-    add_branch(parser)
-    parser.add_argument(
-        "--direction",
-        type=float,
-        metavar="DEG",
-        help="turning points in this direction (default: x and y); with --straight: the direction of the line "
-        "(default: the tangent, or the best line)",
-    )
-    parser.add_argument(
-        "--contact",
-        type=float,
-        action="append",
-        default=[],
-        metavar="VALUE",
-        help="the order of contact with the tangent at this drive value; repeatable",
-    )
-    parser.add_argument(
-        "--tolerance", type=float, metavar="LENGTH", help="error of the polygon (default: 1e-4 of the size)"
+    parser.take(
+        """
+        --range
+        --branch
+        --direction DEG float  turning points in this direction (default: x and y); with --straight: the direction of
+            the line (default: the tangent, or the best line)
+        --contact VALUE float ...  the order of contact with the tangent at this drive value; repeatable
+        --tolerance LENGTH float  error of the polygon (default: 1e-4 of the size)
+        """
     )
     straight = parser.add_argument_group(title="with --straight")
     straight.add_argument("--ratio", type=float, metavar="Q", help="the window about --centre with this Q_G")
@@ -121,24 +105,16 @@ def add(parser: Parser) -> None:
     cognates = parser.add_argument_group(title="with --cognates")
     cognates.add_argument("--at", type=float, metavar="DEG", help="crank angle of the pose shown")
     guidance = parser.add_argument_group(title="with --guidance")
-    guidance.add_argument(
-        "--length", metavar="L", help="length of the straight line, with or without unit: 15cm; needs --band"
-    )
-    guidance.add_argument(
-        "--lambda",
-        type=float,
-        metavar="X",
-        help="construct Meyer zur Capellen's double rocker: distance of the coupler from the tangent by the diameter, "
-        "0.5 to 1.5",
-    )
-    guidance.add_argument(
-        "--phi0", type=float, metavar="DEG", help="with --lambda: an angle other than that of six-point contact"
-    )
-    guidance.add_argument(
-        "--kappa", type=float, metavar="DEG", help="construct it for this angle between line and frame (two solutions)"
-    )
-    guidance.add_argument(
-        "--diameter", type=float, metavar="D", help="with --lambda or --kappa: of the inflection circle (default: 1)"
+    take(
+        guidance,
+        """
+        --length L  length of the straight line, with or without unit: 15cm; needs --band
+        --lambda X float  construct Meyer zur Capellen's double rocker: distance of the coupler from the tangent by the
+            diameter, 0.5 to 1.5
+        --phi0 DEG float  with --lambda: an angle other than that of six-point contact
+        --kappa DEG float  construct it for this angle between line and frame (two solutions)
+        --diameter D float  with --lambda or --kappa: of the inflection circle (default: 1)
+        """,
     )
     parser.add_printed(help="print an object; with --guidance and no name, a list", table=True)
 

@@ -20,7 +20,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined, translate
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
-from gruebler.cli.linkage_inputs import add_branch, add_curves, linkage_of_word, with_points
+from gruebler.cli.linkage_inputs import linkage_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.files import Entry
@@ -65,11 +65,11 @@ def add(parser: Parser) -> None:
         "poles. Without -o, the SVG goes to standard output, on a "
         "terminal into a new file. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
-    parser.add_argument(
-        "chain",
-        metavar="CHAIN|ID|FILE",
-        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE, a catalog entry, a linkage file, or "
-        "lengths such as four-bar:25,70,40,70",
+    parser.take(
+        """
+        chain CHAIN|ID|FILE  a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE, a catalog entry, a linkage
+            file, or lengths such as four-bar:25,70,40,70
+        """
     )
     parser.add_argument(
         "--at",
@@ -79,7 +79,7 @@ def add(parser: Parser) -> None:
         help="draw to scale, in the pose at these drive values, in degrees or the unit (--at=-30,20 for two drives; "
         "without a value: a typical pose)",
     )
-    add_curves(parser)
+    parser.take("--curve")
     parser.add_argument(
         "--show",
         action="append",
@@ -98,13 +98,13 @@ def add(parser: Parser) -> None:
         ),
         help="also draw this (repeatable)",
     )
-    parser.add_argument("--ghosts", type=int, metavar="N", help="also draw N other positions in thin lines")
-    parser.add_argument(
-        "--output",
-        metavar="LINK",
-        help="the output link: its dead centres, transmission angle, centrodes or inflection circle are drawn",
+    parser.take(
+        """
+        --ghosts N int  also draw N other positions in thin lines
+        --output LINK  the output link: its dead centres, transmission angle, centrodes or inflection circle are drawn
+        --branch
+        """
     )
-    add_branch(parser)
     parser.add_out(help="the picture: .svg, .png or .pdf")
     parser.add_argument(
         "--space", choices=("planar", "spherical", "spatial"), help="space of the chain (default: planar)"

@@ -10,25 +10,12 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
-from gruebler.cli.parser import Parser
 from gruebler.mechanics.kinematics import from_degrees
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
 _MOST_ROWS = 1_000_000
 _LARGEST = 1e9
-
-
-def add_range(command: Parser) -> None:
-    """The option for a path of the drives."""
-    command.add_argument(
-        "--range",
-        action="append",
-        default=[],
-        metavar="FROM:TO:STEP",
-        help="drive values in degrees or the unit; repeat it for each drive, with the same number of steps; a single "
-        "number keeps a drive at rest (default: the whole motion of one drive)",
-    )
 
 
 def turning_drives(linkage: Linkage) -> list[bool]:

@@ -15,7 +15,7 @@ from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError, RunError
 from gruebler.base.text import joined, message, number, plural, translate
 from gruebler.cli.assortments import print_assortments
-from gruebler.cli.executors import add_executor, executor_of
+from gruebler.cli.executors import executor_of
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.long_work import run_progress, time_text
 from gruebler.cli.output import print_json, say_written, write_file
@@ -75,17 +75,17 @@ def add(parser: Parser) -> None:
         metavar="K|any",
         help="number of joints of three or more links: K, K-M or any (default: 0)",
     )
-    parser.add_argument("--count", action="store_true", help="print only the numbers, by assortment")
-    parser.add_argument(
-        "--orbits", action="store_true", help="with --count: also count inversions and driven mechanisms"
+    parser.take(
+        """
+        --count  print only the numbers, by assortment
+        --orbits  with --count: also count inversions and driven mechanisms
+        --assortments  list only the link assortments
+        --trains  epicyclic gear trains: axes as (multiple) joints, and gear pairs
+        --format {text,graph6,json}  format of the list (default: text)
+        """
     )
-    parser.add_argument("--assortments", action="store_true", help="list only the link assortments")
-    parser.add_argument(
-        "--trains", action="store_true", help="epicyclic gear trains: axes as (multiple) joints, and gear pairs"
-    )
-    parser.add_argument("--format", choices=("text", "graph6", "json"), help="format of the list (default: text)")
     parser.add_out(help="write into a file instead: .txt, .g6 or .json")
-    add_executor(parser)
+    parser.take("--jobs\n--scheduler")
     parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="folder for finished parts of the work")
     parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
     parser.add_json(help="print JSON")

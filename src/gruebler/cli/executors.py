@@ -9,15 +9,6 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 
 from gruebler.base.errors import GrueblerError
-from gruebler.cli.parser import Parser
-
-
-def add_executor(parser: Parser) -> None:
-    """Add the options."""
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="number of processes (default: 1)")
-    parser.add_argument(
-        "--scheduler", metavar="ADDRESS", help="send the work to a Dask scheduler, such as tcp://host:8786"
-    )
 
 
 def executor_of(arguments: argparse.Namespace) -> Callable[[], Executor] | None:

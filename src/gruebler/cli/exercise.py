@@ -60,15 +60,11 @@ def add(parser: Parser) -> None:
         help="solve a task step by step, checked by a second method",
     )
     for action in (show, solve):
-        action.add_argument(
-            "ids", nargs="+", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)"
-        )
-        action.add_argument(
-            "--set",
-            action="append",
-            default=[],
-            metavar="KEY=VALUE",
-            help="another value of a given quantity, such as a=40 (repeatable)",
+        action.take(
+            """
+            ids ID +  such as 15, exercise-15 or grashof-1-7 (a generated task)
+            --set KEY=VALUE ...  another value of a given quantity, such as a=40 (repeatable)
+            """
         )
     new = parser.add_command("new", help="generate tasks; the same seed gives the same task")
     new.add_argument("--kind", choices=_KINDS, required=True, help="topic of the task")

@@ -26,23 +26,20 @@ def add(parser: Parser) -> None:
         epilog="Examples: gruebler explore; gruebler explore four-bar:25,70,40,70; gruebler explore lambda -o "
         "lambda.html. The server needs starlette and uvicorn: pip install 'gruebler[web]'.",
     )
-    parser.add_argument(
-        "linkage",
-        nargs="?",
-        default="crankrocker",
-        metavar="FILE|ID|CHAIN|LENGTHS|ADDRESS",
-        help="a file, a catalog entry, a chain or mechanism as text, lengths such as four-bar:25,70,40,70, or an "
-        "address copied from the page (default: crankrocker)",
+    parser.take(
+        """
+        linkage FILE|ID|CHAIN|LENGTHS|ADDRESS ? =crankrocker  a file, a catalog entry, a chain or mechanism as text,
+            lengths such as four-bar:25,70,40,70, or an address copied from the page (default: crankrocker)
+        """
     )
     parser.add_out(help="one file .html instead of a server", endings=("html", "htm"))
-    parser.add_argument("--port", type=int, metavar="N", help="the port (default: 8117, or any free one)")
-    parser.add_argument(
-        "--host",
-        default="127.0.0.1",
-        metavar="ADDRESS",
-        help="the address that the server listens on (default: 127.0.0.1)",
+    parser.take(
+        """
+        --port N int  the port (default: 8117, or any free one)
+        --host ADDRESS =127.0.0.1  the address that the server listens on (default: 127.0.0.1)
+        --no-browser  only print the address
+        """
     )
-    parser.add_argument("--no-browser", action="store_true", help="only print the address")
 
 
 def run(arguments: argparse.Namespace) -> int:

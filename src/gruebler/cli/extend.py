@@ -26,10 +26,10 @@ def add(parser: Parser) -> None:
         "that remains when no dyad can be removed.",
         epilog="Examples: gruebler extend 'R(0-1) R(1-2) R(2-3) R(3-0)' --dyad; gruebler extend wiper --derivation.",
     )
-    parser.add_argument(
-        "chain",
-        metavar="CHAIN",
-        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry",
+    parser.take(
+        """
+        chain
+        """
     )
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--dyad", nargs="?", const="RRR", metavar="FORM", help="RRR (default), RRP, RPR, PRP or RPP")

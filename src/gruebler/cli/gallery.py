@@ -39,29 +39,22 @@ def add(parser: Parser) -> None:
         "gruebler variants --links 6 --prismatic 1 | "
         "gruebler gallery - -o sliders.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
     )
-    parser.add_argument(
-        "ids",
-        nargs="*",
-        metavar="ID|CHAIN|FILE|-",
-        help="instead of --links: catalog entries, texts of chains and mechanisms, files with one per line, or - for "
-        "lines on standard input",
+    parser.take(
+        """
+        ids ID|CHAIN|FILE|- *  instead of --links: catalog entries, texts of chains and mechanisms, files with one per
+            line, or - for lines on standard input
+        --poster {chains,inversions,assur,joints}  a poster instead: all chains by assortment, all inversions or all
+            Assur groups up to --links, or the kinds of joints
+        --links N int  number of links
+        --mobility F int  mobility (default: 1)
+        --fractionated {none,link,joint,all}  as for gruebler enumerate (default: none)
+        --assortment
+        --multiple-joints K|any  as for gruebler enumerate (default: 0)
+        --inversions  each chain with every frame that makes a difference
+        --labels
+        --side  draw gear trains from the side, their axes as lines
+        """
     )
-    parser.add_argument(
-        "--poster",
-        choices=("chains", "inversions", "assur", "joints"),
-        help="a poster instead: all chains by assortment, all inversions or all Assur groups up to --links, or the "
-        "kinds of joints",
-    )
-    parser.add_argument("--links", type=int, metavar="N", help="number of links")
-    parser.add_argument("--mobility", type=int, metavar="F", help="mobility (default: 1)")
-    parser.add_argument(
-        "--fractionated", choices=("none", "link", "joint", "all"), help="as for gruebler enumerate (default: none)"
-    )
-    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
-    parser.add_argument("--multiple-joints", metavar="K|any", help="as for gruebler enumerate (default: 0)")
-    parser.add_argument("--inversions", action="store_true", help="each chain with every frame that makes a difference")
-    parser.add_argument("--labels", action="store_true", help="label the links")
-    parser.add_argument("--side", action="store_true", help="draw gear trains from the side, their axes as lines")
     parser.add_out(help="the page: .html or .pdf", required=True)
 
 

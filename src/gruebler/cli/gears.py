@@ -56,17 +56,15 @@ def add(parser: Parser) -> None:
         "finds tooth numbers. Exit status: 0 determined (or nothing driven), "
         "1 undetermined, contradictory or impossible to assemble, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument(
-        "train",
-        metavar="TRAIN|FILE|search",
-        help="a text, a file of statements (.txt), a table (.toml) or a machine of the catalog, also in place of the "
-        "wheels of a text; search: tooth numbers for --ratio",
+    parser.take(
+        """
+        train TRAIN|FILE|search  a text, a file of statements (.txt), a table (.toml) or a machine of the catalog, also
+            in place of the wheels of a text; search: tooth numbers for --ratio
+        --ratio I  search: speed of the driving shaft divided by that of the driven one
+        --planets N int  search: number of planets (default: 3)
+        --number K int  search: how many trains are listed (default: 10)
+        """
     )
-    parser.add_argument(
-        "--ratio", metavar="I", help="search: speed of the driving shaft divided by that of the driven one"
-    )
-    parser.add_argument("--planets", type=int, metavar="N", help="search: number of planets (default: 3)")
-    parser.add_argument("--number", type=int, metavar="K", help="search: how many trains are listed (default: 10)")
     parser.add_printed(help="print an object; numbers as exact fractions and decimals", pictures=True)
     parser.add_argument(
         "--teeth",

@@ -28,14 +28,13 @@ def add(parser: Parser) -> None:
         epilog="Exit status: 0 yes, 1 cannot be assembled, or the link does not turn fully, 2 wrong usage. "
         "Examples: gruebler grashof 25 40 70 --free d --turns a; gruebler grashof slider-crank:25,70,10",
     )
-    parser.add_argument(
-        "lengths",
-        nargs="+",
-        metavar="LENGTH",
-        help="A B C D; with --free the other three, or all four; or one word: four-bar:A,B,C,D, slider-crank:A,B[,E], "
-        "inverted-slider-crank:A,D[,E]",
+    parser.take(
+        """
+        lengths LENGTH +  A B C D; with --free the other three, or all four; or one word: four-bar:A,B,C,D,
+            slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]
+        --free {a,b,c,d}  vary this length
+        """
     )
-    parser.add_argument("--free", choices=("a", "b", "c", "d"), help="vary this length")
     parser.add_argument(
         "--turns", choices=("a", "b", "c", "guide"), metavar="LINK", help="a, b, c or guide: ask whether it turns fully"
     )

@@ -37,21 +37,19 @@ def add(parser: Parser) -> None:
         "-o inversions.html; gruebler inversions wiper --drives "
         "--with-output --text | gruebler check -.",
     )
-    parser.add_argument(
-        "chain",
-        metavar="CHAIN",
-        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry; or lengths: "
-        "four-bar:2,5,4,5, slider-crank:20,50, double-slide:40",
+    parser.take(
+        """
+        chain CHAIN  a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry; or lengths:
+            four-bar:2,5,4,5, slider-crank:20,50, double-slide:40
+        --space
+        --drives  choose frame and drives
+        --anywhere  also drives between moving links
+        --number D int =1  number of drives (default: 1)
+        --with-output  choose an output link as well
+        --text  one mechanism per line, as other commands read it
+        --count
+        """
     )
-    parser.add_argument(
-        "--space", choices=("planar", "spherical", "spatial"), help="space of the chain (default: planar)"
-    )
-    parser.add_argument("--drives", action="store_true", help="choose frame and drives")
-    parser.add_argument("--anywhere", action="store_true", help="also drives between moving links")
-    parser.add_argument("--number", type=int, default=1, metavar="D", help="number of drives (default: 1)")
-    parser.add_argument("--with-output", action="store_true", help="choose an output link as well")
-    parser.add_argument("--text", action="store_true", help="one mechanism per line, as other commands read it")
-    parser.add_argument("--count", action="store_true", help="print only the number")
     parser.add_json(help="print an object with count and items")
     parser.add_out(
         help="write into a file instead: every inversion drawn to scale, .html or .pdf; or what is printed: .txt, or "

@@ -26,22 +26,6 @@ def add_linkage(command: Parser) -> None:
     )
 
 
-def add_branch(command: Parser) -> None:
-    """The option for an assembly mode."""
-    command.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
-
-
-def add_curves(command: Parser) -> None:
-    """The option for the paths of points in a picture."""
-    command.add_argument(
-        "--curve",
-        action="append",
-        default=[],
-        metavar="POINT",
-        help="the path of a named point, a joint, or LINK:X,Y (repeatable)",
-    )
-
-
 def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
     """The linkage with each LINK:X,Y among the texts as a point of that name; `LinkageError` for an unknown point."""
     added = {text: (point.link, point.x, point.y) for text in texts if isinstance(point := point_of(text), LinkPoint)}

@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 
 from gruebler.base.errors import GrueblerError, nearest, shortened
 from gruebler.base.text import LANGUAGES, LOCALE, joined_by_or, message, translate
+from gruebler.cli.arguments import take
 from gruebler.cli.printed_file import TABLES
 
 _PICTURES = (".svg", ".png", ".pdf", ".html", ".gif", ".webp")
@@ -97,6 +98,10 @@ class Parser(argparse.ArgumentParser):
     def describe(self, *, description: str, epilog: str = "") -> None:
         """The texts before and after the list of options."""
         self.description, self.epilog = description, epilog
+
+    def take(self, table: str) -> None:
+        """The arguments of a table (`arguments.take`)."""
+        take(self, table)
 
     def add_command(self, name: str, *, help: str, description: str | None = None, epilog: str = "") -> Parser:
         """A command below this one; its name is kept as `action`."""

@@ -11,7 +11,7 @@ from typing import Any
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or, translate
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_path, picture_suffix, write_picture
-from gruebler.cli.linkage_inputs import add_branch, add_linkage, with_points
+from gruebler.cli.linkage_inputs import add_linkage, with_points
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas import Figure
@@ -32,25 +32,16 @@ def add(parser: Parser) -> None:
         "output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
     add_linkage(parser)
-    parser.add_argument(
-        "--kind",
-        choices=("transfer", "transmission", "hodograph", "curves", "family", "ratio"),
-        default="transfer",
-        help="the kind of diagram (default: transfer)",
+    parser.take(
+        """
+        --kind {transfer,transmission,hodograph,curves,family,ratio} =transfer  the kind of diagram (default: transfer)
+        --output LINK  transfer, transmission: the link or sliding joint observed
+        --point POINT ...  hodograph, curves, ratio: a named point, a joint, or LINK:X,Y (default: all named points,
+            for ratio the first); repeatable
+        --speed N float  hodograph: drive speed in turns per minute, or in lengths per second
+        --link LINK  family: the link that carries the points (default: a coupler)
+        """
     )
-    parser.add_argument("--output", metavar="LINK", help="transfer, transmission: the link or sliding joint observed")
-    parser.add_argument(
-        "--point",
-        action="append",
-        default=[],
-        metavar="POINT",
-        help="hodograph, curves, ratio: a named point, a joint, or LINK:X,Y (default: all named points, for ratio the "
-        "first); repeatable",
-    )
-    parser.add_argument(
-        "--speed", type=float, metavar="N", help="hodograph: drive speed in turns per minute, or in lengths per second"
-    )
-    parser.add_argument("--link", metavar="LINK", help="family: the link that carries the points (default: a coupler)")
     parser.add_argument("--from", dest="start", metavar="X,Y", help="family: the first point; write --from=-10,5")
     parser.add_argument("--to", dest="end", metavar="X,Y", help="family: the last point (default: through two pins)")
     parser.add_argument("--count", type=int, default=5, metavar="K", help="family: 2 to 8 points (default: 5)")
@@ -58,7 +49,7 @@ def add(parser: Parser) -> None:
         "--centre", type=float, default=180.0, metavar="DEG", help="ratio: the middle of the windows (default: 180)"
     )
     parser.add_argument("--ratio", type=float, metavar="Q", help="ratio: mark the window with this Q_G")
-    add_branch(parser)
+    parser.take("--branch")
     parser.add_argument("--dark", action="store_true", help="dark background for PNG and PDF; SVG follows the viewer")
     parser.add_out(help="a file: .svg, .png or .pdf", endings=("svg", "png", "pdf"))
 

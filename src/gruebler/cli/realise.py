@@ -22,16 +22,14 @@ def add(parser: Parser) -> None:
         "wide range. Without --drive, revolute joints on the frame are driven if possible.",
         epilog="Exit status: 0 found, 1 none found or nothing can move, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument(
-        "chain",
-        metavar="CHAIN",
-        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry",
-    )
-    parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
-    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
-    parser.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the random numbers (default: 0)")
-    parser.add_argument(
-        "--tries", type=int, default=1500, metavar="N", help="number of layouts the search tries (default: 1500)"
+    parser.take(
+        """
+        chain
+        --frame
+        --drive JOINT ...  a driven joint; repeatable
+        --seed S int =0  seed of the random numbers (default: 0)
+        --tries N int =1500  number of layouts the search tries (default: 1500)
+        """
     )
     parser.add_out(help="write the linkage to a file: .toml or .json", endings=("toml", "json"))
     parser.add_json(help="print an object with the linkage, ranges and quality")

@@ -45,15 +45,15 @@ def add(parser: Parser) -> None:
     parser.add_argument("words", nargs="*", metavar="WORD", help="a word in a name, remark, source or link name")
     parser.add_argument("--text", action="append", default=[], metavar="WORD", help="another such word (repeatable)")
     _add_features(parser)
-    parser.add_argument(
-        "--joints", type=int, metavar="G", help="number of joints; a joint of k links counts k - 1 times"
+    parser.take(
+        """
+        --joints G int  number of joints; a joint of k links counts k - 1 times
+        --pair P ...  symbol or name of a joint type (repeatable)
+        --drive-pair P  symbol or name of the type of a driven joint
+        --claims  only machines whose mobility differs from the count
+        --enumerate  list all structures, not only those of the catalog
+        """
     )
-    parser.add_argument(
-        "--pair", action="append", default=[], metavar="P", help="symbol or name of a joint type (repeatable)"
-    )
-    parser.add_argument("--drive-pair", metavar="P", help="symbol or name of the type of a driven joint")
-    parser.add_argument("--claims", action="store_true", help="only machines whose mobility differs from the count")
-    parser.add_argument("--enumerate", action="store_true", help="list all structures, not only those of the catalog")
     parser.add_argument(
         "--atlas",
         nargs="?",
@@ -61,35 +61,35 @@ def add(parser: Parser) -> None:
         metavar="DIR",
         help="with --enumerate: take the chains from an atlas (default: the one that comes with the library)",
     )
-    parser.add_argument(
-        "--where",
-        metavar="SQL",
-        help='with --enumerate: a condition on the columns of the atlas, such as "not planar and dyads_only"; '
-        "gruebler atlas columns lists them",
+    parser.take(
+        """
+        --where SQL  with --enumerate: a condition on the columns of the atlas, such as "not planar and dyads_only";
+            gruebler atlas columns lists them
+        --yes
+        --limit N int  with --enumerate: stop after N structures
+        --count
+        """
     )
-    parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
-    parser.add_argument("--limit", type=int, metavar="N", help="with --enumerate: stop after N structures")
-    parser.add_argument("--count", action="store_true", help="print only the number")
     parser.add_printed(help="print JSON")
 
 
 def _add_features(parser: Parser) -> None:
-    parser.add_argument("--links", type=int, metavar="N", help="number of links")
-    parser.add_argument(
-        "--mobility", "--F", type=int, metavar="F", help="mobility by the count (with --enumerate default: 1)"
+    parser.take(
+        """
+        --links N int  number of links
+        --mobility, --F F int  mobility by the count (with --enumerate default: 1)
+        --drives N int  number of drive joints
+        --drives-at-frame N int  number of drive joints at the frame
+        --outputs N int  number of output links
+        --output-links-at-frame N int  number of output links jointed to the frame
+        --pairs D:4,S:0  numbers of joints by type, in one alphabet
+        --binary N int  number of binary links
+        --ternary N int  number of ternary links
+        --quaternary N int  number of quaternary links
+        --link-kinds N2,N3,...  numbers of all binary, ternary, ... links
+        --multiple-joints K int  number of joints of three or more links
+        """
     )
-    parser.add_argument("--drives", type=int, metavar="N", help="number of drive joints")
-    parser.add_argument("--drives-at-frame", type=int, metavar="N", help="number of drive joints at the frame")
-    parser.add_argument("--outputs", type=int, metavar="N", help="number of output links")
-    parser.add_argument(
-        "--output-links-at-frame", type=int, metavar="N", help="number of output links jointed to the frame"
-    )
-    parser.add_argument("--pairs", metavar="D:4,S:0", help="numbers of joints by type, in one alphabet")
-    parser.add_argument("--binary", type=int, metavar="N", help="number of binary links")
-    parser.add_argument("--ternary", type=int, metavar="N", help="number of ternary links")
-    parser.add_argument("--quaternary", type=int, metavar="N", help="number of quaternary links")
-    parser.add_argument("--link-kinds", metavar="N2,N3,...", help="numbers of all binary, ternary, ... links")
-    parser.add_argument("--multiple-joints", type=int, metavar="K", help="number of joints of three or more links")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -16,7 +16,7 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import given_rows, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of_word
+from gruebler.cli.linkage_inputs import add_linkage, linkage_of_word
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -46,84 +46,27 @@ def add(parser: Parser) -> None:
         "or it is self-locking, 2 wrong usage or unreadable input.",
     )
     add_linkage(parser)
-    parser.add_argument(
-        "--load",
-        action="append",
-        default=[],
-        metavar="POINT=FX,FY",
-        help="a force at a named point, a joint or LINK:X,Y; repeatable",
+    parser.take(
+        """
+        --load POINT=FX,FY ...  a force at a named point, a joint or LINK:X,Y; repeatable
+        --moment LINK=M ...  a moment on a link, counter-clockwise; repeatable
+        --mass POINT=M ...  a mass of M kg with its weight; repeatable
+        --gravity GX,GY  acceleration of gravity (default: 0,-9.80665)
+        --friction [JOINT=]MU ...  coefficient of friction of all joints, or of one; repeatable
+        --pin-radius [JOINT=]R ...  radius of the pins, in the linkage's unit; without it pins do not rub; repeatable
+        --guide-length [JOINT=]L ...  length of the guides, between the edges at which a tilted block bears (default:
+            long, blocks do not tilt); repeatable
+        --guide-height [JOINT=]H ...  distance of the two faces of the guides (default: 0); repeatable
+        --guide-on JOINT=LINK ...  the link with which the guide of a slide moves: the frame for a short bush through
+            which a rod runs (default: the link that moves); repeatable
+        --sleeve JOINT ...  a slide whose moving link surrounds the other one; matters with --guide-height; repeatable
+        --backward  friction while the drive goes backward
+        --range FROM:TO:STEP ...  drive values in degrees or the unit, once per drive (default: a full turn, or the
+            whole range)
+        --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
+        --branch
+        """
     )
-    parser.add_argument(
-        "--moment",
-        action="append",
-        default=[],
-        metavar="LINK=M",
-        help="a moment on a link, counter-clockwise; repeatable",
-    )
-    parser.add_argument(
-        "--mass", action="append", default=[], metavar="POINT=M", help="a mass of M kg with its weight; repeatable"
-    )
-    parser.add_argument("--gravity", metavar="GX,GY", help="acceleration of gravity (default: 0,-9.80665)")
-    parser.add_argument(
-        "--friction",
-        action="append",
-        default=[],
-        metavar="[JOINT=]MU",
-        help="coefficient of friction of all joints, or of one; repeatable",
-    )
-    parser.add_argument(
-        "--pin-radius",
-        action="append",
-        default=[],
-        metavar="[JOINT=]R",
-        help="radius of the pins, in the linkage's unit; without it pins do not rub; repeatable",
-    )
-    parser.add_argument(
-        "--guide-length",
-        action="append",
-        default=[],
-        metavar="[JOINT=]L",
-        help="length of the guides, between the edges at which a tilted block bears (default: long, blocks do not "
-        "tilt); repeatable",
-    )
-    parser.add_argument(
-        "--guide-height",
-        action="append",
-        default=[],
-        metavar="[JOINT=]H",
-        help="distance of the two faces of the guides (default: 0); repeatable",
-    )
-    parser.add_argument(
-        "--guide-on",
-        action="append",
-        default=[],
-        metavar="JOINT=LINK",
-        help="the link with which the guide of a slide moves: the frame for a short bush through which a rod runs "
-        "(default: the link that moves); repeatable",
-    )
-    parser.add_argument(
-        "--sleeve",
-        action="append",
-        default=[],
-        metavar="JOINT",
-        help="a slide whose moving link surrounds the other one; matters with --guide-height; repeatable",
-    )
-    parser.add_argument("--backward", action="store_true", help="friction while the drive goes backward")
-    parser.add_argument(
-        "--range",
-        action="append",
-        default=[],
-        metavar="FROM:TO:STEP",
-        help="drive values in degrees or the unit, once per drive (default: a full turn, or the whole range)",
-    )
-    parser.add_argument(
-        "--at",
-        action="append",
-        default=[],
-        metavar="VALUE[,VALUE]",
-        help="a row at these drive values, one per drive; repeatable",
-    )
-    add_branch(parser)
     parser.add_printed(help="print an object with columns and rows", table=True)
 
 

@@ -91,34 +91,15 @@ def add(parser: Parser) -> None:
         description="Four-bars, slider-cranks and inverted slider-cranks that guide a body through positions x, y, "
         "angle: up to five exactly, more by least squares.",
     )
-    positions.add_argument("task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y,angle")
-    positions.add_argument(
-        "--moving-pivot",
-        type=float,
-        nargs=2,
-        action="append",
-        default=[],
-        metavar=("X", "Y"),
-        help="choose a pivot on the body in its first position, for two to four positions; with four the nearest "
-        "point of Burmester's curve; repeatable",
-    )
-    positions.add_argument(
-        "--fixed-pivot",
-        type=float,
-        nargs=2,
-        action="append",
-        default=[],
-        metavar=("X", "Y"),
-        help="choose a pivot on the frame, likewise; repeatable",
-    )
-    positions.add_argument(
-        "--curve-parameter",
-        type=float,
-        action="append",
-        default=[],
-        metavar="T",
-        help="choose a pivot of four positions by its place along the circle-point curve, 0 to 1 as in the picture; "
-        "repeatable",
+    positions.take(
+        """
+        task TASK  a .toml, .json or .csv file; CSV columns x,y,angle
+        --moving-pivot X Y float ...  choose a pivot on the body in its first position, for two to four positions; with
+            four the nearest point of Burmester's curve; repeatable
+        --fixed-pivot X Y float ...  choose a pivot on the frame, likewise; repeatable
+        --curve-parameter T float ...  choose a pivot of four positions by its place along the circle-point curve, 0 to
+            1 as in the picture; repeatable
+        """
     )
     function = parser.add_command(
         "function",
@@ -126,28 +107,18 @@ def add(parser: Parser) -> None:
         description="Linkages whose output is a function of the crank angle: pairs of a table, or an expression.",
         epilog="Example: gruebler synthesise function 'log10(x)' --interval 1 2 --swings 60 60 --points 5 --minimax",
     )
-    function.add_argument(
-        "task",
-        metavar="TASK|EXPRESSION",
-        help="a .toml, .json or .csv file (CSV columns input,output or input,travel), or an expression such as "
-        "'log10(x)', its angles in radians",
-    )
-    function.add_argument("--interval", type=float, nargs=2, metavar=("FROM", "TO"), help="interval of x")
-    function.add_argument(
-        "--swings", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="ranges in degrees (or the unit of a slider)"
-    )
-    function.add_argument(
-        "--starts", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="fixed start values (default: free)"
-    )
-    function.add_argument(
-        "--points", type=int, metavar="N", help="number of precision points (default: 5, with fixed starts 3)"
-    )
-    function.add_argument(
-        "--free-starts", action="store_true", help="count the pairs of a file from start values that are free"
-    )
-    function.add_argument("--travel", action="store_true", help="the output is a slider")
-    function.add_argument(
-        "--minimax", action="store_true", help="the linkages nearby with the least largest error over the interval"
+    function.take(
+        """
+        task TASK|EXPRESSION  a .toml, .json or .csv file (CSV columns input,output or input,travel), or an expression
+            such as 'log10(x)', its angles in radians
+        --interval FROM TO float  interval of x
+        --swings INPUT OUTPUT float  ranges in degrees (or the unit of a slider)
+        --starts INPUT OUTPUT float  fixed start values (default: free)
+        --points N int  number of precision points (default: 5, with fixed starts 3)
+        --free-starts  count the pairs of a file from start values that are free
+        --travel  the output is a slider
+        --minimax  the linkages nearby with the least largest error over the interval
+        """
     )
     path = parser.add_command(
         "path",
@@ -172,43 +143,25 @@ def add(parser: Parser) -> None:
     dead.add_argument("--crank-angle", type=float, metavar="DEG", help="crank angle between the dead centres")
     dead.add_argument("--time-ratio", type=float, metavar="K", help="time ratio of slow to quick travel")
     for kind in (positions, function, path, dead):
-        kind.add_argument(
-            "--region", type=float, nargs=4, metavar=("X1", "Y1", "X2", "Y2"), help="region for the fixed pivots"
-        )
-        kind.add_argument(
-            "--structure",
-            action="append",
-            default=[],
-            metavar="MECHANISM",
-            help="fit this mechanism instead: a text or a catalog entry; several are compared",
-        )
-        kind.add_argument(
-            "--initial-designs",
-            type=int,
-            metavar="N",
-            help="with --structure: improve N initial designs of each mechanism (default: 24 of an atlas, else 4)",
+        kind.take(
+            """
+            --region X1 Y1 X2 Y2 float  region for the fixed pivots
+            --structure MECHANISM ...  fit this mechanism instead: a text or a catalog entry; several are compared
+            --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
+                atlas, else 4)
+            """
         )
         kind.add_argument(
             "--link", default="", metavar="LINK", help="with --structure: the link that is guided, or the output"
         )
-        kind.add_argument(
-            "--jobs", type=int, default=1, metavar="N", help="with --structure: number of processes (default: 1)"
-        )
-        kind.add_argument(
-            "--scheduler",
-            metavar="ADDRESS",
-            help="with --structure: send the work to a Dask scheduler, such as tcp://host:8786",
-        )
-        kind.add_argument("--crank", action="store_true", help="only designs whose drive turns fully")
-        kind.add_argument(
-            "--transmission",
-            type=float,
-            default=0.0,
-            metavar="DEG",
-            help="minimum transmission angle on the way through the targets",
-        )
-        kind.add_argument(
-            "--size-ratio", type=float, default=1e4, metavar="R", help="limit of longest to shortest length"
+        kind.take(
+            """
+            --jobs N int =1  with --structure: number of processes (default: 1)
+            --scheduler ADDRESS  with --structure: send the work to a Dask scheduler, such as tcp://host:8786
+            --crank  only designs whose drive turns fully
+            --transmission DEG float =0  minimum transmission angle on the way through the targets
+            --size-ratio R float =10000  limit of longest to shortest length
+            """
         )
         kind.add_argument(
             "--sort",
@@ -217,13 +170,12 @@ def add(parser: Parser) -> None:
             help="sort the designs by error, transmission, range-transmission, size, size-ratio, links, full-turn; of "
             "equal ones the second key decides",
         )
-        kind.add_argument(
-            "--number",
-            type=int,
-            metavar="N",
-            help="give the N best designs only, where there are infinitely many or targets are approached",
+        kind.take(
+            """
+            --number N int  give the N best designs only, where there are infinitely many or targets are approached
+            --rejected  also list the rejected designs with their reasons
+            """
         )
-        kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
         kind.add_json(help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
         kind.add_argument("--design", type=int, metavar="K", help="with -o: write design K of the list (default: 1)")

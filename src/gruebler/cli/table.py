@@ -23,11 +23,10 @@ def add(parser: Parser) -> None:
         epilog="Examples: gruebler table grashof --lang de; gruebler table inversions 25,70,40,70",
     )
     parser.add_argument("name", choices=_TABLES, metavar="NAME", help="joints, links, inversions, grashof or transfer")
-    parser.add_argument(
-        "lengths",
-        nargs="?",
-        metavar="LENGTHS",
-        help="of the table inversions: other lengths a,b,c,d, such as 25,70,40,70",
+    parser.take(
+        """
+        lengths LENGTHS ?  of the table inversions: other lengths a,b,c,d, such as 25,70,40,70
+        """
     )
     parser.add_printed(help="print a list of objects with title, headers and rows")
 

@@ -7,7 +7,7 @@ import sys
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, translate
-from gruebler.cli.executors import add_executor, executor_of
+from gruebler.cli.executors import executor_of
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
 from gruebler.cli.long_work import ask_before, progress
@@ -35,38 +35,26 @@ def add(parser: Parser) -> None:
         "frame, drive or output. PAIR@PLACE: the symbol or name of a pair (empty for any), and frame, moving or any.",
         epilog="Example: gruebler variants --links 6 --prismatic 1 --drive-joint R@frame --at-frame P --count",
     )
-    parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
-    parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
-    parser.add_argument(
-        "--prismatic",
-        default="0",
-        metavar="K|any",
-        help="number of sliding joints (default: 0); any, with --count: the numbers for every K",
+    parser.take(
+        """
+        --links N int !  number of links
+        --mobility
+        --prismatic K|any =0  number of sliding joints (default: 0); any, with --count: the numbers for every K
+        --rolling K int =0  number of rolling joints (default: 0)
+        --roll-slide K int =0  number of gear and cam contacts (default: 0)
+        --multiple-joints K int =0  number of multiple joints (default: 0)
+        --assortment
+        --frame-joints K int  number of joints on the frame
+        --at-frame PAIR[:K] ...  at least K such joints (1) on the frame
+        --drive-joint PAIR@PLACE ...  a driven joint; once per drive
+        --output-joint PAIR@PLACE  a joint of the output link; @moving: not on the frame
+        --output-at-drive {yes,no}  whether the output link is next to a driven link
+        --count  only the number
+        --jobs
+        --scheduler
+        --yes  start even if it takes long
+        """
     )
-    parser.add_argument("--rolling", type=int, default=0, metavar="K", help="number of rolling joints (default: 0)")
-    parser.add_argument(
-        "--roll-slide", type=int, default=0, metavar="K", help="number of gear and cam contacts (default: 0)"
-    )
-    parser.add_argument(
-        "--multiple-joints", type=int, default=0, metavar="K", help="number of multiple joints (default: 0)"
-    )
-    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
-    parser.add_argument("--frame-joints", type=int, metavar="K", help="number of joints on the frame")
-    parser.add_argument(
-        "--at-frame", action="append", default=[], metavar="PAIR[:K]", help="at least K such joints (1) on the frame"
-    )
-    parser.add_argument(
-        "--drive-joint", action="append", default=[], metavar="PAIR@PLACE", help="a driven joint; once per drive"
-    )
-    parser.add_argument(
-        "--output-joint", metavar="PAIR@PLACE", help="a joint of the output link; @moving: not on the frame"
-    )
-    parser.add_argument(
-        "--output-at-drive", choices=("yes", "no"), help="whether the output link is next to a driven link"
-    )
-    parser.add_argument("--count", action="store_true", help="only the number")
-    add_executor(parser)
-    parser.add_argument("--yes", action="store_true", help="start even if it takes long")
     parser.add_printed(help="print an object with count and items")
 
 

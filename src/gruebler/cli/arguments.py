@@ -1,0 +1,102 @@
+"""Arguments of commands as rows of a table, and the rows that several commands share."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from dataclasses import dataclass
+from textwrap import dedent
+from typing import Any
+
+_KINDS: dict[str, type] = {"int": int, "float": float}
+_COUNTS = ("?", "*", "+")
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One argument: its names, what argparse is told of it, and its help."""
+
+    names: tuple[str, ...]
+    settings: dict[str, Any]
+    help: str
+
+
+def rows_of(table: str) -> Iterator[Row]:
+    """The rows of a table of arguments.
+
+    A row is NAMES PLACEHOLDERS NOTES and, after two blanks, the help, which goes on in lines that are indented.
+    Without a placeholder an option is a flag. Notes: int or float; {a,b} for a choice; ... for what can be repeated;
+    ?, * or + for how many values there may be; =VALUE for the default; ! for what must be given.
+
+    >>> [(row.names, row.settings, row.help) for row in rows_of("--at DEG float  an angle of the crank")]
+    [(('--at',), {'metavar': 'DEG', 'type': <class 'float'>}, 'an angle of the crank')]
+    """
+    blocks: list[list[str]] = []
+    for line in dedent(table).strip("\n").splitlines():
+        if line[:1].strip():
+            blocks.append([line])
+        elif line.strip():
+            blocks[-1].append(line)
+    for first, *more in blocks:
+        spec, _, begun = first.partition("  ")
+        yield _row(spec.split(), " ".join(" ".join([begun, *more]).split()))
+
+
+def _row(words: list[str], help: str) -> Row:
+    names = [word.rstrip(",") for word in words if word.startswith("-")] or words[:1]
+    placeholders: list[str] = []
+    settings: dict[str, Any] = {}
+    for word in words[len(names) :]:
+        if word in _KINDS:
+            settings["type"] = _KINDS[word]
+        elif word in _COUNTS:
+            settings["nargs"] = word
+        elif word == "...":
+            settings |= {"action": "append", "default": []}
+        elif word.startswith("{"):
+            settings["choices"] = tuple(word.strip("{}").split(","))
+        elif word == "!":
+            settings["required"] = True
+        elif word.startswith("="):
+            settings["default"] = settings.get("type", str)(word[1:])
+        else:
+            placeholders.append(word)
+    if len(placeholders) > 1:
+        settings = {"metavar": tuple(placeholders), "nargs": len(placeholders)} | settings
+    elif placeholders:
+        settings = {"metavar": placeholders[0]} | settings
+    elif names[0].startswith("-") and "choices" not in settings:
+        settings["action"] = "store_true"
+    return Row(tuple(names), settings, help)
+
+
+def take(parser: argparse._ActionsContainer, table: str) -> None:
+    """Give a parser, or a group of one, the arguments of a table; a row without help is the shared one of that name."""
+    for row in rows_of(table):
+        taken = row if row.help else _SHARED[row.names[0]]
+        parser.add_argument(*taken.names, **taken.settings, help=taken.help)
+
+
+_SHARED = {
+    row.names[0]: row
+    for row in rows_of(
+        """
+        --branch LABELS  the assembly mode, such as +- (write --branch=-+)
+        --frame LINK  the fixed link (default: the first)
+        --drive JOINT ...  a driven joint (repeatable)
+        --mobility F int =1  mobility (default: 1)
+        --yes  run even if it takes long or needs much memory
+        --count  print only the number
+        --assortment N2,N3,...  numbers of binary, ternary, ... links
+        --labels  label the links
+        --seed N int =0  seed of the random numbers (default: 0)
+        chain CHAIN  a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry
+        --space {planar,spherical,spatial}  space of the chain (default: planar)
+        --range FROM:TO:STEP ...  drive values in degrees or the unit; repeat it for each drive, with the same number of
+            steps; a single number keeps a drive at rest (default: the whole motion of one drive)
+        --curve POINT ...  the path of a named point, a joint, or LINK:X,Y (repeatable)
+        --jobs N int =1  number of processes (default: 1)
+        --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786
+        """
+    )
+}
