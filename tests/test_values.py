@@ -283,6 +283,48 @@ def test_every_class_of_the_front_door_is_among_them():
     assert classes_there - set(PAIRS) == {"UnitWarning"}  # a warning is a kind, not a value
 
 
+@pytest.mark.parametrize("kind", PAIRS)
+def test_a_value_is_printed_for_readers(kind):
+    """`repr` is one line; `str` is the explanation where there is one, in few and short lines."""
+    value = PAIRS[kind](0)
+    assert "\n" not in repr(value)
+    if kind not in WRITTEN_OUT:
+        assert len(repr(value)) < 1200
+    if hasattr(value, "explain"):
+        assert str(value) == value.explain()
+        assert str(value) == value.explain("en") != value.explain("de")
+        assert 0 < len(str(value)) < 1500
+        assert "array(" not in str(value)
+    assert len(str(value).splitlines()) <= 25
+
+
+WRITTEN_OUT = {"Requirements", "Train"}
+"""What is written out in full, as the caller wrote it."""
+
+
+def test_what_explains_itself():
+    assert {kind for kind in PAIRS if hasattr(PAIRS[kind](0), "explain")} >= {
+        *("Circuit", "Freedoms", "Measures", "MobilityReport", "Motion", "Motion, stopped", "Motions", "Realisation"),
+        *("Statics", "SynthesisResult"),
+    }
+
+
+def test_a_stopped_motion_says_where_and_why():
+    text = str(at_a_limit(0.1))
+    assert "Positions: 1, from R(frame-crank) = 5.7" in text
+    assert "The motion ends at R(frame-crank) = 53.13" in text  # asin(40 / 50)
+    assert "whole path" not in text
+
+
+def test_a_statically_loaded_press_is_printed_with_its_efforts():
+    """Crank 3, rod 5 at 90 degrees: 100 N on the slider need 100 * 3 N mm; the rod carries 100 / cos, cos = 4/5."""
+    press = gr.statics(gr.move(gr.SliderCrank(3, 5), [math.pi / 2]), gr.Loads(forces={"R(coupler-slider)": (-100, 0)}))
+    lines = str(press).splitlines()
+    assert lines[1].startswith("Effort of the drive R(frame-crank): ")
+    assert "300" in lines[1]
+    assert lines[2] == "Largest force in a joint: 125 N."
+
+
 LIKE_CHAINS = [
     (gr.Chain.parse("R(0-1) R(1-2) R(2-0)"), "links"),
     (FOUR_BAR.linkage().mechanism, "frame"),

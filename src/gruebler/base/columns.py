@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import GrueblerError, nearest
-from gruebler.base.notebook import ROWS_SHOWN, html_table
+from gruebler.base.notebook import ROWS_SHOWN, brief, html_table, text_table
 from gruebler.base.text import number
 
 FORMULA = r"^([=+\-@\t\r\n])"
@@ -23,7 +23,8 @@ FORMULA = r"^([=+\-@\t\r\n])"
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False, slots=True)
+@brief
+@dataclass(frozen=True, eq=False, slots=True, repr=False)
 class Column:
     """A quantity over the rows of a table."""
 
@@ -50,7 +51,8 @@ class Column:
         return replace(self, values=self.values[rows:])
 
 
-@dataclass(frozen=True)
+@brief
+@dataclass(frozen=True, repr=False)
 class Table:
     """Columns over the same rows."""
 
@@ -146,10 +148,24 @@ class Table:
             headers.append(header)
         return headers
 
+    def __str__(self) -> str:
+        """The first rows, for readers.
+
+        >>> print(Table((Column("s", "mm", np.array([1.0, 2.5])), Column("F", "N", np.array([np.nan, 7.0])))))
+        s [mm]  F [N]
+        1       –
+        2.5     7
+        """
+        return text_table(*self._shown(), len(self))
+
     def _repr_html_(self) -> str:
         """The first rows, for notebooks."""
+        return html_table(*self._shown(), len(self))
+
+    def _shown(self) -> tuple[list[str], list[list[str]]]:
+        """Headers and the first rows."""
         rows = shown(Column(c.name, c.unit, c.values[:ROWS_SHOWN], c.natural, c.noise) for c in self.columns)
-        return html_table([column.header for column in self.columns], rows, len(self))
+        return [column.header for column in self.columns], rows
 
 
 def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:

@@ -23,6 +23,8 @@ table_of: Callable[..., Any] | None = None
 def brief(cls: _Class) -> _Class:
     """A dataclass (with ``repr=False``) of many values, whose `repr` is one line: arrays as their shapes.
 
+    If it has a method ``explain``, what that says in English is its text for readers, `str`.
+
     >>> from dataclasses import dataclass
     >>> @brief
     ... @dataclass(repr=False)
@@ -37,7 +39,12 @@ def brief(cls: _Class) -> _Class:
         values = ((field.name, getattr(self, field.name)) for field in fields(self) if field.repr)
         return f"<{type(self).__name__} {', '.join(f'{name}={_in_brief(value)}' for name, value in values)}>"
 
+    def told(self: Any) -> str:
+        return str(self.explain())
+
     cls.__repr__ = shown  # type: ignore[assignment,method-assign]
+    if hasattr(cls, "explain"):
+        cls.__str__ = told  # type: ignore[assignment,method-assign]
     return cls
 
 
@@ -54,7 +61,7 @@ def _in_brief(value: object) -> str:
 
 
 ROWS_SHOWN = 20
-"""So many rows of a table are shown in a notebook."""
+"""So many rows of a table are shown in a notebook or printed."""
 
 
 def html_table(headers: Sequence[str], rows: Iterable[Sequence[str]], size: int) -> str:
@@ -67,3 +74,17 @@ def html_table(headers: Sequence[str], rows: Iterable[Sequence[str]], size: int)
     lines += ["".join(f"<td>{escape(each)}</td>" for each in row) for row in islice(rows, ROWS_SHOWN)]
     more = f"<p>{ROWS_SHOWN} of {size} rows</p>" if size > ROWS_SHOWN else ""
     return f"<table>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>{more}"
+
+
+def text_table(headers: Sequence[str], rows: Iterable[Sequence[str]], size: int) -> str:
+    """A table as aligned lines: its first rows, and how many there are.
+
+    >>> print(text_table(["x", "name"], [["1", "crank"], ["22", "rocker"]], 2))
+    x   name
+    1   crank
+    22  rocker
+    """
+    columns = list(zip(headers, *islice(rows, ROWS_SHOWN), strict=True))
+    widths = [max(map(len, column)) for column in columns]
+    lines = ["  ".join(map(str.ljust, line, widths)).rstrip() for line in zip(*columns, strict=True)]
+    return "\n".join([*lines, f"({ROWS_SHOWN} of {size} rows)"] if size > ROWS_SHOWN else lines)

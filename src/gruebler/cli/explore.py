@@ -69,7 +69,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
 
         realisation = realise(mechanism_of_text(word))
         if realisation.linkage is None:
-            raise GrueblerError("{message}", message=realisation.message(lang))
+            raise GrueblerError("{message}", message=realisation.explain(lang))
         return model_of(realisation.linkage)
     linkage, between = linkage_and_range(word)
     record = entry_of(word)

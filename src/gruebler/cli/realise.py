@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(_document(realisation, arguments.lang))
         return 0 if realisation.found else 1
-    print(realisation.message(arguments.lang))
+    print(realisation.explain(arguments.lang))
     if realisation.linkage is not None and arguments.out is None:
         print("\n" + linkage_to_toml(realisation.linkage).rstrip())
     return 0 if realisation.found else 1
@@ -59,7 +59,7 @@ def _document(realisation: Realisation, lang: str) -> dict[str, object]:
     document: dict[str, object] = {
         "found": realisation.found,
         "mechanism": realisation.mechanism.text(),
-        "message": realisation.message(lang),
+        "message": realisation.explain(lang),
         "seed": realisation.seed,
         "tries": realisation.tries,
     }

@@ -281,9 +281,9 @@ def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     progress(translate("Looking for dimensions with which it moves", lang))
     realisation = realise(mechanism_of_text(asked.text), seed=asked.seed)
     if realisation.linkage is None:
-        raise GrueblerError("{message}", message=realisation.message(lang))
+        raise GrueblerError("{message}", message=realisation.explain(lang))
     linkage = realisation.linkage
-    return {"model": model_of(linkage, name=""), "message": realisation.message(lang)}
+    return {"model": model_of(linkage, name=""), "message": realisation.explain(lang)}
 
 
 def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[str, Any]:

@@ -40,7 +40,7 @@ SEVERAL = ("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0); drive=R(0-1); drive=R(4-0)",)
 
 def check(found):
     """What a result claims is true of its linkage."""
-    assert found.found, found.message()
+    assert found.found, found.explain()
     motion = move(found.linkage, found.path(721), order=1)
     assert motion.complete, motion.message()
     assert motion.closure_error < 1e-12
@@ -56,7 +56,7 @@ def check(found):
 @pytest.mark.parametrize("text", TURNING)
 def test_turning_drives_turn_fully(text):
     found = realise(Mechanism.parse(text), budget=600)
-    assert found.full, found.message()
+    assert found.full, found.explain()
     check(found)
 
 
@@ -127,9 +127,9 @@ def test_what_cannot_move_is_said(text):
     found = realise(Mechanism.parse(text))
     assert not found.found
     assert found.tries == 0
-    assert found.message("en")
-    assert found.message("de")
-    assert found.message("en") != found.message("de")
+    assert found.explain("en")
+    assert found.explain("de")
+    assert found.explain("en") != found.explain("de")
     with pytest.raises(LinkageError, match="no motion"):
         found.path()
 
@@ -140,8 +140,8 @@ def test_a_spent_budget_is_said():
     found = realise(mechanism, budget=1, seed=15)
     assert not found.found
     assert found.linkage is None
-    assert re.search(r"3 layouts tried \(seed 15\)", found.message())
-    assert "3 Entwürfe" in found.message("de")
+    assert re.search(r"3 layouts tried \(seed 15\)", found.explain())
+    assert "3 Entwürfe" in found.explain("de")
     check(realise(mechanism, budget=600, seed=15))
 
 
@@ -188,9 +188,9 @@ def test_the_range_is_that_of_the_measures(text):
     assert (found.span.low, found.span.high) == (span.low, span.high)
     (low, high), *_ = found.ranges
     assert span.low <= low < high <= span.high
-    assert f"moves from {span.low:.7g} to {span.high:.7g} mm. It is well conditioned" in found.message()
+    assert f"moves from {span.low:.7g} to {span.high:.7g} mm. It is well conditioned" in found.explain()
     ends = [number(end, "de", ".7g") for end in (span.low, span.high)]
-    assert f"von {ends[0]} bis {ends[1]} mm. Gut konditioniert" in found.message("de")
+    assert f"von {ends[0]} bis {ends[1]} mm. Gut konditioniert" in found.explain("de")
 
 
 def test_processes_realise_the_same():
@@ -199,4 +199,4 @@ def test_processes_realise_the_same():
     assert [each.found for each in here] == [True, True, False]
     there = list(realise_all(mechanisms, executor=ProcessPools(2), seed=3, budget=40))
     assert [each.linkage for each in there] == [each.linkage for each in here]
-    assert [each.message("de") for each in there] == [each.message("de") for each in here]
+    assert [each.explain("de") for each in there] == [each.explain("de") for each in here]

@@ -68,7 +68,7 @@ class Realisation:
             raise LinkageError("there is no motion: no dimensions were found")
         return range_path(self.ranges, full=self.full, rows=rows)
 
-    def message(self, lang: str = "en") -> str:
+    def explain(self, lang: str = "en") -> str:
         """The result as text, in English (``en``) or German (``de``)."""
         if self.reason is not None:
             return self.reason.in_language(lang)

@@ -242,6 +242,17 @@ def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Des
     centres = member.linkage.dead_centres
     assert centres is not None
     error = abs(centres.travel - (task.swing if task.swing is not None else 1.0))
-    verdict = DesignVerdict(True, True, True, True, True, member.transmission, ratio, inside, error, tuple(reasons))
+    verdict = DesignVerdict(
+        assembles=True,
+        one_circuit=True,
+        one_branch=True,
+        in_order=True,
+        turns_fully=True,
+        transmission=member.transmission,
+        size_ratio=ratio,
+        inside=inside,
+        error=error,
+        reasons=tuple(reasons),
+    )
     kind = "four-bar" if task.swing is not None else "slider-crank"
     return Design(linkage, verdict, kind, (centres.outer.drive, centres.inner.drive))

@@ -146,7 +146,9 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         met = (places_met if demands.tolerance <= EXACT_AT_MOST else places_approached)(course, targets, limit)
         if met.places.empty:
             reasons.append(_missed([k + 1 for k in met.places.empty], met.error))
-            verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
+            verdict = DesignVerdict(
+                assembles=True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons)
+            )
             return Design(linkage, verdict, form)
         path, full = path_through(course, met, limit), _turns_fully(course)
         drives: tuple[float, ...] = ()
@@ -172,16 +174,16 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     if demands.transmission > 0 and not transmission >= demands.transmission:
         reasons.append(transmission_fault(float(transmission)))
     verdict = DesignVerdict(
-        True,
-        True,
-        path.one_branch,
-        path.in_order,
-        full,
-        float(transmission),
-        ratio,
-        inside,
-        float(missed_by),
-        tuple(reasons),
+        assembles=True,
+        one_circuit=True,
+        one_branch=path.one_branch,
+        in_order=path.in_order,
+        turns_fully=full,
+        transmission=float(transmission),
+        size_ratio=ratio,
+        inside=inside,
+        error=float(missed_by),
+        reasons=tuple(reasons),
     )
     return Design(linkage, verdict, form, drives)
 
@@ -218,7 +220,16 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
         reasons.append(message("with several drives there is no transmission angle"))
     moved = bool(np.isfinite(error))
     verdict = DesignVerdict(
-        moved, moved, moved, moved, False, np.nan, ratio, inside, error if moved else np.nan, tuple(reasons)
+        assembles=moved,
+        one_circuit=moved,
+        one_branch=moved,
+        in_order=moved,
+        turns_fully=False,
+        transmission=np.nan,
+        size_ratio=ratio,
+        inside=inside,
+        error=error if moved else np.nan,
+        reasons=tuple(reasons),
     )
     return Design(linkage, verdict, form, drive_rows=tuple(tuple(map(float, row)) for row in drives))
 

@@ -9,8 +9,8 @@ from math import degrees, isnan
 
 from gruebler.base.arrays import compared_by_value
 from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.notebook import html_table
-from gruebler.base.text import Message, message, plural
+from gruebler.base.notebook import brief, html_table, text_table
+from gruebler.base.text import Message, joined, message, number, plural, translate
 from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.tasks import Task
 from gruebler.mechanics.analysis.drive_cycle import drive_cycle
@@ -21,7 +21,8 @@ from gruebler.structure.chain.pairs import PAIRS, Alphabet, in_alphabets
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False)
+@brief
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DesignVerdict:
     """What a design does when it moves. ``reasons`` is empty for an accepted design."""
 
@@ -55,7 +56,28 @@ class DesignVerdict:
         """Whether its circuit was followed and misses a target."""
         return self.assembles and not self.one_circuit
 
+    def explain(self, lang: str = "en") -> str:
+        """What it comes to, in English or German (``de``).
 
+        >>> print(DesignVerdict(turns_fully=True, transmission=0.75, error=1e-12, size_ratio=2.5))
+        Accepted. The drive turns fully. Smallest transmission angle on the way: 42.97°. Longest length by the shortest:
+        2.5. Largest deviation: 1e-12 of the size of the task.
+        """
+        parts = [
+            message("Accepted.") if self.accepted else message("Rejected: {reasons}", reasons=joined(self.reasons))
+        ]
+        if self.turns_fully:
+            parts.append(message("The drive turns fully."))
+        if not isnan(self.transmission):
+            parts.append(_TRANSMISSION.filled(angle=degrees(self.transmission)))
+        if not isnan(self.size_ratio):
+            parts.append(message("Longest length by the shortest: {ratio:.4g}.", ratio=self.size_ratio))
+        if not isnan(self.error):
+            parts.append(message("Largest deviation: {error:.2g} of the size of the task.", error=self.error))
+        return joined(parts, " ").in_language(lang)
+
+
+_TRANSMISSION = message("Smallest transmission angle on the way: {angle:.4g}°.")
 Progress = Callable[[int, int], None]
 """Called with how much is done, and of how much."""
 FITTED = "fitted structure"
@@ -75,7 +97,8 @@ def _symbol(letter: str, alphabet: Alphabet) -> str:
     return _PAIRS[letter].symbol(alphabet) if letter in _PAIRS else letter
 
 
-@dataclass(frozen=True)
+@brief
+@dataclass(frozen=True, repr=False)
 class Design:
     """A linkage made for a task, with what it really does."""
 
@@ -109,6 +132,11 @@ class Design:
             return float(measure_transmission(drive_cycle(self.linkage), find_output(self.linkage, None)).smallest.mu)
         except LinkageError:
             return float("nan")
+
+    def explain(self, lang: str = "en") -> str:
+        """Its form, its mechanism and the verdict, a line each, in English or German (``de``)."""
+        text = self.linkage.mechanism.text(Alphabet.of_language(lang))
+        return "\n".join([self.form_in_language(lang), text, self.verdict.explain(lang)])
 
     def form_in_language(self, lang: str = "en") -> str:
         """The form in words, that of a fitted structure by its number of links."""
@@ -189,7 +217,8 @@ class SolutionCount:
         return self.theorem is not None and self.found >= self.theorem
 
 
-@dataclass(frozen=True)
+@brief
+@dataclass(frozen=True, repr=False)
 class SynthesisResult:
     """All designs for a task: accepted ones, best first, and rejected ones with their reasons."""
 
@@ -216,20 +245,39 @@ class SynthesisResult:
         """
         return replace(self, designs=in_order_of(self.designs, orders), rejected=in_order_of(self.rejected, orders))
 
+    def explain(self, lang: str = "en") -> str:
+        """How many designs there are and what has to be known, then the first ones, in English or German (``de``).
+
+        >>> from gruebler.design.synthesis import DeadCentreTask, synthesise
+        >>> synthesise(DeadCentreTask(stroke=50, time_ratio=1.2), number=2).explain().splitlines()[0]
+        'Designs: 2 accepted, 0 rejected.'
+        """
+        totals = {"accepted": len(self.designs), "rejected": len(self.rejected)}
+        lines = [message("Designs: {accepted} accepted, {rejected} rejected.", **totals), *self.notes]
+        lines += [each.verdict.reasons[0] for each in self.rejected[:1] if not self.designs]
+        table = [text_table(*self._rows(lang), len(self))] if self.designs else []
+        return "\n".join([*(line.in_language(lang) for line in lines), *table])
+
     def _repr_html_(self) -> str:
         """The accepted designs, for notebooks."""
-        rows = (
+        return html_table(*self._rows(), len(self)) + f"<p>{len(self)} accepted, {len(self.rejected)} rejected</p>"
+
+    def _rows(self, lang: str = "en") -> tuple[list[str], list[list[str]]]:
+        """Headers and a row for each accepted design, the angle that on the way through the targets."""
+        headers = (message("design"), message("full turn"), message("transmission angle"), message("error"))
+        rows = [
             [
-                str(number),
-                each.form_in_language(),
-                "yes" if each.verdict.turns_fully else "no",
-                "–" if isnan(each.verdict.transmission) else f"{degrees(each.verdict.transmission):.1f}°",
-                f"{each.verdict.error:.2g}",
+                str(k),
+                each.form_in_language(lang),
+                translate("yes" if each.verdict.turns_fully else "no", lang),
+                "–"
+                if isnan(each.verdict.transmission)
+                else f"{number(degrees(each.verdict.transmission), lang, '.1f')}°",
+                number(each.verdict.error, lang, ".2g"),
             ]
-            for number, each in enumerate(self.designs)
-        )
-        headers = ["", "design", "full turn", "transmission angle through the targets", "error"]
-        return html_table(headers, rows, len(self)) + f"<p>{len(self)} accepted, {len(self.rejected)} rejected</p>"
+            for k, each in enumerate(self.designs)
+        ]
+        return ["", *(header.in_language(lang) for header in headers)], rows
 
 
 @dataclass(frozen=True)

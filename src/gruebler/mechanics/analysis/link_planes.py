@@ -99,6 +99,9 @@ class LinkPlanes:
         """The planes from below, or why there are none."""
         return self.message.in_language(lang)
 
+    def __str__(self) -> str:
+        return self.explain()
+
     @property
     def message(self) -> Message:
         """What `explain` says, in any language."""

@@ -6,12 +6,13 @@ import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import pi
+from math import degrees, pi
 
 import numpy as np
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
+from gruebler.base.text import message
 from gruebler.mechanics.kinematics.circuits import Circuit, Quantity, circuit
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
@@ -23,6 +24,9 @@ from gruebler.structure.mechanism.roles import Role
 _FREEDOMS = {Freedom.TURN_Z: "turn", Freedom.TRAVEL_X: "slide", Freedom.TRAVEL_Y: "across"}
 """What two links can do against each other in a joint."""
 
+_FULL = message("{joint}: {second} turns fully against {first}.")
+_TURNS = message("{joint}: {second} turns against {first} from {low:.4g}° to {high:.4g}°.")
+_SLIDES = message("{joint}: {second} slides along {first} from {low:.4g} to {high:.4g}.")
 _ROUND = 1e-9  # a relative angle whose range is 2 pi but for this turns fully
 _STEADY = 1e-6  # radians: rounding turns a slide by some 1e-14, a motion by far more
 
@@ -47,6 +51,17 @@ class Rotatability:
     def range(self) -> float:
         """How far they turn or slide against each other."""
         return self.highest - self.lowest
+
+    def explain(self, lang: str = "en") -> str:
+        """One sentence in English or German (``de``)."""
+        turning = self.freedom == "turn"
+        low, high = (degrees(value) if turning else value for value in (self.lowest, self.highest))
+        text = _FULL if self.full else _TURNS if turning else _SLIDES
+        first, second = self.links
+        return text.filled(joint=self.joint, first=first, second=second, low=low, high=high).in_language(lang)
+
+    def __str__(self) -> str:
+        return self.explain()
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,6 +49,7 @@ _APART = message(
 _RESTS = message(
     "At the drive values {values} {joint} is at rest and turns back: no friction there, but just before and behind it."
 )
+_EFFORT = message("Effort of the drive {drive}: {low:.4g} to {high:.4g} {unit}.")
 _RUBS_NOT = message("Nothing rubs: there are no slides with a coefficient of friction, and no pins with a radius.")
 _MOST_VALUES = 6
 _NONE = 1e-13  # of the loads: a smaller effort is none
@@ -163,6 +164,31 @@ class Statics:
         for k, sign in self._signs(number, link):
             total = total + sign * self.reactions.couples[:, k]
         return total
+
+    def explain(self, lang: str = "en") -> str:
+        """The range of each drive's effort and the largest joint force, then `message`; in English or German.
+
+        >>> from gruebler.mechanics.fourbar import SliderCrank
+        >>> from gruebler.mechanics.kinematics import move
+        >>> press = move(SliderCrank(3, 5).linkage(), np.radians([90.0]))
+        >>> print(statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)})))  # 125 N along the coupler
+        Positions: 1.
+        Effort of the drive R(frame-crank): -300 to -300 N·mm.
+        Largest force in a joint: 125 N.
+        """
+        mechanism = self.motion.linkage.mechanism
+        lines = [message("Positions: {count}.", count=len(self.motion))]
+        for k, drive in enumerate(mechanism.drives):
+            known = self.work[:, k][np.isfinite(self.work[:, k])]
+            if len(known):
+                name = mechanism.chain.joint_title(drive.joint)
+                unit = f"N·{self.motion.linkage.unit}" if drive.turning else "N"
+                ends = {"low": float(known.min()), "high": float(known.max())}
+                lines.append(_EFFORT.filled(drive=name, unit=unit, **ends))
+        forces = np.abs(self.reactions.forces)
+        if np.isfinite(forces).any():
+            lines.append(message("Largest force in a joint: {force:.4g} N.", force=float(np.nanmax(forces))))
+        return "\n".join([*(line.in_language(lang) for line in lines), self.message(lang)]).rstrip()
 
     def message(self, lang: str = "en") -> str:
         """Where forces are not determined, where friction locks, where there are several equilibria; else empty."""

@@ -116,6 +116,9 @@ class Grashof:
         links = ", ".join(f"{link} ({_LINKS[link].in_language(lang)})" for link in self.turning)
         return f"{line} {translate('Turns fully against the frame: {links}.', lang, links=links)}"
 
+    def __str__(self) -> str:
+        return self.explain()
+
 
 def grashof(a: float, b: float, c: float, d: float) -> Grashof:
     """The type of the four-bar with crank a, coupler b, rocker c and frame d.

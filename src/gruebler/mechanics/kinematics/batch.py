@@ -18,6 +18,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.jets import turn_derivative
 from gruebler.base.notebook import brief
+from gruebler.base.text import translate
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.branches import Unassembled, read_branch, starting_state
 from gruebler.mechanics.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
@@ -81,6 +82,16 @@ class Motions:
         """(designs,): which followed the whole path."""
         complete: NDArray[np.bool_] = self.reached == len(self.drives)
         return complete
+
+    def explain(self, lang: str = "en") -> str:
+        """How many designs at how many positions, and how many of them came to the end."""
+        return translate(
+            "Motions of {designs} designs at {rows} positions; followed to the end: {whole}.",
+            lang,
+            designs=len(self.reached),
+            rows=len(self.drives),
+            whole=int(self.complete.sum()),
+        )
 
     def angle(self, link: str) -> Reals:
         """Angles of a link's x axis against the frame's, in radians; (designs, rows).

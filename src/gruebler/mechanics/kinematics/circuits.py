@@ -21,7 +21,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import ChangePoint, Extremum
 from gruebler.base.notebook import brief
-from gruebler.base.text import message
+from gruebler.base.text import joined_by_and, message
 from gruebler.mechanics.kinematics.configuration_curve import (
     ClosureSystem,
     TracedCurve,
@@ -29,6 +29,7 @@ from gruebler.mechanics.kinematics.configuration_curve import (
     nearest_on_curve,
     trace_circuit,
 )
+from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.kinematics.poses import Poses
 from gruebler.mechanics.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.mechanics.kinematics.solve import move_in_radians
@@ -269,11 +270,30 @@ class Circuit:
             slopes[:, : 3 * len(bodies)] = self.at(arcs).tangents(bodies)
         return self._poses(arcs, exact, slopes)
 
+    def explain(self, lang: str = "en") -> str:
+        """Whether it is closed, its length and what is on it: a few lines in English or German (``de``).
+
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> circuit(FourBar(30, 30, 50, 60).linkage()).explain().splitlines()[1]
+        'The drive turns back at R(frame-crank) = 121.9° and R(frame-crank) = -121.9°.'
+        """
+        form = _CLOSED if self.closed else _OPENED
+        lines = [form.filled(length=self.length, count=len(self))]
+        if len(self.linkage.mechanism.drives) == 1:
+            limits = [drive_values(self.linkage, (limit.value,)) for limit in self.drive_limits]
+            back = message("The drive turns back at {values}.", values=joined_by_and(limits))
+            lines.append(back if limits else message("The drive never turns back."))
+        if self.change_points:
+            lines.append(message("Change points: {count}.", count=len(self.change_points)))
+        return "\n".join([*(line.in_language(lang) for line in lines), self.message(lang)]).rstrip()
+
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
         return _OPEN[self.traced.ended].in_language(lang) if self.traced.ended else ""
 
 
+_CLOSED = message("A closed circuit {length:.4g} sizes of the linkage long, {count} samples.")
+_OPENED = message("An open circuit {length:.4g} sizes of the linkage long, {count} samples.")
 _OPEN = {
     "long": message("The circuit was not followed to its end: it is longer than what was asked for."),
     "singular": message("The circuit ends in a singular position from which it cannot be followed."),

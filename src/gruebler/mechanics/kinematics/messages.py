@@ -32,24 +32,24 @@ _STOPS = {
 
 def unbounded_message(linkage: Linkage, drives: tuple[float, ...]) -> Message:
     """That there are no finite rates at these drive values."""
-    return _UNBOUNDED.filled(drives=_drive_values(linkage, drives))
+    return _UNBOUNDED.filled(drives=drive_values(linkage, drives))
 
 
 def taken_for_exact_message(linkage: Linkage, first: tuple[float, ...], last: tuple[float, ...]) -> Message:
     """That a linkage was taken to meet a change point which it misses, in the rows between these drive values."""
     text = _EXACT_THERE if first == last else _EXACT
-    return text.filled(first=_drive_values(linkage, first), last=_drive_values(linkage, last))
+    return text.filled(first=drive_values(linkage, first), last=drive_values(linkage, last))
 
 
 def stop_message(
     linkage: Linkage, reason: str, drives: tuple[float, ...], links: tuple[str, ...], form: str
 ) -> Message:
     """Where and why a motion ends; the arguments are those of `Stop`."""
-    at = _drive_values(linkage, drives)
+    at = drive_values(linkage, drives)
     return _STOPS[reason].filled(drives=at, form=form_message(form), links=", ".join(links))
 
 
-def _drive_values(linkage: Linkage, values: tuple[float, ...]) -> Message:
+def drive_values(linkage: Linkage, values: tuple[float, ...]) -> Message:
     """Drive values with the names of their joints, turning ones in degrees."""
     mechanism = linkage.mechanism
     parts = []

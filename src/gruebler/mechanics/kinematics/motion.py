@@ -15,9 +15,14 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.columns import Table
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
-from gruebler.base.text import Message, joined
+from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics.link_poses import LinkPoses
-from gruebler.mechanics.kinematics.messages import stop_message, taken_for_exact_message, unbounded_message
+from gruebler.mechanics.kinematics.messages import (
+    drive_values,
+    stop_message,
+    taken_for_exact_message,
+    unbounded_message,
+)
 from gruebler.mechanics.kinematics.openings import closure_error
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.linkages import Linkage
@@ -39,6 +44,9 @@ class Stop:
     reason: str
     """``limit`` (it can no longer be assembled), ``singular`` (it cannot be followed), ``start`` (not even begun),
     ``open`` (the redundant conditions of a joint are not met)."""
+
+
+_POSITIONS = message("Positions: {count}, from {first} to {last}; derivatives up to order {order}.")
 
 
 @compared_by_value
@@ -112,6 +120,23 @@ class Motion(LinkPoses):
             stop = self.stop
             parts.append(stop_message(self.linkage, stop.reason, stop.drives, stop.links, stop.form))
         return joined(parts, " ")
+
+    def explain(self, lang: str = "en") -> str:
+        """How many positions, from where to where, and why it stopped: a few lines in English or German (``de``).
+
+        >>> from gruebler.mechanics.fourbar import SliderCrank
+        >>> from gruebler.mechanics.kinematics import move
+        >>> print(move(SliderCrank(3, 5), [0.0, 0.5]))
+        Positions: 2, from R(frame-crank) = 0° to R(frame-crank) = 28.65°; derivatives up to order 0.
+        The whole path was followed.
+        """
+        lines = []
+        if len(self):
+            first, last = (drive_values(self.linkage, tuple(map(float, self.drives[row]))) for row in (0, -1))
+            lines.append(_POSITIONS.filled(count=len(self), first=first, last=last, order=self.order))
+        if self.complete:
+            lines.append(message("The whole path was followed."))
+        return "\n".join(line.in_language(lang) for line in [*lines, self.reason]).rstrip()
 
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""

@@ -32,6 +32,9 @@ class DriveReport:
         """The report in one sentence or two, in English (``en``) or German (``de``)."""
         return self.message.in_language(lang)
 
+    def __str__(self) -> str:
+        return self.explain()
+
     @property
     def message(self) -> Message:
         """The text of `explain` as a message, for any language."""

@@ -143,3 +143,6 @@ class Derivation:
         if self.steps:
             lines.append(translate("The chain: {chain}.", lang, chain=self.chain.text(alphabet)))
         return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.explain()

@@ -85,6 +85,9 @@ class Growth:
             lines.append(self.derivation.explain(lang))
         return "\n".join(lines)
 
+    def __str__(self) -> str:
+        return self.explain()
+
 
 def is_loop(chain: Chain) -> bool:
     """Whether the chain is one closed loop of binary links.

@@ -84,3 +84,6 @@ class Step:
         if "joint" in where:
             values["joint"] = names[where["joint"]]
         return _STEPS[kind].filled(**values).in_language(lang)
+
+    def __str__(self) -> str:
+        return self.explain()
