@@ -46,7 +46,9 @@ def test_a_reason_for_a_difference_that_is_none_is_said(tmp_path, capsys):
 def test_methods_that_differ_are_said():
     task = exercise("12")
     right = solve(task)
-    wrong = Solution(right.parts, right.results, (*right.checks, Check(message("d by drawing"), 91.2, 91.3)))
+    wrong = Solution(
+        right.parts, right.results, (*right.checks, Check(text=message("d by drawing"), first=91.2, second=91.3))
+    )
     assert [str(fault) for fault in faults(task, wrong)] == ["exercise-12: d by drawing: 91.2 | 91.3: DIFFERS"]
 
 

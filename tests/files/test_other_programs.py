@@ -248,25 +248,25 @@ def linkages(draw, *, slides=True, moving_slots=True):
             pins += [DrawnJoint("c", *c, ("2", "3")), DrawnJoint("d", *d, ("0", "3", "5"))]
             pins += [DrawnJoint("e", *e, ("4", "5")), DrawnJoint("pen", *f, ("5",))]
         case "slider":
-            pins += [DrawnJoint("c", *c, ("0", "2"), angle)]
+            pins += [DrawnJoint("c", *c, ("0", "2"), slot=angle)]
         case "slide":
-            pins += [DrawnJoint("c", *c, ("2", "3")), DrawnJoint("d", *d, ("0", "3"), angle, turns=False)]
+            pins += [DrawnJoint("c", *c, ("2", "3")), DrawnJoint("d", *d, ("0", "3"), slot=angle, turns=False)]
             pins += [DrawnJoint("pen", *e, ("3",))]
         case "pushed":
-            pins = [DrawnJoint("a", *a, ("0", "1"), angle, turns=False), DrawnJoint("b", *b, ("1", "2"))]
+            pins = [DrawnJoint("a", *a, ("0", "1"), slot=angle, turns=False), DrawnJoint("b", *b, ("1", "2"))]
             pins += [DrawnJoint("c", *c, ("2", "3")), DrawnJoint("d", *d, ("0", "3"))]
         case "inverted":
             turn = atan2(b[1] - d[1], b[0] - d[0])
-            pins[1:] = [DrawnJoint("b", *b, ("3", "1"), turn), DrawnJoint("d", *d, ("0", "3"))]
+            pins[1:] = [DrawnJoint("b", *b, ("3", "1"), slot=turn), DrawnJoint("d", *d, ("0", "3"))]
         case "cylinder":
             turn = atan2(b[1] - d[1], b[0] - d[0])
             pins = [
                 DrawnJoint("a", *a, ("0", "1")),
                 DrawnJoint("d", *d, ("0", "3")),
-                DrawnJoint("b", *b, ("3", "1"), turn),
+                DrawnJoint("b", *b, ("3", "1"), slot=turn),
             ]
             drive = DrawnDrive("b", "3", "1")
-    linkage = linkage_of_drawing(PinDrawing("0", tuple(pins), (drive,)), [])
+    linkage = linkage_of_drawing(PinDrawing(frame="0", joints=tuple(pins), drives=(drive,)), [])
     assume(all(moved(linkage, steps(linkage, part)) is not None for part in (0.0, 0.01, -0.02)))
     return linkage
 
@@ -415,12 +415,12 @@ def test_a_ram_that_only_pushes_one_link_is_no_mechanism():
 @pytest.mark.parametrize("program", ["pyslvs", "motiongen", "pmks"])
 def test_a_driven_slide_survives(program):
     joints = (
-        DrawnJoint("a", 0.0, 0.0, ("0", "1"), 0.25, turns=False),
-        DrawnJoint("b", 1.0, 0.5, ("1", "2")),
-        DrawnJoint("c", 4.0, 3.5, ("2", "3")),
-        DrawnJoint("d", 7.0, 0.0, ("0", "3")),
+        DrawnJoint(name="a", x=0.0, y=0.0, links=("0", "1"), slot=0.25, turns=False),
+        DrawnJoint(name="b", x=1.0, y=0.5, links=("1", "2")),
+        DrawnJoint(name="c", x=4.0, y=3.5, links=("2", "3")),
+        DrawnJoint(name="d", x=7.0, y=0.0, links=("0", "3")),
     )
-    linkage = linkage_of_drawing(PinDrawing("0", joints, (DrawnDrive("a", "0", "1"),)), [])
+    linkage = linkage_of_drawing(PinDrawing(frame="0", joints=joints, drives=(DrawnDrive("a", "0", "1"),)), [])
     left_out = []
     assert_same(linkage, again(linkage, program, left_out), 1e-9)
     assert not any("drive" in str(note) for note in left_out)
@@ -538,10 +538,13 @@ def test_a_file_that_is_cut_off_is_refused(path, tmp_path):
 
 
 def test_links_that_are_welded_in_a_ring_are_one():
-    ring = [DrawnJoint(f"j{k}", cos(k), sin(k), (f"l{k}", f"l{(k + 1) % 5}")) for k in range(5)]
+    ring = [DrawnJoint(name=f"j{k}", x=cos(k), y=sin(k), links=(f"l{k}", f"l{(k + 1) % 5}")) for k in range(5)]
     with pytest.raises(GrueblerError, match="no mechanism on the frame"):
         linkage_of_drawing(
-            PinDrawing("l0", tuple(ring), (), rigid=tuple((f"l{k}", f"l{(k + 1) % 5}") for k in range(5))), []
+            PinDrawing(
+                frame="l0", joints=tuple(ring), drives=(), rigid=tuple((f"l{k}", f"l{(k + 1) % 5}") for k in range(5))
+            ),
+            [],
         )
 
 

@@ -89,7 +89,11 @@ class Read:
 @given(st.lists(st.tuples(st.floats(0, 10), st.floats(-3, 3)), min_size=2, max_size=30))
 def test_lines_lie_where_the_values_are(points):
     x, y = np.array(points).T
-    panel = Panel(Axis("x", decimals(0, 10)), Axis("y", decimals(-3, 3)), (PlottedCurve(x, y, "", "line-1"),))
+    panel = Panel(
+        across=Axis("x", decimals(0, 10)),
+        up=Axis("y", decimals(-3, 3)),
+        curves=(PlottedCurve(x=x, y=y, name="", style="line-1"),),
+    )
     figure = draw_panels([panel], "", "")
     read = Read(figure)
     for a in np.concatenate([read.values(line) for line in lines(figure, "line-1")] or [np.empty((0, 2))]):
@@ -101,7 +105,11 @@ def test_lines_are_cut_at_the_rim_and_broken_where_values_lack():
     with np.errstate(divide="ignore", invalid="ignore"):
         y = np.tan(x)
         y[100] = np.nan
-    panel = Panel(Axis("x", decimals(0, 10)), Axis("y", decimals(-2, 2)), (PlottedCurve(x, y, "", "line-1"),))
+    panel = Panel(
+        across=Axis("x", decimals(0, 10)),
+        up=Axis("y", decimals(-2, 2)),
+        curves=(PlottedCurve(x=x, y=y, name="", style="line-1"),),
+    )
     drawn = lines(draw_panels([panel], "", ""), "line-1")
     read = Read(draw_panels([panel], "", ""))
     assert len(drawn) > 4
@@ -112,12 +120,12 @@ def test_lines_are_cut_at_the_rim_and_broken_where_values_lack():
 
 def test_what_is_written_stays_clear_and_names_stay_text():
     panel = Panel(
-        Axis("<b>", decimals(0, 1)),
-        Axis("&", decimals(0, 1)),
-        (PlottedCurve(np.array([0.0, 1.0]), np.array([0.0, 1.0]), "<script>", "line-2"),),
+        across=Axis("<b>", decimals(0, 1)),
+        up=Axis("&", decimals(0, 1)),
+        curves=(PlottedCurve(x=np.array([0.0, 1.0]), y=np.array([0.0, 1.0]), name="<script>", style="line-2"),),
         bands=(Band(0.0, 0.3, "low"),),
         marks=(AxisMarker(0.5, "here"), AxisMarker(0.505, "hidden")),
-        spots=(PointMarker(0.5, 0.5, "</text>"),),
+        spots=(PointMarker(x=0.5, y=0.5, text="</text>"),),
     )
     figure = draw_panels([panel], "<i>", "a & b")
     root = ET.fromstring(figure.svg())

@@ -24,7 +24,7 @@ class Extremum:
     """``maximum`` or ``minimum``."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class DeadCentre:
     """Where the output stops: it turns back there, or (``flat``, not a maximum or minimum) only pauses."""
 
@@ -40,7 +40,7 @@ class DeadCentre:
     """Whether the second derivative vanishes as well, so that the output dwells."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ChangePoint:
     """Where two assembly modes meet and the motion goes on through: another curve of positions crosses."""
 

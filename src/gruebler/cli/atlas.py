@@ -108,13 +108,13 @@ def _build(arguments: argparse.Namespace) -> int:
     from gruebler.structure.atlas import AtlasTask, build
 
     task = AtlasTask(
-        arguments.links,
-        arguments.mobility,
-        arguments.fractionated,
-        str(arguments.multiple_joints),
-        arguments.prismatic,
-        arguments.inversions,
-        arguments.drives,
+        links=arguments.links,
+        mobility=arguments.mobility,
+        fractionated=arguments.fractionated,
+        multiple_joints=str(arguments.multiple_joints),
+        prismatic=arguments.prismatic,
+        inversions=arguments.inversions,
+        drives=arguments.drives,
     )
     chains, seconds = _expected(task)
     ask_before(seconds / max(arguments.jobs, 1), arguments.yes)

@@ -285,7 +285,7 @@ def _checked_structure(structure: Structure, arguments: argparse.Namespace) -> C
             return checked
     else:
         report = mobility_report(chain, b=arguments.b, frame=arguments.frame or frame, large=arguments.yes)
-        checked = CheckedEntry(name, "", report, Claims(), ())
+        checked = CheckedEntry(id=name, origin="", report=report, claims=Claims(), wrong=())
     if placed is None:
         return checked
     at = None if arguments.at is None else pose_of(arguments.at, placed.mechanism)

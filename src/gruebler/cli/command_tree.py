@@ -13,7 +13,7 @@ from gruebler.cli.parser import Parser
 _FILES = ("FILE", "DIR", "IN", "OUT")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Argument:
     """An option or a positional argument."""
 
@@ -30,7 +30,7 @@ class Argument:
     """Whether a value may be an entry of the catalog."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CommandNode:
     """A command or an action of one."""
 
@@ -65,7 +65,15 @@ def _node(name: str, summary: str, parser: Parser) -> CommandNode:
     arguments = tuple(_arguments(parser))
     described, after = (translate(text or "", parser.lang) for text in (parser.description, parser.epilog))
     usage = " ".join(parser.format_usage().split()).partition(": ")[2]
-    return CommandNode(name, summary, described, usage, after, arguments, tuple(actions))
+    return CommandNode(
+        name=name,
+        summary=summary,
+        description=described,
+        usage=usage,
+        epilog=after,
+        arguments=arguments,
+        actions=tuple(actions),
+    )
 
 
 def _arguments(parser: Parser) -> Iterator[Argument]:
@@ -75,12 +83,12 @@ def _arguments(parser: Parser) -> Iterator[Argument]:
         if isinstance(action, argparse._SubParsersAction) or action.help is argparse.SUPPRESS:
             continue
         yield Argument(
-            tuple(action.option_strings),
-            _placeholder(action),
-            tuple(map(str, action.choices or ())),
-            " ".join(parser._get_formatter()._expand_help(action).split()) if action.help else "",
-            not words.isdisjoint(_FILES),
-            "ID" in words,
+            options=tuple(action.option_strings),
+            placeholder=_placeholder(action),
+            choices=tuple(map(str, action.choices or ())),
+            help=" ".join(parser._get_formatter()._expand_help(action).split()) if action.help else "",
+            takes_file=not words.isdisjoint(_FILES),
+            takes_entry="ID" in words,
         )
 
 

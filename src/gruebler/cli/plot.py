@@ -63,7 +63,9 @@ def run(arguments: argparse.Namespace) -> int:
     linkage = with_points(linkage, arguments.point)
     record = entry_of(arguments.linkage, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
-    figure = _KINDS[arguments.kind](_Asked(linkage, between, name, german(record, arguments.lang), arguments))
+    figure = _KINDS[arguments.kind](
+        _Asked(linkage=linkage, between=between, name=name, names=german(record, arguments.lang), arguments=arguments)
+    )
     write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
     return 0
 
@@ -100,7 +102,7 @@ def _check(arguments: argparse.Namespace) -> None:
         raise GrueblerError("--kind ratio shows one point, but found {point}", point=", ".join(arguments.point))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class _Asked:
     """The linkage and what is to be plotted of it."""
 

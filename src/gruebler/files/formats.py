@@ -38,7 +38,7 @@ _LARGEST_TABLE = 1_000_000  # bytes
 _POSE = 4  # numbers: a place and a direction
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Format:
     """A row of the table of formats."""
 
@@ -245,7 +245,7 @@ def _drawn(
 
         _write_text(path, function(writer)(drawing_of(_as_linkage(value), left_out), left_out))
 
-    return Format(name, suffixes, title, carries, read, write, lengths)
+    return Format(name=name, suffixes=suffixes, title=title, carries=carries, read=read, write=write, lengths=lengths)
 
 
 class _JsonForm(NamedTuple):
@@ -300,7 +300,7 @@ def _json_of_others(name: str, title: Message, carries: Message) -> Format:
         document = form.write(drawing_of(_as_linkage(value), left_out), left_out)
         _write_text(path, json.dumps(document, indent=1) + "\n")
 
-    return Format(name, (), title, carries, read, write, _AS_MILLIMETRES)
+    return Format(name=name, suffixes=(), title=title, carries=carries, read=read, write=write, lengths=_AS_MILLIMETRES)
 
 
 def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -348,7 +348,7 @@ def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
 
         write_lines(_chains_of(value, left_out), path, name)
 
-    return Format(name, (suffix, f"{suffix}.gz"), title, carries, read, write)
+    return Format(name=name, suffixes=(suffix, f"{suffix}.gz"), title=title, carries=carries, read=read, write=write)
 
 
 def _graph(name: str, suffixes: tuple[str, ...], title: Message, carries: Message) -> Format:
@@ -371,7 +371,7 @@ def _graph(name: str, suffixes: tuple[str, ...], title: Message, carries: Messag
             raise GrueblerError("{path}: the format holds one chain, not {count}", path=path, count=len(chains))
         _write_text(path, graph_text(chains[0], name, left_out))
 
-    return Format(name, suffixes, title, carries, read, write)
+    return Format(name=name, suffixes=suffixes, title=title, carries=carries, read=read, write=write)
 
 
 def _chains_of(value: Any, left_out: list[Message]) -> Iterable[Chain]:
@@ -396,31 +396,31 @@ _ANY_CHAIN = message("one chain with any joints")
 
 FORMATS: tuple[Format, ...] = (
     Format(
-        "toml",
-        (".toml",),
-        message("gruebler, TOML"),
-        message("linkages, tasks, joint screws, gear trains (read), completely"),
-        _own_document,
-        _write_own_document,
-        _WITH_UNIT,
+        name="toml",
+        suffixes=(".toml",),
+        title=message("gruebler, TOML"),
+        carries=message("linkages, tasks, joint screws, gear trains (read), completely"),
+        read=_own_document,
+        write=_write_own_document,
+        lengths=_WITH_UNIT,
     ),
     Format(
-        "json",
-        (".json",),
-        message("gruebler, JSON; JSON of other programs is recognised"),
-        message("linkages, tasks, chains, joint screws (read), completely"),
-        _own_document,
-        _write_own_document,
-        _WITH_UNIT,
+        name="json",
+        suffixes=(".json",),
+        title=message("gruebler, JSON; JSON of other programs is recognised"),
+        carries=message("linkages, tasks, chains, joint screws (read), completely"),
+        read=_own_document,
+        write=_write_own_document,
+        lengths=_WITH_UNIT,
     ),
     Format(
-        "csv",
-        (".csv",),
-        message("gruebler, CSV; curves of four-bar-rs are recognised"),
-        message("synthesis tasks, completely; tables of motions with units in their headers (written)"),
-        _task,
-        _write_csv,
-        message("of tables with their unit, of tasks as they are"),
+        name="csv",
+        suffixes=(".csv",),
+        title=message("gruebler, CSV; curves of four-bar-rs are recognised"),
+        carries=message("synthesis tasks, completely; tables of motions with units in their headers (written)"),
+        read=_task,
+        write=_write_csv,
+        lengths=message("of tables with their unit, of tasks as they are"),
     ),
     _lines("text", ".txt", message("gruebler, texts of chains"), message("chains, one per line, with any joints")),
     _lines(
@@ -486,58 +486,58 @@ FORMATS: tuple[Format, ...] = (
         message("one position of a linkage of pins, pins in slots of the frame, points, driven cranks on the frame"),
     ),
     Format(
-        "dxf",
-        (".dxf",),
-        message("CAD, laser cutters (DXF)"),
-        message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
-        None,
-        _write_dxf,
-        _HEADER,
+        name="dxf",
+        suffixes=(".dxf",),
+        title=message("CAD, laser cutters (DXF)"),
+        carries=message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
+        read=None,
+        write=_write_dxf,
+        lengths=_HEADER,
     ),
     Format(
-        "dxf-links",
-        (),
-        message("CAD, laser cutters (DXF), a file for each link"),
-        message("a folder of plates with holes and slots, one file per link, with its plane in the name"),
-        None,
-        _write_dxf_of_links,
-        _HEADER,
+        name="dxf-links",
+        suffixes=(),
+        title=message("CAD, laser cutters (DXF), a file for each link"),
+        carries=message("a folder of plates with holes and slots, one file per link, with its plane in the name"),
+        read=None,
+        write=_write_dxf_of_links,
+        lengths=_HEADER,
     ),
     Format(
-        "mjcf",
-        (".mjcf",),
-        message("MuJoCo"),
-        message("a linkage of pins, slides and slots as a model that runs, points, drives"),
-        None,
-        _write_mjcf,
-        message("m"),
+        name="mjcf",
+        suffixes=(".mjcf",),
+        title=message("MuJoCo"),
+        carries=message("a linkage of pins, slides and slots as a model that runs, points, drives"),
+        read=None,
+        write=_write_mjcf,
+        lengths=message("m"),
     ),
     Format(
-        "urdf",
-        (".urdf",),
-        message("robots (URDF)"),
-        message("a linkage of pins, slides and slots as a tree: its loops are cut"),
-        None,
-        _write_urdf,
-        message("m"),
+        name="urdf",
+        suffixes=(".urdf",),
+        title=message("robots (URDF)"),
+        carries=message("a linkage of pins, slides and slots as a tree: its loops are cut"),
+        read=None,
+        write=_write_urdf,
+        lengths=message("m"),
     ),
     Format(
-        "spreadsheet",
-        (),
-        message("CSV for spreadsheets with decimal commas"),
-        message("tables of motions with units in their headers, semicolons between cells"),
-        None,
-        _write_spreadsheet,
-        _WITH_UNIT,
+        name="spreadsheet",
+        suffixes=(),
+        title=message("CSV for spreadsheets with decimal commas"),
+        carries=message("tables of motions with units in their headers, semicolons between cells"),
+        read=None,
+        write=_write_spreadsheet,
+        lengths=_WITH_UNIT,
     ),
     Format(
-        "parquet",
-        (".parquet",),
-        message("Parquet"),
-        message("tables of motions with units in their headers"),
-        None,
-        _write_parquet,
-        _WITH_UNIT,
+        name="parquet",
+        suffixes=(".parquet",),
+        title=message("Parquet"),
+        carries=message("tables of motions with units in their headers"),
+        read=None,
+        write=_write_parquet,
+        lengths=_WITH_UNIT,
     ),
 )
 """Every format, those of this library first."""

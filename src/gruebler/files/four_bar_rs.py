@@ -83,8 +83,10 @@ def _drawing(values: dict[str, float], state: str) -> PinDrawing:
         "P2": (second, ("frame", "rocker")),
         "P5": (point, ("coupler",)),
     }
-    joints = tuple(DrawnJoint(name, place.real, place.imag, links) for name, (place, links) in places.items())
-    return PinDrawing("frame", joints, (DrawnDrive("P1", "frame", "crank"),))
+    joints = tuple(
+        DrawnJoint(name=name, x=place.real, y=place.imag, links=links) for name, (place, links) in places.items()
+    )
+    return PinDrawing(frame="frame", joints=joints, drives=(DrawnDrive("P1", "frame", "crank"),))
 
 
 def _crank_range(frame: float, crank: float, coupler: float, rocker: float, state: str) -> tuple[float, float]:

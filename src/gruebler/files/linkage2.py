@@ -128,7 +128,11 @@ def _drawing(
             ends[1] = f"{name} rod"
             (x, y), (to_x, to_y) = places[numbers[0]], places[numbers[1]]
             slide = f"{name} actuator"
-            joints.append(DrawnJoint(slide, to_x, to_y, (name, ends[1]), atan2(to_y - y, to_x - x), turns=False))
+            joints.append(
+                DrawnJoint(
+                    name=slide, x=to_x, y=to_y, links=(name, ends[1]), slot=atan2(to_y - y, to_x - x), turns=False
+                )
+            )
             drives.append(DrawnDrive(slide, name, ends[1]))
         for k, number in enumerate(dict.fromkeys(numbers)):
             links_of[number].append(ends[min(k, 1)])
@@ -144,14 +148,14 @@ def _drawing(
                 raise GrueblerError("connector {id}: slots along an arc are not read from this format", id=number)
             base, slot = _slot(number, limits, places, links_of)
             links = [base, *(link for link in links if link != base)]
-        joint = DrawnJoint(names[number], *places[number], tuple(links), slot)
+        joint = DrawnJoint(names[number], *places[number], tuple(links), slot=slot)
         joints.append(joint)
         if connector.get("input") == "true" and len(links) > 1 and slot is None:
             drives.append(DrawnDrive(joint.name, links[0], links[1]))
     speeds = {connector.get("rpm", "") for connector in connectors.values() if connector.get("input") == "true"}
     if speeds - {""}:
         left_out.append(message("speeds of drives: {speeds} rpm", speeds=", ".join(sorted(speeds - {""}))))
-    return PinDrawing(_FRAME, tuple(joints), tuple(drives), unit, tuple(rigid))
+    return PinDrawing(frame=_FRAME, joints=tuple(joints), drives=tuple(drives), unit=unit, rigid=tuple(rigid))
 
 
 def _connector_names(connectors: Mapping[str, Element]) -> dict[str, str]:

@@ -79,10 +79,10 @@ def drawing_from_motiongen(document: Any, left_out: list[Message]) -> PinDrawing
             slot = atan2(to_y - from_y, to_x - from_x)
             links = [bodies[body], *(link for link in links if link != bodies[body])]
         if links:
-            joints.append(DrawnJoint(f"P{number}", x, y, tuple(links), slot))
+            joints.append(DrawnJoint(name=f"P{number}", x=x, y=y, links=tuple(links), slot=slot))
     drives = [_drive(row, record, bodies, slots) for row in record.I]
     left_out.append(no_unit())
-    return PinDrawing(_FRAME, tuple(joints), tuple(drive for drive in drives if drive is not None))
+    return PinDrawing(frame=_FRAME, joints=tuple(joints), drives=tuple(drive for drive in drives if drive is not None))
 
 
 def _drive(

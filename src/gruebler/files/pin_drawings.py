@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from itertools import chain as chain_of
 from itertools import combinations
 from itertools import count as count_from
@@ -45,6 +45,7 @@ class DrawnJoint:
     y: float
     links: tuple[str, ...]
     """The first one has the slot, if there is one."""
+    _: KW_ONLY
     slot: float | None = None
     """The direction of the slot in the drawing, in radians; None without a slot."""
     turns: bool = True
@@ -60,7 +61,7 @@ class DrawnDrive:
     moved: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PinDrawing:
     """Everything that is drawn, in one position."""
 
@@ -88,7 +89,8 @@ def linkage_of_drawing(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
     >>> pins = [("a", 0, 0, "frame crank"), ("b", 0, 2, "crank rod"), ("c", 6, 4, "rod rocker"),
     ...         ("d", 6, 0, "frame rocker"), ("pen", 3, 5, "rod")]
     >>> joints = tuple(DrawnJoint(name, x, y, tuple(links.split())) for name, x, y, links in pins)
-    >>> linkage = linkage_of_drawing(PinDrawing("frame", joints, (DrawnDrive("a", "frame", "crank"),)), [])
+    >>> drives = (DrawnDrive("a", "frame", "crank"),)
+    >>> linkage = linkage_of_drawing(PinDrawing(frame="frame", joints=joints, drives=drives), [])
     >>> round(linkage.length("rod", "R(crank-rod)", "R(rod-rocker)"), 9), list(linkage.points)
     (6.32455532, ['pen'])
     """
@@ -207,7 +209,14 @@ def _with_slides(frame: str, joints: list[DrawnJoint]) -> tuple[list[DrawnJoint]
         base, link = joint_a.links[0], min(both, key=lambda name: name != frame)
         taken.add((base, link))
         slides.append(
-            DrawnJoint(f"{joint_a.name} slide", joint_a.x, joint_a.y, (base, link), joint_a.slot, turns=False)
+            DrawnJoint(
+                name=f"{joint_a.name} slide",
+                x=joint_a.x,
+                y=joint_a.y,
+                links=(base, link),
+                slot=joint_a.slot,
+                turns=False,
+            )
         )
         for k in (first, second):
             others = [name for name in drawn[k].links[1:] if name != link]
@@ -355,7 +364,7 @@ def drawing_of(linkage: Linkage, left_out: list[Message]) -> PinDrawing:
         DrawnJoint(name, *lower.required_pose[point.link].put(point.x, point.y), (point.link,))
         for name, point in lower.points.items()
     ]
-    return PinDrawing(frame, (*joints.values(), *points), tuple(drives), lower.unit)
+    return PinDrawing(frame=frame, joints=(*joints.values(), *points), drives=tuple(drives), unit=lower.unit)
 
 
 def lower_linkage(linkage: Linkage) -> Linkage:
@@ -378,7 +387,7 @@ def _placed(lower: Linkage, number: int) -> DrawnJoint:
         first, others = others[0], [first]
     line, block = lower.elements[number, first], lower.elements[number, others[0]]
     slot = remainder(poses[first].angle + line.direction, 2 * pi)
-    return DrawnJoint("", *poses[others[0]].put(block.x, block.y), (first, others[0]), slot, turns=False)
+    return DrawnJoint("", *poses[others[0]].put(block.x, block.y), (first, others[0]), slot=slot, turns=False)
 
 
 def _pins_in_slots(lower: Linkage, placed: Sequence[DrawnJoint]) -> dict[int, int]:
@@ -411,7 +420,7 @@ def drawing_in(drawing: PinDrawing, unit: str, left_out: list[Message]) -> PinDr
     """The drawing with its places in another unit; those in a unit that is not known stay as they are, which is said.
 
     >>> joints = (DrawnJoint("A", 3.5, 0.0, ("frame",)),)
-    >>> drawing_in(PinDrawing("frame", joints, unit="cm"), "mm", []).joints[0].x
+    >>> drawing_in(PinDrawing(frame="frame", joints=joints, unit="cm"), "mm", []).joints[0].x
     35.0
     """
     known = drawing.unit if drawing.unit in MILLIMETRES else unit
@@ -439,8 +448,9 @@ def with_slot_ends(drawing: PinDrawing) -> tuple[PinDrawing, dict[str, tuple[str
 
     The ends are further points, and a slide has two pins in the slot, which keep it from turning.
 
-    >>> slide = DrawnJoint("A", 0.0, 0.0, ("frame", "block"), 0.0, turns=False)
-    >>> drawing, slots = with_slot_ends(PinDrawing("frame", (slide, DrawnJoint("B", 4.0, 0.0, ("block",)))))
+    >>> slide = DrawnJoint("A", 0.0, 0.0, ("frame", "block"), slot=0.0, turns=False)
+    >>> drawing, slots = with_slot_ends(
+    ...     PinDrawing(frame="frame", joints=(slide, DrawnJoint("B", 4.0, 0.0, ("block",)))))
     >>> [(joint.name, joint.x, joint.slot) for joint in drawing.joints if joint.slot is not None], slots["A"]
     ([('A', 0.0, 0.0), ('A pin', 1.0, 0.0)], ('A start', 'A end'))
     """
@@ -454,8 +464,8 @@ def with_slot_ends(drawing: PinDrawing) -> tuple[PinDrawing, dict[str, tuple[str
         dx, dy = reach * cos(joint.slot), reach * sin(joint.slot)
         ends = (f"{joint.name} start", f"{joint.name} end")
         base = joint.links[:1]
-        joints.append(DrawnJoint(ends[0], joint.x - dx, joint.y - dy, base))
-        joints.append(DrawnJoint(ends[1], joint.x + dx, joint.y + dy, base))
+        joints.append(DrawnJoint(name=ends[0], x=joint.x - dx, y=joint.y - dy, links=base))
+        joints.append(DrawnJoint(name=ends[1], x=joint.x + dx, y=joint.y + dy, links=base))
         joints.append(replace(joint, turns=True))
         slots[joint.name] = ends
         if not joint.turns:

@@ -258,14 +258,18 @@ def _drawing(joints: list[_Joint], links: list[_Link], unit: str, left_out: list
             own_links = [_FRAME, *own_links]
         if not own_links:
             continue
-        drawn.append(DrawnJoint(joint.id, joint.x, joint.y, tuple(dict.fromkeys(own_links)), slot, turns))
+        drawn.append(
+            DrawnJoint(
+                name=joint.id, x=joint.x, y=joint.y, links=tuple(dict.fromkeys(own_links)), slot=slot, turns=turns
+            )
+        )
         if joint.flags & _INPUT and len(own_links) > 1:
             drives.append(DrawnDrive(joint.id, own_links[0], own_links[1]))
     if any(link.joints for link in links):
         left_out.append(message("masses, colours and speeds"))
     if not unit:
         left_out.append(no_unit("cm"))
-    return PinDrawing(_FRAME, tuple(drawn), tuple(drives), unit or "cm")
+    return PinDrawing(frame=_FRAME, joints=tuple(drawn), drives=tuple(drives), unit=unit or "cm")
 
 
 def _slot(joint: _Joint, links: list[_Link], by_id: dict[str, _Joint]) -> tuple[str, float]:

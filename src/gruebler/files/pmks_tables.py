@@ -45,7 +45,7 @@ class TableLink(NamedTuple):
     """Names of joints."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Tables:
     """What an address holds that is or concerns a linkage."""
 
@@ -87,7 +87,13 @@ def tables_of_address(compressed: str) -> Tables:
         parts = [links[number].name for number in _listed(row[5]) if number in links]
         welded.append(tuple(parts))
     forces = tuple(str(row[1]) for row in _rows(document, "f", 2))
-    return Tables(tuple(joints.values()), tuple(links.values()), tuple(welded), forces, len(document.get("p") or ()))
+    return Tables(
+        joints=tuple(joints.values()),
+        links=tuple(links.values()),
+        welded=tuple(welded),
+        forces=forces,
+        positions=len(document.get("p") or ()),
+    )
 
 
 def _document(text: str) -> dict[str, Any]:

@@ -95,7 +95,7 @@ def _of_mechanism(joints: list[Any], document: Mapping[str, Any], left_out: list
             slot = atan2(dy, dx)
             joined = [_FRAME, *joined]
         if joined:
-            drawn.append(DrawnJoint(name, x, y, tuple(dict.fromkeys(joined)), slot))
+            drawn.append(DrawnJoint(name=name, x=x, y=y, links=tuple(dict.fromkeys(joined)), slot=slot))
     drives = []
     for link in links:
         if link.get("type") in ("driver", "arc_driver"):
@@ -104,7 +104,7 @@ def _of_mechanism(joints: list[Any], document: Mapping[str, Any], left_out: list
             speeds = True
     if speeds:
         left_out.append(message("speeds and ranges of drives"))
-    return PinDrawing(_FRAME, tuple(drawn), tuple(drives))
+    return PinDrawing(frame=_FRAME, joints=tuple(drawn), drives=tuple(drives))
 
 
 class _Placing:
@@ -202,10 +202,10 @@ class _Placing:
             base, slot = self.slots.get(name, (None, None))
             joined = tuple(dict.fromkeys(links if base is None else [base, *links]))
             if joined:
-                joints.append(DrawnJoint(name, place.real, place.imag, joined, slot))
+                joints.append(DrawnJoint(name=name, x=place.real, y=place.imag, links=joined, slot=slot))
         if self.drives:
             left_out.append(message("speeds and ranges of drives"))
-        return PinDrawing(_FRAME, tuple(joints), tuple(self.drives))
+        return PinDrawing(frame=_FRAME, joints=tuple(joints), drives=tuple(self.drives))
 
 
 def _meeting(

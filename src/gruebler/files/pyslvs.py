@@ -66,7 +66,16 @@ def drawing_from_pyslvs(text: str, left_out: list[Message]) -> PinDrawing:
             raise GrueblerError("joint {number} names a link twice", number=len(joints))
         if links:
             turning = kind == "R"
-            joints.append(DrawnJoint(f"J{len(joints)}", x, y, tuple(links), None if turning else slot, kind != "P"))
+            joints.append(
+                DrawnJoint(
+                    name=f"J{len(joints)}",
+                    x=x,
+                    y=y,
+                    links=tuple(links),
+                    slot=None if turning else slot,
+                    turns=kind != "P",
+                )
+            )
         else:
             left_out.append(message("joint {number}, which has no link", number=len(joints)))
     reader.take("]")
@@ -80,7 +89,7 @@ def drawing_from_pyslvs(text: str, left_out: list[Message]) -> PinDrawing:
         if int(joint[:9]) < len(joints) and {fixed, moved} <= set(joints[int(joint[:9])].links)
     ]
     said = drives or _NO_DRIVE in text
-    return PinDrawing(_FRAME, tuple(joints), tuple(drives) if said else None)
+    return PinDrawing(frame=_FRAME, joints=tuple(joints), drives=tuple(drives) if said else None)
 
 
 class _Reader:

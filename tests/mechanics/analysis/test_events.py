@@ -382,8 +382,8 @@ def test_change_points_of_larger_groups_are_named() -> None:
 @pytest.mark.parametrize("size", [1.0, 1e-6, 1e6])
 def test_events_at_one_place_are_in_the_order_of_their_links(error: float, size: float) -> None:
     half = CycleSpan(0.0, 4 * size, False, 0, (None, None))
-    first, other = ChangePoint((2 + error) * size, ("b",)), ChangePoint(2 * size, ("a",))
-    later = ChangePoint((2 + 1e-6) * size, ("a",))
+    first, other = ChangePoint(drive=(2 + error) * size, links=("b",)), ChangePoint(drive=2 * size, links=("a",))
+    later = ChangePoint(drive=(2 + 1e-6) * size, links=("a",))
     assert by_place([first, later, other], half, size) == by_place([other, first, later], half, size)
     assert by_place([first, later, other], half, size) == [[other, first], [later]]
 
@@ -391,7 +391,11 @@ def test_events_at_one_place_are_in_the_order_of_their_links(error: float, size:
 @pytest.mark.parametrize("error", [0.0, 1e-12, 1e-10])
 def test_the_end_of_a_period_is_its_beginning(error: float) -> None:
     full = CycleSpan(1.0, 1 + 2 * math.pi, True, 1, (None, None))
-    last, first, between = ChangePoint(2 * math.pi - error, ("a",)), ChangePoint(0.0, ("b",)), ChangePoint(3.0, ("b",))
+    last, first, between = (
+        ChangePoint(drive=2 * math.pi - error, links=("a",)),
+        ChangePoint(drive=0.0, links=("b",)),
+        ChangePoint(drive=3.0, links=("b",)),
+    )
     assert by_place([first, between, last], full, 1.0) == [[last, first], [between]]
 
 

@@ -103,19 +103,19 @@ def test_an_actuator_that_is_too_short_stops(h, p, rows):
 def scissors(units, arm):
     """Scissors of equal arms over a guide, pushed by an actuator along the guide; drawn at s = arm."""
     s, height = arm, sqrt(4 * arm**2 - arm**2)
-    joints = [DrawnJoint("0", 0.0, 0.0, ("frame", "left 0", "barrel"))]
-    joints += [DrawnJoint("slide", s, 0.0, ("frame", "right 0", "rod"), 0.0)]
-    joints += [DrawnJoint("push", s, 0.0, ("barrel", "rod"), 0.0, turns=False)]
+    joints = [DrawnJoint(name="0", x=0.0, y=0.0, links=("frame", "left 0", "barrel"))]
+    joints += [DrawnJoint(name="slide", x=s, y=0.0, links=("frame", "right 0", "rod"), slot=0.0)]
+    joints += [DrawnJoint(name="push", x=s, y=0.0, links=("barrel", "rod"), slot=0.0, turns=False)]
     for k in range(units):
         y = k * height
-        joints.append(DrawnJoint(f"middle {k}", s / 2, y + height / 2, (f"left {k}", f"right {k}")))
+        joints.append(DrawnJoint(name=f"middle {k}", x=s / 2, y=y + height / 2, links=(f"left {k}", f"right {k}")))
         ends = ("left", "right") if k + 1 < units else ()
         for side, x, below in (("left", s, "left"), ("right", 0.0, "right")):
             above = {"left": "right", "right": "left"}[side]
             links = (f"{below} {k}", f"{above} {k + 1}") if ends else (f"{below} {k}",)
-            joints.append(DrawnJoint(f"top {side} {k}", x, y + height, links))
+            joints.append(DrawnJoint(name=f"top {side} {k}", x=x, y=y + height, links=links))
     drive = DrawnDrive("push", "barrel", "rod")
-    return linkage_of_drawing(PinDrawing("frame", tuple(joints), (drive,), unit="mm"), [])
+    return linkage_of_drawing(PinDrawing(frame="frame", joints=tuple(joints), drives=(drive,), unit="mm"), [])
 
 
 @pytest.mark.parametrize("units", [1, 2, 5])

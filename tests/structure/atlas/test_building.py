@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import fields
 from pathlib import Path
 
 import pyarrow.compute as pc
@@ -23,7 +24,7 @@ from gruebler.structure.atlas.reading import SMALL
 from gruebler.structure.enumeration.worker_pool import ProcessPools
 from gruebler.structure.isomorphism import decode
 
-TASK = AtlasTask("4-8", inversions=True, drives="frame")
+TASK = AtlasTask(links="4-8", inversions=True, drives="frame")
 
 
 def contents(directory):
@@ -93,7 +94,7 @@ def test_a_killed_build_ends_as_an_undisturbed_one(whole, tmp_path):
 
 @pytest.mark.slow
 def test_a_hundred_kills(tmp_path):
-    task = AtlasTask("12-13", "1-2")
+    task = AtlasTask(links="12-13", mobility="1-2")
     build(task, tmp_path / "whole")
     moments = random.Random(5)
     _killed_and_resumed(task, tmp_path / "killed", [moments.uniform(0.5, 4.0) for _ in range(100)])
@@ -107,16 +108,16 @@ def test_other_directories_are_left_alone(whole, tmp_path):
     assert contents(tmp_path) == {"letter.txt": b"dear"}
     before = contents(whole)
     with pytest.raises(RunError, match="holds another atlas"):
-        build(AtlasTask("4-6"), whole)
+        build(AtlasTask(links="4-6"), whole)
     assert contents(whole) == before
 
 
 def test_a_file_of_another_atlas_is_refused(whole, tmp_path):
-    build(AtlasTask("4-8"), tmp_path)
+    build(AtlasTask(links="4-8"), tmp_path)
     path = "chains/mobility=1/links=8/part-00000.parquet"
     (tmp_path / path).write_bytes((whole / path).read_bytes())
     with pytest.raises(RunError, match="is not a file of this atlas"):
-        build(AtlasTask("4-8"), tmp_path)
+        build(AtlasTask(links="4-8"), tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -139,7 +140,7 @@ def test_manifests_that_cannot_be_used(whole, tmp_path, change, problem):
 
 def test_a_damaged_file_is_named_in_a_sentence(tmp_path):
     """The first file is read for its columns, the others with the query; building again restores them."""
-    task = AtlasTask("4-6")
+    task = AtlasTask(links="4-6")
     build(task, tmp_path)
     parts = sorted(tmp_path.rglob("*.parquet"))
     for part in parts:
@@ -196,8 +197,9 @@ def test_a_full_disc_loses_nothing(whole, tmp_path):
     ],
 )
 def test_tasks_that_make_no_sense(values, problem):
+    names = [field.name for field in fields(AtlasTask)]
     with pytest.raises(GrueblerError, match=problem):
-        AtlasTask(*values)
+        AtlasTask(**dict(zip(names, values, strict=False)))
 
 
 @pytest.mark.parametrize(
@@ -272,7 +274,15 @@ def test_rows_as_structures(tmp_path, capsys):
 
 
 def test_commands_that_make_no_atlas():
-    task = AtlasTask("4-8", "1-2", "link", "any", "0-1", inversions=True, drives="any")
+    task = AtlasTask(
+        links="4-8",
+        mobility="1-2",
+        fractionated="link",
+        multiple_joints="any",
+        prismatic="0-1",
+        inversions=True,
+        drives="any",
+    )
     assert AtlasTask.of_command(task.command()) == task
     for text in ("", "gruebler atlas build DIR", "gruebler atlas build --links 4 --colour 3 DIR", "None"):
         with pytest.raises(GrueblerError, match="is not a command that builds an atlas"):

@@ -158,10 +158,10 @@ def check(row, *, dyads=True):
 
 
 def test_all_chains_to_eight_links(tmp_path):
-    rows = rows_of(tmp_path, AtlasTask("4-8", "0-3", "all"))
+    rows = rows_of(tmp_path, AtlasTask(links="4-8", mobility="0-3", fractionated="all"))
     assert len(rows) == sum(
         gr.count_chains(request.links, request.mobility, fractionated="all").chains
-        for request in AtlasTask("4-8", "0-3").requests()
+        for request in AtlasTask(links="4-8", mobility="0-3").requests()
     )
     for row in rows:
         check(row)
@@ -170,12 +170,12 @@ def test_all_chains_to_eight_links(tmp_path):
 @pytest.mark.parametrize(
     ("task", "number"),
     [
-        (AtlasTask("10"), 10),
-        (AtlasTask("9", "2", "all"), 15),
-        (AtlasTask("7", "0", multiple_joints="any"), 6),
-        (AtlasTask("8", "1", multiple_joints="any"), 20),
-        (AtlasTask("8", "3", "all", multiple_joints="1-2"), 20),
-        (AtlasTask("6", "1", prismatic="1-3"), 20),
+        (AtlasTask(links="10"), 10),
+        (AtlasTask(links="9", mobility="2", fractionated="all"), 15),
+        (AtlasTask(links="7", mobility="0", multiple_joints="any"), 6),
+        (AtlasTask(links="8", mobility="1", multiple_joints="any"), 20),
+        (AtlasTask(links="8", mobility="3", fractionated="all", multiple_joints="1-2"), 20),
+        (AtlasTask(links="6", mobility="1", prismatic="1-3"), 20),
     ],
     ids=lambda value: value.command()[21:-4] if isinstance(value, AtlasTask) else "",
 )
@@ -187,7 +187,7 @@ def test_random_rows(tmp_path, task, number):
 
 @pytest.mark.slow
 def test_a_thousand_rows_of_14_links(tmp_path):
-    task = AtlasTask("14")
+    task = AtlasTask(links="14")
     writer = PartWriter(tmp_path, task, "test")
     chosen = random.Random(2)
     for part in parts(task):
@@ -197,7 +197,7 @@ def test_a_thousand_rows_of_14_links(tmp_path):
 
 
 def test_sums_are_the_counts_of_the_enumeration(tmp_path):
-    rows = rows_of(tmp_path, AtlasTask("9", "2", "all"))
+    rows = rows_of(tmp_path, AtlasTask(links="9", mobility="2", fractionated="all"))
     count = gr.count_chains(9, 2, fractionated="all", orbits=True)
     assert len(rows) == count.chains
     for name in ("inversions", "joint_orbits", "drives"):
@@ -205,7 +205,7 @@ def test_sums_are_the_counts_of_the_enumeration(tmp_path):
 
 
 def test_mechanisms_and_driven_mechanisms(tmp_path):
-    rows = rows_of(tmp_path, AtlasTask("4-8"))
+    rows = rows_of(tmp_path, AtlasTask(links="4-8"))
     codes = [row["code"] for row in rows]
     table = mechanism_table(codes, 1).to_pylist()
     assert len(table) == sum(row["inversions"] for row in rows)
@@ -238,7 +238,7 @@ def test_mechanisms_and_driven_mechanisms(tmp_path):
 
 @pytest.mark.parametrize("links", [8, pytest.param(10, marks=pytest.mark.slow)])
 def test_mechanisms_in_bulk_are_those_made_one_by_one(tmp_path, links):
-    task = AtlasTask(str(links), inversions=True, drives="frame")
+    task = AtlasTask(links=str(links), inversions=True, drives="frame")
     table = PartWriter(tmp_path, task, "test")._chains(next(iter(parts(task))))
     bulk = bulk_tables(table, driven=True)
     assert bulk["driven"].num_rows == sum(table["drives"].to_pylist())
@@ -254,7 +254,7 @@ def test_mechanisms_in_bulk_are_those_made_one_by_one(tmp_path, links):
 
 
 def test_mechanisms_in_slices_are_those_made_at_once(tmp_path, monkeypatch):
-    task = AtlasTask("8", inversions=True, drives="frame")
+    task = AtlasTask(links="8", inversions=True, drives="frame")
     writer = PartWriter(tmp_path, task, "test")
     part = next(iter(parts(task)))
     table = writer._chains(part)
@@ -270,7 +270,7 @@ def test_mechanisms_in_slices_are_those_made_at_once(tmp_path, monkeypatch):
 
 
 def test_every_column_is_defined_and_filled(tmp_path):
-    rows = rows_of(tmp_path, AtlasTask("8"))
+    rows = rows_of(tmp_path, AtlasTask(links="8"))
     assert list(rows[0]) == [column.name for column in columns_of("chains")]
     assert all(column.definition and column.origin for column in columns_of("chains"))
 

@@ -36,7 +36,7 @@ def test_no_scheduler_there(monkeypatch, capsys):
 def test_lost_workers_lose_nothing(tmp_path, capsys):
     from gruebler.structure.atlas import AtlasTask, build
 
-    task = AtlasTask("4-12")
+    task = AtlasTask(links="4-12")
     build(task, tmp_path / "here")
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, **QUIET) as cluster:
         scheduler = DaskScheduler(cluster.scheduler_address)

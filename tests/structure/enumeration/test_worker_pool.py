@@ -345,7 +345,7 @@ def test_progress_counts_pieces_and_chains(tmp_path):
     assert steps[-1].seconds_left == 0
     run_count(Request(12), progress=steps.append, expected=6856, checkpoint=tmp_path)
     assert (steps[-1].chains, steps[-1].fresh, steps[-1].seconds_left) == (6856, 0, None)
-    assert Progress(1, 5, 5, 1.0).seconds_left is None
+    assert Progress(pieces=1, chains=5, fresh=5, seconds=1.0).seconds_left is None
 
 
 def test_at_least_one_process():

@@ -108,7 +108,10 @@ def test_sizing_law():
     [("15.79", 15.793169, True), ("15.8", 15.793169, True), ("15.7", 15.793169, False), ("40/3*sqrt(3)", 7.7, False)],
 )
 def test_printed_digits(printed, derived, as_printed):
-    assert StatedValue("x", "x", derived, None, Expression(printed)).is_as_printed is as_printed
+    assert (
+        StatedValue(id="x", symbol="x", derived=derived, exact=None, printed=Expression(printed)).is_as_printed
+        is as_printed
+    )
 
 
 @pytest.mark.parametrize("lang", ["en", "de"])

@@ -36,7 +36,7 @@ class _Contact(NamedTuple):
     """The pitch curve: the roller's centre; for a face the contact itself."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CamReport:
     """The quality measures of a cam; extremes are exact, with one-sided values at jumps of acceleration."""
 

@@ -25,7 +25,7 @@ class Path(NamedTuple):
     second: Complexes
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FaceLine:
     """The face: its normal's angle away from the cam, its distance from the axis, and their derivatives."""
 
@@ -151,9 +151,15 @@ class Flat:
         """The face."""
         if not self.swings:
             ones = np.ones_like(s)
-            return FaceLine(math.pi / 2 * ones, 0.0, s, ones, 0 * ones)
+            return FaceLine(angle=math.pi / 2 * ones, turn=0.0, distance=s, first=ones, second=0 * ones)
         side, d = math.copysign(1.0, self.distance), abs(self.distance)
-        return FaceLine(math.pi / 2 - side * s, -side, d * np.sin(s) - self.face, d * np.cos(s), -d * np.sin(s))
+        return FaceLine(
+            angle=math.pi / 2 - side * s,
+            turn=-side,
+            distance=d * np.sin(s) - self.face,
+            first=d * np.cos(s),
+            second=-d * np.sin(s),
+        )
 
 
 Follower = Roller | Flat

@@ -38,7 +38,7 @@ def finite_array(values: ArrayLike, quantity: Message) -> Reals:
     return numbers
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LawPiece:
     """From ``start`` on: sum of ``polynomial[k] t^k`` plus ``amplitude * sin(frequency t + phase)``, t = x - start."""
 
@@ -132,7 +132,7 @@ def polynomial_law(*powers: int) -> MotionLaw:
     polynomial = [0.0] * (max(powers) + 1)
     for p in powers:
         polynomial[p] = math.prod(q / (q - p) for q in powers if q != p)
-    return MotionLaw("-".join(map(str, sorted(powers))), (LawPiece(0.0, tuple(polynomial)),))
+    return MotionLaw("-".join(map(str, sorted(powers))), (LawPiece(start=0.0, polynomial=tuple(polynomial)),))
 
 
 def boundary_law(start: Sequence[float], end: Sequence[float]) -> MotionLaw:
@@ -147,7 +147,7 @@ def boundary_law(start: Sequence[float], end: Sequence[float]) -> MotionLaw:
     if len(values) > 16:
         raise CamError("at most 16 boundary values are taken, not {count}", count=len(values))
     coefficients = _hermite([Fraction(v) for v in start], [Fraction(v) for v in end])
-    return MotionLaw("polynomial", (LawPiece(0.0, tuple(map(float, coefficients))),))
+    return MotionLaw("polynomial", (LawPiece(start=0.0, polynomial=tuple(map(float, coefficients))),))
 
 
 def _hermite(start: Sequence[Fraction], end: Sequence[Fraction]) -> list[Fraction]:
@@ -175,7 +175,9 @@ def _from_acceleration(name: str, parts: Sequence[tuple[float, float, float, flo
     pieces, start, lift, velocity = [], 0.0, 0.0, 0.0
     for length, constant, amplitude, frequency, phase in parts:
         wave = -amplitude / frequency**2 if frequency else 0.0
-        piece = LawPiece(start, (0.0, 0.0, constant / 2), wave, frequency, phase)
+        piece = LawPiece(
+            start=start, polynomial=(0.0, 0.0, constant / 2), amplitude=wave, frequency=frequency, phase=phase
+        )
         begin = np.array(start)
         polynomial = (lift - float(piece.at(begin, 0)), velocity - float(piece.at(begin, 1)), constant / 2)
         pieces.append(replace(piece, polynomial=polynomial))

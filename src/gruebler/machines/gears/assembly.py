@@ -9,7 +9,7 @@ from fractions import Fraction
 from gruebler.machines.gears.train import FRAME, GearError, Mesh, Train
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Assembly:
     """Equal planets (all wheels of one module, without profile shift) on one carrier."""
 
@@ -63,7 +63,14 @@ def assembly(train: Train, planet: str, number: int) -> Assembly:
     distances = {abs(mesh.size_a + mesh.size_b) for mesh in meshes}
     tip = max(mesh.size_a for mesh in meshes) + 2
     apart = min(distances) * math.sin(math.pi / number) > tip if number > 1 else True
-    return Assembly(carriers.pop(), planet, number, len(distances) == 1, _spacing(*meshes), bool(apart))
+    return Assembly(
+        carrier=carriers.pop(),
+        planet=planet,
+        number=number,
+        coaxial=len(distances) == 1,
+        spacing=_spacing(*meshes),
+        clear=bool(apart),
+    )
 
 
 def _from(mesh: Mesh, planet: str) -> Mesh:

@@ -18,7 +18,7 @@ _MOST_TEETH = 250  # of a wheel: products of four numbers stay exact, all choice
 _ROLES = ("a", "b", "carrier")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlanetaryDesign:
     """Two coaxial central wheels a and b, planets between them on a carrier; one shaft drives, one is held."""
 
@@ -124,7 +124,11 @@ def search_ratio(
             for k in np.lexsort((usable.p != usable.q, width, error))[:number]:
                 numbers = int(usable.a[k]), int(usable.p[k]), int(usable.q[k]), int(usable.b[k])
                 value = Fraction(int(above[k]), int(below[k]))
-                best.append(PlanetaryDesign(numbers, driving, driven, held, value, planets))
+                best.append(
+                    PlanetaryDesign(
+                        teeth=numbers, driving=driving, driven=driven, held=held, ratio=value, planets=planets
+                    )
+                )
     best.sort(
         key=lambda design: (abs(design.ratio - wanted), design.size, design.teeth[1] != design.teeth[2], design.teeth)
     )

@@ -160,9 +160,9 @@ def stops(cycle: Course, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[
     values = transfer_function(cycle, output, np.array([zero.at for zero in zeros])) if zeros else np.empty(0)
     centres = [
         DeadCentre(
-            cycle.span.wrapped(zero.at),
-            float(value),
-            "flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
+            drive=cycle.span.wrapped(zero.at),
+            output=float(value),
+            kind="flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
             flat=zero.multiplicity > 1,
         )
         for zero, value in zip(zeros, values, strict=True)
@@ -323,7 +323,12 @@ def _of_larger_groups(cycle: Course) -> Iterator[ChangePoint]:
                 away = [motion.angle(link)[0] - angle[row] for link, angle in angles.items()]
                 if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
                     for group in groups:
-                        yield ChangePoint(cycle.span.wrapped(drive), group.links, group.form(), change.several)
+                        yield ChangePoint(
+                            drive=cycle.span.wrapped(drive),
+                            links=group.links,
+                            form=group.form(),
+                            several=change.several,
+                        )
 
 
 def _singular(cycle: Course, circuit: Circuit, row: int) -> Iterator[SolvedGroup]:
@@ -367,7 +372,7 @@ def _change_point(cycle: Course, dyad: Dyad, cell: Reals) -> ChangePoint:
             break
         at += room * float(min(near, key=abs))
     group = cycle.plan.decomposition.groups[dyad.group]
-    return ChangePoint(span.wrapped(at), group.links, group.form())
+    return ChangePoint(drive=span.wrapped(at), links=group.links, form=group.form())
 
 
 _SINGULAR = 1e-6  # of the largest singular value: poses at change points are known to some 1e-8 only

@@ -128,9 +128,11 @@ class DeadCentres:
         ('minimum', 'maximum')
         """
         kinds = ("minimum", "maximum") if inner[1] < outer[1] else ("maximum", "minimum")
-        return cls(
-            DeadCentre(*inner[:2], kinds[0], "inner"), DeadCentre(*outer[:2], kinds[1], "outer"), inner[2], outer[2]
+        near, far = (
+            DeadCentre(drive=at[0], output=at[1], kind=kind, side=side)
+            for at, kind, side in ((inner, kinds[0], "inner"), (outer, kinds[1], "outer"))
         )
+        return cls(near, far, inner[2], outer[2])
 
     @property
     def travel(self) -> float:

@@ -252,7 +252,7 @@ class Circuit:
         drives = poses.drive().tolist() if driven else [float("nan")] * len(poses)
         crossing_several = [several for _, _, several in self.traced.changes]
         return tuple(
-            ChangePoint(drive, several=several, arc=arc)
+            ChangePoint(drive=drive, several=several, arc=arc)
             for drive, several, arc in zip(drives, crossing_several, poses.arcs.tolist(), strict=True)
         )
 

@@ -14,7 +14,7 @@ _TINY = 1e-9  # steps: the tolerance for a value beyond a tick
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scale:
     """From a lowest to a highest value, with ticks between."""
 
@@ -76,11 +76,11 @@ def decades(low: float, high: float) -> Scale:
     last = max(last, first + 1)
     ticks = [(float(f"{k}e{n}"), k) for n in range(first, last + 1) for k in range(1, 10 if n < last else 2)]
     return Scale(
-        ticks[0][0],
-        ticks[-1][0],
-        tuple(value for value, _ in ticks),
-        True,
-        tuple(_power(value) if k == 1 else "" for value, k in ticks),
+        low=ticks[0][0],
+        high=ticks[-1][0],
+        ticks=tuple(value for value, _ in ticks),
+        logarithmic=True,
+        names=tuple(_power(value) if k == 1 else "" for value, k in ticks),
     )
 
 
@@ -134,4 +134,4 @@ def _stepped(low: float, high: float, step: float, tight: bool) -> Scale:
     first, last = inner if tight else (math.floor(low / step + _TINY), math.ceil(high / step - _TINY))
     ticks = tuple(float(f"{k * step:.12g}") for k in range(first, last + 1))
     low, high = (low, high) if tight else (ticks[0], ticks[-1])
-    return Scale(low, high, ticks, False, tick_labels(ticks, step))
+    return Scale(low=low, high=high, ticks=ticks, logarithmic=False, names=tick_labels(ticks, step))

@@ -55,7 +55,7 @@ class Body:
     steps: tuple[Shift | Turn, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Clock:
     """The period in seconds, and the motion of the drive in it, in the given unit."""
 

@@ -28,7 +28,7 @@ _ROW, _SAMPLE = 22.0, 34.0  # of the list
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class PlottedCurve:
     """A line through points; NaN breaks it."""
 
@@ -41,7 +41,7 @@ class PlottedCurve:
     """Whether it is read at the axis on the right."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PointMarker:
     """A point with a name."""
 
@@ -78,7 +78,7 @@ class DwellMarker:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Panel:
     """One pair of axes, or one with a second axis on the right, and what is in it."""
 
@@ -106,8 +106,8 @@ def draw_panels(panels: Sequence[Panel], title: str, description: str, lang: str
     """The figure of panels one below the other; all lines with a name are listed on the right.
 
     >>> x = np.linspace(0, 360, 100)
-    >>> sine = PlottedCurve(x, np.sin(x), "", "line-1")
-    >>> panel = Panel(Axis("x", angles(0, 360)), Axis("y", decimals(-1, 1)), (sine,))
+    >>> sine = PlottedCurve(x=x, y=np.sin(x), name="", style="line-1")
+    >>> panel = Panel(across=Axis("x", angles(0, 360)), up=Axis("y", decimals(-1, 1)), curves=(sine,))
     >>> draw_panels([panel], "sine", "A wave.").title
     'sine'
     """
@@ -338,7 +338,7 @@ def ratio_diagram(
     )
     if at is not None:
         x = math.degrees(at[0])
-        spots = PointMarker(x, at[1], "P₁"), PointMarker(x, at[2], "P₂", right=True)
+        spots = PointMarker(x=x, y=at[1], text="P₁"), PointMarker(x=x, y=at[2], text="P₂", right=True)
         point = translate(
             "At φ_G = {angle:.4g}°: Q_G = {ratio:.4g}, L/l₁ = {length:.4g}.", lang, angle=x, ratio=at[1], length=at[2]
         )
@@ -354,13 +354,13 @@ def ratio_diagram(
         names = tuple(f"{start:.4g}" for start in starts)
         top = axis(translate("φ_A in °", lang), replace(across, ticks=starts, names=names))
     panel = Panel(
-        axis(translate("φ_G in °", lang), across),
-        axis("Q_G", decades(float(q.min()), float(q.max()))),
-        (
-            PlottedCurve(degrees, q, "Q_G", "line-1"),
-            PlottedCurve(degrees, lengths, "L/l₁", "line-2", right=True),
+        across=axis(translate("φ_G in °", lang), across),
+        up=axis("Q_G", decades(float(q.min()), float(q.max()))),
+        curves=(
+            PlottedCurve(x=degrees, y=q, name="Q_G", style="line-1"),
+            PlottedCurve(x=degrees, y=lengths, name="L/l₁", style="line-2", right=True),
         ),
-        axis("L/l₁", decimals(0.0, float(lengths.max()))),
+        right=axis("L/l₁", decimals(0.0, float(lengths.max()))),
         marks=(AxisMarker(spots[0].x, ""),) if spots else (),
         spots=spots,
         size=Point(*size),

@@ -35,7 +35,7 @@ COLOURS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Style:
     """Fill and stroke by role (none where empty), width of the stroke, size of text, lengths of dashes and gaps."""
 

@@ -32,7 +32,7 @@ class JointMember:
     is_frame: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class JointSign:
     """The sign of a joint."""
 
@@ -66,7 +66,7 @@ def _turning(at: Point, members: Sequence[JointMember]) -> JointSign:
     rings = len(members) - 2
     radius = RADIUS + _RING * rings
     above = (CircleShape(at, radius, "joint"), *(CircleShape(at, RADIUS + _RING * k, "ring") for k in range(rings)))
-    return JointSign((), above, (at,) * len(members), Point(1, 0), radius)
+    return JointSign(below=(), above=above, holds=(at,) * len(members), axis=Point(1, 0), reach=radius)
 
 
 def _lettered(at: Point, members: Sequence[JointMember], letter: str) -> JointSign:
@@ -78,7 +78,11 @@ def _lettered(at: Point, members: Sequence[JointMember], letter: str) -> JointSi
         *(CircleShape(at, inner + _RING * k, "ring") for k in rings),
     ]
     return JointSign(
-        (), (*above, TextShape(at, letter, "letter")), (at,) * len(members), Point(1, 0), inner + _RING * len(rings)
+        below=(),
+        above=(*above, TextShape(at, letter, "letter")),
+        holds=(at,) * len(members),
+        axis=Point(1, 0),
+        reach=inner + _RING * len(rings),
     )
 
 
@@ -100,7 +104,9 @@ def _sliding(at: Point, members: Sequence[JointMember]) -> JointSign:
     for k in range(len(members) - 2):
         part = 1 - (k + 1) / (len(members) - 1)
         above.append(Polylines((tuple(at.plus(p.minus(at), part) for p in block),), "ring", closed=True))
-    return JointSign(tuple(below), tuple(above), (hold,) + (at,) * (len(members) - 1), u, _GUIDE.x)
+    return JointSign(
+        below=tuple(below), above=tuple(above), holds=(hold,) + (at,) * (len(members) - 1), axis=u, reach=_GUIDE.x
+    )
 
 
 def _double_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
@@ -110,7 +116,7 @@ def _double_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
     h = 6.5
     cross = ((Point(at.x - h, at.y), Point(at.x + h, at.y)), (Point(at.x, at.y - h), Point(at.x, at.y + h)))
     above = (Polylines((square,), "joint", closed=True), Polylines(cross, "ring"))
-    return JointSign((), above, (at,) * len(members), Point(1, 0), half)
+    return JointSign(below=(), above=above, holds=(at,) * len(members), axis=Point(1, 0), reach=half)
 
 
 def _normal(members: Sequence[JointMember]) -> Point:
@@ -126,7 +132,7 @@ def _rolling(at: Point, members: Sequence[JointMember]) -> JointSign:
         CircleShape(middle, _DISC - 0.5, "block-frame" if member.is_frame else "block")
         for middle, member in zip(middles, members, strict=True)
     )
-    return JointSign((), above, middles, n.across, 2 * _DISC)
+    return JointSign(below=(), above=above, holds=middles, axis=n.across, reach=2 * _DISC)
 
 
 def _roll_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
@@ -137,7 +143,7 @@ def _roll_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
     middle = at.plus(n, _DISC)
     styles = ["block-frame" if member.is_frame else "block" for member in members]
     above = (Polylines((flat,), styles[0], closed=True), CircleShape(middle, _DISC - 0.5, styles[1]))
-    return JointSign((), above, (at.plus(n, -5.0), middle), t, 2 * _DISC)
+    return JointSign(below=(), above=above, holds=(at.plus(n, -5.0), middle), axis=t, reach=2 * _DISC)
 
 
 _BELOW = {"ring-body": 0, "ring-hole": 1}
@@ -163,7 +169,7 @@ def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -
         above.append(Polylines(tuple(sides), "edge"))
     # Rings and slots lie below what runs in them.
     above.sort(key=lambda shape: _BELOW.get(shape.style, len(_BELOW)))
-    return JointSign((), tuple(above), tuple(holds), n.across, 2 * _WHEEL + apart)
+    return JointSign(below=(), above=tuple(above), holds=tuple(holds), axis=n.across, reach=2 * _WHEEL + apart)
 
 
 _Part = tuple[Point, list[Shape]]

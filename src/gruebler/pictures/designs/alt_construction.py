@@ -29,7 +29,7 @@ STRAIGHT = 1e-9
 """Radians: dead centres so nearly half a turn apart have a line for the circle."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class AltConstruction:
     """The points of the construction; rocker or stroke have the length 1."""
 
@@ -85,14 +85,14 @@ def alt_construction(task: DeadCentreTask, member: FamilyMember) -> AltConstruct
         return (z - origin) * turn
 
     return AltConstruction(
-        placed(0j),
-        placed(outer),
-        placed(inner),
-        None if pivot is None else placed(pivot),
-        delta,
-        None if centre is None else placed(centre),
-        a,
-        b,
+        crank_pivot=placed(0j),
+        outer=placed(outer),
+        inner=placed(inner),
+        rocker_pivot=None if pivot is None else placed(pivot),
+        delta=delta,
+        centre=None if centre is None else placed(centre),
+        crank=a,
+        coupler=b,
     )
 
 

@@ -63,9 +63,9 @@ def burmester_plot(task: PositionTask, design: Design | None = None, *, lang: st
         for side in ("real", "imag")
     )
     scale = _LONGER_SIDE / max(x.high - x.low, y.high - y.low)
-    spots = [PointMarker(z.real, z.imag, name, style="node") for name, z in finite_poles(task).items()]
-    spots += [PointMarker(z.real, z.imag, str(k), style="ring") for k, z in enumerate(task.origins, 1)]
-    spots += [PointMarker(z.real, z.imag, name) for line in lines for name, z in line]
+    spots = [PointMarker(x=z.real, y=z.imag, text=name, style="node") for name, z in finite_poles(task).items()]
+    spots += [PointMarker(x=z.real, y=z.imag, text=str(k), style="ring") for k, z in enumerate(task.origins, 1)]
+    spots += [PointMarker(x=z.real, y=z.imag, text=name) for line in lines for name, z in line]
     spots += _tenths(curves)
     named = {
         "line-1": (translate("circle-point curve, tenths marked", lang), [piece.moving for piece in curves.pieces]),
@@ -74,12 +74,14 @@ def burmester_plot(task: PositionTask, design: Design | None = None, *, lang: st
         "dead": (translate("positions", lang), _frames(task)),
     }
     drawn = [
-        PlottedCurve(piece.real, piece.imag, name, style) for style, (name, pieces) in named.items() for piece in pieces
+        PlottedCurve(x=piece.real, y=piece.imag, name=name, style=style)
+        for style, (name, pieces) in named.items()
+        for piece in pieces
     ]
     panel = Panel(
-        Axis(f"x in {task.unit}", x),
-        Axis(f"y in {task.unit}", y),
-        tuple(drawn),
+        across=Axis(f"x in {task.unit}", x),
+        up=Axis(f"y in {task.unit}", y),
+        curves=tuple(drawn),
         spots=tuple(s for s in spots if x.low <= s.x <= x.high and y.low <= s.y <= y.high),
         size=Point(scale * (x.high - x.low), scale * (y.high - y.low)),
     )
@@ -123,7 +125,7 @@ def _tenths(curves: BurmesterCurves) -> list[PointMarker]:
         for tenth in range(10):
             if places[0] <= tenth / 10 <= places[-1]:
                 a, b = (float(np.interp(tenth / 10, places, part)) for part in (piece.moving.real, piece.moving.imag))
-                marks.append(PointMarker(a, b, f"{tenth / 10:g}", style="velocity-head"))
+                marks.append(PointMarker(x=a, y=b, text=f"{tenth / 10:g}", style="velocity-head"))
     return marks
 
 
@@ -185,35 +187,35 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
     measure = "°" if turning else task.unit
     scale = angles(float(across.min()), float(across.max()), tight=True)
     across_name = translate("input from the first pair in °", lang)
-    spots = tuple(PointMarker(degrees(a), b, str(k)) for k, (a, b) in enumerate(zip(*pairs, strict=True), 1))
+    spots = tuple(PointMarker(x=degrees(a), y=b, text=str(k)) for k, (a, b) in enumerate(zip(*pairs, strict=True), 1))
     everything = np.concatenate([output[np.isfinite(output)], wanted[np.isfinite(wanted)], pairs[1]])
-    curves = [PlottedCurve(across, output, translate("output of the design", lang), "line-1")]
+    curves = [PlottedCurve(x=across, y=output, name=translate("output of the design", lang), style="line-1")]
     if task.law is not None:
-        curves.append(PlottedCurve(across, wanted, translate("wanted", lang), "line-2"))
+        curves.append(PlottedCurve(x=across, y=wanted, name=translate("wanted", lang), style="line-2"))
     panels = [
         Panel(
-            Axis(across_name, scale),
-            Axis(
+            across=Axis(across_name, scale),
+            up=Axis(
                 translate("output in {unit}", lang, unit=measure),
                 decimals(float(everything.min()), float(everything.max())),
             ),
-            tuple(curves),
+            curves=tuple(curves),
             spots=spots,
         )
     ]
     error = output - wanted
     if np.isfinite(error).any():
-        marked = tuple(PointMarker(degrees(a), 0.0, str(k)) for k, a in enumerate(pairs[0], 1))
+        marked = tuple(PointMarker(x=degrees(a), y=0.0, text=str(k)) for k, a in enumerate(pairs[0], 1))
         if task.law is not None and design.optimum is not None:
             marked = _extremes(task, task.law, design.optimum.solution, unit)
         panels.append(
             Panel(
-                Axis(across_name, scale),
-                Axis(
+                across=Axis(across_name, scale),
+                up=Axis(
                     translate("structural error in {unit}", lang, unit=measure),
                     decimals(min(0.0, float(np.nanmin(error))), max(0.0, float(np.nanmax(error)))),
                 ),
-                (PlottedCurve(across, error, translate("structural error", lang), "line-3"),),
+                curves=(PlottedCurve(x=across, y=error, name=translate("structural error", lang), style="line-3"),),
                 spots=marked,
             )
         )
@@ -233,7 +235,7 @@ def _extremes(task: FunctionTask, law: FunctionLaw, solution: Coordination, unit
     x = error_extremes(solution, law)
     inputs = replace(law, input_start=0.0).inputs(x) - _first(task)[0]
     errors = structural_error(solution, law, x) * unit
-    return tuple(PointMarker(degrees(a), b, "") for a, b in zip(inputs, errors, strict=True))
+    return tuple(PointMarker(x=degrees(a), y=b, text="") for a, b in zip(inputs, errors, strict=True))
 
 
 def _first(task: FunctionTask) -> tuple[float, float]:

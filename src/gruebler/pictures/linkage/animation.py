@@ -44,7 +44,7 @@ class AnimationOptions(TypedDict, total=False):
     name: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
     """A linkage through a full turn of its drive, or to and fro, in pixels."""
 
@@ -114,7 +114,14 @@ def scene(
     )
     described = f"{describe(linkage.mechanism, lang)} {moves}"
     page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
-    return Scene(posed, pieces, still, corner, page, seconds * (turns if posed.repeats else 1))
+    return Scene(
+        posed=posed,
+        pieces=pieces,
+        still=still,
+        corner=corner,
+        page=page,
+        seconds=seconds * (turns if posed.repeats else 1),
+    )
 
 
 def animated_svg(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:

@@ -43,7 +43,7 @@ class BodyPart:
     shapes: tuple[Shape, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Slide:
     """The sign of a sliding joint."""
 
@@ -84,7 +84,16 @@ def _slide(posed: PosedLinkage, number: int) -> Slide:
         sign = "slot"
     elif _is_cylinder(lower, number, guide, start, along, low, high):
         sign = "cylinder"
-    return Slide(number, guide, block, sign, middle, along, start + low * along, start + high * along)
+    return Slide(
+        joint=number,
+        guide=guide,
+        block=block,
+        sign=sign,
+        middle=middle,
+        along=along,
+        low=start + low * along,
+        high=start + high * along,
+    )
 
 
 def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:

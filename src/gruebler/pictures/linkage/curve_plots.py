@@ -79,7 +79,9 @@ def hodograph(
     ]
     tips = factor * run.cycle.at(run.round_drives, 1).complex_point(places[0], 1)
     spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
-    panel = _square(paths, names if len(names) > 1 else [""], axes, [*spots, PointMarker(0.0, 0.0, "")], ranges=ranges)
+    panel = _square(
+        paths, names if len(names) > 1 else [""], axes, [*spots, PointMarker(x=0.0, y=0.0, text="")], ranges=ranges
+    )
     title = translate("{name}: hodograph of {points}", lang, name=run.name, points=", ".join(names))
     about = translate(
         "Tips of the velocity vectors of {points} put at one origin, {range}, with a speed of {speed}.",
@@ -98,7 +100,7 @@ def _tips(run: PlotRun, path: Complexes, near: float) -> list[PointMarker]:
         if np.isfinite(z):
             named = [spot for spot in spots if spot.text]
             apart = all(math.hypot(spot.x - z.real, spot.y - z.imag) > near for spot in named)
-            spots.append(PointMarker(z.real, z.imag, run.value(drive) if apart else ""))
+            spots.append(PointMarker(x=z.real, y=z.imag, text=run.value(drive) if apart else ""))
     return spots
 
 
@@ -204,7 +206,7 @@ def _paths(
     paths = [run.motion.complex_point(place) for place in places.values()]
     row = len(run.drives) // 6
     skeleton = _skeleton(run.motion, row, places.values())
-    spots = [PointMarker(path[row].real, path[row].imag, "") for path in paths]
+    spots = [PointMarker(x=path[row].real, y=path[row].imag, text="") for path in paths]
     panel = _square(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
     about = translate(
         "Paths of {points}, {range}; dots and thin lines show the pose at {at}.",
@@ -245,11 +247,14 @@ def _square(
     wide = [(low - _AROUND * longest, high + _AROUND * longest) for low, high in ranges]
     longest *= 1 + 2 * _AROUND
     x, y = (_even(low, high, longest) for low, high in wide)
-    curves = [PlottedCurve(line.real, line.imag, "", "ghost") for line in thin]
-    curves += [PlottedCurve(z.real, z.imag, name, style) for z, name, style in zip(paths, names, LINES, strict=False)]
+    curves = [PlottedCurve(x=line.real, y=line.imag, name="", style="ghost") for line in thin]
+    curves += [
+        PlottedCurve(x=z.real, y=z.imag, name=name, style=style)
+        for z, name, style in zip(paths, names, LINES, strict=False)
+    ]
     size = Point(*(_SQUARE / longest * (scale.high - scale.low) for scale in (x, y)))
     visible = tuple(spot for spot in spots if x.low <= spot.x <= x.high and y.low <= spot.y <= y.high)
-    return Panel(Axis(axes[0], x), Axis(axes[1], y), tuple(curves), spots=visible, size=size)
+    return Panel(across=Axis(axes[0], x), up=Axis(axes[1], y), curves=tuple(curves), spots=visible, size=size)
 
 
 def _even(low: float, high: float, longest: float) -> Scale:

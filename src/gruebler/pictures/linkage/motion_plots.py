@@ -75,10 +75,18 @@ def transfer_plot(
         scale = angles if output_quantity.turning and order == 0 else decimals
         axis = Axis(_order_words(run, output_quantity, order), scale(*run.bulk(values), few=6))
         shown = marks if order == 0 else tuple(replace(mark, text="") for mark in marks)
-        curves = (PlottedCurve(run.x, values, "", LINES[0]),)
+        curves = (PlottedCurve(x=run.x, y=values, name="", style=LINES[0]),)
         named = dwells if order == 0 else tuple(replace(dwell, text="") for dwell in dwells)
         panels.append(
-            Panel(run.across, axis, curves, marks=shown, dwells=named, size=_LOW, marked=translate("dead centre", lang))
+            Panel(
+                across=run.across,
+                up=axis,
+                curves=curves,
+                marks=shown,
+                dwells=named,
+                size=_LOW,
+                marked=translate("dead centre", lang),
+            )
         )
     title = translate("{name}: transfer functions of {output}", lang, name=run.name, output=called)
     about = translate(
@@ -195,13 +203,13 @@ def transmission_plot(
         least, at = float(values[row]), float(run.drives[row])
     marks, dwells = _stops(run, output_quantity)
     panel = Panel(
-        run.across,
-        Axis("μ in °", decimals(0.0, 90.0, few=9)),
-        (PlottedCurve(run.x, values, "", LINES[0]),),
+        across=run.across,
+        up=Axis("μ in °", decimals(0.0, 90.0, few=9)),
+        curves=(PlottedCurve(x=run.x, y=values, name="", style=LINES[0]),),
         bands=(Band(0.0, _GOOD, "μ < 40°"),),
         marks=marks,
         dwells=dwells,
-        spots=(PointMarker(run.drive_in_units(at), least, f"μ_min = {least:.1f}°"),),
+        spots=(PointMarker(x=run.drive_in_units(at), y=least, text=f"μ_min = {least:.1f}°"),),
         marked=translate("dead centre", lang),
     )
     title = translate("{name}: transmission angle of {output}", lang, name=run.name, output=called)

@@ -29,7 +29,7 @@ _BULK = 0.9  # the middle part of all values
 _STEEP = {False: 1.5, True: 20.0}  # widths of it beyond which values are cut off; True: full turns
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PlotRun:
     """Poses of a linkage with one drive, and the texts of the drive."""
 
@@ -120,4 +120,6 @@ def plot_run(linkage: LinkageLike, order: int, branch: Branch, between: Between,
     drives = drive_rows(cycle, between, ROWS)
     if between is None and cycle.span.full:
         drives = drives - drives[0]
-    return PlotRun(cycle, drives, cycle.at(drives, order), lang, title(linkage.mechanism, lang, name))
+    return PlotRun(
+        cycle=cycle, drives=drives, motion=cycle.at(drives, order), lang=lang, name=title(linkage.mechanism, lang, name)
+    )

@@ -34,7 +34,7 @@ _INSIDE = 1e-6  # of the range: the distance of the last pose from a limit
 _ENDLESS = 1.5  # sizes on both sides of the start of a slide without limits
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PosedLinkage:
     """The motion of a linkage as input of pictures and animations."""
 
@@ -103,7 +103,9 @@ def posed_along_motion(motion: Motion) -> PosedLinkage:
         unbounded=(),
         taken_for_exact=(),
     )
-    return PosedLinkage(motion.lower_linkage, None, first, motion, _scale(motion.lower_linkage, motion))
+    return PosedLinkage(
+        lower=motion.lower_linkage, cycle=None, pose=first, path=motion, scale=_scale(motion.lower_linkage, motion)
+    )
 
 
 def _is_whole(cycle: Course, drives: Reals) -> bool:
@@ -143,7 +145,11 @@ def posed_linkage(
         along = path_cycle(linkage, drives, branch=branch)
         path = along.at(np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2, 0)
         return PosedLinkage(
-            along.lower_linkage, along, along.at(np.array([1 / 3]), 2), path, _scale(along.lower_linkage, path)
+            lower=along.lower_linkage,
+            cycle=along,
+            pose=along.at(np.array([1 / 3]), 2),
+            path=path,
+            scale=_scale(along.lower_linkage, path),
         )
     if len(linkage.mechanism.drives) == 1:
         try:
@@ -152,7 +158,9 @@ def posed_linkage(
             return _one_position(linkage, values, branch, error)
         path = cycle.at(drive_rows(cycle, between), 0)
         pose = cycle.at(np.array([_value(cycle, values, path.drives[:, 0])]), 2)
-        return PosedLinkage(cycle.lower_linkage, cycle, pose, path, _scale(cycle.lower_linkage, path))
+        return PosedLinkage(
+            lower=cycle.lower_linkage, cycle=cycle, pose=pose, path=path, scale=_scale(cycle.lower_linkage, path)
+        )
     if values is None:
         zeros = np.zeros(len(linkage.mechanism.drives))
         values = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
@@ -164,7 +172,9 @@ def posed_linkage(
 
 def _posed(pose: Motion) -> PosedLinkage:
     """One pose without a range."""
-    return PosedLinkage(pose.lower_linkage, None, pose, pose, _scale(pose.lower_linkage, pose))
+    return PosedLinkage(
+        lower=pose.lower_linkage, cycle=None, pose=pose, path=pose, scale=_scale(pose.lower_linkage, pose)
+    )
 
 
 def _one_position(linkage: Linkage, values: Reals | None, branch: Branch, error: LinkageError) -> PosedLinkage:

@@ -100,7 +100,9 @@ def animate_cam(
     if plot:
         bodies += running(beneath(lift_diagram(cam, None, lang), bodies))
     about = " ".join([_about(cam, lang), translate("It makes a turn in {seconds:g} s.", lang, seconds=seconds)])
-    return moving(bodies, Clock(always(seconds), 0.0, 360.0, "°"), name or _title(cam, lang), about)
+    return moving(
+        bodies, Clock(seconds=always(seconds), low=0.0, high=360.0, unit="°"), name or _title(cam, lang), about
+    )
 
 
 def _scale(cam: Cam) -> float:

@@ -78,7 +78,9 @@ def animate_geneva(
     if plot:
         bodies += running(beneath(ratio_panels(geneva, None, lang), bodies))
     about = " ".join([_about(geneva, lang), translate("A turn of the driver in {seconds:g} s.", lang, seconds=seconds)])
-    return moving(bodies, Clock(always(seconds), 0.0, 360.0, "°"), name or _title(geneva, lang), about)
+    return moving(
+        bodies, Clock(seconds=always(seconds), low=0.0, high=360.0, unit="°"), name or _title(geneva, lang), about
+    )
 
 
 def ratio_panels(geneva: Geneva, at: float | None = None, lang: str = "en") -> Figure:

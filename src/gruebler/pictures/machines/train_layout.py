@@ -21,7 +21,7 @@ _CLOSE = 1e-6
 _PER_SIZE = {"rack by pitch": 1 / math.tau, "rack": 1.0, "winch": 1.0}  # radius by size; of toothed wheels a half
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class StageWheel:
     """A wheel of a stage, in the reference pose."""
 
@@ -50,7 +50,7 @@ class PlacedMesh(NamedTuple):
     radii: tuple[float, float]
 
 
-@dataclass
+@dataclass(kw_only=True)
 class GearStage:
     """Wheels with axes on one carrier; the carrier's own axis is 0."""
 
@@ -77,7 +77,7 @@ def gear_stages(train: Train, planets: Mapping[str, int]) -> list[GearStage]:
     >>> [(wheel.link, round(wheel.radius, 9), round(abs(wheel.at), 9)) for wheel in stage.wheels][:3]
     [('sun', 12.0, 0.0), ('planet', 9.0, 21.0), ('planet', 9.0, 21.0)]
     """
-    stages = [GearStage(meshes[0].carrier, meshes) for meshes in mesh_groups(train.meshes)]
+    stages = [GearStage(carrier=meshes[0].carrier, meshes=meshes) for meshes in mesh_groups(train.meshes)]
     for stage in stages:
         stage.copies = max((planets.get(link, 1) for mesh in stage.meshes for link in (mesh.a, mesh.b)), default=1)
         stage.central = central_links(stage.meshes, train)
@@ -200,7 +200,9 @@ def _wheels(stage: GearStage) -> None:
                     mate = known[1 - k] if len(sides) > 1 else None
                     phase = _phase(mate, size, at) if mate and mesh.kind == "gear" else 0.0
                     planet = bool(stage.central) and link not in stage.central
-                    known[k] = wheels[keys[k]] = StageWheel(link, size, radius, at, phase, planet)
+                    known[k] = wheels[keys[k]] = StageWheel(
+                        link=link, size=size, radius=radius, at=at, phase=phase, planet=planet
+                    )
             stage.placed.append(PlacedMesh(mesh, places[0], places[-1], (radii[0], radii[-1])))
     stage.wheels = list(wheels.values())
 

@@ -19,7 +19,7 @@ _WHY = {
 _THREADS = 4  # turns of a screw
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TrainMotion:
     """Rates of all links, and the shown time."""
 
@@ -85,7 +85,16 @@ def train_motion(train: Train, drives: Mapping[str, object], seconds: float, mos
         time = cycle if cycle <= longest else max(turn, longest // turn * turn)
         takes = float(time * fastest) * seconds
     per_radian = frozenset(link for link in rates if units[link] == Unit.PER_RADIAN)
-    return TrainMotion(rates, per_radian, slides, drive, cycle, time, takes, () if drives else tuple(chosen))
+    return TrainMotion(
+        rates=rates,
+        per_radian=per_radian,
+        slides=slides,
+        drive=drive,
+        cycle=cycle,
+        time=time,
+        seconds=takes,
+        chosen=() if drives else tuple(chosen),
+    )
 
 
 def _there(train: Train, rates: Mapping[str, Fraction], fastest: Fraction) -> Fraction:

@@ -108,7 +108,9 @@ def animate_train(
     sentences = [_about(train, shown, lang), _cycle(motion, lang)]
     if motion.chosen:
         sentences.insert(1, translate("Driven: {links}.", lang, links=", ".join(motion.chosen)))
-    clock = Clock(motion.seconds, 0.0, 360.0 * float(motion.drive_turns), "°", not motion.slides)
+    clock = Clock(
+        seconds=motion.seconds, low=0.0, high=360.0 * float(motion.drive_turns), unit="°", round=not motion.slides
+    )
     return moving(
         _bodies(shown, motion, teeth, lang), clock, name or translate("Gear train", lang), " ".join(sentences)
     )

@@ -39,8 +39,10 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
     for k, (text, y) in enumerate(rows):
         axis = Axis(text, decimals(float(y.min()), float(y.max()), few=4))
         shown = tuple(replace(mark, text=mark.text if k == 0 else "") for mark in marks)
-        curves = (PlottedCurve(np.degrees(x), y, "", LINES[0]),)
-        panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
+        curves = (PlottedCurve(x=np.degrees(x), y=y, name="", style=LINES[0]),)
+        panels.append(
+            Panel(across=Axis("φ in °", angles(0.0, 360.0, few=12)), up=axis, curves=curves, marks=shown, size=_PANEL)
+        )
     return draw_panels(panels, title, "", lang)
 
 

@@ -15,7 +15,7 @@ Walk = tuple[int, ...]
 _SPARSE = 400  # vertices: from here on most of the matrix is zeros
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class InitialLayout:
     """An embedding with a chosen outer face and the symmetries of both."""
 
@@ -40,7 +40,10 @@ def initial_layouts(rotations: Iterable[Rotation], colours: Sequence[int]) -> li
             code, readings = _least_code(rotation, colours, outer)
             if code not in layouts:
                 inner = tuple(walks[:k] + walks[k + 1 :])
-                layouts[code] = InitialLayout(rotation, outer, inner, *_symmetries(readings, len(outer)), code)
+                images, turns = _symmetries(readings, len(outer))
+                layouts[code] = InitialLayout(
+                    rotation=rotation, outer=outer, inner=inner, images=images, turns=turns, code=code
+                )
     return sorted(layouts.values(), key=lambda start: (len(start.images) == 1, -len(start.outer), start.code))
 
 

@@ -24,7 +24,7 @@ _SYMMETRY = 1.35  # a symmetric layout is preferred to others with up to this fa
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Layout:
     """The places of the points: the bodies do not overlap, except the pairs in ``crossings``."""
 
@@ -138,14 +138,16 @@ class _Run:
         crossings = {(task.owners[i], task.owners[j]) for i, j in crossing(points, drawn)}
         outlines = self._outlines()
         return Layout(
-            points,
-            outlines,
-            tuple(sorted({(min(pair), max(pair)) for pair in crossings})),
-            _covered(points, outlines),
-            for_work(closest, comparing(len(task.watched)))(points, task.segments, task.watched),
-            self.start.turns,
-            tuple(image[: self.bodies.size] for image in self.start.images),
-            () if crossings or self.crossed.strands else tuple(self._without_hubs(walk) for walk in self.start.inner),
+            points=points,
+            outlines=outlines,
+            crossings=tuple(sorted({(min(pair), max(pair)) for pair in crossings})),
+            covered=_covered(points, outlines),
+            clearance=for_work(closest, comparing(len(task.watched)))(points, task.segments, task.watched),
+            turns=self.start.turns,
+            images=tuple(image[: self.bodies.size] for image in self.start.images),
+            faces=()
+            if crossings or self.crossed.strands
+            else tuple(self._without_hubs(walk) for walk in self.start.inner),
         )
 
     def _relax(self, x: NDArray[np.float64], task: _Task, power: float, rounds: int) -> None:
@@ -222,4 +224,13 @@ def _covered(points: NDArray[np.float64], outlines: tuple[tuple[int, ...], ...])
 def _line(bodies: LayoutBodies) -> Layout:
     points = np.array([[k / max(1, bodies.size - 1), 0.0] for k in range(bodies.size)])
     alone = (tuple(range(bodies.size)),)
-    return Layout(points, bodies.paths, (), 0, 1.0, np.eye(2)[None], alone, ())
+    return Layout(
+        points=points,
+        outlines=bodies.paths,
+        crossings=(),
+        covered=0,
+        clearance=1.0,
+        turns=np.eye(2)[None],
+        images=alone,
+        faces=(),
+    )

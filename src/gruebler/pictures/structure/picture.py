@@ -42,7 +42,7 @@ _ASIDE = 17.0  # pixels between the middle of a link and its output arrow
 _NARROW = 30.0  # pixels between a joint and another link, at least, unless the picture becomes too large
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlacedChain:
     """A chain with places for its joints, in pixels: the input for drawing links, joints and drives."""
 
@@ -131,14 +131,14 @@ def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str]
     points = [Point(scale * x, -scale * y) for x, y in upright(layout, low).tolist()]
     back = {p: k for k, p in places.items()}
     return PlacedChain(
-        chain,
-        tuple(points[places[k]] for k in range(len(chain.joints))),
-        {link: tuple(points[p] for p in layout.outlines[plain.index(link)]) for link in chain.links},
-        frame,
-        tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
-        frozenset(plain.links[max(pair)] for pair in layout.crossings),
-        tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
-        _renumbered(chain_of(structure), chain, contacts or {}),
+        chain=chain,
+        joints=tuple(points[places[k]] for k in range(len(chain.joints))),
+        outlines={link: tuple(points[p] for p in layout.outlines[plain.index(link)]) for link in chain.links},
+        frame=frame,
+        drives=tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
+        crossing=frozenset(plain.links[max(pair)] for pair in layout.crossings),
+        faces=tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
+        contacts=_renumbered(chain_of(structure), chain, contacts or {}),
     )
 
 

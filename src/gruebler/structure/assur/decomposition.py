@@ -26,7 +26,7 @@ from gruebler.structure.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.structure.mobility import generic, overconstrained
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SolvedGroup:
     """An Assur group in its mechanism."""
 
@@ -103,7 +103,7 @@ class JointShare:
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Decomposition:
     """Drives, groups in solving order, and the links that the drives leave undetermined."""
 
@@ -250,27 +250,34 @@ def decompose(mechanism: Mechanism) -> Decomposition:
     locked = lock_drives(mechanism)
     if locked.counted < 0 or not independent(mechanism, locked):
         links = tuple(link for body in locked.bodies[1:] for link in body)
-        return Decomposition(mechanism, locked.bodies[0][:0], (), links, check_drives(mechanism), True)
+        return Decomposition(
+            mechanism=mechanism,
+            driven=locked.bodies[0][:0],
+            groups=(),
+            rest=links,
+            report=check_drives(mechanism),
+            overconstrained=True,
+        )
     bodies = range(len(locked.bodies))
     first = {k: mechanism.chain.index(locked.bodies[k][0]) for k in bodies}
     parts, loose = split_into_groups(locked.joints, bodies, 0, first, [k for k in bodies if len(locked.bodies[k]) > 1])
     return Decomposition(
-        mechanism,
-        tuple(link for link in locked.bodies[0] if link != mechanism.frame),
-        tuple(_group(locked, part) for part in parts),
-        tuple(link for body in loose for link in locked.bodies[body]),
-        check_drives(mechanism) if loose else None,
-        False,
+        mechanism=mechanism,
+        driven=tuple(link for link in locked.bodies[0] if link != mechanism.frame),
+        groups=tuple(_group(locked, part) for part in parts),
+        rest=tuple(link for body in loose for link in locked.bodies[body]),
+        report=check_drives(mechanism) if loose else None,
+        overconstrained=False,
     )
 
 
 def _group(locked: LockedMechanism, part: BodyGroup) -> SolvedGroup:
     return SolvedGroup(
-        tuple(locked.bodies[element[0]] for element in part.elements),
-        tuple(tuple(link for body in element[1:] for link in locked.bodies[body]) for element in part.elements),
-        locked.bodies[part.base],
-        part.members,
-        part.after,
+        bodies=tuple(locked.bodies[element[0]] for element in part.elements),
+        carried=tuple(tuple(link for body in element[1:] for link in locked.bodies[body]) for element in part.elements),
+        base=locked.bodies[part.base],
+        joints=part.members,
+        after=part.after,
     )
 
 

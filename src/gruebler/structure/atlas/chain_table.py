@@ -30,7 +30,7 @@ _SLIDES = np.array([pair.is_sliding for pair in PAIRS])
 _INTERPRETED = 2.5e-4  # seconds for each link of a chain, if the kernel is interpreted
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ChainArrays:
     """Chains of one number of links as graphs: see `chain_memory`."""
 
@@ -50,7 +50,14 @@ class ChainArrays:
         """Chains of simple turning joints, uint8[k, joints, 2]."""
         k, joints, _ = edges.shape
         turning = np.full((k, joints), int(np.argmax(_TURNS)), np.int32)
-        return cls(links, mobility, np.zeros(k, np.int64), np.full(k, joints), edges.astype(np.int32), turning)
+        return cls(
+            links=links,
+            mobility=mobility,
+            hubs=np.zeros(k, np.int64),
+            sizes=np.full(k, joints),
+            edges=edges.astype(np.int32),
+            pairs=turning,
+        )
 
 
 def arrays_of_chains(links: int, mobility: int, chains: Sequence[Chain]) -> ChainArrays:
@@ -75,12 +82,12 @@ def arrays_of_chains(links: int, mobility: int, chains: Sequence[Chain]) -> Chai
     for k, row in enumerate(rows):
         table[k, : len(row)] = row
     return ChainArrays(
-        links,
-        mobility,
-        np.array(hubs, np.int64),
-        np.array([len(row) for row in rows], np.int64),
-        np.ascontiguousarray(table[:, :, :2]),
-        np.ascontiguousarray(table[:, :, 2]),
+        links=links,
+        mobility=mobility,
+        hubs=np.array(hubs, np.int64),
+        sizes=np.array([len(row) for row in rows], np.int64),
+        edges=np.ascontiguousarray(table[:, :, :2]),
+        pairs=np.ascontiguousarray(table[:, :, 2]),
     )
 
 

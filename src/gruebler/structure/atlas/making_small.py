@@ -21,8 +21,8 @@ def make_small_atlas(directory: Path, most: int = 10) -> None:
     """Write the small atlas, with chains of so many links at most, into a directory; files there are replaced."""
     directory.mkdir(parents=True, exist_ok=True)
     tasks = (
-        AtlasTask(f"4-{most}", f"0-{most - 3}", "all", inversions=True),
-        AtlasTask(f"4-{most}", "1", inversions=True, drives="frame"),
+        AtlasTask(links=f"4-{most}", mobility=f"0-{most - 3}", fractionated="all", inversions=True),
+        AtlasTask(links=f"4-{most}", mobility="1", inversions=True, drives="frame"),
     )
     with temporary_directory() as folder:
         every = build(tasks[0], folder / "all")

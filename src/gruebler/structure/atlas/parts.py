@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import KW_ONLY, dataclass, fields, replace
 from hashlib import sha256
 from itertools import islice
 from pathlib import Path
@@ -56,6 +56,7 @@ class AtlasTask:
     """F, or a range."""
     fractionated: str = "none"
     """As `enumeration.Request`: ``none``, ``link``, ``joint`` or ``all``."""
+    _: KW_ONLY
     multiple_joints: str = "0"
     """As `enumeration.Request`: a number, a range or ``any``."""
     prismatic: str = "0"
@@ -181,7 +182,7 @@ class Part:
         return f"{where}/part-{self.number:05d}.parquet"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PartFile:
     """A finished file."""
 
@@ -276,7 +277,16 @@ class PartWriter:
         )
         digest = sha256(content).hexdigest()
         request = part.request
-        return PartFile(name, path, request.mobility, request.links, table.num_rows, len(content), digest, sums)
+        return PartFile(
+            table=name,
+            path=path,
+            mobility=request.mobility,
+            links=request.links,
+            rows=table.num_rows,
+            bytes=len(content),
+            sha256=digest,
+            sums=sums,
+        )
 
     def _chains(self, part: Part) -> pa.Table:
         request = part.request

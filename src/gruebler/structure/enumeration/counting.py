@@ -74,7 +74,9 @@ def count_simple_chains(
     work = pieces(links, mobility, assortment=assortment)
     counts = [count for done in run_pieces(partial(count_piece, orbits=orbits), work, executor) for count in done]
     if loop_count(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
-        counts.append(PieceCount((links,), 1, 1, 1, 1))  # one loop: all links alike, all joints alike
+        counts.append(
+            PieceCount(assortment=(links,), chains=1, inversions=1, joint_orbits=1, drives=1)
+        )  # one loop: all links alike, all joints alike
     return add_counts(links, mobility, counts, orbits)
 
 

@@ -23,7 +23,7 @@ Plain = Callable[[int, int], Iterator[Chain]]
 _Edges = tuple[tuple[int, int], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class BlockAddition:
     """Sizes of the chain and of its last block; different sizes give different chains."""
 
@@ -53,7 +53,9 @@ def block_additions(links: int, mobility: int, kind: str) -> list[BlockAddition]
             for f in range(1, min(mobility - bridges - 1, h - 3) + 1):
                 # The other leaf is not smaller, and blocks share one link where no bridge is between them.
                 if (3 * (h - 1) - f) % 2 == 0:
-                    additions.append(BlockAddition(links, mobility, bridges, h, f))
+                    additions.append(
+                        BlockAddition(links=links, mobility=mobility, bridges=bridges, last_links=h, last_mobility=f)
+                    )
     return additions
 
 

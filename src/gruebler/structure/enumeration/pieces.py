@@ -41,7 +41,7 @@ class WorkPiece:
     """The approximate number of string assignments to test; counting takes a nanosecond for each."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PieceCount:
     """The chains of one assortment in a piece, and the orbits on them (0 if not requested)."""
 
@@ -175,8 +175,17 @@ def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...
         while remaining:
             higher.append(remaining & ((1 << DIGITS) - 1))
             remaining >>= DIGITS
-        sums = [sum(column) for column in table[table[:, DEGREES] == code, DEGREES + 1 :].T.tolist()]
-        counts.append(PieceCount((piece.links - sum(higher), *higher), *sums))
+        rows = table[table[:, DEGREES] == code, DEGREES + 1 :]
+        chains, inversions, joint_orbits, drives = rows.sum(axis=0).tolist()
+        counts.append(
+            PieceCount(
+                assortment=(piece.links - sum(higher), *higher),
+                chains=chains,
+                inversions=inversions,
+                joint_orbits=joint_orbits,
+                drives=drives,
+            )
+        )
     return tuple(counts)
 
 

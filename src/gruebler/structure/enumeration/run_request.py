@@ -60,7 +60,15 @@ def run_count(
         head = store.head(number) if store is not None else None
         try:
             piece_tallies = [
-                PieceTally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (head or {})["tallies"]
+                PieceTally(
+                    kind=kind,
+                    assortment=tuple(sizes),
+                    chains=chains,
+                    inversions=inversions,
+                    joint_orbits=joint_orbits,
+                    drives=drives,
+                )
+                for kind, sizes, chains, inversions, joint_orbits, drives in (head or {})["tallies"]
             ]
         except (KeyError, TypeError, ValueError):  # none, or not the head of a counted piece
             return None

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
-from dataclasses import astuple, dataclass
+from dataclasses import asdict, dataclass
 from itertools import islice
 
 import numpy as np
@@ -58,7 +58,7 @@ class MultipleJointPiece:
 Work = WorkPiece | RingPiece | BlockAddition | MultipleJointPiece
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PieceTally:
     """The chains of one class and assortment in a piece, and the orbits on them (0 if not requested)."""
 
@@ -136,7 +136,7 @@ class PieceCounter:
     def __call__(self, work: Work) -> list[PieceTally]:
         """The numbers of a piece, by class and assortment."""
         if isinstance(work, WorkPiece):
-            return [PieceTally("none", *astuple(piece_count)) for piece_count in count_piece(work, self.orbits)]
+            return [PieceTally(kind="none", **asdict(count)) for count in count_piece(work, self.orbits)]
         if isinstance(work, MultipleJointPiece) and self.request.mobility < 2 and not self.orbits:
             return _grown_tallies(self.request, work)
         sums: dict[tuple[str, Assortment], list[int]] = {}
@@ -144,7 +144,17 @@ class PieceCounter:
             row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])
             for k, number in enumerate((1, *(_orbits(chain) if self.orbits else ()))):
                 row[k] += number
-        return [PieceTally(kind, assortment, *row) for (kind, assortment), row in sorted(sums.items())]
+        return [
+            PieceTally(
+                kind=kind,
+                assortment=assortment,
+                chains=chains,
+                inversions=inversions,
+                joint_orbits=joint_orbits,
+                drives=drives,
+            )
+            for (kind, assortment), (chains, inversions, joint_orbits, drives) in sorted(sums.items())
+        ]
 
 
 def _grown_tallies(request: Request, work: MultipleJointPiece) -> list[PieceTally]:
@@ -160,7 +170,10 @@ def _grown_tallies(request: Request, work: MultipleJointPiece) -> list[PieceTall
             assortment = tuple(np.trim_zeros(row, "b").tolist())
             if request.assortment in (None, assortment):
                 sums[assortment] = sums.get(assortment, 0) + count
-    return [PieceTally("none", assortment, count, 0, 0, 0) for assortment, count in sorted(sums.items())]
+    return [
+        PieceTally(kind="none", assortment=assortment, chains=count, inversions=0, joint_orbits=0, drives=0)
+        for assortment, count in sorted(sums.items())
+    ]
 
 
 def _grown(request: Request, work: MultipleJointPiece) -> Iterator[NDArray[np.int64]]:

@@ -23,7 +23,7 @@ P = TypeVar("P")
 R = TypeVar("R")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Progress:
     """The state of a run."""
 
@@ -47,7 +47,7 @@ class Progress:
     def seconds_left(self) -> float | None:
         """Estimated from the rate; None before there is a rate.
 
-        >>> Progress(3, 500, 500, 2.0, 1500).seconds_left
+        >>> Progress(pieces=3, chains=500, fresh=500, seconds=2.0, expected=1500).seconds_left
         4.0
         """
         if self.expected is None or not self.rate:
@@ -292,4 +292,12 @@ class ProgressCounter:
         self._fresh += chains * fresh
         if self._report is not None:
             seconds = monotonic() - self._begun
-            self._report(Progress(self._pieces, self._chains, self._fresh, seconds, self._expected))
+            self._report(
+                Progress(
+                    pieces=self._pieces,
+                    chains=self._chains,
+                    fresh=self._fresh,
+                    seconds=seconds,
+                    expected=self._expected,
+                )
+            )

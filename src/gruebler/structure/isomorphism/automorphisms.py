@@ -23,7 +23,7 @@ class Permutation:
     joints: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Symmetry:
     """The automorphism group of a chain. Orbits are sorted tuples, in the order of their first member."""
 
@@ -74,14 +74,14 @@ def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int |
     flags = sorted((chain.index(link), k) for k, joint in enumerate(chain.joints) for link in joint.links)
     on_flags = [{(i, k): (g.links[i], g.joints[k]) for i, k in flags} for g in generators]
     return Symmetry(
-        generators,
-        canonical_result.order,
-        tuple(
+        generators=generators,
+        order=canonical_result.order,
+        link_orbits=tuple(
             tuple(chain.links[i] for i in orbit)
             for orbit in orbits(links, [dict(enumerate(g.links)) for g in generators])
         ),
-        tuple(orbits(joints, [dict(enumerate(g.joints)) for g in generators])),
-        tuple(tuple((chain.links[i], k) for i, k in orbit) for orbit in orbits(flags, on_flags)),
+        joint_orbits=tuple(orbits(joints, [dict(enumerate(g.joints)) for g in generators])),
+        flag_orbits=tuple(tuple((chain.links[i], k) for i, k in orbit) for orbit in orbits(flags, on_flags)),
     )
 
 

@@ -10,7 +10,7 @@ from gruebler.structure.mobility import generic
 from gruebler.structure.mobility.placement import LockedFreedom
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class DriveReport:
     """Whether the drives fix the motion of a mechanism, at almost all sizes."""
 
@@ -66,4 +66,10 @@ def check_drives(mechanism: Mechanism) -> DriveReport:
     still = set(next(cluster for cluster in locked.clusters if mechanism.frame in cluster))
     moving = tuple(link for link in chain.links if link not in still)
     redundant = tuple(k for k in range(len(locks)) if locked.redundancy and locked.some_stresses[first + k].any())
-    return DriveReport(free.mobility, len(locks), locked.mobility, moving, redundant)
+    return DriveReport(
+        mobility=free.mobility,
+        drives=len(locks),
+        remaining=locked.mobility,
+        free_links=moving,
+        redundant_drives=redundant,
+    )

@@ -39,7 +39,7 @@ Matrix = NDArray[np.int64]
 Column = NDArray[np.int64]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Overconstrained:
     """A subchain with more constraints than it needs."""
 
@@ -144,7 +144,14 @@ def _as_a_whole(rank: Generic, part: _Rows, basis: dict[int, Support] | None) ->
     links = tuple(rank.chain.links[link] for link in sorted(on_links))
     joints = tuple(sorted(on_joints))
     removing = joints if single else () if basis is None else _in_every_stress(rank, part, basis)
-    return Overconstrained(links, joints, part.dimension, single, removing, joints if single else ())
+    return Overconstrained(
+        links=links,
+        joints=joints,
+        redundancy=part.dimension,
+        minimal=single,
+        resolved_by_removing=removing,
+        resolved_by_freeing=joints if single else (),
+    )
 
 
 def _in_every_stress(rank: Generic, part: _Rows, basis: dict[int, Support]) -> tuple[int, ...]:
@@ -221,7 +228,14 @@ class _StressedPart:
         ends = {key for key, load in on_joints.items() if len(left_null_space(load)) == 0}
         joints = tuple(joint for joint, key in self.joints.items() if key in on_joints)
         removing = tuple(joint for joint in joints if self.joints[joint] in ends)
-        return Overconstrained(links, joints, len(space), minimal, removing, joints if len(space) == 1 else ())
+        return Overconstrained(
+            links=links,
+            joints=joints,
+            redundancy=len(space),
+            minimal=minimal,
+            resolved_by_removing=removing,
+            resolved_by_freeing=joints if len(space) == 1 else (),
+        )
 
 
 def _by_kernel(loads: dict[int, list[Matrix]]) -> tuple[dict[int, bytes], dict[bytes, Matrix]]:

@@ -34,7 +34,7 @@ class TooLargeError(GrueblerError):
     """The rank of this chain takes more than about a minute or 1 GB; raised before the elimination starts."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Generic:
     """The rank at one random placement, and the spaces of motions and stresses that come with it."""
 
@@ -112,16 +112,23 @@ def generic(chain: Chain, locks: Sequence[LockedFreedom] = (), *, large: bool = 
         placement = random_placement(chain, _FIRST_SEED + attempt, locks)
         form = _eliminated(placement.rows, placement.columns, large=large)
         if form.rank == min(len(placement.rows), placement.columns):
-            return Generic(chain, placement, form, True, 0.0, large)
+            return Generic(chain=chain, placement=placement, form=form, exact=True, error_bound=0.0, large=large)
         if licensed:
             known = pebble_mobility(chain) if known is None else known
             if placement.columns - form.rank == known:
-                return Generic(chain, placement, form, True, 0.0, large)
+                return Generic(chain=chain, placement=placement, form=form, exact=True, error_bound=0.0, large=large)
         elif best is None:
             best = placement, form
         else:
             placement, form = max(best, (placement, form), key=lambda pair: pair[1].rank)
-            return Generic(chain, placement, form, False, placement.error_bound(form.rank) ** 2, large)
+            return Generic(
+                chain=chain,
+                placement=placement,
+                form=form,
+                exact=False,
+                error_bound=placement.error_bound(form.rank) ** 2,
+                large=large,
+            )
     raise AssertionError(f"{_TRIES} random placements stay below the rank that theory gives for {chain!r}")
 
 

@@ -75,7 +75,7 @@ _OTHER_COUNTS = {
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class MobilityReport:
     """The result of `mobility_report`. `explain` returns it as text."""
 
@@ -212,18 +212,18 @@ def mobility_report(
     member = {link: k for k, cluster in enumerate(clusters) for link in cluster}
     immobile = tuple(k for k, joint in enumerate(chain.joints) if len({member[link] for link in joint.links}) == 1)
     return MobilityReport(
-        chain,
-        still,
-        number,
-        rank.mobility if game is None else game,
-        rank.redundancy if game is None else rank.redundancy + game - rank.mobility,
-        rank.exact if game is None else True,
-        rank.error_bound if game is None else 0.0,
-        overconstrained(rank),
-        tuple(cluster for cluster in clusters if len(cluster) > 1),
-        immobile,
-        idle_freedoms(rank, still),
-        method,
+        chain=chain,
+        frame=still,
+        count=number,
+        generic=rank.mobility if game is None else game,
+        redundancy=rank.redundancy if game is None else rank.redundancy + game - rank.mobility,
+        exact=rank.exact if game is None else True,
+        error_bound=rank.error_bound if game is None else 0.0,
+        overconstrained=overconstrained(rank),
+        rigid_clusters=tuple(cluster for cluster in clusters if len(cluster) > 1),
+        immobile_joints=immobile,
+        idle_freedoms=idle_freedoms(rank, still),
+        method=method,
     )
 
 

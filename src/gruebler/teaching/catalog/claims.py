@@ -37,7 +37,7 @@ class WrongClaim:
         return self.in_language("en")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CheckedEntry:
     """A chain with its report and its claims."""
 
@@ -105,7 +105,9 @@ def check_claims(
     idle = tuple(link for freedom in report.idle_freedoms for link in freedom.links)
     if claims.idle and set(claims.idle) != set(idle):
         wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or _NONE))
-    return CheckedEntry(id, origin, report, claims, tuple(wrong), derived_freedoms)
+    return CheckedEntry(
+        id=id, origin=origin, report=report, claims=claims, wrong=tuple(wrong), freedoms=derived_freedoms
+    )
 
 
 def _joint_counts(count: Count) -> dict[str, object]:

@@ -29,7 +29,7 @@ _SAME = ("links", "drive_joints", "drive_joints_at_frame", "output_links", "outp
 _EXCHANGED = ("prismatic", "rolling", "roll_slide")  # the pairs with which the enumeration replaces revolutes
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureQuery:
     """Required access features; None and empty mean no requirement.
 

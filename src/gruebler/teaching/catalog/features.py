@@ -11,7 +11,7 @@ from gruebler.structure.chain.pairs import Alphabet, Pair
 from gruebler.structure.mechanism import Mechanism
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class AccessFeatures:
     """The numbers of drive joints, output links, and links and joints by kind; a joint of k links counts k - 1."""
 
@@ -77,12 +77,12 @@ def access_features(mechanism: Mechanism, outputs: Iterable[str] = ()) -> Access
         counts[joint.pair] += len(joint.links) - 1
     driven = {drive.joint: frame in drive.between for drive in mechanism.drives}
     return AccessFeatures(
-        len(driven),
-        sum(driven.values()),
-        len(chosen),
-        sum(link in near for link in chosen),
-        chain.n,
-        tuple(chain.link_kinds.items()),
-        sum(counts.values()),
-        tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0].name))),
+        drive_joints=len(driven),
+        drive_joints_at_frame=sum(driven.values()),
+        output_links=len(chosen),
+        output_links_at_frame=sum(link in near for link in chosen),
+        links=chain.n,
+        links_by_joints=tuple(chain.link_kinds.items()),
+        joints=sum(counts.values()),
+        joints_by_pair=tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0].name))),
     )

@@ -122,7 +122,7 @@ def check_exercise(record: Exercise, origin: str | None = None) -> list[CheckedE
     return checked
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Query:
     """A search; None and empty mean no requirement."""
 

@@ -44,7 +44,7 @@ class Partial:
     value: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GuidedPoint:
     """The path of a named point over the whole motion of the drive, in the unit of the machine."""
 
@@ -60,7 +60,7 @@ class GuidedPoint:
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MachineReport:
     """The result of `machine_report`. `explain` returns it as text."""
 
@@ -138,16 +138,16 @@ def machine_report(entry: Entry) -> MachineReport:
     single, several = (linkage, None) if len(mechanism.drives) == 1 else (None, linkage if mechanism.drives else None)
     measures, points = (None, ()) if single is None else _moving(single)
     return MachineReport(
-        entry,
-        mechanism,
-        mobility_report(mechanism.chain, frame=mechanism.frame),
-        None if placed is None else _freedoms(placed),
-        entry_features(entry),
-        check_drives(mechanism) if mechanism.drives else None,
-        measures,
-        () if several is None else _partials(several),
-        points,
-        _shown_transmission(entry, measures),
+        entry=entry,
+        mechanism=mechanism,
+        mobility=mobility_report(mechanism.chain, frame=mechanism.frame),
+        freedoms=None if placed is None else _freedoms(placed),
+        features=entry_features(entry),
+        drives=check_drives(mechanism) if mechanism.drives else None,
+        measures=measures,
+        partials=() if several is None else _partials(several),
+        points=points,
+        shown_mu=_shown_transmission(entry, measures),
     )
 
 
@@ -169,8 +169,16 @@ def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]
     points = []
     for name, place in linkage.points.items():
         curve = coupler_curve(linkage, name)
-        extent = (_extent(curve, direction) for direction in (0.0, pi / 2))
-        points.append(GuidedPoint(name, place.link, curve.closed, curve.length, *extent))
+        points.append(
+            GuidedPoint(
+                name=name,
+                link=place.link,
+                closed=curve.closed,
+                length=curve.length,
+                width=_extent(curve, 0.0),
+                height=_extent(curve, pi / 2),
+            )
+        )
     return result, tuple(points)
 
 

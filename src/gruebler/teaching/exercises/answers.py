@@ -41,7 +41,7 @@ def read_answer(answer: str, result: Result) -> GivenAnswer:
     Raises `GrueblerError` for an answer without a number and for a unit of another kind.
 
     >>> from gruebler.base.text import message
-    >>> read_answer("7,2 cm", Result("H", message("stroke"), 72.0, "mm")).number
+    >>> read_answer("7,2 cm", Result(key="H", name=message("stroke"), value=72.0, unit="mm")).number
     72.0
     """
     form = _NUMBER.fullmatch(answer)

@@ -67,7 +67,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
         )
     chosen = read_points(points)
     as_step(step)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message(
             "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that "
@@ -104,7 +104,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     if isclose(a, d):
         raise LinkageError("with a = d = {d:g} the joint A runs through B0, where the coupler has no direction", d=d)
     as_step(step)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message("The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:"),
         "C = A + b·(B0 - A)/|AB0|, |AB0| = √(a² + d² - 2·a·d·cos φ)",

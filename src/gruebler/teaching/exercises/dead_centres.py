@@ -33,7 +33,7 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     >>> round(slider_crank(1.7, 6, 1.5).number("H"), 6)
     3.522595
     """
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     _add_dead_centres(builder, SliderCrank(a, b, e))
     return builder.done()
 
@@ -139,7 +139,7 @@ def stroke_table(
     if start not in _STARTS:
         raise LinkageError("start is {starts}, not {start!r}", starts=joined_by_or(_STARTS), start=start)
     as_step(step)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     rod = _rod(builder, a, b, ratio)
     size = SliderCrank(a, rod, e)
     _add_dead_centres(builder, size)
@@ -196,7 +196,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     >>> round(solution.number("φ_H2"), 4), round(solution.number("μ_H2"), 4)
     (78.463, 66.9261)
     """
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     rod = _rod(builder, a, b, ratio)
     size = SliderCrank(a, rod)
     if size.dead_centres is None:
@@ -280,7 +280,7 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
             d=d,
             type=in_every_language(size.type.name),
         )
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     lengths = {"a": formula_number(a), "b": formula_number(b), "c": formula_number(c), "d": formula_number(d)}
     phi_i, phi_a = _dead_centre_angles(builder, size, lengths)
     builder.say(
@@ -386,7 +386,7 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
     (91.241438, 52.535031)
     """
     size = FourBar.central(a=a, b=b, c=c)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     text = message("frame: in both dead centres B lies on one line through A0, so the chord of the swing is 2a long")
     name = message("length of the frame")
     builder.find("d", name, "√(b² + c² - a²)", sqrt(b**2 + c**2 - a**2), text=text, a=a, b=b, c=c)

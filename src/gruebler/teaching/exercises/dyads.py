@@ -96,7 +96,7 @@ def _numbered(start: Chain, extended: Chain) -> Chain:
 def _add_before(builder: SolutionBuilder, start: Chain) -> int:
     parts = count_freedoms(start).formula().removeprefix("F = ").split(" = ")
     before = message("Before: {chain}", chain=in_alphabets(start.text))
-    builder.parts.append(SolutionStep(before, f"F = {parts[0]}", parts[1], counted(start)))
+    builder.parts.append(SolutionStep(text=before, formula=f"F = {parts[0]}", numbers=parts[1], value=counted(start)))
     builder.keep("F_before", _BEFORE, counted(start), symbol="F")
     return counted(start)
 
@@ -104,7 +104,7 @@ def _add_before(builder: SolutionBuilder, start: Chain) -> int:
 def _add_after(builder: SolutionBuilder, start: Chain, extensions: list[Extension]) -> None:
     first = extensions[0].chain
     parts = count_freedoms(first).formula().removeprefix("F = ").split(" = ")
-    builder.parts.append(SolutionStep(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
+    builder.parts.append(SolutionStep(text=_AFTER, formula=f"F = {parts[0]}", numbers=parts[1], value=counted(first)))
     builder.keep("F_after", _AFTER, counted(first), symbol="F'")
     change = counted(first) - counted(start)
     builder.keep("change", message("change of F"), _CHANGES.get(change, str(change)), symbol="ΔF")

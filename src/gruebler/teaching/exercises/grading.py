@@ -28,7 +28,7 @@ class Mark(StrEnum):
     WRONG = "wrong"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Grade:
     """One answer with the result and its mark."""
 
@@ -188,7 +188,7 @@ def _marked(mistakes: Sequence[Mistake], result: Result, answer: str, scales: Se
         return _marked_number(mistakes, result, answer, scales)
     mark = _mark_of_words(result.value, answer)
     hints = [m.hint for m in mistakes if mark is Mark.WRONG and _mark_of_words(m.value, answer) is Mark.RIGHT]
-    return Grade(result.key, answer, result, mark, hints[0] if hints else None)
+    return Grade(key=result.key, answer=answer, result=result, mark=mark, hint=hints[0] if hints else None)
 
 
 def _marked_number(mistakes: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
@@ -200,7 +200,7 @@ def _marked_number(mistakes: Sequence[Mistake], result: Result, answer: str, sca
         reading = next((candidate for candidate in read if _mark_of(result.value, candidate) is Mark.RIGHT), reading)
     mark = _mark_of(result.value, reading)
     if mark is Mark.RIGHT and not any(_is_mistake(m.value, value, reading) for m in mistakes):
-        return Grade(result.key, answer, result, mark)
+        return Grade(key=result.key, answer=answer, result=result, mark=mark)
     hints = [m.hint for m in mistakes if _mark_of(m.value, reading) is Mark.RIGHT]
     if not hints and isinstance(result.value, float):
         hints = [
@@ -209,9 +209,9 @@ def _marked_number(mistakes: Sequence[Mistake], result: Result, answer: str, sca
             if result.unit and (not unit or unit == result.unit) and _mark_of(change(value), reading) is Mark.RIGHT
         ]
     if hints:
-        return Grade(result.key, answer, result, Mark.WRONG, hints[0])
+        return Grade(key=result.key, answer=answer, result=result, mark=Mark.WRONG, hint=hints[0])
     near = message("Right in principle; carry more digits on the way.")
-    return Grade(result.key, answer, result, mark, near if mark is Mark.NEAR else None)
+    return Grade(key=result.key, answer=answer, result=result, mark=mark, hint=near if mark is Mark.NEAR else None)
 
 
 def _is_mistake(mistake: Value, correct: float, reading: GivenAnswer) -> bool:

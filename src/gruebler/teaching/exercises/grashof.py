@@ -26,7 +26,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     grashof = FourBar(a, b, c, d).grashof
     if not grashof.assemblable:
         raise LinkageError("lengths {a:g}, {b:g}, {c:g}, {d:g} cannot be assembled", a=a, b=b, c=c, d=d)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     _add_sums(builder, grashof)
     shortest = ", ".join(grashof.shortest)
     turns = "a" in grashof.turning
@@ -35,7 +35,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     builder.keep("type", message("type"), kind, symbol="")
     builder.parts.append(
         SolutionStep(
-            message("The place of the shortest link ({shortest}; d is the frame) makes it a:", shortest=shortest),
+            text=message("The place of the shortest link ({shortest}; d is the frame) makes it a:", shortest=shortest),
             value=kind,
         )
     )
@@ -75,15 +75,21 @@ def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
     name = message("sum of the two others")
     others = first + second
     builder.parts.append(
-        SolutionStep(name, "s2 = l' + l''", f"{formula_number(second)} + {formula_number(first)}", others, unit)
+        SolutionStep(
+            text=name,
+            formula="s2 = l' + l''",
+            numbers=f"{formula_number(second)} + {formula_number(first)}",
+            value=others,
+            unit=unit,
+        )
     )
     builder.keep("sum_others", name, others, unit=unit, symbol="s2")
     relation = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
     builder.parts.append(
         SolutionStep(
-            message("Grashof's condition: {meaning}", meaning=_SAYS[grashof.condition]),
-            relation[grashof.condition],
-            f"{formula_number(ends)} {grashof.condition} {formula_number(others)}",
+            text=message("Grashof's condition: {meaning}", meaning=_SAYS[grashof.condition]),
+            formula=relation[grashof.condition],
+            numbers=f"{formula_number(ends)} {grashof.condition} {formula_number(others)}",
         )
     )
     builder.mistake("sum_ends", low + second, message("This is not the sum with the longest link."))
@@ -124,7 +130,7 @@ def length_range(
             free=free,
             lengths=given_lengths,
         )
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message(
             "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, "

@@ -73,15 +73,21 @@ def _add_count(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: 
     numbered = all(link.isdigit() for link in structure.links)
     links = sorted(structure.links, key=int) if numbered else structure.links
     names = Text(", ".join(links), ", ".join(german.get(link, link) for link in links))
-    builder.parts.append(SolutionStep(message("Links: {links}.", links=names), "n", "", structure.n))
+    builder.parts.append(
+        SolutionStep(text=message("Links: {links}.", links=names), formula="n", numbers="", value=structure.n)
+    )
     builder.keep(f"n{mark}", mark.named(_LINKS), structure.n, symbol="n")
     _add_joints(builder, structure, mark, german)
     formula = count_freedoms(structure)
     parts = formula.formula().removeprefix("F = ").split(" = ")
-    builder.parts.append(SolutionStep(_FREEDOM, f"F = {parts[0]}", parts[1], formula.value))
+    builder.parts.append(SolutionStep(text=_FREEDOM, formula=f"F = {parts[0]}", numbers=parts[1], value=formula.value))
     builder.keep(f"F{mark}", mark.named(_FREEDOM), formula.value, symbol="F")
     sides = formula.criterion().split(" = ")
-    builder.parts.append(SolutionStep(_CRITERION[formula.value == 1], " = ".join(sides[:2]), "", float(sides[2])))
+    builder.parts.append(
+        SolutionStep(
+            text=_CRITERION[formula.value == 1], formula=" = ".join(sides[:2]), numbers="", value=float(sides[2])
+        )
+    )
     report = mobility_report(structure)
     verdict = in_every_language(lambda lang: verdict_word(report.verdict, lang))
     if report.generic > 0:
@@ -105,7 +111,7 @@ def _add_joints(builder: SolutionBuilder, structure: Chain, mark: _Mark, german:
             ", ".join(short.joint_names(Alphabet.GERMAN)[k] for k in which),
         )
         text = message("Joints with f = {f}: {joints}.", f=f, joints=names if which else message("none"))
-        builder.parts.append(SolutionStep(text, f"g{f}", "", number))
+        builder.parts.append(SolutionStep(text=text, formula=f"g{f}", numbers="", value=number))
         name = message("number of joints with f = {f}", f=f)
         builder.keep(f"g{f}{mark}", mark.named(name), number, symbol=f"g{f}")
     for joint, named in zip(structure.multiple_joints, short.multiple_joints, strict=True):

@@ -22,7 +22,7 @@ Value = float | bool | str | Readable
 _SYMBOL = re.compile(r"[^\W\d_][^\W²³]*(?:\*|''|')?")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SolutionStep:
     """One step: its text, the formula, the formula with its numbers, the value."""
 
@@ -55,7 +55,7 @@ class PartHeading:
 Part = SolutionStep | TeachingTable | PartHeading
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Result:
     """A quantity that the solution computes."""
 
@@ -68,7 +68,7 @@ class Result:
     """Whether the value is valid with both signs, + and -."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
     """One quantity computed by two methods."""
 
@@ -185,7 +185,7 @@ def fill_template(formula: str, values: Mapping[str, float | str]) -> str:
     return _SYMBOL.sub(put, formula)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, kw_only=True)
 class SolutionBuilder:
     """A solution under construction."""
 
@@ -218,7 +218,16 @@ class SolutionBuilder:
         sign = key if symbol is None else symbol
         value = float(value)
         numbers = fill_template(formula, {**(values or {}), **more})
-        self.parts.append(SolutionStep(text or name, f"{sign} = {formula}", numbers, value, shown, either_sign))
+        self.parts.append(
+            SolutionStep(
+                text=text or name,
+                formula=f"{sign} = {formula}",
+                numbers=numbers,
+                value=value,
+                unit=shown,
+                either_sign=either_sign,
+            )
+        )
         self.keep(key, name, value, unit=shown, symbol=sign, either_sign=either_sign)
         return value
 
@@ -226,7 +235,9 @@ class SolutionBuilder:
         self, key: str, name: Readable, value: Value, *, unit: str = "", symbol: str = "", either_sign: bool = False
     ) -> None:
         """A result without a step of its own."""
-        self.results[key] = Result(key, name, value, unit, symbol or key, either_sign)
+        self.results[key] = Result(
+            key=key, name=name, value=value, unit=unit, symbol=symbol or key, either_sign=either_sign
+        )
 
     def number(self, key: str) -> float:
         """The value of an earlier result that is a number."""
@@ -234,7 +245,7 @@ class SolutionBuilder:
 
     def say(self, text: Readable, formula: str = "") -> None:
         """A step in words."""
-        self.parts.append(SolutionStep(text, formula))
+        self.parts.append(SolutionStep(text=text, formula=formula))
 
     def table(
         self, title: Message, headers: Sequence[str | Readable], rows: Iterable[Sequence[Value]], *, decimals: int = 3
@@ -246,7 +257,9 @@ class SolutionBuilder:
         self, text: Readable, first: float, second: float, unit: str | None = None, tolerance: float = 1e-8
     ) -> None:
         """A check: the same quantity by the steps above and by a second method."""
-        self.checks.append(Check(text, first, second, self.unit if unit is None else unit, tolerance))
+        self.checks.append(
+            Check(text=text, first=first, second=second, unit=self.unit if unit is None else unit, tolerance=tolerance)
+        )
 
     def mistake(self, key: str, value: Value, hint: Readable) -> None:
         """A frequent wrong answer; left out where it happens to be right."""

@@ -31,7 +31,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     if not b == c == e or a + d >= 2 * b:
         raise LinkageError("the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}", b=b, c=c, e=e)
     size = FourBar(a, b, c, d)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message("B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one."),
         "|B0C| = √((b + e)² - |AB0|²)",
@@ -107,7 +107,7 @@ def watt_linkage(
     size = FourBar(rocker, coupler, rocker, hypot(width, height))
     tilt = -atan2(height, width)
     left_pivot = complex(-rocker, height / 2)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message(
             "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, "
@@ -209,7 +209,7 @@ def double_rocker(
     [84.071616, 43.677859]
     """
     size = FourBar(d, a, b, c)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message(
             "Pivot of the rocker d in the origin, of the rocker b at ({x}, {y}): the frame c lies at {angle}° to the "
@@ -319,7 +319,7 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     if not a == b == e:
         raise LinkageError("an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}", a=a, b=b, e=e)
     size = SliderCrank(a, b)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message(
             "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line "

@@ -38,7 +38,7 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
             d=d,
             type=in_every_language(size.type.name),
         )
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.say(
         message(
             "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - "
@@ -124,7 +124,7 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     36.869898
     """
     SliderCrank(a, b, e)  # raises for invalid lengths
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     builder.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
     _add_slider_crank(builder, a, b, e)
     return builder.done()
@@ -205,7 +205,7 @@ def _add_other_extreme(builder: SolutionBuilder, a: float, b: float, e: float) -
 
 def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
     """Two central slider-cranks with the same crank: the influence of the ratio a/b on the transmission angle."""
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     angles = []
     for mark, b in (("1", b1), ("2", b2)):
         SliderCrank(a, b)

@@ -41,7 +41,7 @@ def four_bar(
     pose = size.motion(radians(phi), branch=branch)
     if not pose.complete:
         raise LinkageError(pose.message)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     theta, psi = _directions(builder, size, phi, side)
     builder.say(
         message(
@@ -244,7 +244,7 @@ def slider_crank(
     size = SliderCrank(a, b, e)
     if not size.motion(radians(phi)).complete:
         raise LinkageError(size.motion(radians(phi)).message)
-    builder = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit=unit)
     crank = radians(phi)
     low = "e - a·sin φ" if e else "-a·sin φ"
     beta = atan2(e - a * sin(crank), sqrt(b**2 - (e - a * sin(crank)) ** 2))

@@ -45,16 +45,16 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
             derived=wrong.derived,
         )
     items: list[Item] = [
-        TextLine(_LEFT, 50, translate("Collection of mechanisms", lang), 10, role="faint"),
-        TextLine(_RIGHT, 50, translate("Sheet {id}", lang, id=sheet.id), 10, role="faint", anchor="end"),
+        TextLine(x=_LEFT, y=50, text=translate("Collection of mechanisms", lang), size=10, role="faint"),
+        TextLine(x=_RIGHT, y=50, text=translate("Sheet {id}", lang, id=sheet.id), size=10, role="faint", anchor="end"),
     ]
     items.append(HorizontalRule(_LEFT, 57, _RIGHT - _LEFT, 1.2))
     y = 82.0
     for line in wrapped_text(sheet.record.title.in_language(lang), _RIGHT - _LEFT, 18 * 1.06):
-        items.append(TextLine(_LEFT, y, line, 18, bold=True))
+        items.append(TextLine(x=_LEFT, y=y, text=line, size=18, bold=True))
         y += 23
     for task in sheet.record.tasks:
-        items.append(TextLine(_LEFT, y, f"–  {task.in_language(lang)}", _BODY))
+        items.append(TextLine(x=_LEFT, y=y, text=f"–  {task.in_language(lang)}", size=_BODY))
         y += _LEAD
     y = _pictures(items, sheet, y, lang) + 22
     features_bottom = _features(items, sheet, y, lang)
@@ -88,14 +88,14 @@ def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
         lang,
         pose=pose,
     )
-    items.append(TextLine(_LEFT, y + high + 14, to_scale, 10, role="faint"))
+    items.append(TextLine(x=_LEFT, y=y + high + 14, text=to_scale, size=10, role="faint"))
     output = ", ".join(names[link] for link in sheet.entry.outputs)
     caption = translate("Structure, output {output}: double arrow", lang, output=output)
-    items.append(TextLine(_RIGHT, middle - 8, caption, 10, role="faint", anchor="end"))
+    items.append(TextLine(x=_RIGHT, y=middle - 8, text=caption, size=10, role="faint", anchor="end"))
     definition, factor = definition_picture(sheet, lang)
     _fitted(items, definition, right, middle + 4, _RIGHT - right, y + high - middle - 4)
     caption = translate("For the definition of Q_G, enlarged {factor} times across g", lang, factor=f"{factor:.2g}")
-    items.append(TextLine(_RIGHT, y + high + 14, caption, 10, role="faint", anchor="end"))
+    items.append(TextLine(x=_RIGHT, y=y + high + 14, text=caption, size=10, role="faint", anchor="end"))
     return y + high + 14
 
 
@@ -103,7 +103,7 @@ def _features(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     """Access features and dimensions, in the left column; the y below them."""
     y = _heading(items, translate("Access features", lang), _LEFT, y, _MIDDLE - _GAP)
     for label, value in sheet.features.described(lang):
-        items += [TextLine(_LEFT, y, label, _BODY), TextLine(_LEFT + 110, y, value, _BODY)]
+        items += [TextLine(x=_LEFT, y=y, text=label, size=_BODY), TextLine(x=_LEFT + 110, y=y, text=value, size=_BODY)]
         y += _LEAD
     heading = translate("Dimensions (unit of length {unit})", lang, unit=sheet.dimensions[0].symbol)
     y = _heading(items, heading, _LEFT, y + 10, _MIDDLE - _GAP)
@@ -114,11 +114,11 @@ def _features(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
 
 
 def _dimension(value: StatedValue, y: float, lang: str) -> Iterable[Item]:
-    yield TextLine(_LEFT, y, value.symbol, _BODY)
-    yield TextLine(_LEFT + 28, y, with_subscripts("".join(value.of)), _BODY, role="faint")
+    yield TextLine(x=_LEFT, y=y, text=value.symbol, size=_BODY)
+    yield TextLine(x=_LEFT + 28, y=y, text=with_subscripts("".join(value.of)), size=_BODY, role="faint")
     if value.exact is not None:
-        yield TextLine(_LEFT + 110, y, value.exact.typeset, _BODY)
-    yield TextLine(_MIDDLE - _GAP, y, typeset_number(value.derived, lang, ".6f"), _BODY, anchor="end")
+        yield TextLine(x=_LEFT + 110, y=y, text=value.exact.typeset, size=_BODY)
+    yield TextLine(x=_MIDDLE - _GAP, y=y, text=typeset_number(value.derived, lang, ".6f"), size=_BODY, anchor="end")
 
 
 def _straightness(items: list[Item], sheet: Sheet, y: float, lang: str) -> None:
@@ -128,7 +128,7 @@ def _straightness(items: list[Item], sheet: Sheet, y: float, lang: str) -> None:
     below = _heading(items, translate("Relative deviation from the line", lang), _LEFT, y, right)
     centre = f"{typeset_number(guide.centre, lang)}°"
     windows = translate("Q_G = Δy/L for φ_G about φ = {centre}, φ_A = {centre} - φ_G/2", lang, centre=centre)
-    items.append(TextLine(_LEFT, below, windows, 10, role="faint"))
+    items.append(TextLine(x=_LEFT, y=below, text=windows, size=10, role="faint"))
     _fitted(items, _diagram(sheet, lang), _LEFT, below + 6, right - _LEFT, HEIGHT - 88 - below)
     heading = translate(
         "Example: L = {length:g} {unit} within {tolerance:g} {unit}",
@@ -166,7 +166,7 @@ def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
     y = HEIGHT - 42 - 12 * (len(lines) - 1)
     items.append(HorizontalRule(_LEFT, y - 13, _RIGHT - _LEFT))
     for line in lines:
-        items.append(TextLine(_LEFT, y, line, 8.5, role="faint"))
+        items.append(TextLine(x=_LEFT, y=y, text=line, size=8.5, role="faint"))
         y += 12
 
 
@@ -175,7 +175,7 @@ def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
 
 def _heading(items: list[Item], text: str, x: float, y: float, right: float) -> float:
     """A heading with a rule below; returns the base line of the following text."""
-    items += [TextLine(x, y, text, _BODY + 0.5, bold=True), HorizontalRule(x, y + 5, right - x)]
+    items += [TextLine(x=x, y=y, text=text, size=_BODY + 0.5, bold=True), HorizontalRule(x, y + 5, right - x)]
     return y + 5 + _LEAD
 
 
@@ -184,7 +184,7 @@ def _paragraphs(items: list[Item], heading: str, texts: Iterable[str], x: float,
     y = _heading(items, heading, x, y, _RIGHT)
     for text in texts:
         for line in wrapped_text(text, _RIGHT - x, _BODY):
-            items.append(TextLine(x, y, line, _BODY))
+            items.append(TextLine(x=x, y=y, text=line, size=_BODY))
             y += _LEAD
         y += apart
     return y

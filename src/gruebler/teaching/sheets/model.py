@@ -43,7 +43,7 @@ def _expression(text: str | None) -> Expression | None:
     return None if text is None else Expression(text)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StatedValue:
     """A value of the sheet: its name, exact value, value derived from the mechanism, and printed value."""
 
@@ -167,7 +167,9 @@ class Sheet:
             first, second = (self.place(motion, name) for name in row.of)
             exact = Expression(row.value)
             derived = abs(first - second) / self.unit_length
-            values.append(StatedValue(row.symbol, row.symbol, derived, exact, exact, of=row.of))
+            values.append(
+                StatedValue(id=row.symbol, symbol=row.symbol, derived=derived, exact=exact, printed=exact, of=row.of)
+            )
         return tuple(values)
 
     @cached_property
@@ -175,15 +177,15 @@ class Sheet:
         """All other values of the sheet."""
         return tuple(
             StatedValue(
-                row.id,
-                row.symbol,
-                _derived_value(self, row),
-                _expression(row.value),
-                _expression(row.printed),
-                row.name,
-                row.reason,
-                row.remark,
-                row.unit,
+                id=row.id,
+                symbol=row.symbol,
+                derived=_derived_value(self, row),
+                exact=_expression(row.value),
+                printed=_expression(row.printed),
+                name=row.name,
+                reason=row.reason,
+                remark=row.remark,
+                unit=row.unit,
             )
             for row in self.record.quantities
         )
@@ -240,7 +242,15 @@ class Sheet:
             ("scale", scale, sized_mechanism.scale, f" {guide.unit}", _EXAMPLE["scale"]),
         )
         return tuple(
-            StatedValue(key, symbol, value, None, _expression(guide.printed.get(key)), name=name, unit=unit)
+            StatedValue(
+                id=key,
+                symbol=symbol,
+                derived=value,
+                exact=None,
+                printed=_expression(guide.printed.get(key)),
+                name=name,
+                unit=unit,
+            )
             for key, symbol, value, unit, name in rows
         )
 

@@ -19,7 +19,7 @@ SUFFIXES = ("svg", "html", "pdf", "png")
 _POINTS = 72 / 96
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TextLine:
     """A line of text; ``y`` is its base line, the role one of the colours."""
 

@@ -19,7 +19,7 @@ from gruebler.teaching.exercises.coupler_points import read_points
 _TWO_ROCKERS = "R(frame-first) R(first-coupler) R(coupler-second) R(frame-second); frame=frame; drive=R(frame-first)"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class DrawnLinkage:
     """What is drawn: a linkage, the letters of its links, the driven joint's value and range, points with paths."""
 
@@ -66,7 +66,7 @@ def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
         return None
     phi = radians(float(given["phi"])) if "phi" in given else None
     letters = _LETTERS | {"frame": "d" if isinstance(size, FourBar) else " "}
-    return DrawnLinkage(size.linkage(), letters, phi) if size.limits else None
+    return DrawnLinkage(linkage=size.linkage(), letters=letters, drive=phi) if size.limits else None
 
 
 _LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d", "slider": " "}
@@ -102,7 +102,9 @@ def _double_rocker(exercise: Exercise) -> DrawnLinkage:
     points = {"A": ("coupler", a), "D": ("coupler", d), "C": ("coupler", c)}
     between = radians(rows[0][0]), radians(rows[-1][0])
     letters = {"first": "d", "coupler": "a", "second": "b", "frame": "c"}
-    return DrawnLinkage(_drawn(places, points), letters, radians(phi), between, ("C",))
+    return DrawnLinkage(
+        linkage=_drawn(places, points), letters=letters, drive=radians(phi), between=between, curves=("C",)
+    )
 
 
 def _watt(exercise: Exercise) -> DrawnLinkage:
@@ -113,33 +115,37 @@ def _watt(exercise: Exercise) -> DrawnLinkage:
     rows = _rows(exercise)
     between = radians(rows[0][0]), radians(rows[-1][0])
     letters = {"first": "a", "coupler": "c", "second": "b", "frame": " "}
-    return DrawnLinkage(_drawn(places, {"F": ("coupler", 0j)}), letters, 0.0, between, ("F",))
+    return DrawnLinkage(
+        linkage=_drawn(places, {"F": ("coupler", 0j)}), letters=letters, drive=0.0, between=between, curves=("F",)
+    )
 
 
 def _lambda(exercise: Exercise) -> DrawnLinkage:
     a, b, c, d, e = (_numbers(exercise)[key] for key in "abcde")
-    return DrawnLinkage(FourBar(a, b, c, d).linkage({"C": (b + e, 0)}), _LETTERS, curves=("C",))
+    return DrawnLinkage(linkage=FourBar(a, b, c, d).linkage({"C": (b + e, 0)}), letters=_LETTERS, curves=("C",))
 
 
 def _scott_russell(exercise: Exercise) -> DrawnLinkage:
     """C lies e beyond A on the line B-A; e is no eccentricity here."""
     a, b, e = (_numbers(exercise)[key] for key in "abe")
     letters = _LETTERS | {"frame": " "}
-    return DrawnLinkage(SliderCrank(a, b).linkage({"C": (-e, 0)}), letters, pi / 4, curves=("C",))
+    return DrawnLinkage(linkage=SliderCrank(a, b).linkage({"C": (-e, 0)}), letters=letters, drive=pi / 4, curves=("C",))
 
 
 def _conchoid(exercise: Exercise) -> DrawnLinkage:
     a, d, b = (_numbers(exercise)[key] for key in "adb")
     linkage = InvertedSliderCrank(a, d).linkage({"C": (b, 0)})
     letters = {"frame": "d", "crank": "a", "coupler": "b", "block": " "}
-    return DrawnLinkage(linkage, letters, radians(60), curves=("C",))
+    return DrawnLinkage(linkage=linkage, letters=letters, drive=radians(60), curves=("C",))
 
 
 def _coupler_points(exercise: Exercise) -> DrawnLinkage:
     a, b, c, d = (_numbers(exercise)[key] for key in "abcd")
     places = read_points(str(exercise.given["points"]))
     points = {f"K{k}" if len(places) > 1 else "K": place for k, place in enumerate(places, 1)}
-    return DrawnLinkage(FourBar(a, b, c, d).linkage(points), _LETTERS, radians(60), curves=tuple(points))
+    return DrawnLinkage(
+        linkage=FourBar(a, b, c, d).linkage(points), letters=_LETTERS, drive=radians(60), curves=tuple(points)
+    )
 
 
 _OWN: Mapping[str, Callable[[Exercise], DrawnLinkage]] = {

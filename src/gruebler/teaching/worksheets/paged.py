@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import takewhile
 
 from gruebler.base.text import translate
@@ -83,8 +84,8 @@ class _Lowered:
     def at(self, y: float) -> Item:
         """The item on a page, its part beginning at y."""
         match self.item:
-            case TextLine(x, below, text, size, bold, role, anchor):
-                return TextLine(x, y + below, text, size, bold, role, anchor)
+            case TextLine() as line:
+                return replace(line, y=y + line.y)
             case HorizontalRule(x, below, length, width):
                 return HorizontalRule(x, y + below, length, width)
             case PlacedPicture(x, below, scale, figure):
@@ -107,18 +108,19 @@ def _parts(block: Block) -> Iterator[Part]:
             ]
             role = "faint" if small else "ink"
             placed = [
-                _Lowered(TextLine(_LEFT, size + k * lead, line, size, role=role)) for k, line in enumerate(lines[:2])
+                _Lowered(TextLine(x=_LEFT, y=size + k * lead, text=line, size=size, role=role))
+                for k, line in enumerate(lines[:2])
             ]
             yield placed, lead * len(placed)  # the first line is never left alone
             for line in lines[2:]:
-                yield [_Lowered(TextLine(_LEFT, size, line, size, role=role))], lead
+                yield [_Lowered(TextLine(x=_LEFT, y=size, text=line, size=size, role=role))], lead
             yield [], _GAP / 2
         case Pictures():
             yield _pictures(block)
         case Rows():
             yield from _table(block)
         case AnswerLines(asked, space):
-            items = [_Lowered(TextLine(_LEFT, space + _BODY + 22.0 * k, name)) for k, name in enumerate(asked)]
+            items = [_Lowered(TextLine(x=_LEFT, y=space + _BODY + 22.0 * k, text=name)) for k, name in enumerate(asked)]
             rules = [
                 _Lowered(HorizontalRule(_LEFT + text_width(name, _BODY) + 14, space + _BODY + 22.0 * k + 2, 150.0))
                 for k, name in enumerate(asked)
@@ -128,7 +130,10 @@ def _parts(block: Block) -> Iterator[Part]:
 
 def _heading(text: str, size: float) -> Part:
     lines = wrapped_text(text, _RIGHT - _LEFT, size * 1.08)
-    items = [_Lowered(TextLine(_LEFT, _GAP + size * (1 + 1.25 * k), line, size, True)) for k, line in enumerate(lines)]
+    items = [
+        _Lowered(TextLine(x=_LEFT, y=_GAP + size * (1 + 1.25 * k), text=line, size=size, bold=True))
+        for k, line in enumerate(lines)
+    ]
     return items, _GAP + 1.25 * size * len(lines) + 6
 
 
@@ -144,7 +149,7 @@ def _pictures(block: Pictures) -> Part:
         if k < len(block.captions):
             lines = wrapped_text(block.captions[k], wide + max(spare, 0.0), 9.5 * _FILL)
             items += [
-                _Lowered(TextLine(left, high + 13 + 12.5 * row, line, 9.5, role="faint"))
+                _Lowered(TextLine(x=left, y=high + 13 + 12.5 * row, text=line, size=9.5, role="faint"))
                 for row, line in enumerate(lines)
             ]
             below = max(below, 12.5 * len(lines) + 4)
@@ -164,7 +169,10 @@ def _table(block: Rows) -> Iterator[Part]:
         items, x, high = [], _LEFT, 0.0
         for cell, width in zip(row, widths, strict=True):
             lines = wrapped_text(cell, width - 10, 10 * _FILL)
-            items += [_Lowered(TextLine(x, 10 + 13 * k, line, 10, number == 0)) for k, line in enumerate(lines)]
+            items += [
+                _Lowered(TextLine(x=x, y=10 + 13 * k, text=line, size=10, bold=number == 0))
+                for k, line in enumerate(lines)
+            ]
             x, high = x + width, max(high, 13.0 * len(lines))
         if number == 0:
             items.append(_Lowered(HorizontalRule(_LEFT, high + 2, min(sum(widths), _RIGHT - _LEFT))))
@@ -195,14 +203,14 @@ def _shortened(document: Document) -> str:
 def _page(document: Document, items: list[Item], number: int, count: int) -> Page:
     lang = document.lang
     head: list[Item] = [
-        TextLine(_LEFT, 50, _shortened(document), _HEAD, role="faint"),
-        TextLine(_RIGHT, 50, document.subtitle, _HEAD, role="faint", anchor="end"),
+        TextLine(x=_LEFT, y=50, text=_shortened(document), size=_HEAD, role="faint"),
+        TextLine(x=_RIGHT, y=50, text=document.subtitle, size=_HEAD, role="faint", anchor="end"),
         HorizontalRule(_LEFT, 57, _RIGHT - _LEFT),
         TextLine(
-            WIDTH / 2,
-            HEIGHT - 34,
-            translate("page {number} of {count}", lang, number=number, count=count),
-            9,
+            x=WIDTH / 2,
+            y=HEIGHT - 34,
+            text=translate("page {number} of {count}", lang, number=number, count=count),
+            size=9,
             role="faint",
             anchor="middle",
         ),
