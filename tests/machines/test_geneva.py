@@ -76,7 +76,7 @@ def test_rates_are_derivatives(drive, part):
     h = 1e-5
     at = drive.engaged * 0.99 * part + h * np.array([-1.0, 0.0, 1.0])
     moved = drive.move(at)
-    for lower, higher in pairwise(moved[:4]):
+    for lower, higher in pairwise((moved.angle, moved.ratio, moved.acceleration, moved.jerk)):
         scale = 1 + abs(higher[1])
         assert (lower[2] - lower[0]) / (2 * h) == pytest.approx(
             higher[1], abs=2e-5 * scale * (1 + drive.greatest_ratio)

@@ -18,7 +18,7 @@ Masses, forces and colours are not part of a linkage. Sources: the programs' tra
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import repeat
 from math import atan2, cos, pi, radians, sin, ulp
 from typing import NamedTuple
@@ -141,7 +141,8 @@ def _integer(text: str) -> int:
 _LONGEST_NUMBER = 12  # digits: thousandths up to 1e18
 
 
-class _Joint(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Joint:
     flags: int
     id: str
     x: float
@@ -164,7 +165,7 @@ def _joint(record: str) -> _Joint:
     fields += [""] * (8 - len(fields))
     flags = _DIGITS.find(record[0])
     x, y, angle = (_integer(field) / 1000 for field in fields[2:5])
-    return _Joint(flags, fields[0], x, y, angle, fields[5], (fields[6], fields[7]))
+    return _Joint(flags=flags, id=fields[0], x=x, y=y, angle=angle, carrier=fields[5], slot=(fields[6], fields[7]))
 
 
 def _link(record: str) -> _Link:
@@ -189,8 +190,8 @@ def _with_exact_numbers(joints: list[_Joint], entries: list[str]) -> list[_Joint
         if tag[1:2] != "J" or joint is None or len(values) != 2 or values[0] not in _EXACT_FIELDS:
             raise GrueblerError("{text!r} is no exact number of a joint of the address", text=entry[:60])
         numbers = {_EXACT_FIELDS[values[0]]: read_number(values[1], message("joint {joint}", joint=joint.id))}
-        by_id[joint.id] = joint._replace(
-            x=numbers.get("x", joint.x), y=numbers.get("y", joint.y), angle=numbers.get("angle", joint.angle)
+        by_id[joint.id] = replace(
+            joint, x=numbers.get("x", joint.x), y=numbers.get("y", joint.y), angle=numbers.get("angle", joint.angle)
         )
     return [by_id[joint.id] for joint in joints]
 
@@ -207,7 +208,7 @@ def _version_1(query: str, left_out: list[Message]) -> PinDrawing:
         what = message("joint {joint}", joint=fields[0])
         x, y, angle = (read_number(fields[k], what) for k in (1, 2, 6))
         flags = _SLIDER * (fields[4] == "P") + _INPUT * (fields[8] == "t") + _GROUND * (fields[5] == "t")
-        joints.append(_Joint(flags, fields[0], x, y, angle, "", ("", "")))
+        joints.append(_Joint(flags=flags, id=fields[0], x=x, y=y, angle=angle, carrier="", slot=("", "")))
     links = []
     for line in parts.get("l", [""])[0].splitlines():
         fields = line.split(",")
@@ -223,9 +224,11 @@ def _version_1(query: str, left_out: list[Message]) -> PinDrawing:
 def _tables(compressed: str, left_out: list[Message]) -> PinDrawing:
     tables = tables_of_address(compressed)
     joints = []
-    for name, x, y, slides, angle, grounded, driven in tables.joints:
-        flags = _SLIDER * slides + _INPUT * driven + _GROUND * grounded
-        joints.append(_Joint(flags, name, x, y, radians(angle), "", ("", "")))
+    for row in tables.joints:
+        flags = _SLIDER * row.slides + _INPUT * row.driven + _GROUND * row.grounded
+        joints.append(
+            _Joint(flags=flags, id=row.name, x=row.x, y=row.y, angle=radians(row.angle), carrier="", slot=("", ""))
+        )
     left_out += (message("the force {name}", name=force) for force in tables.forces)
     if tables.positions:
         left_out.append(message("positions of a synthesis"))

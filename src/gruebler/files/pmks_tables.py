@@ -24,7 +24,8 @@ _LONGEST = 2_000_000  # characters; the program's undo steps are in the document
 _WHOLE = re.compile(r"-?[0-9a-fA-F]{1,30}")
 
 
-class TableJoint(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableJoint:
     """A pin, or a pin on a block that slides on the frame."""
 
     name: str
@@ -70,7 +71,9 @@ def tables_of_address(compressed: str) -> Tables:
         what = message("joint {joint}", joint=name)
         x, y, angle = (_number(row[k], what) for k in (2, 3, 5))
         slides = _number(row[4], what) == 0
-        joints[_id(row)] = TableJoint(name, x, y, slides, angle, row[6] == "y", row[7] == "y")
+        joints[_id(row)] = TableJoint(
+            name=name, x=x, y=y, slides=slides, angle=angle, grounded=row[6] == "y", driven=row[7] == "y"
+        )
     links: dict[int, TableLink] = {}
     for row in _rows(document, "l", 7):
         name = _new_name(row, [link.name for link in links.values()])

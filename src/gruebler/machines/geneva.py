@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gruebler.base import notebook
 from gruebler.base.angles import warn_of_degrees
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import GrueblerError
 
 _MOST = 2_000
@@ -26,7 +26,9 @@ class GenevaError(GrueblerError):
     """An impossible Geneva drive."""
 
 
-class GenevaMotion(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class GenevaMotion:
     """The wheel's angle and its first three derivatives by the driver's angle, and whether the wheel rests."""
 
     angle: Reals
@@ -205,7 +207,9 @@ class Geneva:
         second = -lam * (1 - lam**2) * sine / square**2
         third = -lam * (1 - lam**2) * (cosine * square + 4 * side * lam * sine**2) / square**3
         ratio, acceleration, jerk = (np.where(dwell, 0.0, side * rates) for rates in (rate, second, third))
-        return GenevaMotion(side * (index * self.step + moved), ratio, acceleration, jerk, dwell)
+        return GenevaMotion(
+            angle=side * (index * self.step + moved), ratio=ratio, acceleration=acceleration, jerk=jerk, dwell=dwell
+        )
 
     def _repr_svg_(self) -> str | None:
         """The drive to scale, a pin on the line of centres, for notebooks."""

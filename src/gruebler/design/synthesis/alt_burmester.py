@@ -235,7 +235,8 @@ def solutions(
     return Solutions(regular, proved, multiple, outcome.infinite, outcome.singular, max(missing, 0))
 
 
-class _Outcome(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Outcome:
     """How paths end that did not arrive, or may not have."""
 
     z: Complexes
@@ -263,7 +264,11 @@ class _Outcome(NamedTuple):
     def without(self, paths: NDArray[np.bool_]) -> _Outcome:
         kept = ~paths
         return _Outcome(
-            self.z[kept], self.resolved[kept], self.at_infinity[kept], self.regular[kept], self.several[kept]
+            z=self.z[kept],
+            resolved=self.resolved[kept],
+            at_infinity=self.at_infinity[kept],
+            regular=self.regular[kept],
+            several=self.several[kept],
         )
 
 
@@ -279,7 +284,7 @@ def _outcome(
 
     if not lost.any():
         none = np.zeros(0, bool)
-        return _Outcome(base.z[:0], none, none, none, none)
+        return _Outcome(z=base.z[:0], resolved=none, at_infinity=none, regular=none, several=none)
     ends = path_ends(base.z[lost], base.parameters, p, follow)
     resolved = ends.winding > 0
     finite = np.flatnonzero(resolved & ~ends.infinite)
@@ -289,7 +294,7 @@ def _outcome(
     together[finite[_pairs(problem, ends.z[finite], _TOGETHER).ravel()]] = True
     several = resolved & ~ends.infinite & (together | (ends.winding > 1))
     # Newton's method may converge where paths end together; such an end is singular all the same.
-    return _Outcome(ends.z, resolved, ends.infinite, regular & ~several, several)
+    return _Outcome(z=ends.z, resolved=resolved, at_infinity=ends.infinite, regular=regular & ~several, several=several)
 
 
 def _regular(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:

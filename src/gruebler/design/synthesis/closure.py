@@ -7,7 +7,6 @@ pose changes with the dimensions by dq = -C_q^+ C_p dp (theorem of implicit func
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,8 @@ from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.elements import Pose2D
 
 
-class _Joined(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Joined:
     """Both sides of all joints at poses. Each condition is the real part of a factor times the gap, or an angle."""
 
     turns: tuple[Complexes, Complexes]
@@ -170,7 +170,14 @@ class DesignClosure:
         lower[:, slides] = 0
         between = np.conj(directions[0]) * directions[1]
         along = np.real(np.conj(directions[0]) * gap[:, slides])
-        return _Joined((own, far), (1j * arms[0], 1j * arms[1]), gap, (upper, lower), between, along)
+        return _Joined(
+            turns=(own, far),
+            arms=(1j * arms[0], 1j * arms[1]),
+            gap=gap,
+            factors=(upper, lower),
+            between=between,
+            along=along,
+        )
 
     def gaps(self, joined: _Joined) -> Reals:
         """(poses, equations) how far the joints are from closed."""

@@ -7,6 +7,7 @@ the best point of a link follow from linear least squares, and the best proposal
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
 from typing import NamedTuple
@@ -44,7 +45,8 @@ class _Course(NamedTuple):
     ordered: bool
 
 
-class _Proposal(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Proposal:
     rows: Integers
     """(targets,)"""
     cost: float
@@ -192,7 +194,9 @@ def _best(
     if not np.isfinite(placed.cost[0]):
         return None
     turn, shift, point = (complex(values[0]) for values in (placed.turn, placed.shift, placed.point))
-    return _Proposal(chosen, float(placed.cost[0]), turn, shift, point, mirrored, link)
+    return _Proposal(
+        rows=chosen, cost=float(placed.cost[0]), turn=turn, shift=shift, point=point, mirrored=mirrored, link=link
+    )
 
 
 def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Integers, link: str) -> _Placements:

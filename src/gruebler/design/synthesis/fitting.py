@@ -321,7 +321,8 @@ def _units(closure: DesignClosure, targets: FitTargets, state: FitState, size: f
     return units
 
 
-class _Nearest(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Nearest:
     """A state with its errors, and how they change when the poses move."""
 
     state: FitState
@@ -355,7 +356,13 @@ class _Nearest(NamedTuple):
 def _at(closure: DesignClosure, targets: FitTargets, state: FitState, size: float) -> _Nearest:
     derivatives = closure.derivatives(state.q, state.p, size=size)
     own = compared(closure, targets, state)
-    return _Nearest(state, derivatives, own, own.by_pose @ derivatives.motion, float(np.sum(own.errors**2)))
+    return _Nearest(
+        state=state,
+        derivatives=derivatives,
+        own=own,
+        by_motion=own.by_pose @ derivatives.motion,
+        cost=float(np.sum(own.errors**2)),
+    )
 
 
 def _nearest(closure: DesignClosure, targets: FitTargets, now: _Nearest, size: float) -> _Nearest:

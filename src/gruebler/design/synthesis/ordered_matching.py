@@ -332,7 +332,9 @@ class TargetDistances:
             lap, row = np.divmod(k, amount[target])
             sides.append((places[first[target] + row] + lap * self.curve.length, highest[first[target] + row]))
         (left, left_top), (right, right_top) = sides
-        return _Valleys(target, at, least, left, left_top, right, right_top)
+        return _Valleys(
+            target=target, at=at, least=least, left=left, left_top=left_top, right=right, right_top=right_top
+        )
 
     @cached_property
     def nearest(self) -> Reals:
@@ -423,7 +425,8 @@ class TargetDistances:
         return high
 
 
-class _Valleys(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Valleys:
     """Places where distances are smallest, target by target along the curve, with the tops beside them."""
 
     target: Integers
@@ -439,5 +442,12 @@ class _Valleys(NamedTuple):
     def below(self, level: float) -> _Valleys:
         """Those that are not higher than a level."""
         low = self.least <= level
-        target, *columns = (column[low] for column in self)
-        return _Valleys(target, *columns)  # type: ignore[arg-type]
+        return _Valleys(
+            target=self.target[low],
+            at=self.at[low],
+            least=self.least[low],
+            left=self.left[low],
+            left_top=self.left_top[low],
+            right=self.right[low],
+            right_top=self.right_top[low],
+        )

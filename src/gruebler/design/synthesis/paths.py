@@ -160,7 +160,8 @@ def _as_positions(run: _Run) -> SynthesisResult:
     return SynthesisResult(task, result.designs, result.rejected, result.count, result.notes)
 
 
-class _Reduced(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Reduced:
     """A task in its own units: the first position (or point) at the origin, the size 1."""
 
     parameters: Complexes
@@ -291,7 +292,7 @@ def _reduced(task: PathTask, problem: Problem, oriented: list[int], first: int) 
         a0, b0 = ((complex(*p) - z[first]) / size for p in task.fixed_pivots)
         pivots = complex(a0), complex(b0)
     p = parameters((places - z[first]) / size, rotations, pivots)
-    return _Reduced(p, complex(z[first]), size, extra, first)
+    return _Reduced(parameters=p, origin=complex(z[first]), size=size, added=extra, first=first)
 
 
 def _between(z: Complexes, count: int) -> Complexes:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +21,8 @@ from gruebler.machines.cams.laws import CamError, finite_array
 from gruebler.machines.cams.lift import Lift
 
 
-class _Contact(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Contact:
     """The contact in the cam's frame: contact point, curvature of the profile there, and signed pressure angle."""
 
     point: Complexes
@@ -208,7 +208,9 @@ def _flat_contact(flat: Flat, phi: Reals, s: Reals, s1: Reals, s2: Reals) -> _Co
     along = np.real(contact) if not flat.swings else np.sqrt(np.maximum(np.abs(lever) ** 2 - flat.face**2, 0))
     # Where the face turns back against the cam there is no regular profile, whatever the radius.
     shape = np.where(turn < 0, radius, -np.abs(radius)) if flat.swings else radius
-    return _Contact(point, shape, 1 / radius, np.angle(normal / motion), along, point)
+    return _Contact(
+        point=point, shape=shape, curvature=1 / radius, pressure=np.angle(normal / motion), face=along, centre=point
+    )
 
 
 def _pairs(points: Complexes) -> Reals:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +42,8 @@ class TaylorSeries:
         return coefficients
 
 
-class _Condition(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Condition:
     """A scalar closing condition, or two of them for a pin, between two links by number."""
 
     kind: str
@@ -106,7 +107,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
 
 def _conditions(lower: Linkage) -> list[_Condition]:
     """Those of the joints, and last that of the drive; lengths in sizes."""
-    chain, links = lower.mechanism.chain, lower.mechanism.chain.links
+    chain = lower.mechanism.chain
     conditions = []
     for number, joint in enumerate(chain.joints):
         if not joint.pair.is_basic:
@@ -115,14 +116,12 @@ def _conditions(lower: Linkage) -> list[_Condition]:
                 joint=chain.joint_title(number),
             )
         for other in joint.links[1:]:
-            ends = _ends(lower, number, joint.links[0], other)
             kinds = ("pin",) if joint.pair.is_turning else ("angle", "across")
-            conditions += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
+            conditions += [_condition(lower, kind, number, joint.links[0], other) for kind in kinds]
     drive = lower.mechanism.drives[0]
     first, second = lower.reference(0)
     kind = "angle" if drive.turning else "along"
-    ends = _ends(lower, drive.joint, first, second)
-    return [*conditions, _Condition(kind, links.index(first), links.index(second), *ends)]
+    return [*conditions, _condition(lower, kind, drive.joint, first, second)]
 
 
 def _solved(jacobian: Reals, right: Reals) -> Reals:
@@ -132,10 +131,16 @@ def _solved(jacobian: Reals, right: Reals) -> Reals:
         raise LinkageError("the linkage is in a singular pose: there is no series in the drive") from None
 
 
-def _ends(lower: Linkage, joint: int, first: str, second: str) -> tuple[complex, complex, complex]:
+def _condition(lower: Linkage, kind: str, joint: int, first: str, second: str) -> _Condition:
     near, far = lower.elements[joint, first], lower.elements[joint, second]
-    line = rect(1, near.direction)
-    return complex(near.x, near.y) / lower.size, complex(far.x, far.y) / lower.size, line
+    return _Condition(
+        kind=kind,
+        first=lower.mechanism.chain.links.index(first),
+        second=lower.mechanism.chain.links.index(second),
+        near=complex(near.x, near.y) / lower.size,
+        far=complex(far.x, far.y) / lower.size,
+        line=rect(1, near.direction),
+    )
 
 
 def _residual(conditions: list[_Condition], z: Complexes, turn: Complexes, angle: Reals, k: int) -> Reals:

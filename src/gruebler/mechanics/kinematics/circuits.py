@@ -132,7 +132,7 @@ class Circuit:
         x, t = traced.poses[segments], traced.tangents[segments]
         between = np.flatnonzero(traced.arcs[segments] != place)
         if len(between):
-            curve, n = SampleBuffer(*traced[:3], np.zeros(0)), self.system.unknowns
+            curve, n = SampleBuffer(traced.arcs, traced.poses, traced.tangents, np.zeros(0)), self.system.unknowns
             near, slopes = np.empty((2, len(between), n))
             evaluated = for_work(evaluate_pose, sampling(n, len(between)))
             count = evaluated(
@@ -362,7 +362,14 @@ def circuit(
         raise LinkageError("a circuit has one drive at most, but this linkage has {count}", count=count)
     system = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, system, branch, at)
-    start = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
+    start = Circuit(
+        linkage,
+        system,
+        TracedCurve(
+            arcs=np.zeros(1), poses=pose[None], tangents=tangent[None], closed=False, ended="", changes=(), start=0.0
+        ),
+        0.0,
+    )
     turned = 0.0
     if lower.mechanism.drives:
         value, ahead = float(start.drive[0]), float(start.samples.drive(1)[0])

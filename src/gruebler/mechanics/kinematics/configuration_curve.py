@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from cmath import phase, rect
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.motion.closure import MESH, POLAR, RACK, RIDE
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contacts import contact_conditions, law_tables
 from gruebler.mechanics.kinematics.contours import PiecewiseLaw
@@ -118,7 +118,9 @@ class ChangeSample(NamedTuple):
     """Whether more than one other curve goes through it, or one that touches this one."""
 
 
-class TracedCurve(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class TracedCurve:
     """Samples of a curve, in order."""
 
     arcs: Reals
@@ -152,7 +154,7 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
         if number not in wheels:
             kind = PIN if joint.pair.is_turning else SLIDE
             rows += [
-                _Row(kind, (owners[0], b), (_at(lower, ends[0]), _at(lower, e)))
+                _Row(kind=kind, owners=(owners[0], b), places=(_at(lower, ends[0]), _at(lower, e)))
                 for b, e in zip(owners[1:], ends[1:], strict=True)
             ]
             continue
@@ -166,36 +168,50 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
                     arm = -1 if held[number].link == frame else bodies.index(held[number].link)
                 else:
                     free.append((ends[0], ends[1]))
-                    rows.append(_Row(PIN, (arm, owners[0]), ((0j, 1 + 0j), places[0])))
-                    rows.append(_Row(RIDE, (arm, owners[1]), ((0j, 1 + 0j), places[1])))
+                    rows.append(_Row(kind=PIN, owners=(arm, owners[0]), places=((0j, 1 + 0j), places[0])))
+                    rows.append(_Row(kind=RIDE, owners=(arm, owners[1]), places=((0j, 1 + 0j), places[1])))
                 turned = lower.elements[keys[condition.sides[0]]].direction
                 if number in held:
                     turned -= held[number].direction + (pi if condition.sides != sides else 0.0)
                 rows.append(
                     _Row(
-                        TRAIN,
-                        condition.owners,
-                        places,
-                        (weight / size, other_weight / size, 0.0, arm, turned),
-                        condition.law,
+                        kind=TRAIN,
+                        owners=condition.owners,
+                        places=places,
+                        values=(weight / size, other_weight / size, 0.0, arm, turned),
+                        law=condition.law,
                     )
                 )
             elif condition.kind == RACK:
-                rows.append(_Row(TRAVEL, condition.owners, places, (weight / size, other_weight, 0.0, 0.0, 0.0)))
+                rows.append(
+                    _Row(
+                        kind=TRAVEL,
+                        owners=condition.owners,
+                        places=places,
+                        values=(weight / size, other_weight, 0.0, 0.0, 0.0),
+                    )
+                )
             else:
                 law = condition.law.scaled(size, condition.kind == POLAR)
                 rows.append(
                     _Row(
-                        condition.kind,
-                        condition.owners,
-                        places,
-                        (weight / size, other_weight, value / size, 0.0, 0.0),
-                        law,
+                        kind=condition.kind,
+                        owners=condition.owners,
+                        places=places,
+                        values=(weight / size, other_weight, value / size, 0.0, 0.0),
+                        law=law,
                     )
                 )
     for a, b in still:
         owners = [-1 if link == frame else bodies.index(link) for link in (a, b)]
-        rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
+        rows.append(
+            _Row(
+                kind=TRAIN,
+                owners=(owners[0], owners[1]),
+                places=((0j, 1 + 0j), (0j, 1 + 0j)),
+                values=(1.0, -1.0, 0.0, -1.0, 0.0),
+            )
+        )
     ends_of = [end for row in rows for end in row.places]
     laws, pieces = law_tables([row.law for row in rows])
     conditions = Conditions(
@@ -221,7 +237,8 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
     )
 
 
-class _Row(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Row:
     """A closing condition in the making."""
 
     kind: int
@@ -229,7 +246,7 @@ class _Row(NamedTuple):
     places: tuple[tuple[complex, complex], tuple[complex, complex]]
     """Point and direction on both sides."""
     values: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
-    law: PiecewiseLaw = PiecewiseLaw(())
+    law: PiecewiseLaw = field(default_factory=lambda: PiecewiseLaw(()))
 
 
 def _at(lower: Linkage, key: tuple[int, str]) -> tuple[complex, complex]:
@@ -271,13 +288,13 @@ def trace_circuit(system: ClosureSystem, pose: Reals, tangent: Reals, step: floa
     changes = [c._replace(sample=last - 1 - c.sample) for c in reversed(back.changes)]
     changes += [c._replace(sample=last + c.sample) for c in ahead.changes]
     return TracedCurve(
-        np.concatenate([length - back.arcs[:0:-1], length + ahead.arcs]),
-        np.concatenate([back.poses[:0:-1], ahead.poses]),
-        np.concatenate([-back.tangents[:0:-1], ahead.tangents]),
-        False,
-        "singular" if "singular" in (ahead.ended, back.ended) else "long",
-        tuple(changes),
-        float(length),
+        arcs=np.concatenate([length - back.arcs[:0:-1], length + ahead.arcs]),
+        poses=np.concatenate([back.poses[:0:-1], ahead.poses]),
+        tangents=np.concatenate([-back.tangents[:0:-1], ahead.tangents]),
+        closed=False,
+        ended="singular" if "singular" in (ahead.ended, back.ended) else "long",
+        changes=tuple(changes),
+        start=float(length),
     )
 
 
@@ -318,13 +335,15 @@ def _follow(system: ClosureSystem, pose: Reals, tangent: Reals, longest: float, 
         else:
             break
     arcs, poses, tangents = (part[:count].copy() for part in curve[:3])
-    samples = TracedCurve(arcs, poses, tangents, status == CLOSED, "", tuple(changes), 0.0)
+    samples = TracedCurve(
+        arcs=arcs, poses=poses, tangents=tangents, closed=status == CLOSED, ended="", changes=tuple(changes), start=0.0
+    )
     if system.redundant:
-        samples = samples._replace(changes=_quiet_changes(system, samples, curve.gauges[:count]))
+        samples = replace(samples, changes=_quiet_changes(system, samples, curve.gauges[:count]))
     else:
         touches = [*changes, *_touches(system, samples, curve.gauges[:count])]
-        samples = samples._replace(changes=tuple(sorted(touches, key=lambda change: change.sample)))
-    return samples._replace(ended="" if status == CLOSED else "long" if status == LONG else "singular")
+        samples = replace(samples, changes=tuple(sorted(touches, key=lambda change: change.sample)))
+    return replace(samples, ended="" if status == CLOSED else "long" if status == LONG else "singular")
 
 
 def _room(samples: int, unknowns: int) -> SampleBuffer:

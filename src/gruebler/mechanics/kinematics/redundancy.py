@@ -10,6 +10,7 @@ import itertools
 from cmath import phase, rect
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -49,7 +50,8 @@ class _ConditionRow(NamedTuple):
     links: tuple[str, str]
 
 
-class _Release(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Release:
     """What may be released, at one joint."""
 
     rank: int
@@ -72,7 +74,7 @@ class _Release(NamedTuple):
         x, y = np.linalg.svd(self.functional @ forces)[0][:, 0]
         u = complex(x, y) if (x if abs(x) >= abs(y) else y) > 0 else -complex(x, y)
         functional = np.array([[u.real, u.imag]]) @ self.functional
-        return self._replace(functional=functional, along=self.along + phase(u), turned=False)
+        return replace(self, functional=functional, along=self.along + phase(u), turned=False)
 
 
 def independent_part(linkage: Linkage) -> Independent:
@@ -270,20 +272,27 @@ def _releases(conditions: ReferenceConditions, x: Reals) -> Iterator[_Release]:
             force = _force(conditions, number, link)
             angle = conditions.place(x, link)[1]
             if joint.pair.is_turning:
-                yield _Release(2, number, link, force, None)
+                yield _Release(rank=2, joint=number, link=link, functional=force, pair=None)
                 bar = None if link in held else _bar(linkage, number, link)
                 if bar is not None:
                     u = rect(1, angle + bar)
-                    yield _Release(0, number, link, np.array([[u.real, u.imag]]) @ force, slot, bar)
-                yield _Release(3, number, link, force, slot, -angle, turned=True)
+                    yield _Release(
+                        rank=0,
+                        joint=number,
+                        link=link,
+                        functional=np.array([[u.real, u.imag]]) @ force,
+                        pair=slot,
+                        along=bar,
+                    )
+                yield _Release(rank=3, joint=number, link=link, functional=force, pair=slot, along=-angle, turned=True)
             elif len(joint.links) > 2 or link == joint.links[0]:
                 continue
             elif joint.pair.is_sliding:
-                yield _Release(2, number, link, force, None)
-                yield _Release(3, number, link, force[:1], slides)
-                yield _Release(3, number, link, force[1:], slot)
+                yield _Release(rank=2, joint=number, link=link, functional=force, pair=None)
+                yield _Release(rank=3, joint=number, link=link, functional=force[:1], pair=slides)
+                yield _Release(rank=3, joint=number, link=link, functional=force[1:], pair=slot)
             else:
-                yield _Release(1, number, link, force, None)
+                yield _Release(rank=1, joint=number, link=link, functional=force, pair=None)
 
 
 def _force(conditions: ReferenceConditions, number: int, link: str) -> Reals:

@@ -7,6 +7,7 @@ the base and the hub, by three legs. The equations are seen from the base, whate
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, NamedTuple, TypeVar
 
@@ -64,7 +65,8 @@ class _End(NamedTuple):
     line: complex
 
 
-class _Leg(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Leg:
     """A body between base and hub, with its four joint elements."""
 
     body: int
@@ -85,7 +87,8 @@ class _Truss(NamedTuple):
     """Sorted by form, so that one of form RR, if there is any, is the last."""
 
 
-class _Locus(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Locus:
     """What a leg asks of the hub's origin X when the hub's turn is z: round |X|^2 + 2 Re(conj(g) X) + c = 0.
 
     g = g0 + g1 z, c = c0 + Re(c1 z).
@@ -182,7 +185,9 @@ def _truss(group: GroupConditions) -> _Truss | None:
         outer, inner = _joint(group, base, body), _joint(group, body, hub)
         if outer is None or inner is None:
             return None
-        legs.append(_Leg(body, outer[0] + inner[0], outer[1], outer[2], inner[1], inner[2]))
+        legs.append(
+            _Leg(body=body, form=outer[0] + inner[0], base=outer[1], outer=outer[2], inner=inner[1], hub=inner[2])
+        )
     return _Truss(base, hub, tuple(sorted(legs, key=lambda leg: (leg.form, leg.body))))
 
 
@@ -211,12 +216,12 @@ def _centred(legs: Sequence[_Leg], size: float) -> tuple[_Leg, ...]:
 
     return tuple(
         _Leg(
-            leg.body,
-            leg.form,
-            moved(leg.base, base),
-            moved(leg.outer, leg.outer.point),
-            moved(leg.inner, leg.outer.point),
-            moved(leg.hub, hub),
+            body=leg.body,
+            form=leg.form,
+            base=moved(leg.base, base),
+            outer=moved(leg.outer, leg.outer.point),
+            inner=moved(leg.inner, leg.outer.point),
+            hub=moved(leg.hub, hub),
         )
         for leg in legs
     )
@@ -261,13 +266,15 @@ def _is_loose(leg: _Leg) -> bool:
 def _locus(leg: _Leg) -> _Locus:
     a, h, arm = leg.base.point, leg.hub.point, leg.inner.point - leg.outer.point
     if leg.form == "RR":
-        return _Locus(True, -a, h, abs(h) ** 2 + abs(a) ** 2 - abs(arm) ** 2, -2 * h * a.conjugate())
+        return _Locus(round=True, g0=-a, g1=h, c0=abs(h) ** 2 + abs(a) ** 2 - abs(arm) ** 2, c1=-2 * h * a.conjugate())
     if leg.form == "PR":
         u = leg.base.line
         start = a + u * leg.outer.line.conjugate() * arm
-        return _Locus(False, 0.5j * u, 0j, -_cross(u, start), -1j * u.conjugate() * h)
+        return _Locus(round=False, g0=0.5j * u, g1=0j, c0=-_cross(u, start), c1=-1j * u.conjugate() * h)
     m = leg.hub.line
-    return _Locus(False, 0j, 0.5j * m, _cross(m, h) - _cross(leg.inner.line, arm), -1j * m * a.conjugate())
+    return _Locus(
+        round=False, g0=0j, g1=0.5j * m, c0=_cross(m, h) - _cross(leg.inner.line, arm), c1=-1j * m * a.conjugate()
+    )
 
 
 def _turns(legs: Sequence[_Leg]) -> list[complex] | None:

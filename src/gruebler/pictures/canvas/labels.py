@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
@@ -93,7 +93,8 @@ def _from_one(most: int) -> range:
     return range(1, 2 * most + 1)
 
 
-class _LabelPlace(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _LabelPlace:
     """A candidate place of a name: the point of the edge, the direction, and the distance from the edge's middle."""
 
     at: Point
@@ -169,7 +170,9 @@ def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Se
             for more in farther:
                 for part in _PARTS:
                     beside = a.plus(along, part)
-                    yield _LabelPlace(beside.plus(n, off + more), beside, n, abs(part - 0.5), more)
+                    yield _LabelPlace(
+                        at=beside.plus(n, off + more), beside=beside, normal=n, away=abs(part - 0.5), farther=more
+                    )
 
 
 def _leader(place: _LabelPlace, wide: float) -> Iterator[Shape]:

@@ -7,8 +7,8 @@ solver.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from math import radians
-from typing import NamedTuple
 
 import numpy as np
 
@@ -49,7 +49,8 @@ def wrong_quantities(entry: Entry) -> Iterator[WrongClaim]:
                 yield WrongClaim(f"{where}: {key}", printed, f"{derived[key]:.6g}")
 
 
-class _Run(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Run:
     """A linkage that one of its drives moves."""
 
     linkage: Linkage
@@ -110,7 +111,7 @@ def derived_numbers(entry: Entry, claim: MotionQuantity, linkage: Linkage | None
     sizes = entry.dimensions
     span = claim.range or (None if sizes is None else sizes.range) or (0.0, 360.0)
     low, high = (radians(value) if turning else value for value in span)
-    return _DERIVED[claim.kind](_Run(linkage, claim, drive, low, high))
+    return _DERIVED[claim.kind](_Run(linkage=linkage, claim=claim, drive=drive, low=low, high=high))
 
 
 def _straight(run: _Run) -> dict[str, float]:
