@@ -78,6 +78,12 @@ def _names_of(module: ModuleType) -> list[str]:
     return list(getattr(module, "__all__", ())) or [name for name in own if not name.startswith("_")]
 
 
+def _is_of_a_room_of(wing: str, value: Any) -> bool:
+    """Whether a name that a wing opens is documented in one of its rooms."""
+    home = getattr(value, "__module__", None) or ""
+    return home.startswith(f"gruebler.{wing}.") and _room_of(home.removeprefix("gruebler.")) != wing
+
+
 @cache
 def _public() -> dict[str, dict[str, Any]]:
     """For each room its public names and what they stand for."""
@@ -86,6 +92,7 @@ def _public() -> dict[str, dict[str, Any]]:
         modules = [import_module(f"gruebler.{room}")]
         modules += [import_module(f"gruebler.{room}.{each}") for each in _FURTHER.get(room, ())]
         names = {name: getattr(module, name) for module in modules for name in _names_of(module)}
+        names = {name: value for name, value in names.items() if not _is_of_a_room_of(room, value)}
         for node in _imports():
             if node.module and _room_of(node.module) == room:
                 names |= {alias.name: getattr(gruebler, alias.name) for alias in node.names}
