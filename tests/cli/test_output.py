@@ -163,7 +163,8 @@ PRINTING = [
 def test_what_is_printed_goes_into_files_too(tmp_path, capsys, arguments):
     printed = {}
     for ending, options in ((".txt", []), (".json", ["--json"])):
-        assert main([*arguments, *options]) == 0
+        whole = ["--all"] if arguments[:2] == ["catalog", "search"] else []
+        assert main([*arguments, *options, *whole]) == 0
         printed[ending] = capsys.readouterr().out
         path = tmp_path / f"out{ending}"
         assert main([*arguments, "-o", str(path)]) == 0

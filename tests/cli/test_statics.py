@@ -155,7 +155,10 @@ def test_poses_that_are_not_held(capsys):
         (("--moment", "rocker=1", "--friction", "much"), "--friction: expected a number, but found 'much'"),
         (("--moment", "rocker=1", "--pin-radius", "3"), "--pin-radius needs --friction"),
         (("--moment", "rocker=1", "--backward"), "--backward needs --friction"),
-        (("--moment", "rocker=1", "--friction", "1", "--pin-radius", "-3", "--at", "0"), "pin_radius is not negative"),
+        (
+            ("--moment", "rocker=1", "--friction", "1", "--pin-radius", "-3", "--at", "0"),
+            "--pin-radius is not negative",
+        ),
         (("--moment", "rocker=1", "--friction", "1", "--guide-on", "slider"), "--guide-on: expected JOINT=LINK"),
         (("--moment", "rocker=1", "--friction", "nan"), "--friction: expected a number"),
         (("--moment", "rocker=1", "--at", "nan"), "expected one finite number"),

@@ -117,6 +117,7 @@ def print_summary(checked_entries: Sequence[CheckedEntry], lang: str) -> None:
         print(translate("The count is not right of {count:,}: {names}.", lang, count=len(failing), names=named))
     else:
         print(translate("The count is right of all of them.", lang))
+    _print_claims([None if each.claims == Claims() else each.holds for each in checked_entries], lang)
     print(translate("Chains: {count:,}; --all lists them, --json has them.", lang, count=len(checked_entries)))
 
 
@@ -154,11 +155,17 @@ def print_checked(checked_entries: Iterable[CheckedEntry], lang: str) -> None:
         translate("claims", lang),
     ]
     print_table(headers, rows, numbers=(1, 3, 4))
-    wrong = holding.count(False)
-    if wrong:
-        print("\n" + translate("Chains: {count}; with wrong claims: {wrong}.", lang, count=len(rows), wrong=wrong))
+    if any(each is not None for each in holding):
+        print()
+        _print_claims(holding, lang)
+
+
+def _print_claims(holding: Sequence[bool | None], lang: str) -> None:
+    """Whether the claims hold; nothing where there are none."""
+    if wrong := holding.count(False):
+        print(translate("Chains: {count}; with wrong claims: {wrong}.", lang, count=len(holding), wrong=wrong))
     elif any(holding):
-        print("\n" + translate("Chains: {count}; every claim holds.", lang, count=len(rows)))
+        print(translate("Chains: {count}; every claim holds.", lang, count=len(holding)))
 
 
 def explanation(checked: CheckedEntry, lang: str) -> str:
