@@ -338,7 +338,7 @@ def test_a_start_that_cannot_be_assembled_is_said():
     [
         (([[0, 1]],), {}, "has 1 drive, but found rows of 2"),
         (([0, float("nan")],), {}, "row 1"),
-        (("crank",), {}, "are numbers"),
+        (("crank",), {}, "expected numbers"),
         (([],), {}, "no rows"),
         (([0, 1],), {"order": 4}, "order is 0, 1, 2 or 3"),
         (([0, 1],), {"speed": float("inf")}, "speed: expected finite"),
