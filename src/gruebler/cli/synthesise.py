@@ -257,7 +257,12 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         if count is not None and count < 1:
             raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
     with _keys_as_options():
-        return Demands(arguments.crank, radians(arguments.transmission), arguments.size_ratio, region)
+        return Demands(
+            crank=arguments.crank,
+            transmission=radians(arguments.transmission),
+            size_ratio=arguments.size_ratio,
+            region=region,
+        )
 
 
 def _task(arguments: argparse.Namespace) -> Task:

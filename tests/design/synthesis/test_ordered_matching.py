@@ -332,7 +332,7 @@ def test_whole_curves_are_judged_by_the_ordered_distance(name):
     path = coupler_path(row, branch)
     expected = least_in_order(np.abs(path - z[:, None]), closed=True) / extent(z)
     step = np.abs(np.diff(path)).max() / extent(z)
-    linkage = linkages_of(Fit(FOUR_BAR, np.array(row), branch, np.array([crank]), 0.0))[0]
+    linkage = linkages_of(Fit(kind=FOUR_BAR, row=np.array(row), side=branch, phi=np.array([crank]), error=0.0))[0]
     verdict = judge_design(linkage, point_targets("P", z, extent(z)), Demands(tolerance=0.05), "four-bar").verdict
     assert verdict.accepted
     assert verdict.in_order

@@ -33,7 +33,11 @@ def some_collisions(draw):
     touching = [pair for pair in combinations(range(len(pegs)), 2) if not set(pegs[pair[0]]) & set(pegs[pair[1]])]
     near = draw(st.sets(st.sampled_from(touching))) if touching else set()
     return Collisions(
-        links, tuple(pegs), frozenset(map(frozenset, plates)), frozenset(hits), frozenset(map(frozenset, near))
+        links=links,
+        pegs=tuple(pegs),
+        plates=frozenset(map(frozenset, plates)),
+        hits=frozenset(hits),
+        touching=frozenset(map(frozenset, near)),
     )
 
 

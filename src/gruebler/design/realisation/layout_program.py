@@ -40,7 +40,7 @@ class KernelLayout(NamedTuple):
     """Of the larger groups there: all 0."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LayoutProgram:
     """The joints of a mechanism, to be drawn."""
 
@@ -189,11 +189,11 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
     for number, joint in enumerate(chain.joints):
         split += [(number, 1j if freedom is Freedom.TRAVEL_Y else 1) for freedom in joint.pair.motion]
     return LayoutProgram(
-        mechanism,
-        slots,
-        solving_plan,
-        np.array([split[joint][0] for joint, _ in solving_plan.keys], np.int64),
-        np.array([split[joint][1] for joint, _ in solving_plan.keys], np.complex128),
+        mechanism=mechanism,
+        slots=slots,
+        plan=solving_plan,
+        joints=np.array([split[joint][0] for joint, _ in solving_plan.keys], np.int64),
+        askew=np.array([split[joint][1] for joint, _ in solving_plan.keys], np.complex128),
     )
 
 

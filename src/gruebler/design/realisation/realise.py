@@ -68,7 +68,9 @@ def realise(
     parts = decompose(driven)
     if not (driven.drives and parts.complete):
         reason = parts.reason if driven.drives else _NOTHING_TO_DRIVE
-        return Realisation(driven, None, (), False, 0.0, 0, seed, reason)
+        return Realisation(
+            mechanism=driven, linkage=None, ranges=(), full=False, quality=0.0, tries=0, seed=seed, reason=reason
+        )
     drawn = layout_program(driven)
     turning = all(drive.turning for drive in driven.drives)
     best, tries = None, 0
@@ -81,9 +83,17 @@ def realise(
         if best is not None and (best[1].full or not turning):
             break
     if best is None:
-        return Realisation(driven, None, (), False, 0.0, tries, seed)
+        return Realisation(mechanism=driven, linkage=None, ranges=(), full=False, quality=0.0, tries=tries, seed=seed)
     finished, trial = best
-    return Realisation(driven, finished.linkage, finished.ranges, trial.full, finished.quality, tries, seed)
+    return Realisation(
+        mechanism=driven,
+        linkage=finished.linkage,
+        ranges=finished.ranges,
+        full=trial.full,
+        quality=finished.quality,
+        tries=tries,
+        seed=seed,
+    )
 
 
 def realise_all(

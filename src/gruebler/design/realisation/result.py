@@ -32,7 +32,7 @@ _SLIDING = {
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Realisation:
     """Dimensions of a mechanism and the ranges of its drives, or the reason why there are none."""
 

@@ -114,7 +114,7 @@ def load_generic_solutions(problem: Problem) -> GenericSolutions:
     return GenericSolutions(p, z)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Solutions:
     """The complex solutions of a task, one of each class."""
 
@@ -232,7 +232,14 @@ def solutions(
         missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
     proved = certified(problem.poses, problem.points, regular, p)
     multiple = _distinct(problem, outcome.multiple)
-    return Solutions(regular, proved, multiple, outcome.infinite, outcome.singular, max(missing, 0))
+    return Solutions(
+        z=regular,
+        certified=proved,
+        multiple=multiple,
+        infinite=outcome.infinite,
+        singular=outcome.singular,
+        missing=max(missing, 0),
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -35,7 +35,7 @@ class _Joined:
     """(poses, slides) the gap along the slide."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PoseDerivatives:
     """Poses, and how they change with one factorised Jacobian for each."""
 
@@ -240,7 +240,14 @@ class DesignClosure:
         pose, row = np.nonzero(diagonal <= 1e-10 * diagonal.max(axis=1, keepdims=True))
         triangle[pose, row, row] = 1e10 * diagonal.max(axis=1)[pose]
         free = basis[:, :, -max(1, self.unknowns - self.equations) :]
-        return PoseDerivatives(self, joined, weights, basis[:, :, : self.equations], triangle, weights[:, None] * free)
+        return PoseDerivatives(
+            closure=self,
+            joined=joined,
+            weights=weights,
+            across=basis[:, :, : self.equations],
+            triangle=triangle,
+            motion=weights[:, None] * free,
+        )
 
     def closed(self, q: Reals, p: Reals, *, size: float, steps: int = 12) -> tuple[Reals, NDArray[np.bool_]]:
         """The nearest closed poses, by Newton's method with least steps; and which of them were reached."""

@@ -17,7 +17,7 @@ _WINDOWS = (8, 12, 16, 24, 32, 48)  # pieces of a curve, in such places, for ope
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class CurveMatch:
     """A curve of the book and the similarity that puts it onto the target."""
 
@@ -110,5 +110,14 @@ def _matched(
         begin = best[n]
         turn = complex(inner[n, begin] / spread[n, begin])
         shift = middle - turn * complex(mean[n, begin])
-        matches.append(CurveMatch(1 - float(likeness[n, begin]), int(n), begin + along, turn, shift, mirrored))
+        matches.append(
+            CurveMatch(
+                gap=1 - float(likeness[n, begin]),
+                number=int(n),
+                at=begin + along,
+                turn=turn,
+                shift=shift,
+                mirrored=mirrored,
+            )
+        )
     return matches

@@ -35,7 +35,7 @@ ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CurveAtlas:
     """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
 
@@ -84,7 +84,9 @@ def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
     good = np.isfinite(z).all(axis=1)
     rows, side, z = rows[:, good], side[good], z[good]
     at = evenly_along(z, phi)
-    return CurveAtlas(kind, rows, side, at, curve_points(kind, rows[:, :, None], at, side[:, None]).z)
+    return CurveAtlas(
+        kind=kind, rows=rows, side=side, phi=at, z=curve_points(kind, rows[:, :, None], at, side[:, None]).z
+    )
 
 
 class _Start(NamedTuple):
@@ -141,7 +143,7 @@ def _mirrored(kind: FourBarKind, row: Reals) -> Reals:
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Fit:
     """A linkage fitted to points."""
 
@@ -298,7 +300,10 @@ def _improved(
         if not (((gain > 1e-10 * cost) | (damping < 1e5)) & ~met).any() or (met.any() and len(z) > unknowns):
             break
     errors = np.sqrt(cost / len(z))
-    return [Fit(kind, rows[:, n], float(side[n]), phi[n], float(errors[n])) for n in np.flatnonzero(errors < np.inf)]
+    return [
+        Fit(kind=kind, row=rows[:, n], side=float(side[n]), phi=phi[n], error=float(errors[n]))
+        for n in np.flatnonzero(errors < np.inf)
+    ]
 
 
 def _slider_branches(rows: Reals, phi: Reals, side: Reals, z: Complexes) -> Reals:

@@ -34,7 +34,7 @@ EXACT_AT_MOST = 1e-6
 """With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Demands:
     """What an accepted design has to do besides meeting its targets on one branch and in order.
 

@@ -84,7 +84,7 @@ def preferred(matches: Sequence[OrderedMatch], size: float) -> OrderedMatch:
     return matches[rest[0]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Places:
     """Intervals of a curve for each target, from which places in order are chosen.
 
@@ -107,7 +107,7 @@ class Places:
         """Single places for each target, rising."""
         flat = [float(arc) for own in arcs for arc in own]
         starts = [0, *np.cumsum([len(own) for own in arcs]).tolist()]
-        return cls(starts, flat, flat, flat, length, closed)
+        return cls(starts=starts, low=flat, best=flat, high=flat, length=length, closed=closed)
 
     @property
     def empty(self) -> list[int]:
@@ -351,7 +351,14 @@ class TargetDistances:
         after = self._edge(low, low.right, low.right_top, level, 1.0)
         starts = np.searchsorted(low.target, np.arange(len(self.targets) + 1)).tolist()
         curve = self.curve
-        return Places(starts, before.tolist(), low.at.tolist(), after.tolist(), curve.length, curve.closed)
+        return Places(
+            starts=starts,
+            low=before.tolist(),
+            best=low.at.tolist(),
+            high=after.tolist(),
+            length=curve.length,
+            closed=curve.closed,
+        )
 
     def _edge(self, low: _Valleys, far: Reals, top: Reals, level: float, rises: float) -> Reals:
         """How far each valley reaches on one side: to the top, or to where half the squared distance has a level."""

@@ -66,13 +66,13 @@ def synthesise_path(
     >>> str(count.what), count.theorem, count.found, count.real
     ('four-bars', 36, 36, 14)
     """
-    run = _Run(task, demands or Demands(), number, threads, progress)
+    run = _Run(task=task, demands=demands or Demands(), number=number, threads=threads, progress=progress)
     if task.fixed_pivots and len(run.oriented) > 1 and not task.crank_angles:
         raise SynthesisError("fixed pivots go with points alone, without coupler angles")
     return next((method.solve for method in _METHODS if method.suits(run)), _finite)(run)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class _Run:
     """A task with all that its method may ask."""
 

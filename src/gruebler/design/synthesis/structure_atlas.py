@@ -124,7 +124,7 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> d
     return motions
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class StructureAtlas:
     """Curves of points of links that no joint holds at the frame; the crank turns fully and has the length 1."""
 
@@ -173,7 +173,14 @@ def structure_atlas(structure: DyadStructure) -> StructureAtlas:
     row, owner, point = row[kept], owner[kept], point[kept]
     drawn = drawn[:, row]
     turned = evenly_along(_curves(structure, drawn, owner, point, np.broadcast_to(phi, (len(row), len(phi)))), phi)
-    return StructureAtlas(structure, drawn.T, owner, point, turned, _curves(structure, drawn, owner, point, turned))
+    return StructureAtlas(
+        structure=structure,
+        drawn=drawn.T,
+        link=owner,
+        point=point,
+        turned=turned,
+        z=_curves(structure, drawn, owner, point, turned),
+    )
 
 
 def _evenly_spread(count: int, dimensions: int) -> Reals:

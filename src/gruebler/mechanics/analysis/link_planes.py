@@ -24,7 +24,7 @@ _ARC = 1.05  # an arc between two poses over its chord; poses are half a degree 
 _MOST_STEPS = 50_000  # planes of a link that are tried
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Collisions:
     """What cannot be in one plane: plates that meet, and pins that plates run into."""
 
@@ -42,11 +42,11 @@ class Collisions:
         """The same without the other links; pins through fewer than two of these links join nothing."""
         kept = {k for k, through in enumerate(self.pegs) if len(set(through) & set(links)) > 1}
         return Collisions(
-            tuple(links),
-            tuple(tuple(link for link in through if link in links) for through in self.pegs),
-            frozenset(pair for pair in self.plates if pair <= set(links)),
-            frozenset((k, link) for k, link in self.hits if k in kept and link in links),
-            frozenset(pair for pair in self.touching if pair <= kept),
+            links=tuple(links),
+            pegs=tuple(tuple(link for link in through if link in links) for through in self.pegs),
+            plates=frozenset(pair for pair in self.plates if pair <= set(links)),
+            hits=frozenset((k, link) for k, link in self.hits if k in kept and link in links),
+            touching=frozenset(pair for pair in self.touching if pair <= kept),
         )
 
     def length(self, planes: Mapping[str, int]) -> int:
@@ -74,7 +74,7 @@ class Collisions:
         return True
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LinkPlanes:
     """The planes of the links of a linkage, or why there are none."""
 
@@ -166,7 +166,7 @@ def link_planes(
                 stuck = fewer
     elif planes is not None and planes[plates.linkage.mechanism.frame] > (max(planes.values()) + 1) / 2:
         planes = {link: max(planes.values()) + 1 - plane for link, plane in planes.items()}
-    return LinkPlanes(planes, least, stuck, collisions, hole, margin)
+    return LinkPlanes(planes=planes, least=least, stuck=stuck, collisions=collisions, hole=hole, margin=margin)
 
 
 def plate_sizes(size: float, hole: float | None, margin: float | None) -> tuple[float, float]:
@@ -199,20 +199,20 @@ def collisions_of(plates: Plates, hole: float, margin: float) -> Collisions:
     pins = [plates.track(peg.carrier, peg.place)[:, None] for peg in plates.pegs]
     pairs = list(combinations(range(len(pins)), 2))
     return Collisions(
-        links,
-        tuple(peg.links for peg in plates.pegs),
-        frozenset(
+        links=links,
+        pegs=tuple(peg.links for peg in plates.pegs),
+        plates=frozenset(
             frozenset((first, second))
             for first, second in combinations(links, 2)
             if _meet(areas[first], areas[second], 2 * margin)
         ),
-        frozenset(
+        hits=frozenset(
             (k, link)
             for k, peg in enumerate(plates.pegs)
             for link in links
             if link not in peg.links and _meet(pins[k], areas[link], margin + hole / 2)
         ),
-        frozenset(
+        touching=frozenset(
             frozenset((k, m))
             for k, m in pairs
             if not set(plates.pegs[k].links) & set(plates.pegs[m].links) and _meet(pins[k], pins[m], hole)

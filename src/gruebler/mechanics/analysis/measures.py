@@ -94,7 +94,7 @@ _ANGLES = ("phi_forward", "phi_back", "mu", "deviation")
 _STILL = 1e-11  # of the natural size: an output, or its velocity, that varies by less does not move
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Transfer:
     """What the transfer functions of order 0, 1 and 2 do over the range."""
 
@@ -434,14 +434,14 @@ def _transfer(cycle: DriveCycle, output: Output) -> Transfer:
     acceleration = () if still or uniform else crossings(cycle, output, 3)
     values = [*track.tolist(), *(crossing.value for crossing in velocity)]
     return Transfer(
-        still,
-        uniform,
-        1 / usual if uniform else None,
-        usual if uniform else max(values),
-        usual if uniform else min(values),
-        () if still else crossings(cycle, output, 0),
-        velocity,
-        acceleration,
+        still=still,
+        uniform=uniform,
+        ratio=1 / usual if uniform else None,
+        largest=usual if uniform else max(values),
+        smallest=usual if uniform else min(values),
+        zeros=() if still else crossings(cycle, output, 0),
+        velocity=velocity,
+        acceleration=acceleration,
     )
 
 

@@ -31,7 +31,7 @@ _ROUND = 1e-9  # a relative angle whose range is 2 pi but for this turns fully
 _STEADY = 1e-6  # radians: rounding turns a slide by some 1e-14, a motion by far more
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Rotatability:
     """How two neighbouring links move against each other over the whole circuit."""
 
@@ -145,7 +145,9 @@ def _row(circuit: Circuit, joint: int, links: tuple[str, str], freedom: str) -> 
         turns = round(float(ends[1] - ends[0]) / (2 * pi)) if circuit.closed else 0
         full = turns != 0 or highest - lowest >= 2 * pi - _ROUND
     name = circuit.linkage.mechanism.chain.joint_names()[joint]
-    return Rotatability(name, links, freedom, full, turns, lowest, highest)
+    return Rotatability(
+        joint=name, links=links, freedom=freedom, full=full, turns=turns, lowest=lowest, highest=highest
+    )
 
 
 def _quantity(joint: int, links: tuple[str, str], freedom: str) -> Quantity:

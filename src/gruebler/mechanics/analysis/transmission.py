@@ -38,7 +38,7 @@ Element = tuple[str, complex, complex]
 """A joint on a link: the link, the point, the direction."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PushingLink:
     """A link (or a body of several) that pushes another at one joint."""
 
@@ -118,12 +118,12 @@ def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
     form = "".join(m.pair.symbol() for _, m in (outer[0], inner[0]))
     pushed = _element(plan, inner[0][0], links[other])[0]
     return PushingLink(
-        group.bodies[body],
-        _element(plan, outer[0][0], links[body]),
-        _element(plan, inner[0][0], links[body]),
-        form,
-        pushed,
-        _guide(plan, group, other),
+        links=group.bodies[body],
+        outer=_element(plan, outer[0][0], links[body]),
+        inner=_element(plan, inner[0][0], links[body]),
+        form=form,
+        pushed=pushed,
+        guide=_guide(plan, group, other),
     )
 
 

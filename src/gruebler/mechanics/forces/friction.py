@@ -105,7 +105,7 @@ class RubbingContact:
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class FrictionForces:
     """What rubs, row by row, and where friction locks; the first axis is always that of the rows."""
 
@@ -195,7 +195,7 @@ def with_friction(
     units = [_unit(motion, contact, directions[:, k]) for k, contact in enumerate(contacts)]
     free, *mutual = reactions(motion, [wrenches, *units])
     branches = _branches(motion, wrenches, contacts, directions, [free, *mutual], unknown)
-    forces = FrictionForces(contacts, branches, directions, rates, work)
+    forces = FrictionForces(contacts=contacts, branches=branches, directions=directions, rates=rates, frictionless=work)
     return _total(motion, free, mutual, forces), forces
 
 

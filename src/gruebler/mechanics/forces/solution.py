@@ -57,7 +57,7 @@ _NONE = 1e-13  # of the loads: a smaller effort is none
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Statics:
     """Drive efforts and joint forces of a linkage under loads, at each row of a motion.
 
@@ -323,9 +323,9 @@ def statics(motion: Motion, loads: Loads, *, friction: Friction | PerJoint | Non
         raise LinkageError("the motion has no rows. {reason}", reason=motion.reason)
     work = _virtual_work(motion, wrenches)
     if friction is None:
-        return Statics(motion, wrenches, reactions(motion, [wrenches])[0], work)
+        return Statics(motion=motion, wrenches=wrenches, reactions=reactions(motion, [wrenches])[0], work=work)
     forces, rubbing = with_friction(motion, wrenches, as_friction(friction), work)
-    return Statics(motion, wrenches, forces, work + rubbing.effort, rubbing)
+    return Statics(motion=motion, wrenches=wrenches, reactions=forces, work=work + rubbing.effort, friction=rubbing)
 
 
 def _virtual_work(motion: Motion, wrenches: tuple[Wrench, ...]) -> Reals:

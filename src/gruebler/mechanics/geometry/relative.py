@@ -17,7 +17,7 @@ _STILL = 1e-12  # velocities below this part of the largest in the row are round
 _ORDERS = (message("positions"), message("velocities"), message("accelerations"), message("jerks"))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RelativeMotion:
     """Places of a link in the coordinates of another one, with time derivatives; points are x + iy."""
 
@@ -72,7 +72,9 @@ def relative_motion(motion: Motion, link: str, reference: str | None = None, ord
     rates = motion.rates[:order, :, m] - motion.rates[:order, :, r]
     size, both = motion.linkage.size, [m, r]
     swiftest = np.maximum(np.abs(motion.places[1][:, both]), np.abs(motion.rates[0][:, both]) * size).max(axis=1)
-    return RelativeMotion(np.array(places), motion.turns[:, m] * back, rates, size, swiftest)
+    return RelativeMotion(
+        places=np.array(places), turn=motion.turns[:, m] * back, rates=rates, size=size, swiftest=swiftest
+    )
 
 
 def resting_and_translating(speed: Reals, turning: Reals, swiftest: Reals) -> tuple[Flags, Flags]:

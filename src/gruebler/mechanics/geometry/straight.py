@@ -24,7 +24,7 @@ _STENCIL = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105
 _STENCIL_STEP = 0.02
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PathPiece:
     """A piece of a path against a straight line."""
 
@@ -91,7 +91,9 @@ def path_piece(path: Path, start: float, end: float, direction: float | None = N
     points = _points(path, parameters)
     angle = _narrowest(points)[1] if direction is None else as_finite("direction", direction)
     seen = (points - points[0]) * np.exp(-1j * angle)
-    return PathPiece(float(start), float(end), _reach(seen.real), _reach(seen.imag), angle % math.pi)
+    return PathPiece(
+        start=float(start), end=float(end), length=_reach(seen.real), band=_reach(seen.imag), direction=angle % math.pi
+    )
 
 
 def piece_of_ratio(
@@ -172,7 +174,13 @@ def longest_piece(path: Path, start: float, end: float, band: float, samples: in
         best = max(best, (float(np.ptp((points[first : last + 1] * np.exp(-1j * angle)).real)), first, last))
     length, first, last = best
     across, angle = _narrowest(points[first : last + 1])
-    return PathPiece(float(parameters[first]), float(parameters[last]), length, across, angle % math.pi)
+    return PathPiece(
+        start=float(parameters[first]),
+        end=float(parameters[last]),
+        length=length,
+        band=across,
+        direction=angle % math.pi,
+    )
 
 
 def _below(excess: Callable[[float], float], width: float) -> float | None:

@@ -72,7 +72,7 @@ class GroupConditions(NamedTuple):
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class AssemblyModes:
     """Assembly modes: all ways to put the bodies of a group together, what is known being held."""
 
@@ -326,4 +326,11 @@ def search_modes(group: GroupConditions, *, seed: int = 0, patience: int = 30, m
     poses, order = ordered_modes(distinct, size, bodies)
     multiplicities = tuple(2 if solver.is_singular(distinct[k]) else 1 for k in order)
     method: Method = "degenerate" if degenerate else "search"
-    return AssemblyModes(poses, multiplicities, method, None, starts, tuple(hits[k] for k in order))
+    return AssemblyModes(
+        poses=poses,
+        multiplicities=multiplicities,
+        method=method,
+        bound=None,
+        starts=starts,
+        hits=tuple(hits[k] for k in order),
+    )

@@ -41,7 +41,7 @@ _LOST = 1e-5  # of the singular value a width away: less is zero
 _SMALL = 0.2  # below this gauge a redundantly constrained linkage is looked at for change points
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ClosureSystem:
     """The closing conditions of all joints of a linkage with lower pairs.
 
@@ -233,7 +233,13 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
             unknowns=unknowns - equations,
         )
     return ClosureSystem(
-        lower, bodies, tuple(free), conditions, new_trace_scratch(conditions), equations, (first[meshes], meshes)
+        lower=lower,
+        bodies=bodies,
+        arms=tuple(free),
+        conditions=conditions,
+        room=new_trace_scratch(conditions),
+        equations=equations,
+        meshes=(first[meshes], meshes),
     )
 
 

@@ -60,7 +60,7 @@ class Condition:
         return self.kind in (MESH, RACK)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Touch(Generic[First_co, Second_co]):
     """A joint of a linkage with lower pairs whose elements touch, in the order of their row."""
 
@@ -85,7 +85,9 @@ class Touch(Generic[First_co, Second_co]):
     @property
     def turned(self) -> Touch[Second_co, First_co]:
         """The same, seen from the other side."""
-        return Touch(self.lower, self.rolls, self.keys, self.sides[::-1], self.owners[::-1])
+        return Touch(
+            lower=self.lower, rolls=self.rolls, keys=self.keys, sides=self.sides[::-1], owners=self.owners[::-1]
+        )
 
     @property
     def side(self) -> int:
@@ -298,7 +300,7 @@ def contact_conditions(
     lower: Linkage, pair: Pair, keys: Keys, sides: tuple[int, int], owners: tuple[int, int]
 ) -> list[Condition]:
     """What a joint with a round element asks for."""
-    touch: Touch[Element, Element] = Touch(lower, pair.rolls, keys, sides, owners)
+    touch: Touch[Element, Element] = Touch(lower=lower, rolls=pair.rolls, keys=keys, sides=sides, owners=owners)
     contact = contact_of(touch.first, touch.second)
     return CONTACT_MOTIONS[contact.kinds].conditions(touch if in_order(contact, touch.first) else touch.turned)
 

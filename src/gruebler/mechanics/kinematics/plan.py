@@ -30,7 +30,7 @@ _LONGEST_PUSH = 0.03  # of the linkage's size
 _ONE = 1e-9  # of the linkage's size: shortest ways of a slide that differ by less are one
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Dyad:
     """A dyad of the plan."""
 
@@ -48,7 +48,7 @@ class Dyad:
         return self.form in _BRANCHING
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class HigherGroup:
     """A group that is solved by Newton's method."""
 
@@ -294,13 +294,13 @@ class _Planner:
             count = len([part for part in self.parts if isinstance(part, Dyad)])
             index = self.chain.index
             self.operations.append((kind, *elements, index(first), index(second), count))
-            self.parts.append(Dyad(number, _FORMS[kind], first, second, count))
+            self.parts.append(Dyad(group=number, form=_FORMS[kind], first=first, second=second, number=count))
         else:
             count = len(self.conditions)
             self.operations.append((GROUP, count))
             self.conditions.append(self._conditions(group, base, roots))
             contacts = any(not member.pair.is_basic for _, member in group.joints)
-            self.parts.append(HigherGroup(number, roots, count, base, contacts))
+            self.parts.append(HigherGroup(group=number, roots=roots, number=count, base=base, contacts=contacts))
         for root in roots:
             for link in [link for link, at in self.against.items() if at == root and link != root]:
                 self.operations.append((CARRY, self.chain.index(link), self.chain.index(root)))

@@ -150,7 +150,9 @@ def triad_modes(group: GroupConditions) -> AssemblyModes:
     distinct, counts, movable = _settled(legs, turns or [])
     poses, order = ordered_modes([_seen_from_known(pose, truss, size) for pose in distinct], size, 4)
     method: Method = "degenerate" if turns is None or movable else "exact"
-    return AssemblyModes(poses, tuple(counts[k] for k in order), method, BOUNDS[forms])
+    return AssemblyModes(
+        poses=poses, multiplicities=tuple(counts[k] for k in order), method=method, bound=BOUNDS[forms]
+    )
 
 
 def _settled(legs: Sequence[_Leg], turns: Sequence[complex]) -> tuple[list[Reals], list[int], bool]:

@@ -63,7 +63,16 @@ def _planar(linkage: Linkage) -> Closing:
             radii = (inf if element.is_line else 0.0, inf if other_element.is_line else 0.0)
             place = JointPlace(radii=radii if joint.pair.rolls_and_slides else None)
             ends = _frame(element, size), _frame(other_element, size)
-            ties.append(JointFrames(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
+            ties.append(
+                JointFrames(
+                    joint=number,
+                    first=chain.index(first),
+                    second=chain.index(other),
+                    on_first=ends[0],
+                    on_second=ends[1],
+                    place=place,
+                )
+            )
     return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
 
 

@@ -35,7 +35,7 @@ _COLUMNS = {Space.PLANAR: [2, 3, 4], Space.SPHERICAL: [0, 1, 2], Space.SPATIAL: 
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class JointFrames:
     """A joint between two of its links, with its frame on each; lengths in units of the linkage's size."""
 
@@ -105,7 +105,16 @@ class Closing:
             scaled = JointPlace(pitch=place.pitch / size, radii=radii, pressure=place.pressure)
             first = chain.index(joint.links[0])
             for link in joint.links[1:]:
-                ties.append(JointFrames(number, first, chain.index(link), frames[number], frames[number], scaled))
+                ties.append(
+                    JointFrames(
+                        joint=number,
+                        first=first,
+                        second=chain.index(link),
+                        on_first=frames[number],
+                        on_second=frames[number],
+                        place=scaled,
+                    )
+                )
         return cls(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
 
     @property

@@ -58,7 +58,7 @@ class Evidence(StrEnum):
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FiniteMobility:
     """What following the velocities gave."""
 
@@ -81,16 +81,16 @@ def finite_mobility(instant: InstantMobility) -> FiniteMobility:
     Cost: some 12 solutions by Newton's method; where motions branch, some 1000 more.
     """
     if is_near_double_root(instant) and not (instant.mobility and instant.redundancy):
-        return FiniteMobility(instant.mobility, Evidence.BLURRED)
+        return FiniteMobility(mobility=instant.mobility, evidence=Evidence.BLURRED)
     if instant.mobility == 0:
-        return FiniteMobility(0, Evidence.RIGID)
+        return FiniteMobility(mobility=0, evidence=Evidence.RIGID)
     if instant.redundancy == 0:
-        return FiniteMobility(instant.mobility, Evidence.REGULAR)
+        return FiniteMobility(mobility=instant.mobility, evidence=Evidence.REGULAR)
     excess = ObstructionMap(instant)
     random = np.random.default_rng(20_261_121)
     closed, reach, gap = _all_closed(excess, random, _RADII)
     if closed:
-        return FiniteMobility(instant.mobility, Evidence.FOLLOWED, reach)
+        return FiniteMobility(mobility=instant.mobility, evidence=Evidence.FOLLOWED, reach=reach)
     return _some_or_none(excess, random, reach, gap)
 
 
@@ -121,16 +121,18 @@ def _some_or_none(excess: ObstructionMap, random: np.random.Generator, radius: f
     instant = excess.instant
     forms = excess.second()
     if forms is None or not radius:
-        return FiniteMobility(0, Evidence.UNDECIDED)
+        return FiniteMobility(mobility=0, evidence=Evidence.UNDECIDED)
     order = _order(excess, random, _RADII[0])
     if (instant.mobility == 1 and abs(forms).max() > _FORM) or (instant.mobility > 1 and is_definite(forms)):
-        return FiniteMobility(0, Evidence.STRESSED, radius, order, gap)
+        return FiniteMobility(mobility=0, evidence=Evidence.STRESSED, reach=radius, order=order, open=gap)
     ends = _zeros(excess, forms, np.eye(instant.mobility), _RADII[0], random) if instant.mobility > 1 else []
     if not ends:
-        return FiniteMobility(0, Evidence.SHAKY, radius, order, gap)
+        return FiniteMobility(mobility=0, evidence=Evidence.SHAKY, reach=radius, order=order, open=gap)
     dimensions = _dimensions(excess, ends, random)
     best = min(max(dimensions), instant.mobility - 1)  # the zeros of an analytic map that is not zero everywhere
-    return FiniteMobility(best, Evidence.BRANCHING, _RADII[0], ways=len(dimensions) if best == 1 else 1)
+    return FiniteMobility(
+        mobility=best, evidence=Evidence.BRANCHING, reach=_RADII[0], ways=len(dimensions) if best == 1 else 1
+    )
 
 
 def _zeros(

@@ -16,7 +16,7 @@ _STILL = 1e-7  # shares of unit vectors: a null space whose rank is decided at 1
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class InstantMobility:
     """The singular values of the constraints at a pose, and the spaces on either side of the gap among them."""
 
@@ -98,4 +98,4 @@ def instant_mobility(closing: Closing, pose: Reals, tolerance: float) -> Instant
     """The mobility at a pose. Cost cubic in the unknowns."""
     _, by_twist = closing.linearised(pose)
     left, values, right = np.linalg.svd(by_twist)
-    return InstantMobility(closing, pose, values, left, right, tolerance)
+    return InstantMobility(closing=closing, pose=pose, values=values, left=left, right=right, tolerance=tolerance)

@@ -113,7 +113,7 @@ _REASONS = {
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Freedoms:
     """What `freedoms` found. `explain` says it in words."""
 
@@ -256,7 +256,9 @@ def freedoms(
     report = mobility_report(linkage.mechanism.chain, frame=linkage.mechanism.frame)
     followed = finite_mobility(instant)
     more = max(instant.mobility, followed.mobility) > report.generic
-    return Freedoms(linkage, report, instant, followed, reasons(instant) if more else ())
+    return Freedoms(
+        linkage=linkage, report=report, instant=instant, finite=followed, reasons=reasons(instant) if more else ()
+    )
 
 
 def _values(at: float | Sequence[float] | None) -> list[float] | None:
