@@ -13,7 +13,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 
-from gruebler.structure.enumeration.request import Request, RequestCount
+from gruebler.structure.enumeration.counting import ChainCount
+from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.run_request import run_count
 from gruebler.structure.enumeration.schedulers import DaskScheduler
 from gruebler.structure.enumeration.worker_pool import ProcessPools
@@ -58,13 +59,13 @@ def workers(settings: dict[str, str]) -> Iterator[tuple[str, Callable[[], float]
             process.wait()
 
 
-def measured(run: Callable[[], RequestCount], others: Callable[[], float]) -> tuple[RequestCount, float]:
+def measured(run: Callable[[], ChainCount], others: Callable[[], float]) -> tuple[ChainCount, float]:
     before = time.process_time() + others()
     count = run()
     return count, time.process_time() + others() - before
 
 
-def compare(name: str, run: Callable[[], RequestCount], others: Callable[[], float]) -> None:
+def compare(name: str, run: Callable[[], ChainCount], others: Callable[[], float]) -> None:
     run()
     pairs = []
     for _ in range(PAIRS):

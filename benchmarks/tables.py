@@ -19,8 +19,8 @@ import gruebler as gr
 from benchmarks.evidence import check_chains
 from gruebler.structure.assur import count_assur_groups
 from gruebler.structure.enumeration import Request
+from gruebler.structure.enumeration.counting import ChainCount
 from gruebler.structure.enumeration.epicyclic import count_epicyclic_trains
-from gruebler.structure.enumeration.request import RequestCount
 from gruebler.structure.enumeration.run_request import run_count
 from gruebler.structure.enumeration.worker_pool import ProcessPools
 from gruebler.structure.type_synthesis import count_sliding_variants
@@ -32,7 +32,7 @@ Rows = Iterator[tuple[object, ...]]
 _MOST = {0: 17, 1: 20, 2: 19, 3: 18, 4: 19, 5: 20, 6: 21, 7: 22}
 
 
-def _counted(links: int, mobility: int = 1) -> RequestCount:
+def _counted(links: int, mobility: int = 1) -> ChainCount:
     folder = os.environ.get("TABLES_CHECKPOINT") if (links, mobility) == (20, 1) else None
     return run_count(Request(links, mobility), orbits=True, checkpoint=Path(folder) if folder else None)
 
