@@ -169,6 +169,8 @@ MISTAKES = [
     (lambda: gr.write(CRANK_ROCKER, 7), "path: expected a text or PathLike, but found 7"),
     (lambda: gr.write(7, "x.toml"), "values of type int cannot be written"),
     (lambda: gr.write(CHAIN, "x.toml"), "chains go to .json, .txt or .g6, not '.toml'"),
+    (lambda: gr.read("four-bar:25,70,40,70:3"), "four-bar: expected numbers a,b,c,d, but found '25,70,40,70:3'"),
+    (lambda: gr.read("four-bar"), "'four-bar' is no file and no entry of the catalog; lengths are written"),
     (lambda: gr.read(7), "path: expected a text or PathLike, but found 7"),
     (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .txt, .g6,"),
     (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from math import degrees, isnan, radians
+from math import degrees, isnan
 
+from gruebler.base.events import GOOD
 from gruebler.base.text import joined, message, number, number_separator, numbers, plural, translate
 from gruebler.cli.tables import Cell, print_table, print_text
 from gruebler.design.synthesis import Design, PathTask, PositionTask, SynthesisResult, pareto
@@ -73,7 +74,7 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
         angles = [
             mu for design in shown.designs for mu in (design.verdict.transmission, design.transmission_over_range)
         ]
-        low = [_LOW] if any(mu < radians(40) for mu in angles) else []
+        low = [_LOW] if any(mu < GOOD for mu in angles) else []
         print_text(joined([_ANGLES, *low], " ").in_language(lang))
         _print_missing_optima(shown, lang)
         if any(design.form == FITTED for design in shown.designs):
@@ -129,7 +130,7 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
 
 def _transmission(mu: float, lang: str) -> str:
     """A minimum transmission angle, marked where the motion passes badly; nothing where there is none."""
-    return "" if isnan(mu) else f"{number(degrees(mu), lang, '.1f')}°{' !' if mu < radians(40) else ''}"
+    return "" if isnan(mu) else f"{number(degrees(mu), lang, '.1f')}°{' !' if mu < GOOD else ''}"
 
 
 def _named(linkage: Linkage, lang: str) -> Linkage:

@@ -34,7 +34,7 @@ def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
     """
     if not is_lengths(word):
         return None
-    kind, _, text = word.rpartition(":")
+    kind, _, text = word.partition(":") if ":" in word else ("", "", word)
     names, least, make = LENGTH_KINDS[kind or "four-bar"]
     most = names.replace("[", "").replace("]", "").count(",") + 1
     try:

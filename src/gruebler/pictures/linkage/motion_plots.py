@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from math import degrees
 
 import numpy as np
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
+from gruebler.base.events import GOOD
 from gruebler.base.text import translate
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.analysis.events import natural_speed, stops
@@ -24,7 +26,6 @@ from gruebler.pictures.canvas.shapes import Point
 from gruebler.pictures.canvas.styles import LINES
 from gruebler.pictures.linkage.piecewise_curves import Between, PlotRun, plot_run
 
-_GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three
 _NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values count as zero
 
@@ -206,7 +207,7 @@ def transmission_plot(
         across=run.across,
         up=Axis("μ in °", decimals(0.0, 90.0, few=9)),
         curves=(PlottedCurve(x=run.x, y=values, name="", style=LINES[0]),),
-        bands=(Band(0.0, _GOOD, "μ < 40°"),),
+        bands=(Band(0.0, degrees(GOOD), "μ < 40°"),),
         marks=marks,
         dwells=dwells,
         spots=(PointMarker(x=run.drive_in_units(at), y=least, text=f"μ_min = {least:.1f}°"),),

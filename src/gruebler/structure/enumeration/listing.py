@@ -83,7 +83,7 @@ def count_chains(
         executor: runs the pieces of the work; by default this process.
 
     Returns:
-        `RequestCount`: ``chains``, numbers by assortment and class, with ``orbits`` those of mechanisms.
+        `ChainCount`: ``chains``, numbers by assortment and class, with ``orbits`` those of mechanisms.
 
     Raises:
         RequestError: a request that no chain can meet by its form.

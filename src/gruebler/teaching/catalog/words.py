@@ -81,7 +81,7 @@ def _of_word(word: str) -> Value | Mechanism:
         raise GrueblerError(
             "{word!r} is no file and no entry of the catalog{suggestion}; lengths are written {forms}",
             word=word,
-            suggestion=nearest(kind, [*known, *LENGTH_KINDS]),
+            suggestion=nearest(kind, [*known, *(LENGTH_KINDS if kind not in LENGTH_KINDS else ())]),
             forms=LENGTH_FORMS,
         )
     record = known[word]
