@@ -15,6 +15,7 @@ from tests.commands import run_main as run
 FOUR_BAR = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
 KEYS = {
     "finite",
+    "method",
     "name",
     "links",
     "joints",

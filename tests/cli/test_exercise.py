@@ -16,7 +16,7 @@ def test_the_parser_knows_what_there_is():
 
 
 def test_list_and_show(capsys):
-    status, out, err = run(capsys, "exercise", "list", "--lang", "de")
+    status, out, err = run(capsys, "exercise", "list", "--all", "--lang", "de")
     assert (status, err) == (0, "")
     assert "exercise-15" in out
     assert "000/003, Aufgabe 21" in out

@@ -130,10 +130,11 @@ def missing_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, fo
 def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
     """The design of a linkage with a reference pose, and its verdict. Cost: 3 to 30 ms, most for the circuit.
 
+    >>> from math import radians
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> from gruebler.mechanics.kinematics import move
     >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
-    >>> motion = move(bar, np.radians([10.0, 35.0, 60.0]))
+    >>> motion = move(bar, [radians(10), radians(35), radians(60)])
     >>> bar = bar.with_reference_pose(motion.pose(0))
     >>> judge_design(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
     True
