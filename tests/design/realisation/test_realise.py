@@ -188,8 +188,8 @@ def test_the_range_is_that_of_the_measures(text):
     assert (found.span.low, found.span.high) == (span.low, span.high)
     (low, high), *_ = found.ranges
     assert span.low <= low < high <= span.high
-    assert f"moves from {span.low:.7g} to {span.high:.7g} mm. It is well conditioned" in found.explain()
-    ends = [number(end, "de", ".7g") for end in (span.low, span.high)]
+    assert f"moves from {span.low:.4g} to {span.high:.4g} mm. It is well conditioned" in found.explain()
+    ends = [number(end, "de", ".4g") for end in (span.low, span.high)]
     assert f"von {ends[0]} bis {ends[1]} mm. Gut konditioniert" in found.explain("de")
 
 
