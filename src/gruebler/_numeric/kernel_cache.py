@@ -28,7 +28,7 @@ _UNUSED_DAYS = 60  # after so long without use the kernels of another version ar
 def kernel_sources() -> list[Path]:
     """The files that go into compiled code: kernels, and the numbers and the memory that they use."""
     inner = (path for path in _SOURCES.rglob("*.py") if path.name not in ("kernel_cache.py", "work_estimates.py"))
-    return sorted([*inner, *_PACKAGE.glob("*/*_kernels.py"), *_PACKAGE.glob("*/*_memory.py")])
+    return sorted([*inner, *_PACKAGE.rglob("*_kernels.py"), *_PACKAGE.rglob("*_memory.py")])
 
 
 @cache
