@@ -131,6 +131,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     """The design of a linkage with a reference pose, and its verdict. Cost: 3 to 30 ms, most for the circuit.
 
     >>> from math import radians
+    >>> from gruebler.design.synthesis.targets import point_targets
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> from gruebler.mechanics.kinematics import move
     >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
