@@ -34,7 +34,7 @@ _MOST = {0: 17, 1: 20, 2: 19, 3: 18, 4: 19, 5: 20, 6: 21, 7: 22}
 
 def _counted(links: int, mobility: int = 1) -> ChainCount:
     folder = os.environ.get("TABLES_CHECKPOINT") if (links, mobility) == (20, 1) else None
-    return run_count(Request(links, mobility), orbits=True, checkpoint=Path(folder) if folder else None)
+    return run_count(Request(links, mobility=mobility), orbits=True, checkpoint=Path(folder) if folder else None)
 
 
 def chains(most: int | None = None) -> Rows:
@@ -102,7 +102,9 @@ def sliding(most: int | None = None) -> Rows:
     yield "mobility", "links", "sliding", "chains"
     for mobility, largest in ((1, 12), (2, 9), (3, 8)):
         for links in range(mobility + 3, min(largest, most or largest) + 1, 2):
-            numbers = count_sliding_variants(Request(links, mobility, "all"), executor=ProcessPools(2))
+            numbers = count_sliding_variants(
+                Request(links, mobility=mobility, fractionated="all"), executor=ProcessPools(2)
+            )
             yield from ((mobility, links, k, number) for k, number in enumerate(numbers))
 
 

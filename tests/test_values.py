@@ -63,19 +63,10 @@ BY_POSITION = {
     "PathTask": "points first, as users write them",
     "PositionTask": "positions first, as users write them",
     "Requirements": "links and mobility first, all others by keyword",
+    "SchemaColumn": "a row of the table of columns, which reads like one",
     "Wheel": "an element of a joint: x and y first, like all of them",
 }
 """Dataclasses with more than four fields of which more than the first may be given by position, and why."""
-
-NOT_YET = {
-    *("Angle", "ArcShape", "Cognate", "CognateSizes", "Condition", "Coordination", "CoordinationKind"),
-    *("Cusp", "CycleSpan", "Design", "Designs", "Dwell", "Figure", "FitState", "FitTargets"),
-    *("FunctionLaw", "FunctionSamples", "Grashof", "Guidance", "Inflection", "JointPlace"),
-    *("LengthRange", "Measures", "Motion", "Motions", "ParetoRow", "PathCycle", "Plan", "Poses"),
-    *("Problem", "Request", "SchemaColumn", "SolutionCount", "Stop", "SynthesisResult"),
-    *("TangentContact", "Vertex"),
-}
-"""Those that are still made by position though nothing speaks for it: not yet."""
 
 
 def modules() -> Iterator[str]:
@@ -198,8 +189,7 @@ def test_a_dataclass_of_many_fields_is_made_by_keyword():
             asked = [field for field in dataclasses.fields(each) if field.init]
             if len(asked) > 4 and sum(not field.kw_only for field in asked) > 1:
                 found.add(each.__name__)
-    assert found == {*BY_POSITION, *NOT_YET}
-    assert not {*BY_POSITION} & NOT_YET
+    assert found == set(BY_POSITION)
 
 
 def is_value(each: type) -> bool:

@@ -19,7 +19,7 @@ from gruebler.pictures.designs.picture import design_figure, designs_figure, des
 from gruebler.pictures.designs.plots import burmester_plot, finite_poles, function_plot, output_of
 
 FOUR = PositionTask([(0, 0, 0), (2.1, 0.9, 0.35), (3.2, 1.0, 0.8), (4.0, 0.2, 1.5)])
-LAW = FunctionLaw("log10(x)", (1, 2), np.pi / 3, np.pi / 3)
+LAW = FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.pi / 3, output_swing=np.pi / 3)
 
 
 def texts(figure):
@@ -54,7 +54,9 @@ def test_the_plot_of_burmesters_curves_names_poles_positions_and_pivots(lang):
 def test_the_plotted_output_is_that_of_the_closed_form(output):
     """By the solver of motion, against the formulas of four-bar and slider-crank; the pairs are met."""
     swing = np.pi / 3 if output == "angle" else 1.5
-    task = function_task(FunctionLaw("log10(x)", (1, 2), np.pi / 3, swing), 5, output=output)
+    task = function_task(
+        FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.pi / 3, output_swing=swing), 5, output=output
+    )
     law = task.law
     checked = 0
     for design in synthesise(task).designs:

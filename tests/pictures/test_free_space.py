@@ -204,5 +204,7 @@ def test_rounding_noise_is_no_curve():
 
 def test_letters_stand_lower_only_after_one_letter():
     assert split_subscripts("left_arm R(a-b)") == [("left_arm R(a-b)", False)]
-    figure = Figure((TextShape(Point(5.0, 5.0), "μ_min <", "value"),), 10.0, 10.0, "", "")
+    figure = Figure(
+        (TextShape(Point(5.0, 5.0), "μ_min <", "value"),), width=10.0, height=10.0, title="", description=""
+    )
     assert '>μ<tspan dy="3" font-size="9">min</tspan> <tspan dy="-3">&lt;</tspan></text>' in svg(figure, styled=False)

@@ -101,10 +101,10 @@ def run(arguments: argparse.Namespace) -> int:
         return trains(arguments)
     request = Request(
         arguments.links,
-        arguments.mobility,
-        arguments.fractionated,
-        assortment_of(arguments.assortment),
-        arguments.multiple_joints,
+        mobility=arguments.mobility,
+        fractionated=arguments.fractionated,
+        assortment=assortment_of(arguments.assortment),
+        multiple_joints=arguments.multiple_joints,
     )
     form = None if arguments.count else _format(arguments, request)
     if arguments.orbits and form is not None:

@@ -183,7 +183,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
     mobility = usual.pop("mobility")
     options = usual | {"assortment": assortment_of(arguments.assortment)}
     if options["assortment"] is None:
-        size = estimate(Request(arguments.links, mobility, **options), "text").chains
+        size = estimate(Request(arguments.links, mobility=mobility, **options), "text").chains
         if size > _MOST:
             raise GrueblerError(
                 "{number:,} chains are too many for one page (at most {most:,}); choose some with --assortment",

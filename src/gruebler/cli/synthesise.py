@@ -340,11 +340,11 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
     starts = arguments.starts or (None, None)
     return FunctionLaw(
         arguments.task,
-        tuple(arguments.interval),
-        radians(arguments.swings[0]),
-        arguments.swings[1] * unit,
-        _radians(starts[0]),
-        None if starts[1] is None else starts[1] * unit,
+        interval=tuple(arguments.interval),
+        input_swing=radians(arguments.swings[0]),
+        output_swing=arguments.swings[1] * unit,
+        input_start=_radians(starts[0]),
+        output_start=None if starts[1] is None else starts[1] * unit,
     )
 
 

@@ -124,7 +124,13 @@ def _only_sliding(wanted: Requirements) -> bool:
 
 def _count_sliding(wanted: Requirements, arguments: argparse.Namespace) -> int:
     ask_before(expected_seconds_of_sliding(wanted) / max(1, arguments.jobs), arguments.yes)
-    request = Request(wanted.links, wanted.mobility, "all", None, wanted.multiple_joints)
+    request = Request(
+        wanted.links,
+        mobility=wanted.mobility,
+        fractionated="all",
+        assortment=None,
+        multiple_joints=wanted.multiple_joints,
+    )
     numbers = count_sliding_variants(request, executor=executor_of(arguments))
     if arguments.prismatic == "any":
         if arguments.json:

@@ -149,11 +149,11 @@ def _function_task(record: _Law) -> FunctionTask:
 
     law = FunctionLaw(
         record.function,
-        record.interval,
-        _radians(record.input_swing, "input_swing"),
-        output(record.output_swing, "output_swing"),
-        None if record.input_start is None else _radians(record.input_start, "input_start"),
-        None if record.output_start is None else output(record.output_start, "output_start"),
+        interval=record.interval,
+        input_swing=_radians(record.input_swing, "input_swing"),
+        output_swing=output(record.output_swing, "output_swing"),
+        input_start=None if record.input_start is None else _radians(record.input_start, "input_start"),
+        output_start=None if record.output_start is None else output(record.output_start, "output_start"),
     )
     return function_task(law, record.precision_points, output=record.output, unit=record.unit)
 

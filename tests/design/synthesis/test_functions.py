@@ -111,9 +111,9 @@ _ROWS = (("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3))
 @pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
 def test_slopes_of_the_structural_error_against_differences(kind):
     lengths = (0.8, 1.1, 0.9, 1.0) if kind == "four-bar" else (0.8, 2.1, 0.2)
-    law = FunctionLaw("x**2", (0, 1), 1.2, 0.7)
+    law = FunctionLaw("x**2", interval=(0, 1), input_swing=1.2, output_swing=0.7)
     family = ErrorFamily(kind, 1, law)
-    numbers = family.numbers_of(Coordination(kind, lengths, 0.6, 1.0, 1))
+    numbers = family.numbers_of(Coordination(kind, lengths=lengths, input_start=0.6, output_start=1.0, side=1))
     x = np.linspace(0, 1, 7)
     _, slopes = family.slopes(numbers, x)
     for k, step in enumerate(1e-6 * np.eye(5)):
@@ -124,9 +124,11 @@ def test_slopes_of_the_structural_error_against_differences(kind):
 @given(st.tuples(lengths, lengths, lengths), st.floats(0, 6), st.sampled_from([1, -1]), st.booleans())
 def test_freudensteins_equation_against_the_closed_form(own, start, branch, slides):
     """Second method: the triangle A, B, B0. Numbers of a linkage give the linkage back."""
-    law = FunctionLaw("x**2", (0, 1), 0.6, 0.7)
+    law = FunctionLaw("x**2", interval=(0, 1), input_swing=0.6, output_swing=0.7)
     own = (own[0], own[1] + 3, own[2] - 1.5) if slides else (*own, 1.0)
-    solution = Coordination("slider-crank" if slides else "four-bar", own, start, 1.0, branch)
+    solution = Coordination(
+        "slider-crank" if slides else "four-bar", lengths=own, input_start=start, output_start=1.0, side=branch
+    )
     x = np.linspace(0, 1, 9)
     output = np.asarray(solution.linkage().motion(start + law.inputs(x), branch=branch_of_side(branch)).output.value)
     error = output - 1.0 - law.outputs(x)
@@ -145,8 +147,8 @@ def test_freudensteins_equation_against_the_closed_form(own, start, branch, slid
 
 
 LAWS = [
-    (FunctionLaw("log10(x)", (1, 2), np.radians(60), np.radians(60)), "angle"),
-    (FunctionLaw("x^2", (0, 1), np.radians(90), 40.0), "travel"),
+    (FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.radians(60), output_swing=np.radians(60)), "angle"),
+    (FunctionLaw("x^2", interval=(0, 1), input_swing=np.radians(90), output_swing=40.0), "travel"),
 ]
 
 
@@ -195,7 +197,14 @@ def test_minimax_designs_are_held_to_the_demands():
 
 
 def test_a_design_that_does_not_follow_the_function_throughout_has_no_optimum():
-    law = FunctionLaw("x^2", (0, 1), np.radians(90), np.radians(90), np.radians(30), np.radians(60))
+    law = FunctionLaw(
+        "x^2",
+        interval=(0, 1),
+        input_swing=np.radians(90),
+        output_swing=np.radians(90),
+        input_start=np.radians(30),
+        output_start=np.radians(60),
+    )
     found = synthesise_function(function_task(law, 3), minimax=True)
     assert not found.designs
     assert "no minimax optimum is near" in str(found.rejected[0].verdict.reasons[-1])
@@ -228,9 +237,9 @@ def test_formulas_are_the_functions_of_numpy(x):
 
 def test_functions_without_values_and_too_many_pairs():
     with pytest.raises(SynthesisError, match="is not defined everywhere from -1 to 1"):
-        FunctionLaw("log10(x)", (-1, 1), 1, 1)
+        FunctionLaw("log10(x)", interval=(-1, 1), input_swing=1, output_swing=1)
     with pytest.raises(SynthesisError, match="the same value"):
-        FunctionLaw("x^2", (-1, 1), 1, 1)
+        FunctionLaw("x^2", interval=(-1, 1), input_swing=1, output_swing=1)
     with pytest.raises(SynthesisError, match="at most 3"):
         synthesise_function(FunctionTask([0.1, 0.2, 0.3, 0.4], [1, 2, 3, 4]))
 

@@ -16,14 +16,30 @@ from gruebler.design.synthesis.structural_error import ErrorFamily, coordination
 from gruebler.mechanics.linkages.branch import branch_of_side
 
 RIGHT, HALF = np.pi / 2, np.pi / 3
-LOG_90 = FunctionLaw("log10(x)", (1, 2), HALF, RIGHT)
+LOG_90 = FunctionLaw("log10(x)", interval=(1, 2), input_swing=HALF, output_swing=RIGHT)
 """Its optimum lies far along a curved valley from the linkage of five precision points."""
-LOG_60 = FunctionLaw("log10(x)", (1, 2), HALF, HALF)
-SQUARE = FunctionLaw("x^2", (0, 1), RIGHT, 40.0)
-SINE = FunctionLaw("sin(x)", (0, 1.5), RIGHT, HALF)
-GIVEN = FunctionLaw("log10(x)", (1, 2), HALF, HALF, np.radians(20), np.radians(80))
-INPUT_FREE = FunctionLaw("exp(x)", (0, 1), np.radians(70), np.radians(70), None, np.radians(100))
-OUTPUT_FREE = FunctionLaw("log10(x)", (1, 2), RIGHT, RIGHT, np.radians(60), None)
+LOG_60 = FunctionLaw("log10(x)", interval=(1, 2), input_swing=HALF, output_swing=HALF)
+SQUARE = FunctionLaw("x^2", interval=(0, 1), input_swing=RIGHT, output_swing=40.0)
+SINE = FunctionLaw("sin(x)", interval=(0, 1.5), input_swing=RIGHT, output_swing=HALF)
+GIVEN = FunctionLaw(
+    "log10(x)",
+    interval=(1, 2),
+    input_swing=HALF,
+    output_swing=HALF,
+    input_start=np.radians(20),
+    output_start=np.radians(80),
+)
+INPUT_FREE = FunctionLaw(
+    "exp(x)",
+    interval=(0, 1),
+    input_swing=np.radians(70),
+    output_swing=np.radians(70),
+    input_start=None,
+    output_start=np.radians(100),
+)
+OUTPUT_FREE = FunctionLaw(
+    "log10(x)", interval=(1, 2), input_swing=RIGHT, output_swing=RIGHT, input_start=np.radians(60), output_start=None
+)
 FUNCTIONS = {"log10(x)": np.log10, "x^2": np.square, "sin(x)": np.sin, "exp(x)": np.exp}
 
 
@@ -215,7 +231,7 @@ def test_what_ends_in_a_dead_centre_or_runs_away_is_no_optimum():
 @pytest.mark.parametrize("unit", [1e-6, 1e6])
 def test_units_change_nothing(unit):
     best = found(SQUARE, "travel", 5)[0]
-    law = FunctionLaw("x^2", (0, 1), RIGHT, 40.0 * unit)
+    law = FunctionLaw("x^2", interval=(0, 1), input_swing=RIGHT, output_swing=40.0 * unit)
     near = changed(best.solution, [0.01, -0.01, 0.005, 0.01, 0.0])
     scaled = replace(near, lengths=tuple(unit * v for v in near.lengths), output_start=unit * near.output_start)
     first, second = minimax(near, SQUARE), minimax(scaled, law)
@@ -248,4 +264,7 @@ def test_negative_numbers_are_links_turned_by_half_a_turn(signs):
 
 def test_inverted_slider_cranks_are_refused():
     with pytest.raises(SynthesisError, match="is sought of four-bars and slider-cranks"):
-        minimax(Coordination("inverted-slider-crank", (2.0, 1.0, 0.1), 0.3, 0.5, 1), LOG_60)
+        minimax(
+            Coordination("inverted-slider-crank", lengths=(2.0, 1.0, 0.1), input_start=0.3, output_start=0.5, side=1),
+            LOG_60,
+        )

@@ -63,7 +63,8 @@ def test_rounding_orders_nothing():
     """Two designs of the same size but for the last digits stay as they are; so do exact ones."""
     bars = [FourBar(1 + k * 1e-14, 3, 2.5, 3.5).linkage() for k in (1, 0)]
     designs = [
-        Design(bar, DesignVerdict(error=e), str(k)) for k, (bar, e) in enumerate(zip(bars, (3e-13, 1e-15), strict=True))
+        Design(linkage=bar, verdict=DesignVerdict(error=e), form=str(k))
+        for k, (bar, e) in enumerate(zip(bars, (3e-13, 1e-15), strict=True))
     ]
     for order in ("size", "error", "links", "transmission"):
         assert [design.form for design in in_order_of(designs, [order])] == ["0", "1"]

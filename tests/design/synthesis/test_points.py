@@ -255,7 +255,7 @@ def test_five_positions_are_sixteen_ordered_pairs_of_four_dyads():
     Monodromy goes from pairs of different dyads to such pairs: six classes, twelve in order. The dyads that these are
     made of, each paired with itself, are the other four: solutions, too.
     """
-    problem = Problem("five positions", 4, 0, 6, 2)
+    problem = Problem(name="five positions", poses=4, points=0, classes=6, members=2)
     p, z = find_generic(problem, seed=3)
     assert len(z) == 6
     dyads = np.concatenate([z[:, [0, 1, 4, 5]], z[:, [2, 3, 6, 7]]])  # x, x*, a, a*

@@ -58,10 +58,26 @@ def too_long():
         ),
         (turned_back, "the timing is contradictory, the crank has to turn one way", "Die Zuordnung widerspricht sich"),
         (too_long, "all points lie within one turn", "innerhalb einer Umdrehung"),
-        (lambda: FunctionLaw("log10(x", (1, 2), 1, 1), "cannot be read", "ist nicht lesbar"),
-        (lambda: FunctionLaw("sine(x)", (1, 2), 1, 1), "unknown name 'sine'", "unbekannter Name 'sine'"),
-        (lambda: FunctionLaw("log10(x)", (-1, 1), 1, 1), "is not defined everywhere", "nicht überall definiert"),
-        (lambda: function_task(FunctionLaw("x", (0, 1), 1, 1), 6), "expected 2 to 5", "2 bis 5 Genauigkeitspunkte"),
+        (
+            lambda: FunctionLaw("log10(x", interval=(1, 2), input_swing=1, output_swing=1),
+            "cannot be read",
+            "ist nicht lesbar",
+        ),
+        (
+            lambda: FunctionLaw("sine(x)", interval=(1, 2), input_swing=1, output_swing=1),
+            "unknown name 'sine'",
+            "unbekannter Name 'sine'",
+        ),
+        (
+            lambda: FunctionLaw("log10(x)", interval=(-1, 1), input_swing=1, output_swing=1),
+            "is not defined everywhere",
+            "nicht überall definiert",
+        ),
+        (
+            lambda: function_task(FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1), 6),
+            "expected 2 to 5",
+            "2 bis 5 Genauigkeitspunkte",
+        ),
         (lambda: FunctionTask([0, 0.5, 0.5], [1, 2, 3]), "inputs 2 and 3 are equal", "sind gleich"),
         (
             lambda: FunctionTask([0, 0.5], [1, 2, 3]),

@@ -40,14 +40,16 @@ SLIDING_FIVE_BAR = "P(0-1) R(1-2) R(2-3) R(3-4) P(4-0); frame=0; drive=P(0-1); d
 
 POINTS = 2 * np.exp(0.35j * np.arange(6)) + 0.3 * np.arange(6)
 PAIRS = tuple((float(z.real), float(z.imag)) for z in POINTS)
-LAW = FunctionLaw("log10(x)", (1, 2), np.pi / 3, np.pi / 3)
+LAW = FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.pi / 3, output_swing=np.pi / 3)
 TASKS = {
     "positions": PositionTask([(0, 0, 0), (2.1, 0.9, 0.35), (3.2, 1.0, 0.8), (4.0, 0.2, 1.5)]),
     "points": PathTask(PAIRS),
     "mixed": PathTask(PAIRS, angles=(0, None, 0.2, None, None, 0.5)),
     "timed": PathTask(PAIRS, crank_angles=tuple(0.4 * np.arange(6))),
     "function": function_task(LAW, 5),
-    "travel": function_task(FunctionLaw("x^2", (0, 1), np.pi / 2, 30), 5, output="travel"),
+    "travel": function_task(
+        FunctionLaw("x^2", interval=(0, 1), input_swing=np.pi / 2, output_swing=30), 5, output="travel"
+    ),
     "dead centres": DeadCentreTask(swing=1, time_ratio=1.2),
     "stroke": DeadCentreTask(stroke=50, time_ratio=1.2),
 }

@@ -44,7 +44,14 @@ def tasks(draw):
         return FunctionTask([0.1 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)], turned)
     if kind == 4:
         starts = draw(st.tuples(*[st.none() | angles] * 2))
-        law = FunctionLaw("log10(x) + x^2", (1, draw(st.floats(1.5, 3))), draw(swings), draw(swings), *starts)
+        law = FunctionLaw(
+            "log10(x) + x^2",
+            interval=(1, draw(st.floats(1.5, 3))),
+            input_swing=draw(swings),
+            output_swing=draw(swings),
+            input_start=starts[0],
+            output_start=starts[1],
+        )
         return function_task(law, draw(st.integers(2, 5)), output=draw(st.sampled_from(["angle", "travel"])))
     return DeadCentreTask(swing=draw(st.floats(0.01, 3)), time_ratio=draw(st.floats(1, 5)))
 
@@ -115,8 +122,14 @@ def test_none_stands_for_what_is_not_given():
         (lambda: PathTask([(0, 0), (1, 1)], angles="no"), "angles: expected a list"),
         (lambda: PathTask(None), "points: expected at least two, but found 0"),
         (lambda: FunctionTask([0, 0.5], 1), "outputs: expected a list"),
-        (lambda: function_task(FunctionLaw("x", (0, 1), 1, 1), 9), "precision_points: expected 2 to 5"),
-        (lambda: FunctionTask([0, 1], [0, 1], law=FunctionLaw("x", (0, 1), 1, 1)), "not those of the function"),
+        (
+            lambda: function_task(FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1), 9),
+            "precision_points: expected 2 to 5",
+        ),
+        (
+            lambda: FunctionTask([0, 1], [0, 1], law=FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1)),
+            "not those of the function",
+        ),
     ],
 )
 def test_bad_tasks_are_refused_in_one_sentence(make, sentence):

@@ -286,7 +286,7 @@ def test_targets_are_marked_where_links_have_numbers():
     four_bar = FourBar(25, 70, 40, 70).linkage({"P": (45, 40)})
     numbered = realise(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)")).linkage
     for own, mark in ((four_bar, ">2<"), (numbered, ">P2<")):
-        design = Design(own, DesignVerdict(assembles=True), "four-bar")
+        design = Design(linkage=own, verdict=DesignVerdict(assembles=True), form="four-bar")
         assert mark in design_figure(PathTask([(0, 0), (9, 4), (14, 3), (20, 1), (30, 5)]), design).svg()
 
 

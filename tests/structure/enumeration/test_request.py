@@ -116,8 +116,8 @@ def test_estimates_grow():
     sizes = [estimate(Request(n), "graph6") for n in (12, 14, 16, 18, 20)]
     assert all(a.chains < b.chains and a.seconds < b.seconds and a.bytes < b.bytes for a, b in pairwise(sizes))
     assert sizes[-1].exact
-    assert not estimate(Request(21, 2), None).exact
+    assert not estimate(Request(21, mobility=2), None).exact
     assert estimate(Request(18), None).bytes == 0
-    assert expected_chains(Request(8, 2)) == (0, True)
-    assert expected_chains(Request(30, 7, "all"))[0] > 0
+    assert expected_chains(Request(8, mobility=2)) == (0, True)
+    assert expected_chains(Request(30, mobility=7, fractionated="all"))[0] > 0
     assert expected_chains(Request(14, multiple_joints="any"))[0] > expected_chains(Request(14))[0]

@@ -136,13 +136,18 @@ def test_a_killed_scheduler_ends_the_run_with_one_error(monkeypatch, tmp_path, c
         try:
             address = running.stdout.readline().strip()
             with pytest.raises(RunError, match=f"no Dask scheduler answers at {address}"):
-                run_count(Request(13, 2), executor=DaskScheduler(address), checkpoint=tmp_path / "kept", progress=kill)
+                run_count(
+                    Request(13, mobility=2),
+                    executor=DaskScheduler(address),
+                    checkpoint=tmp_path / "kept",
+                    progress=kill,
+                )
         finally:
             running.kill()
     assert "Traceback" not in capfd.readouterr().err
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "kept").glob("*.piece")}
     assert len(kept) == len(finished) >= 1
-    assert len(list(work_units(Request(13, 2), size=100_000))) > len(kept)
-    count = run_count(Request(13, 2), checkpoint=tmp_path / "kept")
+    assert len(list(work_units(Request(13, mobility=2), size=100_000))) > len(kept)
+    count = run_count(Request(13, mobility=2), checkpoint=tmp_path / "kept")
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
-    assert count == run_count(Request(13, 2))
+    assert count == run_count(Request(13, mobility=2))

@@ -168,7 +168,9 @@ def test_a_lost_worker_changes_no_count(processes, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "request_", [Request(12), Request(9, 2, "all"), Request(8, multiple_joints="any"), Request(4)], ids=str
+    "request_",
+    [Request(12), Request(9, mobility=2, fractionated="all"), Request(8, multiple_joints="any"), Request(4)],
+    ids=str,
 )
 def test_any_number_of_jobs_gives_the_same(request_, processes):
     alone = run_count(request_, orbits=True)
@@ -214,7 +216,7 @@ def test_a_killed_run_goes_on_with_the_same_result(tmp_path):
 
 
 def test_damaged_and_torn_pieces_are_done_again(tmp_path):
-    request = Request(9, 2, "all")
+    request = Request(9, mobility=2, fractionated="all")
     expected = run_count(request, checkpoint=tmp_path)
     first, *_ = sorted(tmp_path.glob("*.piece"))
     whole = first.read_bytes()
@@ -272,7 +274,7 @@ BROKEN = [
 
 @pytest.mark.parametrize("content", BROKEN, ids=range(len(BROKEN)))
 def test_a_broken_piece_is_done_again(tmp_path, content):
-    request = Request(9, 2, "all")
+    request = Request(9, mobility=2, fractionated="all")
     expected = run_count(request, checkpoint=tmp_path / "count")
     listed = list(run_list(request, "text", checkpoint=tmp_path / "list"))
     for kept, again in (

@@ -37,7 +37,9 @@ def test_every_chain_against_the_list(links, mobility, joints):
         numbers = sliding_numbers(chain)
         assert numbers == listed(chain), chain
         total = [a + b for a, b in zip(total, [*numbers, *[0] * 20], strict=False)]
-    counted = count_sliding_variants(Request(links, mobility, "all", None, joints))
+    counted = count_sliding_variants(
+        Request(links, mobility=mobility, fractionated="all", assortment=None, multiple_joints=joints)
+    )
     assert list(counted) == total[: len(counted)]
     assert not any(total[len(counted) :])
 

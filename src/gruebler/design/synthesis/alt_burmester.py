@@ -36,7 +36,7 @@ _NEAR = 1e-4  # an end that arrived and one of the endgame are the same
 _TOGETHER = 1e-6  # the same for ends of the endgame, which knows singular ones to nine digits or so
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Problem:
     """So many positions (besides the first point or position) and so many points, and its number of solutions."""
 
@@ -67,11 +67,11 @@ class Problem:
 
 
 PROBLEMS = (
-    Problem("nine points", 0, 8, 1442, 6),
-    Problem("two positions and six points", 1, 6, 1112, 2),
-    Problem("three positions and four points", 2, 4, 201, 2),
-    Problem("four positions and two points", 3, 2, 30, 2),
-    Problem("five points and two fixed pivots", 0, 4, 36, 1),
+    Problem(name="nine points", poses=0, points=8, classes=1442, members=6),
+    Problem(name="two positions and six points", poses=1, points=6, classes=1112, members=2),
+    Problem(name="three positions and four points", poses=2, points=4, classes=201, members=2),
+    Problem(name="four positions and two points", poses=3, points=2, classes=30, members=2),
+    Problem(name="five points and two fixed pivots", poses=0, points=4, classes=36, members=1),
 )
 """The finite problems with stored solutions; five positions are solved in closed form."""
 

@@ -7,7 +7,7 @@ pair and makes the condition quadratic.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from math import degrees
 from typing import Any
 
@@ -31,6 +31,7 @@ class Coordination:
 
     kind: str
     """``four-bar``, ``slider-crank`` or ``inverted-slider-crank``."""
+    _: KW_ONLY
     lengths: tuple[float, ...]
     """a, b, c, d; a, b, e; a, d, e. Lengths of links are positive."""
     input_start: float
@@ -125,6 +126,7 @@ class CoordinationKind:
     """A kind of linkage: linear conditions in some numbers of its own."""
 
     name: str
+    _: KW_ONLY
     output: str
     unknowns: int
     columns: Callable[[Reals, Reals], Reals]
@@ -169,9 +171,16 @@ def _inverted_lengths(k: Reals) -> tuple[float, ...] | None:
 
 
 KINDS = (
-    CoordinationKind("four-bar", "angle", 3, _four_bar_columns, _four_bar_lengths),
-    CoordinationKind("slider-crank", "travel", 3, _slider_columns, _slider_lengths),
-    CoordinationKind("inverted-slider-crank", "angle", 2, _inverted_columns, _inverted_lengths, 1),
+    CoordinationKind("four-bar", output="angle", unknowns=3, columns=_four_bar_columns, lengths=_four_bar_lengths),
+    CoordinationKind("slider-crank", output="travel", unknowns=3, columns=_slider_columns, lengths=_slider_lengths),
+    CoordinationKind(
+        "inverted-slider-crank",
+        output="angle",
+        unknowns=2,
+        columns=_inverted_columns,
+        lengths=_inverted_lengths,
+        input_degree=1,
+    ),
 )
 
 
@@ -256,11 +265,15 @@ def as_coordination(kind: str, signed: tuple[float, ...], phi: float, output: fl
         rocker = output + (np.pi if c < 0 else 0.0)
         gap = d + c * np.exp(1j * output) - point
         side = 1 if np.imag(np.conj(d - point) * gap) >= 0 else -1
-        return Coordination(kind, (abs(a), b, abs(c), d), crank, rocker, side)
+        return Coordination(kind, lengths=(abs(a), b, abs(c), d), input_start=crank, output_start=rocker, side=side)
     if kind == "slider-crank":
         side = 1 if output - point.real >= 0 else -1
-        return Coordination(kind, (abs(a), signed[1], signed[2]), crank, output, side)
+        return Coordination(
+            kind, lengths=(abs(a), signed[1], signed[2]), input_start=crank, output_start=output, side=side
+        )
     # The guide has the direction psi; B0 lies on it towards the block for branch +1.
     d, e = signed[1:]
     displacement = float(np.real((d - point) * np.exp(-1j * output)))
-    return Coordination(kind, (abs(a), d, e), crank, output, 1 if displacement >= 0 else -1)
+    return Coordination(
+        kind, lengths=(abs(a), d, e), input_start=crank, output_start=output, side=1 if displacement >= 0 else -1
+    )

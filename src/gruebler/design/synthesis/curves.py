@@ -392,8 +392,8 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
         "So many points are met by least squares; designs that come nearer than {limit:g} of the size are accepted.",
         limit=limit,
     )
-    count = SolutionCount(message("linkages"), 0, len(fits), len(fits))
-    return SynthesisResult(task, accepted, rejected, count, (note,))
+    count = SolutionCount(what=message("linkages"), theorem=0, found=len(fits), real=len(fits))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
 
 def fit_open_points(
@@ -413,8 +413,8 @@ def fit_open_points(
         parameters=MOST_POINTS - len(task),
         count=len(exact),
     )
-    count = SolutionCount(message("linkages"), None, len(exact), len(exact))
-    return SynthesisResult(task, accepted, rejected, count, (note,))
+    count = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
 
 def _judged_fits(

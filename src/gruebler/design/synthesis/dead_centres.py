@@ -206,8 +206,8 @@ def synthesise_dead_centres(
     note = _NOTES[abs(task.angle - pi) < 1e-12, task.swing is not None].filled(
         low=low * scale, high=high * scale, angle=degrees(family.best.transmission)
     )
-    count = SolutionCount(message("linkages"), None, len(designs), len(designs))
-    return SynthesisResult(task, accepted, rejected, count, (note,))
+    count = SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
 
 _NOTES = {
@@ -255,4 +255,4 @@ def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Des
         reasons=tuple(reasons),
     )
     kind = "four-bar" if task.swing is not None else "slider-crank"
-    return Design(linkage, verdict, kind, (centres.outer.drive, centres.inner.drive))
+    return Design(linkage=linkage, verdict=verdict, form=kind, drives=(centres.outer.drive, centres.inner.drive))

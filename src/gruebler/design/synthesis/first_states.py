@@ -273,7 +273,7 @@ def _placed(closure: DesignClosure, course: _Course, targets: FitTargets, chosen
     free = [point.real, point.imag]
     free += [_constant(q[:, closure.column[chosen.link] + 2], targets.angles)] if targets.angles is not None else []
     free += [_constant(q[:, closure.column[crank] + 2], targets.inputs)] if targets.inputs is not None else []
-    return FitState(p, q, chosen.link, crank, free=np.array(free))
+    return FitState(p, q=q, link=chosen.link, crank=crank, free=np.array(free))
 
 
 def _constant(angles: Reals, wanted: Reals) -> float:
@@ -314,7 +314,7 @@ def _of_function(closure: DesignClosure, course: _Course, targets: FitTargets, l
     p, q = _similar(closure, course.q[rows], complex(scale), 0j, mirrored=mirrored)
     crank = _crank(closure)
     slide = _slide(closure, output) if targets.travel else (-1, "")
-    state = FitState(p, q, "", crank, output, slide)
+    state = FitState(p, q=q, link="", crank=crank, output=output, slide=slide)
     constants = [_constant(q[:, closure.column[crank] + 2], targets.inputs)]
     if targets.travel:
         c, angle = closure.column[output], p[closure.start[slide] + 2]

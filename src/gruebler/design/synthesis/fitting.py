@@ -6,7 +6,7 @@ any change of the dimensions, that is no error.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +31,7 @@ _ASIDE = (0.1, 0.01, 1e-3)
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class FitTargets:
     """What poses are compared with; what a task does not give is None."""
 
@@ -75,24 +75,24 @@ def fit_targets(task: Task, aside: float = _ASIDE[-1]) -> FitTargets:
     """The targets of a task. A dead centre is one where the output is the same a little before and after it."""
     match task:
         case PositionTask():
-            return FitTargets(task.size, task.origins, task.angles)
+            return FitTargets(size=task.size, z=task.origins, angles=task.angles)
         case PathTask():
             extent = float(max(np.ptp(task.z.real), np.ptp(task.z.imag)))
             angles = np.array([np.nan if a is None else a for a in task.angles]) if task.angles else None
             timing = np.array(task.crank_angles) if task.crank_angles else None
-            return FitTargets(extent, task.z, angles, timing, closed=task.closed)
+            return FitTargets(size=extent, z=task.z, angles=angles, inputs=timing, closed=task.closed)
         case FunctionTask():
             outputs = np.array(task.outputs)
             travel = task.output == "travel"
             size = float(np.ptp(outputs)) if travel else 1.0
-            return FitTargets(size or 1.0, inputs=np.array(task.inputs), outputs=outputs, travel=travel)
+            return FitTargets(size=size or 1.0, inputs=np.array(task.inputs), outputs=outputs, travel=travel)
         case DeadCentreTask():
             reach = task.swing if task.swing is not None else task.stroke
             assert reach is not None
             inputs = np.array([-aside, aside, task.angle - aside, task.angle + aside])
             outputs = np.array([0.0, 0.0, reach, reach])
             travel = task.swing is None
-            return FitTargets(reach if travel else 1.0, inputs=inputs, outputs=outputs, travel=travel)
+            return FitTargets(size=reach if travel else 1.0, inputs=inputs, outputs=outputs, travel=travel)
     raise SynthesisError(
         "expected a task of positions, points, a function or dead centres, but found {found!r}", found=task
     )
@@ -114,6 +114,7 @@ class FitState:
     """Dimensions, the poses at all targets, the links that are compared, and what else is free."""
 
     p: Reals
+    _: KW_ONLY
     q: Reals
     """(targets, unknowns)"""
     link: str = ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -144,12 +144,13 @@ class FunctionLaw:
 
     Raises `SynthesisError` where the function has no values or does not change from begin to end.
 
-    >>> law = FunctionLaw("log10(x)", (1, 2), 1.0, 0.5)
+    >>> law = FunctionLaw("log10(x)", interval=(1, 2), input_swing=1.0, output_swing=0.5)
     >>> float(law.outputs(1.5).round(6))
     0.292481
     """
 
     function: str
+    _: KW_ONLY
     interval: tuple[float, float]
     input_swing: float
     output_swing: float

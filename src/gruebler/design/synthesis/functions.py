@@ -83,7 +83,7 @@ def synthesise_function(
         )
     if fitted:
         designs = in_order_of(designs, ["error"])
-    result = SynthesisResult(task, designs, rejected, met.solutions, notes)
+    result = SynthesisResult(task=task, designs=designs, rejected=rejected, count=met.solutions, notes=notes)
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result
 
 
@@ -108,7 +108,7 @@ def _by_given_starts(task: FunctionTask, wanted: Demands, free: int) -> _Candida
             candidates += [_design(task, wanted, solution) for solution in solutions.real]
     most = 3 + free
     if candidates or theorem:
-        count = SolutionCount(message("linkages"), theorem, complex_count, real)
+        count = SolutionCount(what=message("linkages"), theorem=theorem, found=complex_count, real=real)
         if task.output != "angle" or len(task) >= most:
             return _Candidates(candidates, count)
         note = message(
@@ -128,7 +128,7 @@ def _by_given_starts(task: FunctionTask, wanted: Demands, free: int) -> _Candida
         "There are infinitely many solutions, a family of dimension {dimension}: give more pairs.",
         dimension=most - len(task),
     )
-    return _Candidates([], SolutionCount(message("linkages"), None, 0, 0), (note,))
+    return _Candidates([], SolutionCount(what=message("linkages"), theorem=None, found=0, real=0), (note,))
 
 
 def _by_free_starts(task: FunctionTask, wanted: Demands, number: int) -> _Candidates:
@@ -151,7 +151,11 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int) -> _Candid
         theorem = complex_count = 3  # four dyads less the frame
     else:
         notes = (_FAMILIES[len(task)].filled(count=len(dyads)),)
-    return _Candidates(candidates, SolutionCount(message("linkages"), theorem, complex_count, len(dyads)), notes)
+    return _Candidates(
+        candidates,
+        SolutionCount(what=message("linkages"), theorem=theorem, found=complex_count, real=len(dyads)),
+        notes,
+    )
 
 
 def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:

@@ -124,7 +124,9 @@ def missing_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, fo
     """The design of a linkage whose point has the path of another one that misses its targets, a cognate of it."""
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
     reasons = (*faults_of_size(ratio, inside, demands), verdict.reasons[-1])
-    return Design(linkage, replace(verdict, size_ratio=ratio, inside=inside, reasons=reasons), form)
+    return Design(
+        linkage=linkage, verdict=replace(verdict, size_ratio=ratio, inside=inside, reasons=reasons), form=form
+    )
 
 
 def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
@@ -151,7 +153,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
             verdict = DesignVerdict(
                 assembles=True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons)
             )
-            return Design(linkage, verdict, form)
+            return Design(linkage=linkage, verdict=verdict, form=form)
         path, full = path_through(course, met, limit), _turns_fully(course)
         drives: tuple[float, ...] = ()
         missed_by, transmission = met.error if path.in_order else path.error, np.nan
@@ -161,7 +163,9 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
             drives, missed_by, transmission = _carried(linkage, course, path, targets)
     except LinkageError as error:
         reasons.append(message("it cannot be followed from its first position: {error}", error=error))
-        return Design(linkage, DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
+        return Design(
+            linkage=linkage, verdict=DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form=form
+        )
     if not path.in_order and demands.in_order:
         reasons.append(_in_another_order(path.error))
         missed_by = max(missed_by, path.error)
@@ -187,7 +191,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         error=float(missed_by),
         reasons=tuple(reasons),
     )
-    return Design(linkage, verdict, form, drives)
+    return Design(linkage=linkage, verdict=verdict, form=form, drives=drives)
 
 
 def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form: str, drives: Reals) -> Design:
@@ -233,7 +237,9 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
         error=error if moved else np.nan,
         reasons=tuple(reasons),
     )
-    return Design(linkage, verdict, form, drive_rows=tuple(tuple(map(float, row)) for row in drives))
+    return Design(
+        linkage=linkage, verdict=verdict, form=form, drive_rows=tuple(tuple(map(float, row)) for row in drives)
+    )
 
 
 def faults_of_size(ratio: float, inside: bool, demands: Demands) -> list[Message]:

@@ -78,8 +78,9 @@ def minimax(start: Coordination, law: FunctionLaw, *, steps: int = 200) -> Minim
     Raises `SynthesisError` if the start cannot be assembled throughout, and for inverted slider-cranks.
     Cost: 5 ms a step, mostly 5 to 60 steps.
 
-    >>> law = FunctionLaw("log10(x)", (1, 2), np.pi / 3, np.pi / 3)
-    >>> best = minimax(Coordination("four-bar", (3.4, 0.8, 3.5, 1.0), 0.9, 1.36, -1), law)
+    >>> law = FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.pi / 3, output_swing=np.pi / 3)
+    >>> sizes = {"lengths": (3.4, 0.8, 3.5, 1.0), "input_start": 0.9, "output_start": 1.36}
+    >>> best = minimax(Coordination("four-bar", **sizes, side=-1), law)
     >>> best.error < best.start_error, best.certificate.optimum, best.certificate.alternations
     (True, True, 6)
     """
@@ -99,8 +100,9 @@ def minimax(start: Coordination, law: FunctionLaw, *, steps: int = 200) -> Minim
 def digits_for_error(optimum: Minimax, law: FunctionLaw) -> int:
     """How many digits of the dimensions give the stated error again, to half a unit of its fourth digit.
 
-    >>> law = FunctionLaw("log10(x)", (1, 2), np.pi / 3, np.pi / 3)
-    >>> digits_for_error(minimax(Coordination("four-bar", (3.4, 0.8, 3.5, 1.0), 0.9, 1.36, -1), law), law) > 6
+    >>> law = FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.pi / 3, output_swing=np.pi / 3)
+    >>> sizes = {"lengths": (3.4, 0.8, 3.5, 1.0), "input_start": 0.9, "output_start": 1.36}
+    >>> digits_for_error(minimax(Coordination("four-bar", **sizes, side=-1), law), law) > 6
     True
     """
     solution = optimum.solution

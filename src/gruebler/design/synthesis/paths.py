@@ -157,7 +157,9 @@ def _as_positions(run: _Run) -> SynthesisResult:
     task = run.task
     rows = [(*p, a) for p, a in zip(task.points, task.angles, strict=True) if a is not None]
     result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), run.demands, progress=run.progress)
-    return SynthesisResult(task, result.designs, result.rejected, result.count, result.notes)
+    return SynthesisResult(
+        task=task, designs=result.designs, rejected=result.rejected, count=result.count, notes=result.notes
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -188,8 +190,16 @@ def _exact(run: _Run, problem: Problem) -> SynthesisResult:
     accepted, rejected = ranked(designs)
     theorem = None if reduced.added else problem.classes
     resolved = problem.classes - complete.missing
-    count = SolutionCount(what, theorem, resolved, len(complete.real), complete.infinite)
-    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, complete, reduced.added)))
+    count = SolutionCount(
+        what=what, theorem=theorem, found=resolved, real=len(complete.real), infinite=complete.infinite
+    )
+    return SynthesisResult(
+        task=task,
+        designs=accepted,
+        rejected=rejected,
+        count=count,
+        notes=tuple(_notes(problem, complete, reduced.added)),
+    )
 
 
 class _Crowd(NamedTuple):
@@ -400,8 +410,10 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
     accepted, rejected = ranked(designs)
     theorem = 12 if len(task) == 5 else None
     family = message("There are infinitely many solutions; some dyads of each family were taken.")
-    count = SolutionCount(message("linkages"), theorem, theorem or real, real)
-    return SynthesisResult(task, accepted, rejected, count, () if theorem else (family,))
+    count = SolutionCount(what=message("linkages"), theorem=theorem, found=theorem or real, real=real)
+    return SynthesisResult(
+        task=task, designs=accepted, rejected=rejected, count=count, notes=() if theorem else (family,)
+    )
 
 
 def _sampled(run: _Run) -> SynthesisResult:
@@ -431,7 +443,13 @@ def _sampled(run: _Run) -> SynthesisResult:
         count=len(turns),
     )
     accepted, rejected = ranked(designs)
-    return SynthesisResult(task, accepted, rejected, SolutionCount(message("linkages"), None, real, real), (note,))
+    return SynthesisResult(
+        task=task,
+        designs=accepted,
+        rejected=rejected,
+        count=SolutionCount(what=message("linkages"), theorem=None, found=real, real=real),
+        notes=(note,),
+    )
 
 
 def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:

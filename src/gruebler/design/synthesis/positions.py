@@ -167,7 +167,11 @@ def synthesise_positions(
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
     return SynthesisResult(
-        task, designs, rejected, SolutionCount(DYADS, THEOREM[len(task)], complex_dyads, len(dyads)), tuple(notes)
+        task=task,
+        designs=designs,
+        rejected=rejected,
+        count=SolutionCount(what=DYADS, theorem=THEOREM[len(task)], found=complex_dyads, real=len(dyads)),
+        notes=tuple(notes),
     )
 
 
@@ -325,4 +329,10 @@ def _approximate(
         "More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted.",
         tolerance=tolerance,
     )
-    return SynthesisResult(task, accepted, rejected, SolutionCount(DYADS, 0, len(dyads), len(dyads)), (note,))
+    return SynthesisResult(
+        task=task,
+        designs=accepted,
+        rejected=rejected,
+        count=SolutionCount(what=DYADS, theorem=0, found=len(dyads), real=len(dyads)),
+        notes=(note,),
+    )

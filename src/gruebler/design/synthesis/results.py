@@ -98,7 +98,7 @@ def _symbol(letter: str, alphabet: Alphabet) -> str:
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Design:
     """A linkage made for a task, with what it really does."""
 
@@ -191,7 +191,7 @@ def in_order_of(designs: Iterable[Design], orders: Iterable[str]) -> tuple[Desig
     return tuple(sorted(designs, key=place))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SolutionCount:
     """How many solutions there are."""
 
@@ -218,7 +218,7 @@ class SolutionCount:
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class SynthesisResult:
     """All designs for a task: accepted ones, best first, and rejected ones with their reasons."""
 
@@ -280,7 +280,7 @@ class SynthesisResult:
         return ["", *(header.in_language(lang) for header in headers)], rows
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ParetoRow:
     """A design by what counts: the smaller error, size and number of links, the larger transmission angle."""
 
@@ -307,12 +307,12 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
     """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
     rows = [
         ParetoRow(
-            design.linkage.mechanism.text(),
-            design.verdict.error,
-            design.verdict.transmission,
-            design.linkage.size,
-            design.links,
-            design,
+            structure=design.linkage.mechanism.text(),
+            error=design.verdict.error,
+            transmission=design.verdict.transmission,
+            size=design.linkage.size,
+            links=design.links,
+            design=design,
         )
         for design in found.designs
     ]

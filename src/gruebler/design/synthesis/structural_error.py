@@ -50,10 +50,14 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
         lengths = (abs(pin - pivot), abs(far - pin), abs(far - other), abs(other - pivot))
         side = np.imag(np.conj(other - pin) * (far - pin))
         output = float(np.angle((far - other) / (other - pivot))) - float(free.outputs(x)[0])
-        return Coordination("four-bar", lengths, crank, output, 1 if side >= 0 else -1)
+        return Coordination(
+            "four-bar", lengths=lengths, input_start=crank, output_start=output, side=1 if side >= 0 else -1
+        )
     output = far.real - float(free.outputs(x)[0])
     lengths_ = (abs(pin - pivot), abs(far - pin), far.imag - pivot.imag)
-    return Coordination("slider-crank", lengths_, crank, output, 1 if far.real >= pin.real else -1)
+    return Coordination(
+        "slider-crank", lengths=lengths_, input_start=crank, output_start=output, side=1 if far.real >= pin.real else -1
+    )
 
 
 def structural_error(solution: Coordination, law: FunctionLaw, x: ArrayLike) -> Reals:
@@ -71,8 +75,9 @@ def largest_error(solution: Coordination, law: FunctionLaw) -> float:
 
     Infinite where the linkage cannot be assembled throughout. Cost: 0.5 ms.
 
-    >>> law = FunctionLaw("x**2", (0, 1), np.pi / 2, np.pi / 2)
-    >>> linkage = Coordination("four-bar", (0.8, 1.1, 0.9, 1.0), 0.5, 0.9, 1)
+    >>> law = FunctionLaw("x**2", interval=(0, 1), input_swing=np.pi / 2, output_swing=np.pi / 2)
+    >>> sizes = {"lengths": (0.8, 1.1, 0.9, 1.0), "input_start": 0.5, "output_start": 0.9}
+    >>> linkage = Coordination("four-bar", **sizes, side=1)
     >>> round(largest_error(linkage, law), 6) >= round(float(np.abs(structural_error(linkage, law, 0.3))[0]), 6)
     True
     """

@@ -84,8 +84,8 @@ def synthesise_structures(
         count=len(jobs),
         limit=_limit(wanted),
     )
-    count = SolutionCount(message("linkages"), 0, len(candidates), len(candidates))
-    return SynthesisResult(task, accepted, rejected, count, (note,))
+    count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
 
 def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
@@ -210,7 +210,7 @@ def _fitted_drawing(task: PathTask, mechanism: Mechanism, demands: Demands, star
         z = rotation * complex(pose.x, pose.y) + shift
         q[:, c], q[:, c + 1], q[:, c + 2] = z.real, z.imag, pose.angle + np.unwrap(np.angle(rotation))
     point = drawing.points["P"]
-    state = FitState(closure.sizes, q, start.link, free=np.array([point.x, point.y]))
+    state = FitState(closure.sizes, q=q, link=start.link, free=np.array([point.x, point.y]))
     targets = fit_targets(task)
     return _judged(targets, demands, closure, improved(closure, state, targets), drawing.outputs)
 

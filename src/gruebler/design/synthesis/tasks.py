@@ -303,7 +303,8 @@ def _pairs_of(law: FunctionLaw, count: int) -> _Pairs:
 def function_task(law: FunctionLaw, count: int = 5, *, output: str = "angle", unit: str = "mm") -> FunctionTask:
     """The precision pairs of a function at Chebyshev's spacing.
 
-    >>> function_task(FunctionLaw("log10(x)", (1, 2), 1.0, 1.0, 0.8, 0.9), 3).inputs
+    >>> swings = {"input_swing": 1.0, "output_swing": 1.0, "input_start": 0.8, "output_start": 0.9}
+    >>> function_task(FunctionLaw("log10(x)", interval=(1, 2), **swings), 3).inputs
     (0.866987..., 1.3, 1.733012...)
     """
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_PAIRS:

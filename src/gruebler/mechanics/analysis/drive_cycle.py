@@ -61,7 +61,7 @@ _TOGETHER = 1e-8  # radians or sizes: events that are nearer are at one place; c
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CycleSpan:
     """The range of a drive: radians, or lengths for a slide."""
 
@@ -123,7 +123,7 @@ def by_place(events: Iterable[_AnyEvent], span: CycleSpan, drive_size: float) ->
     return [sorted(together, key=lambda event: event.links) for together in places]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Course(ABC):
     """A linkage on one branch along one number: the value of its drive, or the part of a path of several drives."""
 
@@ -178,7 +178,9 @@ class Course(ABC):
     def samples(self, order: int = 1) -> FunctionSamples:
         """The grid, with the joints of the laws of its cams, for zeros of a derivative of that order by the drive."""
         noise = _LAW_NOISE[order:] if self.joints else ()
-        return FunctionSamples(self.grid, self.joints, self.span.period if self.span.full else None, noise)
+        return FunctionSamples(
+            grid=self.grid, joints=self.joints, period=self.span.period if self.span.full else None, noise=noise
+        )
 
     def end(self, function: Callable[[Motion], Reals | Complexes], upper: bool, size: float = 1.0) -> complex:
         """The value of a function of that size at an end of the range, where poses themselves are ill-conditioned.
@@ -221,7 +223,7 @@ class Course(ABC):
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DriveCycle(Course):
     """A linkage on one branch over the whole range of its drive."""
 
@@ -300,13 +302,13 @@ def drive_cycle(linkage: Linkage, *, branch: Branch = None) -> DriveCycle:
         raise LinkageError(
             "the drive cannot move: the linkage can be assembled in one position only, drive = {at}", at=at
         )
-    cycle = DriveCycle(plan, start, span, np.array([span.low, span.high]))
+    cycle = DriveCycle(plan=plan, start=start, span=span, grid=np.array([span.low, span.high]))
     return replace(cycle, grid=_grid(cycle))
 
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PathCycle(Course):
     """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
 
@@ -352,7 +354,13 @@ def path_cycle(linkage: Linkage, path: ArrayLike, *, branch: Branch = None) -> P
     start = move_in_radians(plan, ends[:1], branch=branch)
     if not start.complete:
         raise LinkageError("{reason}", reason=start.reason)
-    cycle = PathCycle(plan, start, CycleSpan(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
+    cycle = PathCycle(
+        plan=plan,
+        start=start,
+        span=CycleSpan(low=0.0, high=1.0, full=False, turns=0, stops=(None, None)),
+        grid=np.array([0.0, 1.0]),
+        ends=ends,
+    )
     return replace(cycle, grid=_grid(cycle))
 
 
@@ -430,13 +438,13 @@ def _span(plan: Plan, start: Motion) -> CycleSpan:
         if back or not above.complete:
             break
     if back:
-        return CycleSpan(q, q + 2 * pi * back[0], True, back[0], (None, None))
+        return CycleSpan(low=q, high=q + 2 * pi * back[0], full=True, turns=back[0], stops=(None, None))
     short = steps[: _MOST_TURNS + 1] if turning else steps
     if above.complete:
         above = _rows(above, rows[: len(short)])
     below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
-    return CycleSpan(low, high, False, 0, (below.stop, above.stop))
+    return CycleSpan(low=low, high=high, full=False, turns=0, stops=(below.stop, above.stop))
 
 
 def _doubled(first: int, last: int) -> Iterator[int]:

@@ -36,7 +36,7 @@ _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change poin
 _STEP = 0.02  # radians, or parts of the size
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Dwell:
     """A stretch of the drive on which the output rests: behind a cam or a Geneva drive."""
 
@@ -191,7 +191,7 @@ def _dwell(cycle: Course, output: Output, begin: float, end: float) -> Dwell:
     kinds = {(1, -1): "maximum", (1, 0): "maximum", (0, -1): "maximum", (-1, 1): "minimum", (-1, 0): "minimum"}
     kind = "flat" if before == after else kinds.get((before, after), "minimum")
     value = float(transfer_function(cycle, output, np.array([(begin + end) / 2]))[0])
-    return Dwell(begin, end, value, kind, "")
+    return Dwell(begin=begin, end=end, output=value, kind=kind, side="")
 
 
 def _way(cycle: Course, output: Output, edge: float, joint: float) -> int:

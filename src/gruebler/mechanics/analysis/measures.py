@@ -117,7 +117,7 @@ class Transfer:
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Measures:
     """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
 
@@ -387,25 +387,25 @@ def measures(
     except NoTransmissionAngleError as error:
         transmission, transmission_error = None, error
     return Measures(
-        linkage,
-        looked_at,
-        cycle.start.branch,
-        float(cycle.start.drives[0, 0]),
-        cycle.turning_drive,
-        span,
-        ends,
-        centres,
-        rests,
-        turns,
-        None
+        linkage=linkage,
+        output=looked_at,
+        branch=cycle.start.branch,
+        start=float(cycle.start.drives[0, 0]),
+        turning_drive=cycle.turning_drive,
+        span=span,
+        ends=ends,
+        dead_centres=centres,
+        dwells=rests,
+        output_turns=turns,
+        travel=None
         if turns
         else _travel(cycle, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
-        changes,
-        changes_error,
-        _transfer(cycle, looked_at),
-        transmission,
-        transmission_error,
-        checked,
+        change_points=changes,
+        change_points_error=changes_error,
+        transfer=_transfer(cycle, looked_at),
+        transmission=transmission,
+        transmission_error=transmission_error,
+        speed=checked,
     )
 
 

@@ -57,7 +57,7 @@ FOUR_BAR_TYPES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Grashof:
     """What the lengths of a four-bar say about the way it moves."""
 
@@ -150,7 +150,14 @@ def grashof(a: float, b: float, c: float, d: float) -> Grashof:
     else:
         place = (">", "") if excess > 0 else ("<", ranked[0])
     turning = tuple(link for link in "abc" if _turns(lengths, link, close))
-    return Grashof(lengths, FOUR_BAR_TYPES[place], shortest, ranked[-1], excess, turning)
+    return Grashof(
+        lengths=lengths,
+        type=FOUR_BAR_TYPES[place],
+        shortest=shortest,
+        longest=ranked[-1],
+        excess=excess,
+        turning=turning,
+    )
 
 
 def _turns(lengths: dict[str, float], link: str, close: float) -> bool:
@@ -160,7 +167,7 @@ def _turns(lengths: dict[str, float], link: str, close: float) -> bool:
     return (short - first) + (second - two) <= close and (short - second) + abs(first - two) <= close
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LengthRange:
     """The values of one length, from lower to upper, for which a four-bar is of one type.
 
@@ -219,7 +226,10 @@ def types_along(
         else:
             ranges.append((lower, upper, middle))
     types = [None, *(part[2].type for part in ranges), None]
-    return tuple(LengthRange(*part, types[k], types[k + 2]) for k, part in enumerate(ranges))
+    return tuple(
+        LengthRange(lower=lower, upper=upper, grashof=middle, below=types[k], above=types[k + 2])
+        for k, (lower, upper, middle) in enumerate(ranges)
+    )
 
 
 def turning_ranges(

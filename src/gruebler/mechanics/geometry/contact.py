@@ -13,7 +13,7 @@ from gruebler.mechanics.linkages.points import PointLike
 from gruebler.mechanics.linkages.quantities import as_positive
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TangentContact:
     """How a path leaves its tangent: with x along the tangent and y to its left, y = coefficient x^points + ..."""
 
@@ -68,14 +68,16 @@ def tangent_contact(
     large = np.flatnonzero(scaled > least)
     direction = float(np.angle(z[1]))
     if not len(large):
-        return TangentContact(None, 0.0, complex(z[0]), direction, float(scaled.max()))
+        return TangentContact(
+            points=None, coefficient=0.0, at=complex(z[0]), direction=direction, remainder=float(scaled.max())
+        )
     m = int(large[0]) + 2
     return TangentContact(
-        m,
-        float(seen.imag[m] / speed**m),
-        complex(z[0]),
-        direction,
-        float(scaled[: large[0]].max(initial=0.0)),
+        points=m,
+        coefficient=float(seen.imag[m] / speed**m),
+        at=complex(z[0]),
+        direction=direction,
+        remainder=float(scaled[: large[0]].max(initial=0.0)),
     )
 
 

@@ -23,7 +23,7 @@ _MANIFOLD = 1e-8  # coefficients of the bend, by its natural size, that are zero
 _LEAST = 1e-9  # a function that is hardly ever larger than that, by its natural size, is zero
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Cusp:
     """Where the point stands still."""
 
@@ -37,7 +37,7 @@ class Cusp:
     parameter: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Inflection:
     """Where the curvature is zero."""
 
@@ -55,7 +55,7 @@ class Inflection:
         return self.points % 2 == 0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Vertex:
     """Where the curvature is extreme: a circle touches with four points or more."""
 
@@ -98,7 +98,15 @@ def cusps(point_path: PointPath) -> tuple[Cusp, ...]:
     for zero, z in _seen(point_path, zeros):
         if abs(z[1]) <= _STILL * usual:
             sine = abs(cross_product(z[2], z[3])) / (abs(z[2]) * max(abs(z[3]), abs(z[2])) or 1.0)
-            cusps.append(Cusp(_drive(point_path, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
+            cusps.append(
+                Cusp(
+                    drive=_drive(point_path, zero),
+                    at=z[0],
+                    direction=float(np.angle(z[2])),
+                    flat=bool(sine <= _PARALLEL),
+                    parameter=zero.at,
+                )
+            )
     return tuple(sorted(cusps, key=lambda cusp: cusp.drive))
 
 
@@ -122,7 +130,13 @@ def inflections(point_path: PointPath, known: tuple[Cusp, ...]) -> tuple[Inflect
     zeros = _away(point_path, find_zeros(bend, point_path.grid, _LEAST * _usual(point_path) ** 2), known)
     settled = tuple(_settled(point_path, zero) for zero in zeros)
     events = [
-        Inflection(_drive(point_path, zero), z[0], float(np.angle(z[1])), zero.multiplicity + 2, zero.at)
+        Inflection(
+            drive=_drive(point_path, zero),
+            at=z[0],
+            direction=float(np.angle(z[1])),
+            points=zero.multiplicity + 2,
+            parameter=zero.at,
+        )
         for zero, z in _seen(point_path, settled)
     ]
     return tuple(sorted(events, key=lambda event: event.drive))
@@ -167,11 +181,11 @@ def vertices(point_path: PointPath, known: tuple[Cusp, ...], flat: tuple[Inflect
     zeros = tuple(zero._replace(at=_nearest(zero.at, flat)) for zero in zeros)
     events = [
         Vertex(
-            _drive(point_path, zero),
-            z[0],
-            float(cross_product(z[1], z[2]) / abs(z[1]) ** 3),
-            "minimum" if zero.rises else "maximum",
-            zero.at,
+            drive=_drive(point_path, zero),
+            at=z[0],
+            curvature=float(cross_product(z[1], z[2]) / abs(z[1]) ** 3),
+            kind="minimum" if zero.rises else "maximum",
+            parameter=zero.at,
         )
         for zero, z in _seen(point_path, zeros)
     ]

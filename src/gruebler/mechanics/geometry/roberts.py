@@ -26,7 +26,7 @@ _PARALLEL = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CognateSizes:
     """The three cognates of many four-bars; every array is (3, ...), the first of the three being the given one.
 
@@ -44,7 +44,7 @@ class CognateSizes:
     turn: Complexes
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Cognate:
     """One of the linkages that trace one coupler curve, standing where it traces it."""
 
@@ -94,7 +94,9 @@ class Cognate:
         if not isinstance(self.size, FourBar):
             raise LinkageError("a slider-crank has no second crank to be driven at")
         u, v = self.size.b - self.u, -self.v
-        return Cognate(self.size.reversed(), u, v, self.pins[::-1], -self.turn, self.turns_with[::-1])
+        return Cognate(
+            size=self.size.reversed(), u=u, v=v, pins=self.pins[::-1], turn=-self.turn, turns_with=self.turns_with[::-1]
+        )
 
     def trace(self, motion: CrankMotion) -> Complexes:
         """Where the coupler point is, in the coordinates of the given linkage, as its own ``size`` moves."""
@@ -149,14 +151,14 @@ def cognate_sizes(
         points = np.array([arm, np.where(k > 0, la * k / s, 0), np.where(m > 0, lc * m / t, 0)])
         turns = np.array([np.ones_like(s), np.where(k > 0, s / k, 1), np.where(m > 0, -t / m, -1)])
     return CognateSizes(
-        np.array([la, k * lb, m * lb]),
-        np.array([lb, k * la, m * lc]),
-        np.array([lc, k * lc, m * la]),
-        np.array([ld, k * ld, m * ld]),
-        points.real,
-        points.imag,
-        np.array([np.zeros_like(s), np.zeros_like(s), ld + 0j]),
-        turns,
+        a=np.array([la, k * lb, m * lb]),
+        b=np.array([lb, k * la, m * lc]),
+        c=np.array([lc, k * lc, m * la]),
+        d=np.array([ld, k * ld, m * ld]),
+        u=points.real,
+        v=points.imag,
+        pivot=np.array([np.zeros_like(s), np.zeros_like(s), ld + 0j]),
+        turn=turns,
     )
 
 
@@ -187,12 +189,14 @@ def cognates(
     sizes = cognate_sizes(four_bar.a, four_bar.b, four_bar.c, four_bar.d, u, v)
     first, second, third = (
         Cognate(
-            four_bar if n == 0 else FourBar(*(float(length[n]) for length in (sizes.a, sizes.b, sizes.c, sizes.d))),
-            float(sizes.u[n]),
-            float(sizes.v[n]),
-            pins[n],
-            complex(sizes.turn[n]),
-            _TURNS_WITH[n],
+            size=four_bar
+            if n == 0
+            else FourBar(*(float(length[n]) for length in (sizes.a, sizes.b, sizes.c, sizes.d))),
+            u=float(sizes.u[n]),
+            v=float(sizes.v[n]),
+            pins=pins[n],
+            turn=complex(sizes.turn[n]),
+            turns_with=_TURNS_WITH[n],
         )
         for n in range(3)
     )
@@ -211,11 +215,13 @@ def slider_cognates(
     (53.150729, 18.982403, 7.592961)
     """
     a, b, k, s = _pose(slider, u, v, branch, phi)
-    first = Cognate(slider, float(u), float(v), (0j, a, b), 1 + 0j, ("crank", "coupler"))
+    first = Cognate(size=slider, u=float(u), v=float(v), pins=(0j, a, b), turn=1 + 0j, turns_with=("crank", "coupler"))
     ratio = abs(s)
     size = SliderCrank(ratio * slider.b, ratio * slider.a, ratio * slider.e)
     point = ratio * slider.a / s
-    second = Cognate(size, point.real, point.imag, (0j, k - a, s * b), s / ratio, ("coupler", "crank"))
+    second = Cognate(
+        size=size, u=point.real, v=point.imag, pins=(0j, k - a, s * b), turn=s / ratio, turns_with=("coupler", "crank")
+    )
     return first, second
 
 

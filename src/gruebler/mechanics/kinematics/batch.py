@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Designs:
     """Many designs of one mechanism, as arrays. Made by `designs`, `four_bars` and the like."""
 
@@ -55,7 +55,7 @@ class Designs:
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Motions:
     """Poses of many designs along one path; NaN in rows that a design does not reach."""
 
@@ -174,7 +174,13 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
         raise LinkageError("overconstrained linkages are moved one by one, by move")
     arrays = [plan.element_arrays(linkage) for linkage in lower]
     points, lines = (np.array([pair[k] for pair in arrays]) for k in (0, 1))
-    return Designs(plan, points, lines, np.array([linkage.size for linkage in lower]), tuple(linkages).__getitem__)
+    return Designs(
+        plan=plan,
+        points=points,
+        lines=lines,
+        sizes=np.array([linkage.size for linkage in lower]),
+        linkage=tuple(linkages).__getitem__,
+    )
 
 
 def four_bars(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Designs:
@@ -209,7 +215,9 @@ def _of_lengths(kind: Callable[..., FourBar | SliderCrank | InvertedSliderCrank]
     count = len(points)
     sizes = np.max([np.abs(values) for values in lengths.values()], axis=0)
     design = partial(_design, kind, lengths)
-    return Designs(plan, np.ascontiguousarray(points), np.tile(lines, (count, 1)), sizes, design)
+    return Designs(
+        plan=plan, points=np.ascontiguousarray(points), lines=np.tile(lines, (count, 1)), sizes=sizes, linkage=design
+    )
 
 
 def _design(
@@ -324,7 +332,16 @@ def move_many(
     )
     _run(batch, path, speeds, _starts(batch, path, labels), np.array([chain.index(k) for k in kept]), poses, threads)
     places, turns, rates = poses.places.swapaxes(2, 3), poses.turns.swapaxes(1, 2), poses.rates.swapaxes(2, 3)
-    return Motions(batch, labels, path, kept, places, turns, rates, poses.reached)
+    return Motions(
+        designs=batch,
+        branch=labels,
+        drives=path,
+        links=kept,
+        places=places,
+        turns=turns,
+        rates=rates,
+        reached=poses.reached,
+    )
 
 
 def _starts(designs: Designs, path: Reals, branch: Branch) -> tuple[Reals, Reals]:

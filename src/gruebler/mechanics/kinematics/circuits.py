@@ -156,7 +156,16 @@ class Circuit:
             for order, part in enumerate((x, t)):
                 places[order, :, k] = lower.size * (part[:, 3 * body] + 1j * part[:, 3 * body + 1])
                 angles[order, :, k] = part[:, 3 * body + 2]
-        return Poses(self.linkage, lower, arcs, places, np.exp(1j * angles[0]), angles[1:], angles[0], self.turned)
+        return Poses(
+            linkage=self.linkage,
+            lower=lower,
+            arcs=arcs,
+            places=places,
+            turns=np.exp(1j * angles[0]),
+            rates=angles[1:],
+            angles=angles[0],
+            turned=self.turned,
+        )
 
     # --- along it ------------------------------------------------------------------------------------
 
@@ -197,7 +206,7 @@ class Circuit:
         """
         ends = quantity(self.samples, 0)[[0, -1]]
         again = self.closed and abs(ends[1] - ends[0]) <= _AGAIN * np.abs(quantity(self.samples, 0)).max()
-        samples = FunctionSamples(self.arcs, period=self.length if again else None, ends=True)
+        samples = FunctionSamples(grid=self.arcs, period=self.length if again else None, ends=True)
         zeros = find_zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
         return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in zeros))
 
@@ -206,7 +215,7 @@ class Circuit:
 
         ``natural`` is the size that it usually has: 1 for an angle, the linkage's size for a length.
         """
-        samples = FunctionSamples(self.arcs, period=self.length if self.closed else None)
+        samples = FunctionSamples(grid=self.arcs, period=self.length if self.closed else None)
         zeros = find_zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
         arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
         values = quantity(self.at(arcs), 0)

@@ -42,7 +42,7 @@ _NO_LAW = PiecewiseLaw(())
 _MESHES = 1e-6  # radians: angles of a drawing with six digits fit
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Condition:
     """One closing condition of a group."""
 
@@ -98,7 +98,7 @@ class Touch(Generic[First_co, Second_co]):
         self, kind: int, values: tuple[float, float, float], law: PiecewiseLaw = _NO_LAW, *, phased: bool = False
     ) -> Condition:
         """A condition between them; one that is phased holds as it does in the reference pose."""
-        raw = Condition(kind, self.sides, self.owners, values, law)
+        raw = Condition(kind=kind, sides=self.sides, owners=self.owners, values=values, law=law)
         return _phased(self.lower, self.keys, raw) if phased else raw
 
 

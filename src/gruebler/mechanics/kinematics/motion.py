@@ -29,7 +29,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Stop:
     """Where a motion ended before the end of its path, and why."""
 
@@ -51,7 +51,7 @@ _POSITIONS = message("Positions: {count}, from {first} to {last}; derivatives up
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Motion(LinkPoses):
     """Poses of a linkage along a path of its drives, with derivatives.
 

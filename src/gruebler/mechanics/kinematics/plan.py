@@ -64,7 +64,7 @@ class HigherGroup:
 
 
 @brief
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Plan:
     """The order of solving, in names and as arrays for the kernel."""
 
@@ -259,13 +259,13 @@ class _Planner:
         for number, group in enumerate(self.decomposition.groups):
             self._group(number, group)
         return Plan(
-            self.linkage,
-            self.lower,
-            self.decomposition,
-            tuple(self.parts),
-            tuple(self.operations),
-            tuple(self.conditions),
-            self.keys,
+            linkage=self.linkage,
+            lower=self.lower,
+            decomposition=self.decomposition,
+            parts=tuple(self.parts),
+            operations=tuple(self.operations),
+            conditions=tuple(self.conditions),
+            keys=self.keys,
         )
 
     def _drives(self, root: str, links: tuple[str, ...]) -> None:
@@ -349,7 +349,9 @@ class _Planner:
             for element, body in sides[1:]:
                 both, owners = (sides[0][0], element), (sides[0][1], body)
                 if member.pair.is_basic:
-                    conditions.append(Condition(PIN if member.pair.is_turning else SLIDE, both, owners))
+                    conditions.append(
+                        Condition(kind=PIN if member.pair.is_turning else SLIDE, sides=both, owners=owners)
+                    )
                 else:
                     try:
                         conditions += contact_conditions(self.lower, member.pair, self.keys, both, owners)

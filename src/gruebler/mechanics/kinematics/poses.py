@@ -17,7 +17,7 @@ from gruebler.mechanics.linkages.points import PointLike
 
 @compared_by_value
 @brief
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Poses(LinkPoses):
     """Positions on a circuit; ``order`` 0 is a value, 1 its derivative by the arc."""
 

@@ -80,7 +80,7 @@ def bracketed_root(function: Callable[[Reals], Reals], low: Reals, high: Reals) 
 
 
 @compared_by_value
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class FunctionSamples:
     """Where a function is sampled, and where it is not smooth."""
 
@@ -123,7 +123,7 @@ def find_zeros(jet: Jet, samples: FunctionSamples | Reals, least: float = 0.0) -
     ...     np.linspace(-1, 1.1, 20))]
     [(0.0, 3)]
     """
-    samples = samples if isinstance(samples, FunctionSamples) else FunctionSamples(samples)
+    samples = samples if isinstance(samples, FunctionSamples) else FunctionSamples(grid=samples)
     jet = _repeated(jet, samples)
     zeros: list[Zero] = []
     parts = _parts(jet, samples)

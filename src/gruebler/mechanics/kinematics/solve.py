@@ -182,16 +182,16 @@ def _never(plan: Plan, path: Reals, order: int, failure: Unassembled) -> Motion:
     """A motion without rows."""
     links = len(plan.lower.mechanism.chain.links)
     return Motion(
-        plan.linkage,
-        plan,
-        path[:0],
-        np.empty((order + 1, 0, links), np.complex128),
-        np.empty((0, links), np.complex128),
-        np.empty((order, 0, links)),
-        np.empty((0, links), np.int32),
-        np.empty((0, len(plan.dyads))),
-        np.empty((0, plan.unknowns)),
-        _stop(plan, 0.0, path[0], failure.part, "start"),
+        linkage=plan.linkage,
+        plan=plan,
+        drives=path[:0],
+        places=np.empty((order + 1, 0, links), np.complex128),
+        turns=np.empty((0, links), np.complex128),
+        rates=np.empty((order, 0, links)),
+        whole=np.empty((0, links), np.int32),
+        roots=np.empty((0, len(plan.dyads))),
+        unknowns=np.empty((0, plan.unknowns)),
+        stop=_stop(plan, 0.0, path[0], failure.part, "start"),
     )
 
 
@@ -205,16 +205,16 @@ def motion_from_rows(plan: Plan, path: Reals, rows: SolvedRows) -> Motion:
             drives = drives + (rows.at - last) * (path[last + 1] - drives)
         stop = _stop(plan, rows.at, drives, part_at_fault(plan, rows.fault), _REASONS[rows.status])
     motion = Motion(
-        plan.linkage,
-        plan,
-        path[: rows.reached],
-        rows.places,
-        rows.turns,
-        rows.rates,
-        rows.whole,
-        rows.roots,
-        rows.unknowns,
-        stop,
+        linkage=plan.linkage,
+        plan=plan,
+        drives=path[: rows.reached],
+        places=rows.places,
+        turns=rows.turns,
+        rates=rows.rates,
+        whole=rows.whole,
+        roots=rows.roots,
+        unknowns=rows.unknowns,
+        stop=stop,
     )
     return _while_closed(motion) if plan.released else motion
 
@@ -234,7 +234,11 @@ def _while_closed(motion: Motion) -> Motion:
     row, number = min(first)
     chain = motion.linkage.mechanism.chain
     stop = Stop(
-        float(row), tuple(motion.drives[row].tolist()), chain.joints[number].links, chain.joint_names()[number], "open"
+        row=float(row),
+        drives=tuple(motion.drives[row].tolist()),
+        links=chain.joints[number].links,
+        form=chain.joint_names()[number],
+        reason="open",
     )
     return replace(
         motion,
@@ -251,7 +255,7 @@ def _while_closed(motion: Motion) -> Motion:
 
 def _stop(plan: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason: str) -> Stop:
     group = plan.decomposition.groups[part.group]
-    return Stop(at, tuple(float(v) for v in drives), group.links, group.form(), reason)
+    return Stop(row=at, drives=tuple(float(v) for v in drives), links=group.links, form=group.form(), reason=reason)
 
 
 @door_that_raises(LinkageError)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import KW_ONLY, dataclass, fields
 from math import hypot, inf, isfinite
 
 import numpy as np
@@ -34,6 +34,7 @@ class JointPlace:
     """
 
     at: Vector = (0.0, 0.0, 0.0)
+    _: KW_ONLY
     x: Vector | None = None
     y: Vector | None = None
     z: Vector | None = None
@@ -59,12 +60,12 @@ def read_place(raw: object, pair: Pair, space: Space, where: str) -> JointPlace:
     given = {key: value for key, value in given.items() if value is not None}
     joint_place = JointPlace(
         _vector(given.get("at", (0.0, 0.0, 0.0)), space, f"{where}, at"),
-        _direction(given.get("x"), space, f"{where}, x"),
-        _direction(given.get("y"), space, f"{where}, y"),
-        _direction(given.get("z"), Space.SPATIAL, f"{where}, z"),
-        _number(given.get("pitch", 0.0), f"{where}, pitch"),
-        _radii(given.get("radii"), f"{where}, radii"),
-        None if "pressure" not in given else _number(given["pressure"], f"{where}, pressure"),
+        x=_direction(given.get("x"), space, f"{where}, x"),
+        y=_direction(given.get("y"), space, f"{where}, y"),
+        z=_direction(given.get("z"), Space.SPATIAL, f"{where}, z"),
+        pitch=_number(given.get("pitch", 0.0), f"{where}, pitch"),
+        radii=_radii(given.get("radii"), f"{where}, radii"),
+        pressure=None if "pressure" not in given else _number(given["pressure"], f"{where}, pressure"),
     )
     _fitting(joint_place, pair, space, where)
     return joint_place

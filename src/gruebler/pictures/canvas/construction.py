@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 
@@ -86,6 +86,7 @@ class Angle:
     """An angle at a place, from one direction by a turn, in radians; positive counter-clockwise."""
 
     apex: complex
+    _: KW_ONLY
     begin: float
     turn: float
     text: str | Message = ""
@@ -165,8 +166,15 @@ class Construction:
                 for row, line in enumerate(texts[last]):
                     at = Point(MARGIN, bottom + row * _LEAD)
                     moved.append(TextShape(at, line, "name", "start"))
-            size = view.wide + 2 * MARGIN, bottom + lines * _LEAD
-            pictures.append(Figure(tuple(moved), *size, f"{title}, {about}", step.text.in_language(lang)))
+            pictures.append(
+                Figure(
+                    tuple(moved),
+                    width=view.wide + 2 * MARGIN,
+                    height=bottom + lines * _LEAD,
+                    title=f"{title}, {about}",
+                    description=step.text.in_language(lang),
+                )
+            )
         return tuple(pictures)
 
     def figure(self, step: int = -1, lang: str = "en") -> Figure:
@@ -251,8 +259,8 @@ class _View:
                 yield from self._curve(np.array(places), look(style))
             case Dot(at) if self.holds(at):
                 yield CircleShape(self.at(at), 3.6, "joint")
-            case Angle(apex, begin, turn, _, radius) if self.holds(apex) and abs(turn) * radius > _LEAST:
-                yield ArcShape(self.at(apex), radius, -begin, -turn, look("measure"))
+            case Angle(apex, begin=begin, turn=turn, radius=radius) if self.holds(apex) and abs(turn) * radius > _LEAST:
+                yield ArcShape(self.at(apex), radius=radius, begin=-begin, extent=-turn, style=look("measure"))
             case Arrow(begin, end, _, style):
                 if (ends := self._clipped(begin, end - begin, 0.0, 1.0)) is not None:
                     yield from self._arrow(self.at(ends[0]), self.at(ends[1]), style)
@@ -327,7 +335,7 @@ def _names(steps: Sequence[ConstructionStep], view: _View, lang: str) -> Iterato
                     at, style = (begin + end) / 2, "value"
                 case Arrow(begin, end, text):
                     at, style = begin + 0.6 * (end - begin), "value"
-                case Angle(apex, begin, turn, text, radius):
+                case Angle(apex, begin=begin, turn=turn, text=text, radius=radius):
                     at, style = apex + radius / view.scale * cmath.exp(1j * (begin + turn / 2)), "value"
                 case _:
                     continue

@@ -50,7 +50,9 @@ def pictures_in_one(figures: Sequence[Figure], title: str, columns: int = _COLUM
             left = sum(wide[:k]) + (wide[k] - figure.width) / 2
             shapes += [moved_shape(shape, Point(left, top + (high - figure.height) / 2)) for shape in figure.shapes]
         top += high
-    return Figure(tuple(shapes), sum(wide), top, title, " ".join(f.description for f in figures))
+    return Figure(
+        tuple(shapes), width=sum(wide), height=top, title=title, description=" ".join(f.description for f in figures)
+    )
 
 
 _STYLE = (

@@ -6,7 +6,7 @@ Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`, w
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 from gruebler.base.notebook import brief
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
@@ -20,6 +20,7 @@ class Figure:
     """Shapes within 0 <= x <= width, 0 <= y <= height, with a title and a description for those who cannot see."""
 
     shapes: tuple[Shape, ...]
+    _: KW_ONLY
     width: float
     height: float
     title: str
@@ -46,7 +47,7 @@ def figure_of(
     all_shapes = tuple(shapes)
     corner, size = bounds(all_shapes, margin)
     placed = tuple(moved_shape(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
-    return Figure(placed, size.x, size.y, title, description, tuple(notes))
+    return Figure(placed, width=size.x, height=size.y, title=title, description=description, notes=tuple(notes))
 
 
 def svg(figure: Figure, *, styled: bool = True) -> str:

@@ -85,7 +85,7 @@ def _strokes(shape: Shape) -> Iterator[_Stroke]:
             for part in parts:
                 ends = [*part, part[0]] if closed else list(part)
                 yield from ((complex(*a), complex(*b), half) for a, b in pairwise(ends))
-        case CircleShape(at, radius) | ArcShape(at, radius):
+        case CircleShape(at, radius) | ArcShape(at, radius=radius):
             yield complex(*at), complex(*at), radius
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -89,7 +89,9 @@ def moving(bodies: Iterable[Body], clock: Clock, title: str, description: str) -
     visible = [shape for k in range(_LOOKS if restless else 0) for shape in at_time(restless, k / _LOOKS)]
     visible += [shape for body in parts if not body.steps for shape in body.shapes]
     corner, size = bounds(visible, _MARGIN)
-    return MovingPicture(parts, clock, corner, Figure((), size.x, size.y, title, description))
+    return MovingPicture(
+        parts, clock, corner, Figure((), width=size.x, height=size.y, title=title, description=description)
+    )
 
 
 def always(seconds: float) -> float:
@@ -165,8 +167,8 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
             return Polylines(tuple(tuple(map(to, line)) for line in lines), style, closed)
         case CircleShape(at, radius, style):
             return CircleShape(to(at), radius, style)
-        case ArcShape(at, radius, begin, extent, style):
-            return ArcShape(to(at), radius, begin - cmath.phase(turn), extent, style)
+        case ArcShape(at, begin=begin):
+            return replace(shape, at=to(at), begin=begin - cmath.phase(turn))
         case TextShape(at, text, style, anchor):
             return TextShape(to(at), text, style, anchor)
 
@@ -175,7 +177,7 @@ def figure_at(picture: MovingPicture, time: float) -> Figure:
     """One instant of a moving picture, in its frame."""
     by, page = Point(-picture.corner.x, -picture.corner.y), picture.page
     shapes = tuple(moved_shape(shape, by) for shape in at_time(picture.bodies, time))
-    return Figure(shapes, page.width, page.height, page.title, page.description)
+    return Figure(shapes, width=page.width, height=page.height, title=page.title, description=page.description)
 
 
 # --- SVG -------------------------------------------------------------------------------------------

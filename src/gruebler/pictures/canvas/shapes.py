@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import NamedTuple
 
 from gruebler.pictures.canvas.styles import STYLES
@@ -72,6 +72,7 @@ class ArcShape:
     """An arc of a circle from an angle over an extent of less than a full turn; positive from x to y."""
 
     at: Point
+    _: KW_ONLY
     radius: float
     begin: float
     extent: float
@@ -132,7 +133,7 @@ def _corners(shape: Shape) -> Iterator[Point]:
     match shape:
         case Polylines(parts):
             yield from (point for part in parts for point in part)
-        case CircleShape(at, radius) | ArcShape(at, radius):
+        case CircleShape(at, radius) | ArcShape(at, radius=radius):
             yield from (Point(at.x - radius, at.y - radius), Point(at.x + radius, at.y + radius))
         case TextShape(at, text, style, anchor):
             wide = text_width(text, STYLES[style].size)
@@ -147,8 +148,8 @@ def moved_shape(shape: Shape, by: Point) -> Shape:
             return Polylines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
         case CircleShape(at, radius, style):
             return CircleShape(at.plus(by), radius, style)
-        case ArcShape(at, radius, begin, extent, style):
-            return ArcShape(at.plus(by), radius, begin, extent, style)
+        case ArcShape(at):
+            return replace(shape, at=at.plus(by))
         case TextShape(at, text, style, anchor):
             return TextShape(at.plus(by), text, style, anchor)
 

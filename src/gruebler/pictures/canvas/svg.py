@@ -42,7 +42,7 @@ def svg_element(shape: Shape) -> str:
             return (
                 f'<circle class="gr-{style}" cx="{svg_number(at.x)}" cy="{svg_number(at.y)}" r="{svg_number(radius)}"/>'
             )
-        case ArcShape(_, radius, _, extent, style):
+        case ArcShape(radius=radius, extent=extent, style=style):
             size = svg_number(radius)
             flags = f"{int(abs(extent) > math.pi)} {int(extent > 0)}"
             ends = _pair(shape.place(0)), _pair(shape.place(1))

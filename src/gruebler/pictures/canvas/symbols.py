@@ -407,7 +407,7 @@ def widest_gap(angles: Sequence[float]) -> float:
 def turning_drive(at: Point, radius: float, away: float) -> list[Shape]:
     """A curved arrow around a joint, its middle in the direction given by an angle."""
     extent = math.radians(-230)
-    arc = ArcShape(at, radius, away - extent / 2, extent, "drive")
+    arc = ArcShape(at, radius=radius, begin=away - extent / 2, extent=extent, style="drive")
     return [arc, arrow_head(arc)]
 
 

@@ -136,7 +136,7 @@ def _drawn(task: DeadCentreTask, points: AltConstruction) -> Iterator[tuple[Draw
         sides = [
             Segment(far, b0, "edge"),
             Segment(b0, near, "edge"),
-            Angle(b0, cmath.phase(far - b0), swing, quantity("ψ_H", degrees(abs(swing)), "°")),
+            Angle(b0, begin=cmath.phase(far - b0), turn=swing, text=quantity("ψ_H", degrees(abs(swing)), "°")),
             Dot(b0, "B₀"),
         ]
     yield (*sides, Dot(far, "B₁"), Dot(near, "B₂"))
@@ -154,7 +154,12 @@ def _drawn(task: DeadCentreTask, points: AltConstruction) -> Iterator[tuple[Draw
     yield (
         Segment(near, a0),
         Segment(a0, far),
-        Angle(a0, cmath.phase(near - a0), seen, quantity("δ", degrees(abs(seen)), "°") if abs(seen) > STRAIGHT else ""),
+        Angle(
+            a0,
+            begin=cmath.phase(near - a0),
+            turn=seen,
+            text=quantity("δ", degrees(abs(seen)), "°") if abs(seen) > STRAIGHT else "",
+        ),
         Dot(a0, "A₀"),
     )
     cut = a0 + abs(near - a0) * (far - a0) / abs(far - a0)

@@ -127,7 +127,9 @@ def _stacked(figures: Sequence[Figure], title: str) -> Figure:
         shapes += [moved_shape(shape, Point(0.0, top)) for shape in figure.shapes]
         top += figure.height
     about = " ".join(figure.description for figure in figures)
-    return Figure(tuple(shapes), max(figure.width for figure in figures), top, title, about)
+    return Figure(
+        tuple(shapes), width=max(figure.width for figure in figures), height=top, title=title, description=about
+    )
 
 
 def _plots(result: SynthesisResult, lang: str) -> list[tuple[Figure, str]]:

@@ -161,7 +161,7 @@ def function_plot(task: FunctionTask, design: Design, *, lang: str = "en") -> Fi
     """Output over input with the precision pairs; of an expression the structural error below, pairs marked.
 
     >>> from gruebler.design.synthesis import FunctionLaw, function_task, synthesise
-    >>> task = function_task(FunctionLaw("log10(x)", (1, 2), pi / 3, pi / 3), 3)
+    >>> task = function_task(FunctionLaw("log10(x)", interval=(1, 2), input_swing=pi / 3, output_swing=pi / 3), 3)
     >>> len(function_plot(task, synthesise(task).designs[0]).shapes) > 10
     True
     """

@@ -113,7 +113,7 @@ def scene(
         else translate("It moves to and fro through its range.", lang)
     )
     described = f"{describe(linkage.mechanism, lang)} {moves}"
-    page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
+    page = Figure((), width=size.x, height=size.y, title=title(linkage.mechanism, lang, name), description=described)
     return Scene(
         posed=posed,
         pieces=pieces,

@@ -50,4 +50,4 @@ def _figure(shown: Scene, row: int) -> Figure:
     )
     page = shown.page
     shapes = tuple(moved_shape(shape, by) for shape in (*below, *shown.still, *above))
-    return Figure(shapes, page.width, page.height, page.title, page.description)
+    return Figure(shapes, width=page.width, height=page.height, title=page.title, description=page.description)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -390,7 +390,7 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
             return Polylines(tuple(tuple(map(put, line)) for line in lines), style, closed)
         case CircleShape(at, radius, style):
             return CircleShape(put(at), radius, style)
-        case ArcShape(at, radius, begin, extent, style):
-            return ArcShape(put(at), radius, begin - cmath.phase(turn), extent, style)
+        case ArcShape(at, begin=begin):
+            return replace(shape, at=put(at), begin=begin - cmath.phase(turn))
         case TextShape(at, text, style, anchor):
             return TextShape(put(at), text, style, anchor)

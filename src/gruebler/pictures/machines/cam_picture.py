@@ -148,7 +148,7 @@ def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
         rows.append(("drive", translate("undercut", lang)))
     if scale * cam.base > _HOLE:
         disc.append(CircleShape(Point(0.6 * scale * cam.base, 0.0), 3.0, "node"))
-    arrow = ArcShape(middle, 24.0, math.radians(-30), math.radians(-120), "drive")
+    arrow = ArcShape(middle, radius=24.0, begin=math.radians(-30), extent=math.radians(-120), style="drive")
     fixed: list[Shape] = [
         CircleShape(middle, scale * cam.base, "dead"),
         arrow,
@@ -214,7 +214,7 @@ def _pressure(cam: Cam, scale: float, at: float, lang: str) -> Iterator[Shape]:
     yield Polylines(((foot.plus(ends[1], -_ALPHA / 2), start.plus(ends[1], _ALPHA + 26.0)),), "measure")
     yield CircleShape(foot, 3.2, "dot")
     if abs(alpha) > 0.01:
-        yield ArcShape(start, _ALPHA, -cmath.phase(motion), -alpha, "drive")
+        yield ArcShape(start, radius=_ALPHA, begin=-cmath.phase(motion), extent=-alpha, style="drive")
     beside = ends[1].across if alpha <= 0 else Point(-ends[1].across.x, -ends[1].across.y)
     text = translate("α = {angle:.1f}°", lang, angle=math.degrees(alpha) + 0.0).replace("-", "−")
     anchor = "start" if beside.x >= 0 else "end"

@@ -133,7 +133,7 @@ def _machine(geneva: Geneva, phi: Reals) -> list[Body]:
     arms: list[Shape] = [Polylines(tuple((middle, end) for end in ends), f"{kind}-rod") for kind in ("outline", "body")]
     disc = Polylines(tuple(_pixels(part, scale) for part in shape.locking()), "block", closed=True)
     tips = [CircleShape(pin, scale * shape.pin, "joint") for pin in pins]
-    arrow = ArcShape(middle, 14.0, math.radians(-30), math.radians(-120), "drive")
+    arrow = ArcShape(middle, radius=14.0, begin=math.radians(-30), extent=math.radians(-120), style="drive")
     fixed: list[Shape] = [
         Polylines(((axis, middle),), "dead"),
         CircleShape(axis, 6.2, "joint"),

@@ -166,7 +166,13 @@ def draw_loops(structure: Chain | Mechanism, *, lang: str = "en", name: str = ""
     corners = [[placed.joints[k] for k in face] for face in placed.faces]
     for number, loop in enumerate(sorted(corners, key=lambda loop: _middle(loop)[::-1]), 1):
         at, room = _roomiest(loop)
-        arc = ArcShape(at, max(7.0, min(_LOOP, room - 11.0)), math.radians(-60), math.radians(300), "drive")
+        arc = ArcShape(
+            at,
+            radius=max(7.0, min(_LOOP, room - 11.0)),
+            begin=math.radians(-60),
+            extent=math.radians(300),
+            style="drive",
+        )
         shapes += [arc, arrow_head(arc), TextShape(at, str(number), "mark")]
     return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
 

@@ -130,7 +130,7 @@ def expected_seconds_of_groups(links: int) -> float:
 
     if links < 2 or links % 2:
         return 0.0
-    trusses, _ = expected_chains(Request(links + 1, 0))
+    trusses, _ = expected_chains(Request(links + 1, mobility=0))
     return trusses * (links + 1) * _GROUP
 
 

@@ -106,7 +106,13 @@ class AtlasTask:
         for mobility in range(least, most + 1):
             for links in range(max(first, 3), last + 1):
                 if loop_count(links, mobility) is not None:
-                    yield Request(links, mobility, self.fractionated, None, self.multiple_joints)
+                    yield Request(
+                        links,
+                        mobility=mobility,
+                        fractionated=self.fractionated,
+                        assortment=None,
+                        multiple_joints=self.multiple_joints,
+                    )
 
     def covers(self, links: int, mobility: int, prismatic: int, multiple_joints: int) -> bool:
         """Whether the atlas has all chains of these numbers, fractionated ones included.

@@ -55,7 +55,11 @@ def chains(
     from gruebler.structure.enumeration.work_units import chains_of_request
 
     numbers = None if assortment is None else tuple(assortment)
-    return chains_of_request(Request(links, mobility, fractionated, numbers, multiple_joints))
+    return chains_of_request(
+        Request(
+            links, mobility=mobility, fractionated=fractionated, assortment=numbers, multiple_joints=multiple_joints
+        )
+    )
 
 
 @door
@@ -105,5 +109,7 @@ def count_chains(
     from gruebler.structure.enumeration.run_request import run_count
 
     numbers = None if assortment is None else tuple(assortment)
-    request = Request(links, mobility, fractionated, numbers, multiple_joints)
+    request = Request(
+        links, mobility=mobility, fractionated=fractionated, assortment=numbers, multiple_joints=multiple_joints
+    )
     return run_count(request, orbits=orbits, executor=executor)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from numbers import Integral
 from typing import Any
 
@@ -31,6 +31,7 @@ class Request:
     """
 
     links: int
+    _: KW_ONLY
     mobility: int = 1
     fractionated: str = "none"
     """``none``, ``link``, ``joint`` (see `condition.fractionation`) or ``all``."""

@@ -88,7 +88,7 @@ def work_units(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
         size: work of a piece of contracted graphs, see `pieces.WorkPiece`.
     """
     if not request.only_simple:
-        simple = chains_of_request(Request(request.links, request.mobility, "all"))
+        simple = chains_of_request(Request(request.links, mobility=request.mobility, fractionated="all"))
         while some := tuple(edges_of(chain) for chain in islice(simple, _GROWN_AT_ONCE)):
             yield MultipleJointPiece(request.links, some)
         return

@@ -35,7 +35,15 @@ def expected_seconds_of_variants(requirements: Requirements, *, mechanisms: bool
     from gruebler.structure.enumeration.request import Request
 
     links = requirements.links + requirements.roll_slide
-    chains, _ = expected_chains(Request(links, requirements.mobility, "all", None, requirements.multiple_joints))
+    chains, _ = expected_chains(
+        Request(
+            links,
+            mobility=requirements.mobility,
+            fractionated="all",
+            assortment=None,
+            multiple_joints=requirements.multiple_joints,
+        )
+    )
     simple = (joint_count(links, requirements.mobility) or 0) - 2 * (
         requirements.multiple_joints + requirements.roll_slide
     )
@@ -64,6 +72,10 @@ def expected_seconds_of_sliding(requirements: Requirements) -> float:
     from gruebler.structure.enumeration.request import Request
 
     links, mobility = requirements.links, requirements.mobility
-    chains, _ = expected_chains(Request(links, mobility, "all", None, requirements.multiple_joints))
+    chains, _ = expected_chains(
+        Request(
+            links, mobility=mobility, fractionated="all", assortment=None, multiple_joints=requirements.multiple_joints
+        )
+    )
     simple = (joint_count(links, mobility) or 0) - 2 * requirements.multiple_joints
     return float(chains * (_CHAIN + 2.0 ** max(0, simple) * _CHOICE))

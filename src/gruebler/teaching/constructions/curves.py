@@ -227,8 +227,8 @@ def bobillier(
             "angle is carried over; t has the direction {angle:.4g}°.",
             angle=degrees(cmath.phase(tangent)) % 180,
         ),
-        Angle(pole, cmath.phase(axis), cmath.phase(ray_b / axis), radius=60),
-        Angle(pole, cmath.phase(ray_a), cmath.phase(tangent / ray_a), radius=60),
+        Angle(pole, begin=cmath.phase(axis), turn=cmath.phase(ray_b / axis), radius=60),
+        Angle(pole, begin=cmath.phase(ray_a), turn=cmath.phase(tangent / ray_a), radius=60),
         DrawnLine(pole, tangent, "inflection"),
         Dot(pole + size * tangent, "t"),
     )
@@ -355,7 +355,7 @@ def meyer_zur_capellen(ratio: float = 5 / 6, D: float = 10) -> Construction:
         DrawnLine(pole, cut),
         Dot(cut, "J"),
         Segment(cut, top),
-        Angle(pole, pi, -radians(degrees_between(cut, -1 + 0j)), "φ₀", 36),
+        Angle(pole, begin=pi, turn=-radians(degrees_between(cut, -1 + 0j)), text="φ₀", radius=36),
     )
     level = complex(0, ratio * D)
     pin = lines_meet(pole, cut, level, 1 + 0j)

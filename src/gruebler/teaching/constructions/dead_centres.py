@@ -96,8 +96,8 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
             shorter=360 - degrees(longer),
             swing=degrees(abs(swing)),
         ),
-        Angle(a0, phi_a, return_angle, quantity("φ", degrees(return_angle), "°"), 30),
-        Angle(b0, cmath.phase(outer - b0), swing, quantity("ψ_H", degrees(abs(swing)), "°"), 46),
+        Angle(a0, begin=phi_a, turn=return_angle, text=quantity("φ", degrees(return_angle), "°"), radius=30),
+        Angle(b0, begin=cmath.phase(outer - b0), turn=swing, text=quantity("ψ_H", degrees(abs(swing)), "°"), radius=46),
     )
     return board.done(
         phi_outer=degrees(phi_a),
@@ -170,7 +170,7 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
             shorter=360 - degrees(longer),
         ),
         Segment(inner - 1j * low, outer - 1j * low, "dimension", quantity("H", stroke)),
-        Angle(a0, cmath.phase(pin_outer), turn, quantity("φ", degrees(turn), "°"), 30),
+        Angle(a0, begin=cmath.phase(pin_outer), turn=turn, text=quantity("φ", degrees(turn), "°"), radius=30),
     )
     return board.done(
         l_outer=outer.real,
@@ -217,7 +217,13 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
             Segment(pin, joint, "edge" if k == 0 else "ghost"),
             Segment(joint, b0, "edge" if k == 0 else "ghost"),
             Dot(joint, f"B_{name}"),
-            Angle(joint, cmath.phase(pin - joint), mu, quantity(f"μ_{name}", degrees(abs(mu)), "°"), 34),
+            Angle(
+                joint,
+                begin=cmath.phase(pin - joint),
+                turn=mu,
+                text=quantity(f"μ_{name}", degrees(abs(mu)), "°"),
+                radius=34,
+            ),
         )
     board.step(
         message(
@@ -277,7 +283,7 @@ def transmission_of_slider_crank(a: float = 30, b: float = 50, e: float = 10) ->
             least=least,
             deviation=90 - least,
         ),
-        Angle(joint, cmath.phase(pin - joint), mu, quantity("μ_min", least, "°"), 40),
+        Angle(joint, begin=cmath.phase(pin - joint), turn=mu, text=quantity("μ_min", least, "°"), radius=40),
     )
     return board.done(mu_min=least, deviation=90 - least)
 
@@ -331,10 +337,10 @@ def central_crank_rocker(a: float = 30, b: float = 75, c: float = 60) -> Constru
         Segment(a0, pivot, "given", quantity("d", frame)),
         Angle(
             pivot,
-            cmath.phase(inner - pivot),
-            turned_angle(inner - pivot, outer - pivot),
-            quantity("ψ_H", swing, "°"),
-            40,
+            begin=cmath.phase(inner - pivot),
+            turn=turned_angle(inner - pivot, outer - pivot),
+            text=quantity("ψ_H", swing, "°"),
+            radius=40,
         ),
     )
     return board.done(d=frame, swing=swing)

@@ -50,7 +50,7 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
         ),
         DrawnLine(wheel, direction),
         DrawnLine(wheel, direction.conjugate()),
-        Angle(wheel, pi, -pi / count, quantity("ψ₀", 180 / count, "°"), 44),
+        Angle(wheel, begin=pi, turn=-pi / count, text=quantity("ψ₀", 180 / count, "°"), radius=44),
     )
     pin = lines_meet(driver, 1j * direction, wheel, direction)
     crank = abs(pin - driver)
@@ -96,7 +96,13 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
             rest=360 - engaged,
         ),
         Segment(driver, pin.conjugate(), "ghost"),
-        Angle(driver, cmath.phase(pin.conjugate()), radians(engaged), quantity("φ", engaged, "°"), 40),
+        Angle(
+            driver,
+            begin=cmath.phase(pin.conjugate()),
+            turn=radians(engaged),
+            text=quantity("φ", engaged, "°"),
+            radius=40,
+        ),
     )
     return board.done(crank=crank, wheel=abs(pin - wheel), slot_end=deepest, engaged=engaged)
 

@@ -134,7 +134,7 @@ def painted(page: Page) -> Any:
     """The page as a figure of matplotlib; `GrueblerError` if it is not installed."""
     from gruebler.pictures.canvas.matplotlib_files import matplotlib_figure
 
-    canvas = matplotlib_figure(Figure((), WIDTH, HEIGHT, page.title, page.description))
+    canvas = matplotlib_figure(Figure((), width=WIDTH, height=HEIGHT, title=page.title, description=page.description))
     for item in page.items:
         _PAINT[type(item)](canvas, item)
     return canvas

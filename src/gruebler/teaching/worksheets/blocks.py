@@ -39,7 +39,7 @@ class Pictures:
     def scales(self, width: float) -> list[float]:
         """Their scales: to the height, but no text becomes too small to read, and all fit side by side into a width.
 
-        >>> wide = Figure((), 600, 400, "", "")
+        >>> wide = Figure((), width=600, height=400, title="", description="")
         >>> Pictures((wide,), height=200).scales(700), Pictures((wide, wide), height=400).scales(600)
         ([0.8], [0.5, 0.5])
         """

@@ -224,7 +224,7 @@ def pages_as_pdf(title: str, pages: tuple[Page, ...]) -> bytes:
     from gruebler.teaching.sheets.page import painted
 
     memory = io.BytesIO()
-    matplotlib_figure(Figure((), 10, 10, title, ""))  # says what is missing
+    matplotlib_figure(Figure((), width=10, height=10, title=title, description=""))  # says what is missing
     from matplotlib.backends.backend_pdf import PdfPages
 
     with PdfPages(memory, metadata={"Title": title, "CreationDate": None, "Creator": None}) as file:
