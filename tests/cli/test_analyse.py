@@ -39,7 +39,7 @@ def table(capsys, *arguments):
 def test_a_four_bar_in_words(capsys):
     status, out, err = run(capsys, CRANK_ROCKER, "--speed", "95.5")
     assert (status, err) == (0, "")
-    assert "Roles: crank = crank, coupler = coupler, rocker = rocker." in out
+    assert "Roles:" not in out  # they have the names of their roles
     assert "time ratio 1.12." in out
     assert "Other assembly modes there: -." in out
     rows = [line for line in out.splitlines() if line.split() and line.split()[0].isdigit()]
@@ -49,7 +49,7 @@ def test_a_four_bar_in_words(capsys):
 def test_german(capsys):
     status, out, _ = run(capsys, "slidercrank", "--lang", "de", "--at", "55", "--speed", "60")
     assert status == 0
-    assert "Rollen: Kurbel = Kurbel, Koppel = Koppel, Gleitstein = Schieber." in out
+    assert "Funktion der Glieder: Gleitstein = Schieber." in out
     assert "Übertragungswinkel [°]" in out
 
 

@@ -218,3 +218,27 @@ def test_an_empty_list_gives_its_reason(capfd, links, mobility, why):
     status, out, err = run(capfd, "enumerate", "--links", links, "--mobility", mobility, "--count")
     assert (status, out, err) == (0, "chains: 0\n", f"gruebler enumerate: {why}\n")
     assert json.loads(run(capfd, "enumerate", "--links", links, "--mobility", mobility, "--json")[1]) == []
+
+
+def test_a_terminal_gets_the_first_chains(capfd, monkeypatch):
+    """Of the 230 chains of ten links 20 are shown; a pipe gets all, and so does --all."""
+    _, whole, _ = run(capfd, "enumerate", "--links", "10")
+    assert len(whole.splitlines()) == 230
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    _, out, _ = run(capfd, "enumerate", "--links", "10")
+    assert out.splitlines()[:20] == whole.splitlines()[:20]
+    assert out.splitlines()[20:] == ["... and 210 more chains: --all prints them, -o writes them."]
+    _, out, _ = run(capfd, "enumerate", "--links", "10", "--all")
+    assert out == whole
+    _, out, _ = run(capfd, "enumerate", "--links", "8")
+    assert len(out.splitlines()) == 16  # a few more than 20 would not be cut either
+
+
+def test_long_lists_of_assortments_are_cut(capfd):
+    """Partitions: 40 links have 16,765 assortments."""
+    _, count, _ = run(capfd, "enumerate", "--links", "40", "--assortments", "--count")
+    _, out, _ = run(capfd, "enumerate", "--links", "40", "--assortments")
+    assert len(out.splitlines()) == 1 + 20 + 1
+    assert out.splitlines()[-1] == f"... and {int(count) - 20:,} more rows: --all prints them."
+    _, out, _ = run(capfd, "enumerate", "--links", "40", "--assortments", "--all")
+    assert len(out.splitlines()) == 1 + int(count)

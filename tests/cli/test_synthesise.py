@@ -299,7 +299,7 @@ def test_dead_centres_in_german(capsys):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["dead-centres", "--swing", "60", "--crank-angle", "110"], "more than 120 and less than 300 degrees"),
+        (["dead-centres", "--swing", "60", "--crank-angle", "110"], "more than 120° and less than 300°"),
         (["dead-centres"], "expected exactly one of --swing and --stroke, but found none"),
         (["dead-centres", "--swing", "60", "--crank-angle", "400"], "--crank-angle: expected an angle between 0 and"),
         (["dead-centres", "--stroke", "5", "--time-ratio", "0.5"], "--time-ratio: expected slow to quick"),

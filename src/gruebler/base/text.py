@@ -54,17 +54,35 @@ def number(value: Any, lang: str = "en", form: str = ".6g") -> str:
     >>> number(1234.5), number(1234.5, "de"), number(19819281, "de", ",")
     ('1234.5', '1234,5', '19.819.281')
     >>> number(77.71634, "de", "n"), number(12345.67, form="n"), number(15.001, form="n"), number(1e-17, form=".1e")
-    ('77,72', '12346', '15.001', '1.0e-17')
+    ('77,72', '12346', '15.001', '1.0×10⁻¹⁷')
     """
     written = _written(value, form)
     return written.translate(_DECIMAL_COMMA) if lang in _COMMA_LANGUAGES else written
 
 
 def _written(value: Any, form: str) -> str:
-    """A number in a form of Python's, or the form `n`; 0 and infinity as such, never 0.0e+00."""
+    """A number in a form of Python's, or the form `n`; with `e` as a person writes powers of ten."""
     if form == "n":
         return _short(float(value)) if isinstance(value, Real) else format(value)
-    return "0" if form.endswith("e") and value == 0 else format(value, form)
+    written = format(value, form)
+    if not form.endswith("e") or not math.isfinite(value):
+        return written
+    if value == 0 or 1e-3 <= abs(float(written)) < 1e4:
+        return f"{float(written):g}"
+    digits, power = written.split("e")
+    return ("" if digits == "1" else f"{digits}×") + f"10{raised(int(power))}"
+
+
+def raised(power: int) -> str:
+    """A power as it stands beside the base.
+
+    >>> "10" + raised(-17)
+    '10⁻¹⁷'
+    """
+    return str(power).translate(_SUPERSCRIPTS)
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def _short(value: float) -> str:

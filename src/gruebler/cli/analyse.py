@@ -279,9 +279,10 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
     if isinstance(around, LinkageError):
         print(translate("Roles and rotatability are not known: {reason}", lang, reason=around))
     else:
-        roles = motion_roles(around).items()
-        moving = (f"{link} = {role.in_language(lang)}" for link, role in roles if link != linkage.mechanism.frame)
-        print(translate("Roles: {roles}.", lang, roles=", ".join(moving)))
+        named = {link: role.in_language(lang) for link, role in motion_roles(around).items()}
+        moving = [f"{link} = {role}" for link, role in named.items() if role != link != linkage.mechanism.frame]
+        if moving:
+            print(translate("Roles: {roles}.", lang, roles=", ".join(moving)))
         chain = linkage.mechanism.chain
         names = dict(zip(chain.joint_names(), chain.joint_names(Alphabet.of_language(lang)), strict=True))
         pairs = joined(

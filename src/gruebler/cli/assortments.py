@@ -100,7 +100,7 @@ def _print(wanted: _Wanted, degree: int, count: int, lang: str) -> None:
     if count <= _TABLE:
         print_table(headers, [[str(k) for k in row] for row in rows], numbers=range(len(headers)))
     else:
-        print_long_table(headers, rows, 3 * wanted.links)
+        print_long_table(headers, rows, 3 * wanted.links, count)
 
 
 def _link_header(joints: int, lang: str) -> str:

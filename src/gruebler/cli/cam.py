@@ -16,7 +16,7 @@ from gruebler.base.text import Message, message, number, reason_of
 from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import Cell, print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.machines.cams import (
     LAWS,
@@ -32,7 +32,7 @@ from gruebler.machines.cams import (
     read_lift,
 )
 
-_LAWS = (message("law"), "C_v", "C_a", "C_j", "C_v·C_a")
+_LAWS = (message("name"), message("law"), "C_v", "C_a", "C_j", "C_v·C_a")
 _PARTS = (message("part"), message("from"), message("to"), message("lift"), message("law"))
 _FIGURES = (message("quantity"), message("value"), message("at"))
 _MOTION = (message("velocity per rad"), message("acceleration per rad²"))
@@ -129,8 +129,10 @@ def _laws(as_json: bool, lang: str) -> int:
     if as_json:
         print_json([{"law": name, **peaks._asdict()} for name, peaks in peaks_by_law])
     else:
-        rows = [(name, *(number(peak, lang, "n") for peak in peaks)) for name, peaks in peaks_by_law]
-        print_table(_LAWS, rows, numbers=range(1, 5), lang=lang)
+        rows: list[list[Cell]] = [
+            [name, motion_law(name).title, *(number(peak, lang, "n") for peak in peaks)] for name, peaks in peaks_by_law
+        ]
+        print_table(_LAWS, rows, numbers=range(2, 6), lang=lang)
     return 0
 
 
@@ -215,7 +217,7 @@ def _print(cam: Cam, table: list[list[float]] | None, lang: str) -> None:
         span = (_degrees(start, lang), _degrees(start + segment.angle, lang))
         lift = number(change, lang, "+.6g") + unit if segment.law else ""
         kind = message("motion") if segment.law else message("dwell")
-        rows.append((kind, *span, lift, segment.law.name if segment.law else ""))
+        rows.append((kind, *span, lift, segment.law.title if segment.law else ""))
     print_table(_PARTS, rows, numbers=(1, 2, 3), lang=lang)
     for jump in cam.lift.jumps():
         text = _JUMPS[jump.order].filled(angle=math.degrees(jump.at), size=jump.size * scale, unit=unit)

@@ -18,7 +18,14 @@ from gruebler.mechanics.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.mechanics.geometry.sizing import Sizing
 
 _HEADERS = (
-    *(message("name"), message("inventor"), "n", message("kind"), message("contact"), message("length")),
+    *(
+        message("name"),
+        message("inventor"),
+        "n",
+        message("kind"),
+        message("contact with its tangent"),
+        message("length"),
+    ),
     *(message("band"), "Q_G", message("drive")),
 )
 _LINKS = {

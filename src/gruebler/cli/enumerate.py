@@ -21,7 +21,7 @@ from gruebler.cli.long_work import run_progress, time_text
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import printed_to_file
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import CUT_ABOVE, CUT_TO, print_table
 from gruebler.cli.trains import trains
 from gruebler.structure.enumeration.counting import ChainCount
 from gruebler.structure.enumeration.estimates import Estimate, estimate
@@ -247,18 +247,64 @@ def _list(
             )
         ) as listings,
     ):
-        if arguments.out is None:
+        if arguments.out is None and form == "text" and _is_cut(arguments):
+            first = _first_chains(listings, request)
+        elif arguments.out is None:
             sys.stdout.flush()  # what follows goes past its buffer
             written = _write(listings, form, request, sys.stdout.buffer)
             if not written:
                 _say_none(request, arguments.lang)
             return 0
-        with atomic_file(arguments.out) as file:
-            written = _write(listings, form, request, file)
+        else:
+            with atomic_file(arguments.out) as file:
+                written = _write(listings, form, request, file)
+    if arguments.out is None:
+        _print_first(*first, request, size, arguments.lang)
+        return 0
     say_written(
         arguments.out, arguments.lang, ", " + plural("{count} chain", "{count} chains", written, arguments.lang)
     )
     return 0
+
+
+def _is_cut(arguments: argparse.Namespace) -> bool:
+    """Whether a person reads the list on a terminal: pipes get all of it, and so do runs that are to be continued."""
+    return sys.stdout.isatty() and not arguments.all and arguments.checkpoint is None
+
+
+def _first_chains(listings: Iterator[PieceListing], request: Request) -> tuple[list[tuple[int, str]], int]:
+    """The first lines of a list, each with the number of its chain, and how many chains were seen."""
+    lines: list[tuple[int, str]] = []
+    last, seen = "", 0
+    for listing in listings:
+        if listing.chains and (comment := _comment(listing, request)) != last:
+            lines.append((seen + 1, comment))
+            last = comment
+        lines += enumerate(listing.text.decode().splitlines(), seen + 1)
+        seen += listing.chains
+        if seen > CUT_ABOVE:
+            break
+    return lines, seen
+
+
+def _print_first(lines: list[tuple[int, str]], seen: int, request: Request, size: Estimate, lang: str) -> None:
+    """Print the first chains, and how many there are besides."""
+    shown = seen if seen <= CUT_ABOVE else CUT_TO
+    for place, line in lines:
+        if place <= shown:
+            print(line)
+    if not seen:
+        _say_none(request, lang)
+    elif shown < seen and size.exact:
+        more = message("... and {count:,} more chains: --all prints them, -o writes them.")
+        print(more.filled(count=size.chains - shown).in_language(lang))
+    elif shown < seen:
+        print(translate("... and more chains: --all prints them, -o writes them.", lang))
+
+
+def _comment(listing: PieceListing, request: Request) -> str:
+    """The line before chains of a class, where a list has several."""
+    return f"# {listing.kind}" if request.fractionated == "all" else ""
 
 
 def _say_none(request: Request, lang: str) -> None:
@@ -283,9 +329,9 @@ def _write(listings: Iterator[PieceListing], form: str, request: Request, file: 
         if form == "json":
             file.write(b",\n" if written else b"[\n")
             text = text.rstrip(b"\n").replace(b"\n", b",\n")
-        elif form == "text" and request.fractionated == "all" and listing.kind != last:
-            file.write(f"# {listing.kind}\n".encode())
-            last = listing.kind
+        elif form == "text" and (comment := _comment(listing, request)) != last:
+            file.write(f"{comment}\n".encode())
+            last = comment
         file.write(text)
         written += listing.chains
     if form == "json":

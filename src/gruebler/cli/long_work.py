@@ -83,7 +83,7 @@ def run_progress(lang: str) -> Iterator[Callable[[Progress], None] | None]:
             seconds = progress.seconds_left
             left = "" if seconds is None else message("about {time} left", time=time_text(seconds))
             line = translate(
-                "{parts} parts  {chains:,} chains  {rate:,.0f}/s  {left}",
+                "parts: {parts}  chains: {chains:,}  {rate:,.0f}/s  {left}",
                 lang,
                 parts=progress.pieces,
                 chains=progress.chains,

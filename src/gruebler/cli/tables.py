@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from itertools import islice
 from shutil import get_terminal_size
 from textwrap import fill
 
@@ -33,8 +34,7 @@ def print_table(
     terminal = sys.stdout.isatty()
     width = terminal_width() if terminal else _WIDE
     whole = len(rows)
-    said_in = _cut_in.get()
-    rows = rows[:_CUT_TO] if said_in is not None and whole > _CUT_ABOVE else rows
+    rows = rows[: shown_of(whole)]
     columns = [[_text(cell, lang) for cell in column] for column in zip(headers, *rows, strict=True)]
     if _width(columns) > width:
         longest = 0 if terminal else _HEADER
@@ -49,8 +49,18 @@ def print_table(
             _print_rich([head for head, *_ in chosen], list(zip(*(cells for _, *cells in chosen), strict=True)), right)
         else:
             _print_plain(chosen, right)
-    if said_in is not None and len(rows) < whole:
-        print(translate("... and {count:,} more rows: --all prints them.", said_in, count=whole - len(rows)))
+    _say_cut(whole - len(rows))
+
+
+def shown_of(rows: int) -> int:
+    """How many of so many rows are printed."""
+    return CUT_TO if _cut_in.get() is not None and rows > CUT_ABOVE else rows
+
+
+def _say_cut(rows: int) -> None:
+    lang = _cut_in.get()
+    if rows and lang is not None:
+        print(translate("... and {count:,} more rows: --all prints them.", lang, count=rows))
 
 
 @contextmanager
@@ -64,7 +74,7 @@ def cut_tables(arguments: argparse.Namespace) -> Iterator[None]:
         _cut_in.reset(before)
 
 
-_CUT_ABOVE, _CUT_TO = 25, 20
+CUT_ABOVE, CUT_TO = 25, 20
 """Longer tables are cut to so many rows; a few more than these are not worth a second command."""
 _cut_in: ContextVar[str | None] = ContextVar("cut_in", default=None)
 """The language in which what is cut is said; None where tables stay whole."""
@@ -133,18 +143,19 @@ def _print_plain(columns: Sequence[Sequence[str]], numbers: Sequence[int]) -> No
         print("  ".join(cells).rstrip())
 
 
-def print_long_table(headers: Sequence[str], rows: Iterable[Sequence[int]], largest: int) -> None:
+def print_long_table(headers: Sequence[str], rows: Iterable[Sequence[int]], largest: int, count: int) -> None:
     """Print rows of numbers as they come, none of them above ``largest``, which sets the widths beforehand.
 
-    >>> print_long_table(["binary", "ternary"], [(4, 2), (5, 0)], 6)
+    >>> print_long_table(["binary", "ternary"], [(4, 2), (5, 0)], 6, 2)
     binary  ternary
          4        2
          5        0
     """
     widths = [max(len(header), len(str(largest))) for header in headers]
     print("  ".join(header.rjust(width) for header, width in zip(headers, widths, strict=True)))
-    for row in rows:
+    for row in islice(rows, shown_of(count)):
         print("  ".join(str(number).rjust(width) for number, width in zip(row, widths, strict=True)))
+    _say_cut(count - shown_of(count))
 
 
 def _print_rich(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int]) -> None:

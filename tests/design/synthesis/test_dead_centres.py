@@ -80,7 +80,7 @@ def test_the_design_really_moves_so():
 
 @pytest.mark.parametrize("angle", [119, 301])
 def test_what_is_not_possible_says_what_is(angle):
-    with pytest.raises(SynthesisError, match="more than 120 and less than 300 degrees"):
+    with pytest.raises(SynthesisError, match="more than 120° and less than 300°"):
         dead_centre_family(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(angle)))
     assert dead_centre_family(DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(121 + (angle > 200) * 178)))
 

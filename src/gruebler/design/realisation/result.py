@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
-from gruebler.base.text import Message, joined, message, translate
+from gruebler.base.text import Message, joined, message, plural
 from gruebler.design.realisation.layout_trial import range_path
 from gruebler.mechanics.analysis.drive_cycle import CycleSpan, drive_cycle
 from gruebler.mechanics.linkages import Linkage
@@ -73,10 +73,11 @@ class Realisation:
         if self.reason is not None:
             return self.reason.in_language(lang)
         if self.linkage is None:
-            return translate(
-                "No dimensions were found with which the drives move it: {tries} layouts tried (seed {seed}).",
+            return plural(
+                "No dimensions were found with which the drives move it: {count} layout tried (seed {seed}).",
+                "No dimensions were found with which the drives move it: {count} layouts tried (seed {seed}).",
+                self.tries,
                 lang,
-                tries=self.tries,
                 seed=self.seed,
             )
         sentences = []
@@ -95,5 +96,11 @@ class Realisation:
                 sentences.append(text.filled(drive=name, low=low, high=high, unit=self.linkage.unit))
         text = message("Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).")
         sentences.append(text.filled(quality=self.quality))
-        sentences.append(message("Tried: {tries} layouts (seed {seed}).", tries=self.tries, seed=self.seed))
-        return joined(sentences, " ").in_language(lang)
+        tried = plural(
+            "Tried: {count} layout (seed {seed}).",
+            "Tried: {count} layouts (seed {seed}).",
+            self.tries,
+            lang,
+            seed=self.seed,
+        )
+        return f"{joined(sentences, ' ').in_language(lang)} {tried}"

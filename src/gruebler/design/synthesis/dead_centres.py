@@ -66,8 +66,8 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
         low, high = pi / 2 + task.swing / 2, 3 * pi / 2 + task.swing / 2
         if not low < task.angle < high:
             raise SynthesisError(
-                "no crank-rocker swings by {swing:g} degrees with the dead centres {angle:g} degrees apart: the "
-                "crank angle is more than {low:g} and less than {high:g} degrees",
+                "no crank-rocker swings by {swing:g}° with the dead centres {angle:g}° apart: the "
+                "crank angle is more than {low:g}° and less than {high:g}°",
                 swing=degrees(task.swing),
                 angle=degrees(task.angle),
                 low=degrees(low),
@@ -75,8 +75,8 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
             )
     elif not pi / 2 < task.angle < 3 * pi / 2:
         raise SynthesisError(
-            "no slider-crank has its dead centres {angle:g} degrees apart: the crank angle is more "
-            "than 90 and less than 270 degrees",
+            "no slider-crank has its dead centres {angle:g}° apart: the crank angle is more "
+            "than 90° and less than 270°",
             angle=degrees(task.angle),
         )
     grid = _parameters(task)
@@ -213,19 +213,19 @@ def synthesise_dead_centres(
 _NOTES = {
     (False, False): message(
         "There are infinitely many solutions, one for each crank length from {low:.4g} to {high:.4g}; the best minimum "
-        "transmission angle is {angle:.2f} degrees."
+        "transmission angle is {angle:.2f}°."
     ),
     (False, True): message(
         "There are infinitely many solutions, one for each crank length from {low:.4g} to {high:.4g} (rocker 1); the "
-        "best minimum transmission angle is {angle:.2f} degrees."
+        "best minimum transmission angle is {angle:.2f}°."
     ),
     (True, False): message(
         "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g}; the best "
-        "minimum transmission angle is {angle:.2f} degrees."
+        "minimum transmission angle is {angle:.2f}°."
     ),
     (True, True): message(
         "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g} (rocker "
-        "1); the best minimum transmission angle is {angle:.2f} degrees."
+        "1); the best minimum transmission angle is {angle:.2f}°."
     ),
 }
 """By whether the dead centres are half a turn apart, and whether the output is a rocker."""

@@ -254,7 +254,7 @@ def faults_of_size(ratio: float, inside: bool, demands: Demands) -> list[Message
 
 def transmission_fault(transmission: float) -> Message:
     """That a transmission angle, in radians, is too small."""
-    return message("the transmission angle falls to {angle:.1f} degrees", angle=np.degrees(transmission))
+    return message("the transmission angle falls to {angle:.1f}°", angle=np.degrees(transmission))
 
 
 def _missed(targets: list[int], error: float) -> Message:

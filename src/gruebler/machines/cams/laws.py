@@ -82,6 +82,15 @@ class MotionLaw:
     name: str
     pieces: tuple[LawPiece, ...]
 
+    @property
+    def title(self) -> Message:
+        """What a reader calls it.
+
+        >>> motion_law("cycloidal").title.in_language("de")
+        'geneigte Sinuslinie (Bestehorn)'
+        """
+        return _TITLES.get(self.name) or message("polynomial {powers}", powers=self.name)
+
     def at(self, x: ArrayLike, order: int = 0) -> Reals:
         """The lift (order 0) or a derivative at places in [0, 1], of any shape; at a joint of pieces the right one."""
         places = finite_array(x, message("places on a law"))
@@ -221,6 +230,16 @@ _ALIASES = {
     "modtrap": "modified-trapezoid",
     "uniform": "linear",
 }
+
+_TITLES = {
+    "parabolic": message("parabolic"),
+    "harmonic": message("harmonic"),
+    "cycloidal": message("cycloidal"),
+    "modified-sine": message("modified sine"),
+    "modified-trapezoid": message("modified trapezoid"),
+    "linear": message("linear"),
+}
+"""Of laws that are no polynomials by their powers, as VDI 2143 names them in German."""
 
 LAWS = MappingProxyType({name: name for name in (*_ACCELERATIONS, *_POLYNOMIALS)} | _ALIASES)
 """Names of laws and their synonyms; any powers such as 3-4-5-6 also name a polynomial."""

@@ -153,7 +153,10 @@ def _read_meshes(kind: str, tokens: list[str], statement: str, planets: dict[str
         yield _linear(kind, wheels, options, carrier, statement)
         return
     if len(wheels) < 2:
-        raise GearError("'{statement}': expected at least two wheels LINK:TEETH", statement=statement)
+        raise GearError(
+            "'{statement}': expected at least two wheels with blanks between, such as sun:24 planet:18",
+            statement=statement,
+        )
     sized = [
         (link, exact_number(size, f"'{statement}': {link}"))
         for link, size in (_pair(w, ":", statement) for w in wheels)

@@ -296,7 +296,7 @@ def _instant(freedoms: Freedoms, names: Sequence[str]) -> Iterator[Message]:
     yield message(
         "Instant: {constraints} constraints of rank {rank} on {unknowns} velocities leave {mobility} at this pose. "
         "Singular values against the largest: the smallest that counts is {above:.1e}, {next_value} (tolerance "
-        "{tolerance:g}).",
+        "{tolerance:.0e}).",
         constraints=instant.constraints,
         rank=instant.rank,
         unknowns=instant.closing.unknowns,

@@ -6,12 +6,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from gruebler.base.text import decimal_sign_in
+from gruebler.base.text import decimal_sign_in, raised
 
 _FEW = 7  # approximate number of ticks of an axis
 _ANGLES = (1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720)  # degrees
 _TINY = 1e-9  # steps: the tolerance for a value beyond a tick
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -112,12 +111,12 @@ def _with_power(value: float) -> str:
     if not value:
         return "0"
     digits, power = f"{value:.3e}".split("e")
-    return f"{float(digits):g}×10{str(int(power)).translate(_SUPERSCRIPTS)}".replace("-", "−")
+    return f"{float(digits):g}×10{raised(int(power))}".replace("-", "−")
 
 
 def _power(value: float) -> str:
     power = round(math.log10(value))
-    return f"{value:g}" if -4 < power < 5 else f"10{str(power).translate(_SUPERSCRIPTS)}"
+    return f"{value:g}" if -4 < power < 5 else f"10{raised(power)}"
 
 
 def _apart(low: float, high: float) -> tuple[float, float]:

@@ -227,5 +227,6 @@ def write_joints(
     'R(0-1) R(1-2) P(2-0)'
     """
     symbols = symbols_for((pair for pair, _ in joints), space, alphabet)
-    prefix = "" if space is Space.PLANAR else f"{space}: "
+    lang = "de" if alphabet is Alphabet.GERMAN else "en"
+    prefix = "" if space is Space.PLANAR else f"{space.adjective.in_language(lang)}: "
     return prefix + " ".join(joint_text(symbols[pair], links) for pair, links in joints)
