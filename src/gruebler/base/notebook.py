@@ -21,9 +21,9 @@ table_of: Callable[..., Any] | None = None
 
 
 def brief(cls: _Class) -> _Class:
-    """A dataclass (with ``repr=False``) of many values, whose `repr` is one line: arrays as their shapes.
+    """A dataclass (with ``repr=False``) of many values, whose `repr` is one line: arrays as their shapes and ends.
 
-    If it has a method ``explain``, what that says in English is its text for readers, `str`.
+    One with a method ``explain`` is `explained` by it.
 
     >>> from dataclasses import dataclass
     >>> @brief
@@ -39,12 +39,17 @@ def brief(cls: _Class) -> _Class:
         values = ((field.name, getattr(self, field.name)) for field in fields(self) if field.repr)
         return f"<{type(self).__name__} {', '.join(f'{name}={_in_brief(value)}' for name, value in values)}>"
 
+    cls.__repr__ = shown  # type: ignore[assignment,method-assign]
+    return explained(cls) if hasattr(cls, "explain") else cls
+
+
+def explained(cls: _Class) -> _Class:
+    """A class of which ``print`` shows what its method ``explain`` says in English."""
+
     def told(self: Any) -> str:
         return str(self.explain())
 
-    cls.__repr__ = shown  # type: ignore[assignment,method-assign]
-    if hasattr(cls, "explain"):
-        cls.__str__ = told  # type: ignore[assignment,method-assign]
+    cls.__str__ = told  # type: ignore[assignment,method-assign]
     return cls
 
 
@@ -53,11 +58,13 @@ _WIDE = 60  # characters of a value in such a line
 
 def _in_brief(value: object) -> str:
     if hasattr(value, "shape"):
-        return f"array{value.shape}"
+        ends = f" {value.flat[0]:.4g}…{value.flat[-1]:.4g}" if value.size else ""  # type: ignore[attr-defined]
+        return f"array{value.shape}{ends}"
     if isinstance(value, list | tuple | dict | set | frozenset) and len(value) > 3:
         return f"{type(value).__name__} of {len(value)}"
     text = " ".join(repr(value).split())
-    return text if len(text) <= _WIDE else f"{text[: _WIDE - 1]}…"
+    half = _WIDE // 2
+    return text if len(text) <= _WIDE else f"{text[: half - 1]}…{text[-half:]}"
 
 
 ROWS_SHOWN = 20

@@ -22,7 +22,6 @@ from gruebler.machines.gears import (
     Unit,
     assembly,
     balance,
-    explain_train,
     read_toml,
     read_train,
     search_ratio,
@@ -93,7 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(_document(reading, solution, forces))
     else:
-        print_text(explain_train(reading, arguments.lang))
+        print_text(reading.explain(arguments.lang))
         if reading.drives:
             print()
             _print_speeds(reading, solution, forces, arguments.lang)

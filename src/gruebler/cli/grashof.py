@@ -7,12 +7,11 @@ import math
 from collections.abc import Sequence
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, joined, joined_by_or, message, number, translate
+from gruebler.base.text import message, number, translate
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.fourbar.extremes import CrankRange
 from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
 from gruebler.mechanics.fourbar.length_texts import size_of
 
@@ -60,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(_document(size))
     else:
-        _print(size, arguments.lang)
+        print_text(size.explain(arguments.lang))
     if arguments.turns is None:
         assemblable = size.grashof.assemblable if isinstance(size, FourBar) else bool(size.limits)
         return 0 if assemblable else 1
@@ -136,33 +135,6 @@ def _range_item(part: LengthRange) -> dict[str, object]:
         "below": part.below.key if part.below else None,
         "above": part.above.key if part.above else None,
     }
-
-
-def _print(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str) -> None:
-    if isinstance(size, FourBar):
-        print_text(size.grashof.explain(lang))
-    else:
-        kind, links = size.type.name(lang), joined(size.turning)
-        turning = translate("Turns fully against the frame: {links}.", lang, links=links) if size.turning else ""
-        print(f"{kind}. {turning}".rstrip())
-    if not size.limits:
-        return
-    ranges = [_crank_range(arc) for arc in size.limits]
-    print(translate("crank angle: {ranges}", lang, ranges=joined_by_or(ranges)))
-    if (centres := size.dead_centres) is not None:
-        if isinstance(size, SliderCrank):
-            print(translate("stroke of the output: {length:n}", lang, length=centres.travel))
-        else:
-            print(translate("swing of the output: {angle:n}°", lang, angle=math.degrees(centres.travel)))
-        print(translate("time ratio: {ratio:n}", lang, ratio=centres.time_ratio))
-    smallest = math.degrees(size.transmission_angle.smallest.mu)
-    print(translate("smallest transmission angle: {angle:n}°", lang, angle=smallest))
-
-
-def _crank_range(arc: CrankRange) -> Message:
-    if arc.full:
-        return message("full turn")
-    return message("{start:n}°..{end:n}°", start=math.degrees(arc.start), end=math.degrees(arc.end))
 
 
 def _document(size: FourBar | SliderCrank | InvertedSliderCrank) -> dict[str, object]:

@@ -18,6 +18,8 @@ from gruebler.base import notebook
 from gruebler.base.angles import warn_of_degrees
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import GrueblerError
+from gruebler.base.notebook import explained
+from gruebler.base.text import message, plural
 
 _MOST = 2_000
 
@@ -56,6 +58,14 @@ def _whole(number: object, least: int) -> bool:
     return isinstance(number, int) and not isinstance(number, bool) and least <= number <= _MOST
 
 
+_STEPS = message(
+    "A step turns the wheel by {step:n}° while the driver turns by {engaged:n}°; of a turn of the driver it rests for "
+    "{rest:n} %."
+)
+_FASTEST = message("The wheel turns at most {ratio:n} times as fast as the driver.")
+
+
+@explained
 @dataclass(frozen=True, slots=True)
 class Geneva:
     """A Geneva drive whose pins enter and leave the slots without a jump of speed.
@@ -96,6 +106,28 @@ class Geneva:
                 most_pins=self.most_pins,
                 pins=self.pins,
             )
+
+    def explain(self, lang: str = "en") -> str:
+        """What it is and how it steps and rests, in English or German (``de``).
+
+        >>> print(Geneva(4))
+        External Geneva drive: 4 slots, 1 pin.
+        A step turns the wheel by 90° while the driver turns by 90°; of a turn of the driver it rests for 75 %.
+        The wheel turns at most 2.414 times as fast as the driver.
+        """
+        kind = message("Internal Geneva drive") if self.internal else message("External Geneva drive")
+        parts = (
+            plural("{count} slot", "{count} slots", self.slots, lang),
+            plural("{count} pin", "{count} pins", self.pins, lang),
+        )
+        step, engaged, rest = math.degrees(self.step), 2 * math.degrees(self.engaged), 100 * self.dwell_fraction
+        return "\n".join(
+            (
+                f"{kind.in_language(lang)}: {', '.join(parts)}.",
+                _STEPS.filled(step=step, engaged=engaged, rest=rest).in_language(lang),
+                _FASTEST.filled(ratio=self.greatest_ratio).in_language(lang),
+            )
+        )
 
     @property
     def crank_ratio(self) -> float:

@@ -15,7 +15,6 @@ from gruebler.machines.gears import (
     Train,
     assembly,
     balance,
-    explain_train,
     influence,
     ratio,
     read_toml,
@@ -199,7 +198,7 @@ def test_per_radian_and_per_turn_are_not_mixed():
             question()
     assert ratio(turns, "load", "guide") == Q(-377, 12)
     assert speeds(turns, {"load": 377}).values["guide"] == -12
-    told = explain_train(read_train(text.format(60, ""))).splitlines()
+    told = read_train(text.format(60, "")).explain().splitlines()
     assert not any("load" in line and "guide" in line for line in told)
 
 
@@ -260,7 +259,7 @@ def test_a_chain_with_tooth_numbers_is_the_train_of_its_wheels():
     reading = read_train(text)
     assert reading.train.meshes == read_train("1:24 3:18 on 0; 2:-60 3:18 on 0").train.meshes
     assert speeds(reading.train, reading.drives).values["0"] == Q(2000, 7)
-    assert "Speeds: 2 w_1 - 7 w_0 + 5 w_2 = 0" in explain_train(reading)
+    assert "Speeds: 2 w_1 - 7 w_0 + 5 w_2 = 0" in reading.explain()
 
 
 def test_toml_says_the_same():
@@ -271,7 +270,7 @@ def test_toml_says_the_same():
 
 def test_words_in_both_languages():
     reading = read_train(f"{PLANETARY} planets=5; sun=1; sun2:5 sun:6; sun2=9")
-    english, german = explain_train(reading), explain_train(reading, "de")
+    english, german = reading.explain(), reading.explain("de")
     assert "sun2 cannot have 9" in english
     assert "places are 4.28571° or multiples of it apart" in english
     assert "sun2 kann nicht 9 haben" in german
@@ -379,7 +378,7 @@ def test_whether_central_wheels_have_one_axis(text, closed):
     reading = read_train(text)
     assert {one.planet: one.coaxial for one in axes(reading.train)} == closed
     for lang, words in (("en", "do not have one axis"), ("de", "haben keine gemeinsame Achse")):
-        assert (words in explain_train(reading, lang)) == (not all(closed.values()))
+        assert (words in reading.explain(lang)) == (not all(closed.values()))
 
 
 def test_the_condition_of_the_textbook():
@@ -395,9 +394,8 @@ def test_the_condition_of_the_textbook():
 
 
 def test_numbers_of_planets():
-    assert "Equal planets (planet) that fit at equal angles: 2, 3, 4, 6." in explain_train(
-        read_train("sun:24 planet:18 ring:-60 on arm")
-    )
+    told = read_train("sun:24 planet:18 ring:-60 on arm").explain()
+    assert "Equal planets (planet) that fit at equal angles: 2, 3, 4, 6." in told
     for many in range(2, 13):
         fits = assembly(read_train("sun:24 planet:18 ring:-60 on arm").train, "planet", many).possible
         assert fits == (84 % many == 0 and 42 * math.sin(math.pi / many) > 20)
@@ -428,7 +426,7 @@ def test_a_row_of_two_thousand_wheels(driven):
     found = speeds(reading.train, reading.drives)
     assert found.values == {f"w{k}": Q((-1) ** abs(k - driven) * teeth[driven], z) for k, z in enumerate(teeth)}
     assert reading.train.redundant == ()
-    assert explain_train(reading).startswith("2000 moving links, 1999 independent meshes: mobility 1.")
+    assert reading.explain().startswith("2000 moving links, 1999 independent meshes: mobility 1.")
 
 
 def test_ratios_with_thousands_of_digits_are_said_in_six():
@@ -438,11 +436,11 @@ def test_ratios_with_thousands_of_digits_are_said_in_six():
     assert found == Q(10) ** 5000
     assert fraction_text(found) == "1e+5000"
     assert fraction_text(1 / found) == "1e-5000"
-    assert "Speeds: 1e+5000 w0 - w5000 = 0" in explain_train(reading)
+    assert "Speeds: 1e+5000 w0 - w5000 = 0" in reading.explain()
 
 
 def test_one_mesh_is_not_several():
-    assert explain_train(read_train("sun:24 planet:18")).startswith("2 moving links, 1 independent mesh: mobility 1.")
+    assert read_train("sun:24 planet:18").explain().startswith("2 moving links, 1 independent mesh: mobility 1.")
 
 
 def test_powers_beyond_all_numbers_are_refused():

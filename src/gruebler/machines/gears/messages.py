@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
 
 from gruebler.base.text import joined, message, number, plural, translate
 from gruebler.machines.gears.assembly import Assembly, assembly, axes, even_numbers
 from gruebler.machines.gears.motion import speeds
-from gruebler.machines.gears.reading import TrainReading
 from gruebler.machines.gears.train import FRAME, Train, comparable
 
 _LARGEST_BITS = 13_500  # below the 4,300 digits that Python turns into text
@@ -52,16 +52,8 @@ def decimal(value: Fraction) -> str:
     return str(Decimal(digits).normalize()).lower()
 
 
-def explain_train(reading: TrainReading, lang: str = "en") -> str:
-    """A description of a train and its drives, line by line.
-
-    >>> from gruebler.machines.gears import read_train
-    >>> print(explain_train(read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=7")))
-    4 moving links, 2 independent meshes: mobility 2.
-    Speeds: 2 sun - 7 arm + 5 ring = 0
-    3 planets (planet) at equal angles can be put in.
-    """
-    train = reading.train
+def explain_train(train: Train, drives: Mapping[str, Fraction], planets: Mapping[str, int], lang: str = "en") -> str:
+    """A description of a train with its drives and the numbers of its planets, line by line."""
     links, redundant = len(train.links), train.redundant
     independent = len(train.meshes) - len(redundant)
     lines = [
@@ -78,9 +70,9 @@ def explain_train(reading: TrainReading, lang: str = "en") -> str:
     lines += [
         translate("Speeds: {relation} = 0", lang, relation=relation) for relation in _outer_relations(train, lang)
     ]
-    if reading.drives:
-        lines += _drive_lines(reading, links - independent, lang)
-    for planet, count in reading.planets.items():
+    if drives:
+        lines += _drive_lines(train, drives, links - independent, lang)
+    for planet, count in planets.items():
         lines.append(_planets_line(assembly(train, planet, count), lang))
     for planet_axes in axes(train):
         planet, wheels = planet_axes.planet, planet_axes.meshes
@@ -97,16 +89,16 @@ def explain_train(reading: TrainReading, lang: str = "en") -> str:
                     sums="; ".join(shown),
                 )
             )
-        elif planet not in reading.planets and (possible_numbers := even_numbers(train, planet)):
+        elif planet not in planets and (possible_numbers := even_numbers(train, planet)):
             numbers = ", ".join(map(str, possible_numbers))
             text = message("Equal planets ({planet}) that fit at equal angles: {numbers}.")
             lines.append(text.filled(planet=planet, numbers=numbers).in_language(lang))
     return "\n".join(lines)
 
 
-def _drive_lines(reading: TrainReading, mobility: int, lang: str) -> list[str]:
+def _drive_lines(train: Train, drives: Mapping[str, Fraction], mobility: int, lang: str) -> list[str]:
     """The contradicted and redundant drives, and the undetermined links."""
-    state, lines = speeds(reading.train, reading.drives), []
+    state, lines = speeds(train, drives), []
     for link, requested, follows in state.contradictions:
         lines.append(
             translate(
@@ -120,7 +112,7 @@ def _drive_lines(reading: TrainReading, mobility: int, lang: str) -> list[str]:
     if state.spare:
         lines.append(translate("Drives more than needed: {links}.", lang, links=", ".join(state.spare)))
     if state.free:
-        missing = mobility - (len(reading.drives) - len(state.spare) - len(state.contradictions))
+        missing = mobility - (len(drives) - len(state.spare) - len(state.contradictions))
         lines.append(
             plural(
                 "Not determined: {links}; {count} more drive needed.",

@@ -26,6 +26,8 @@ from itertools import pairwise, permutations
 from typing import Any
 
 from gruebler.base.errors import nearest
+from gruebler.base.notebook import explained
+from gruebler.machines.gears.messages import explain_train
 from gruebler.machines.gears.train import FRAME, KINDS, GearError, Mesh, Train, exact_number
 
 _STATEMENTS = (*(kind for kind in KINDS if " " not in kind), "drive", "hold", "load")
@@ -35,6 +37,7 @@ _JOINT = re.compile(r"([RG])\(([^()]*)\)")
 _WHEELS = re.compile(r"([^\s:-]+):(-?[^\s:-]+)-([^\s:-]+):(-?[^\s:-]+)")
 
 
+@explained
 @dataclass(frozen=True, slots=True)
 class TrainReading:
     """The content of a text: the train, the given speeds and loads, and the number of each kind of planets."""
@@ -43,6 +46,16 @@ class TrainReading:
     drives: dict[str, Fraction] = field(default_factory=dict)
     loads: dict[str, Fraction] = field(default_factory=dict)
     planets: dict[str, int] = field(default_factory=dict)
+
+    def explain(self, lang: str = "en") -> str:
+        """A description of the train and its drives, line by line, in English or German (``de``).
+
+        >>> print(read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=7"))
+        4 moving links, 2 independent meshes: mobility 2.
+        Speeds: 2 sun - 7 arm + 5 ring = 0
+        3 planets (planet) at equal angles can be put in.
+        """
+        return explain_train(self.train, self.drives, self.planets, lang)
 
 
 def read_train(text: str) -> TrainReading:

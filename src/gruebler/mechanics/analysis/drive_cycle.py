@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import degrees, inf, pi
 from typing import Protocol, TypeVar
@@ -18,7 +18,9 @@ from numpy.typing import ArrayLike
 from gruebler._numeric.motion.closure import MESH, POLAR
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import brief
+from gruebler.base.notebook import brief, explained
+from gruebler.base.text import Message, message
+from gruebler.mechanics.analysis.measure_units import drive_units
 from gruebler.mechanics.kinematics.change_point_rows import set_change_point_rows
 from gruebler.mechanics.kinematics.contacts import Condition
 from gruebler.mechanics.kinematics.drive_rows import drive_path
@@ -30,6 +32,7 @@ from gruebler.mechanics.kinematics.root_finding import FunctionSamples, brackete
 from gruebler.mechanics.kinematics.solve import cached_plan, motion_from_rows, move_in_radians
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch, branch_labels
+from gruebler.structure.assur.forms import form_message
 
 _CELLS = 360  # of the first grid
 _LEVELS = 16  # how often a cell is halved where the motion bends: to 3e-7 of a turning drive
@@ -61,6 +64,7 @@ _TOGETHER = 1e-8  # radians or sizes: events that are nearer are at one place; c
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
+@explained
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CycleSpan:
     """The range of a drive: radians, or lengths for a slide."""
@@ -73,6 +77,8 @@ class CycleSpan:
     """After how many turns of the drive everything repeats; 0 if it does not go round."""
     stops: tuple[Stop | None, Stop | None]
     """What ends it below and above; None where no limit was found (full turns, endless slides)."""
+    linkage: Linkage = field(repr=False)
+    """The linkage that is driven."""
 
     @property
     def period(self) -> float:
@@ -90,6 +96,37 @@ class CycleSpan:
             return drive
         value = drive % self.period
         return 0.0 if self.period - value < _ROUND else value
+
+    def lines(self) -> Iterator[Message]:
+        """How far the drive moves, and what stops it."""
+        if len(self.linkage.mechanism.drives) > 1:
+            yield message("A path of {count} drives.", count=len(self.linkage.mechanism.drives))
+            return
+        units = drive_units(self.linkage)
+        if self.full and self.turns > 1:
+            yield message("The drive turns fully; everything repeats after {turns} turns.", turns=self.turns)
+        else:
+            yield units.range(self.full, self.low, self.high)
+        for stop, value in zip(self.stops, (self.low, self.high), strict=True):
+            if stop is not None:
+                text = _LIMIT if stop.reason == "limit" else _MEETING
+                links = ", ".join(stop.links)
+                yield text.filled(drive=units.drive(value), form=form_message(stop.form), links=links)
+
+    def explain(self, lang: str = "en") -> str:
+        """How far the drive moves and what stops it, in English or German (``de``).
+
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> print(drive_cycle(FourBar(65, 70, 40, 70).linkage()).span)
+        The drive turns from 25.33° to 109.1°.
+        At 25.33° the group RRR {coupler, rocker} can no longer be assembled.
+        At 109.1° the group RRR {coupler, rocker} can no longer be assembled.
+        """
+        return "\n".join(line.in_language(lang) for line in self.lines())
+
+
+_LIMIT = message("At {drive} the group {form} {{{links}}} can no longer be assembled.")
+_MEETING = message("At {drive} two assembly modes of the group {form} {{{links}}} meet.")
 
 
 class _Event(Protocol):
@@ -357,7 +394,7 @@ def path_cycle(linkage: Linkage, path: ArrayLike, *, branch: Branch = None) -> P
     cycle = PathCycle(
         plan=plan,
         start=start,
-        span=CycleSpan(low=0.0, high=1.0, full=False, turns=0, stops=(None, None)),
+        span=CycleSpan(low=0.0, high=1.0, full=False, turns=0, stops=(None, None), linkage=plan.linkage),
         grid=np.array([0.0, 1.0]),
         ends=ends,
     )
@@ -438,13 +475,15 @@ def _span(plan: Plan, start: Motion) -> CycleSpan:
         if back or not above.complete:
             break
     if back:
-        return CycleSpan(low=q, high=q + 2 * pi * back[0], full=True, turns=back[0], stops=(None, None))
+        return CycleSpan(
+            low=q, high=q + 2 * pi * back[0], full=True, turns=back[0], stops=(None, None), linkage=plan.linkage
+        )
     short = steps[: _MOST_TURNS + 1] if turning else steps
     if above.complete:
         above = _rows(above, rows[: len(short)])
     below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
-    return CycleSpan(low=low, high=high, full=False, turns=0, stops=(below.stop, above.stop))
+    return CycleSpan(low=low, high=high, full=False, turns=0, stops=(below.stop, above.stop), linkage=plan.linkage)
 
 
 def _doubled(first: int, last: int) -> Iterator[int]:

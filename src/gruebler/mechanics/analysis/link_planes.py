@@ -15,6 +15,7 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.convex_hull import convex_hull
 from gruebler.base.errors import LinkageError
+from gruebler.base.notebook import explained
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.analysis.plates import Plates, plates_of, whole_motion
 from gruebler.mechanics.linkages.conversion import LinkageLike
@@ -74,6 +75,7 @@ class Collisions:
         return True
 
 
+@explained
 @dataclass(frozen=True, kw_only=True)
 class LinkPlanes:
     """The planes of the links of a linkage, or why there are none."""
@@ -98,9 +100,6 @@ class LinkPlanes:
     def explain(self, lang: str = "en") -> str:
         """The planes from below, or why there are none."""
         return self.message.in_language(lang)
-
-    def __str__(self) -> str:
-        return self.explain()
 
     @property
     def message(self) -> Message:

@@ -48,15 +48,14 @@ from gruebler.mechanics.analysis.events import (
     stops,
     transfer_function,
 )
+from gruebler.mechanics.analysis.measure_units import MeasureUnits
 from gruebler.mechanics.analysis.messages import (
-    MeasureUnits,
     change_point_lines,
     dead_centre_message,
     dwell_message,
     dwell_share_message,
     motion_share_message,
     output_lines,
-    range_lines,
     stroke_lines,
     time_lines,
     transmission_lines,
@@ -268,7 +267,7 @@ class Measures:
 
     def _lines(self) -> Iterator[Message]:
         units = MeasureUnits(self.turning_drive, self.output.turning, self.linkage.unit, self.linkage.size)
-        yield from range_lines(units, self.span)
+        yield from self.span.lines()
         ratio = self.transfer.ratio if self.transfer.uniform else None
         name, turns = self.output.name, self.output_turns
         yield from output_lines(units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from math import degrees
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.events import ChangePoint, DeadCentre, TransmissionExtremes
 from gruebler.base.text import Message, joined, message
-from gruebler.mechanics.analysis.drive_cycle import CycleSpan
 from gruebler.mechanics.analysis.events import Dwell
+from gruebler.mechanics.analysis.measure_units import MeasureUnits, angle_message
 from gruebler.mechanics.fourbar.extremes import StrokeTimes
 from gruebler.structure.assur.forms import form_message
 
-_NOTHING = 1e-12  # of the size: lengths below it are roundings
 _CONSTANT = 1e-9  # radians: transmission angles that vary by less are one
 
 _DEAD_CENTRES = {
@@ -28,54 +25,6 @@ _DWELLS = {
     "outer": message("Dwell in the outer position from {begin} to {end}, {duration}: {output}."),
     "": message("Dwell from {begin} to {end}, {duration}: {output}."),
 }
-
-
-@dataclass(frozen=True, slots=True)
-class MeasureUnits:
-    """How drive and output values are written."""
-
-    turning_drive: bool
-    turning_output: bool
-    unit: str
-    size: float
-    """Of the linkage: a length that is nothing against it is 0."""
-
-    def drive(self, value: float) -> Message:
-        """A drive value."""
-        return _angle(value) if self.turning_drive else self._length(value)
-
-    def output(self, value: float) -> Message:
-        """A value of the output."""
-        if self.turning_output:
-            return _angle(value)
-        return self._length(value)
-
-    def _length(self, value: float) -> Message:
-        rounded = 0.0 if abs(value) < _NOTHING * self.size else value
-        return message("{length:n} {unit}", length=rounded, unit=self.unit)
-
-
-def range_lines(units: MeasureUnits, span: CycleSpan) -> Iterator[Message]:
-    """How far the drive moves, and what stops it."""
-    if span.full:
-        if span.turns == 1:
-            yield message("The drive turns fully.")
-        else:
-            yield message("The drive turns fully; everything repeats after {turns} turns.", turns=span.turns)
-        return
-    low, high = units.drive(span.low), units.drive(span.high)
-    if units.turning_drive:
-        yield message("The drive turns from {low} to {high}.", low=low, high=high)
-    else:
-        yield message("The drive moves from {low} to {high}.", low=low, high=high)
-    for stop, drive in zip(span.stops, (low, high), strict=True):
-        if stop is None:
-            continue
-        if stop.reason == "limit":
-            text = message("At {drive} the group {form} {{{links}}} can no longer be assembled.")
-        else:
-            text = message("At {drive} two assembly modes of the group {form} {{{links}}} meet.")
-        yield text.filled(drive=drive, form=form_message(stop.form), links=", ".join(stop.links))
 
 
 def output_lines(
@@ -182,16 +131,12 @@ def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) 
     if best.mu - worst.mu > _CONSTANT:
         yield message(
             "Transmission angle {smallest} at {drive} (leg {links}) to {largest}; deviation angle up to {deviation}.",
-            smallest=_angle(worst.mu),
+            smallest=angle_message(worst.mu),
             drive=units.drive(worst.drive),
             links=", ".join(worst.links),
-            largest=_angle(best.mu),
-            deviation=_angle(worst.deviation),
+            largest=angle_message(best.mu),
+            deviation=angle_message(worst.deviation),
         )
     else:
-        yield message("Transmission angle {angle} throughout.", angle=_angle(worst.mu))
+        yield message("Transmission angle {angle} throughout.", angle=angle_message(worst.mu))
     yield message("It does not fall below 40°." if transmission.good else "It falls below 40°.")
-
-
-def _angle(value: float) -> Message:
-    return message("{degrees:n}°", degrees=round(degrees(value), 7) + 0.0)

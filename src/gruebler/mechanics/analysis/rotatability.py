@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from math import degrees, pi
 
@@ -12,7 +12,9 @@ import numpy as np
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
+from gruebler.base.notebook import explained
 from gruebler.base.text import message
+from gruebler.mechanics.analysis.measure_units import drive_units
 from gruebler.mechanics.kinematics.circuits import Circuit, Quantity, circuit
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
@@ -31,6 +33,7 @@ _ROUND = 1e-9  # a relative angle whose range is 2 pi but for this turns fully
 _STEADY = 1e-6  # radians: rounding turns a slide by some 1e-14, a motion by far more
 
 
+@explained
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rotatability:
     """How two neighbouring links move against each other over the whole circuit."""
@@ -60,10 +63,8 @@ class Rotatability:
         first, second = self.links
         return text.filled(joint=self.joint, first=first, second=second, low=low, high=high).in_language(lang)
 
-    def __str__(self) -> str:
-        return self.explain()
 
-
+@explained
 @dataclass(frozen=True, slots=True)
 class DriveRange:
     """How far a drive can be moved from the position in which the circuit starts."""
@@ -72,6 +73,17 @@ class DriveRange:
     """Whether it turns fully and never has to turn back."""
     lowest: float
     highest: float
+    linkage: Linkage = field(repr=False)
+    """The linkage that is driven."""
+
+    def explain(self, lang: str = "en") -> str:
+        """One sentence in English or German (``de``).
+
+        >>> from gruebler.mechanics.fourbar import SliderCrank
+        >>> print(drive_range(SliderCrank(50, 40)))
+        The drive turns from -53.13° to 53.13°.
+        """
+        return drive_units(self.linkage).range(self.full, self.lowest, self.highest).in_language(lang)
 
 
 @door_that_raises(LinkageError)
@@ -252,6 +264,6 @@ def drive_range(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> Dri
     if not traced.drive_limits:
         low, high = sorted(traced.drive[[0, -1]].tolist())
         full = traced.closed and round((high - low) / (2 * pi)) != 0
-        return DriveRange(full or high - low >= 2 * pi - _ROUND, low, high)
+        return DriveRange(full or high - low >= 2 * pi - _ROUND, low, high, traced.linkage)
     piece = next(s for s in traced.monotone_pieces if s.start <= traced.start <= s.end)
-    return DriveRange(False, *sorted(piece.drives))
+    return DriveRange(False, min(piece.drives), max(piece.drives), traced.linkage)

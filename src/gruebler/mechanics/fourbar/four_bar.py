@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from gruebler.base import notebook
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
+from gruebler.base.text import Message
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -33,6 +33,7 @@ from gruebler.mechanics.fourbar.extremes import (
     triangle_angle,
 )
 from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, LinkageType, grashof, turning_ranges, types_along
+from gruebler.mechanics.fourbar.lengths import SWING, Lengths
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import as_finite, as_lengths, as_positive, given_and_missing
@@ -40,7 +41,7 @@ from gruebler.structure.mechanism import Mechanism
 
 
 @dataclass(frozen=True, slots=True)
-class FourBar:
+class FourBar(Lengths):
     """A four-bar: crank a = A0A, coupler b = AB, rocker c = B0B, frame d = A0B0.
 
     A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). Of the two assembly modes, branch +1 has B to the left of the line
@@ -100,9 +101,9 @@ class FourBar:
             raise LinkageError("the swing must lie between 0 and pi, not {swing!r}", swing=swing)
         return cls.central(a=as_positive("c", c) * math.sin(swing / 2), b=b, c=c, d=d)
 
-    def _repr_svg_(self) -> str | None:
-        """The linkage to scale, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
+    def condition(self, lang: str = "en") -> str:
+        """Grashof's condition with its figures, the type and the links that turn fully: English or German (``de``)."""
+        return self.grashof.explain(lang)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
         """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""
@@ -191,6 +192,10 @@ class FourBar:
         """Whether the line through the dead centres goes through A0, so that both ways take the same time."""
         centres = self.dead_centres
         return centres is not None and centres.delta_phi < 1e-9
+
+    @property
+    def _travel(self) -> Message:
+        return SWING
 
     @property
     def transmission_angle(self) -> TransmissionExtremes:

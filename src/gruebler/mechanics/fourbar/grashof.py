@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, field
 
 from gruebler.base.errors import LinkageError
+from gruebler.base.notebook import explained
 from gruebler.base.text import Message, message, number, translate
 from gruebler.mechanics.linkages.quantities import as_lengths, given_and_missing
 
@@ -57,6 +58,7 @@ FOUR_BAR_TYPES = {
 }
 
 
+@explained
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grashof:
     """What the lengths of a four-bar say about the way it moves."""
@@ -115,9 +117,6 @@ class Grashof:
             return line
         links = ", ".join(f"{link} ({_LINKS[link].in_language(lang)})" for link in self.turning)
         return f"{line} {translate('Turns fully against the frame: {links}.', lang, links=links)}"
-
-    def __str__(self) -> str:
-        return self.explain()
 
 
 def grashof(a: float, b: float, c: float, d: float) -> Grashof:

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from gruebler.base import notebook
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
+from gruebler.base.text import Message
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -34,7 +34,8 @@ from gruebler.mechanics.fourbar.extremes import (
     transmission_extremes,
 )
 from gruebler.mechanics.fourbar.grashof import LinkageType
-from gruebler.mechanics.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation
+from gruebler.mechanics.fourbar.lengths import SWING, Lengths
+from gruebler.mechanics.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation, offset_sentence
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import as_eccentricity, as_finite, as_lengths, as_positive
@@ -42,7 +43,7 @@ from gruebler.structure.mechanism import Mechanism
 
 
 @dataclass(frozen=True, slots=True)
-class InvertedSliderCrank:
+class InvertedSliderCrank(Lengths):
     """An inverted slider-crank: crank a = A0A, frame d = A0B0, eccentricity e of the guide.
 
     A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). The guide runs through A in the direction theta and passes B0 on its
@@ -77,9 +78,9 @@ class InvertedSliderCrank:
             )
         return cls(as_positive("d", d) * math.cos(math.pi / (1 + ratio)), d)
 
-    def _repr_svg_(self) -> str | None:
-        """The linkage to scale, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
+    def condition(self, lang: str = "en") -> str:
+        """The lengths, the type and the links that turn fully, in English or German (``de``)."""
+        return offset_sentence(self.type, self.turning, lang, a=self.a, d=self.d, e=self.e)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
         """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""
@@ -124,6 +125,10 @@ class InvertedSliderCrank:
         """The angle between the dead centres; None if there are none."""
         centres = self.dead_centres
         return None if centres is None else centres.travel
+
+    @property
+    def _travel(self) -> Message:
+        return SWING
 
     @property
     def transmission_angle(self) -> TransmissionExtremes:

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
+from gruebler.base.text import Message
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -32,7 +32,8 @@ from gruebler.mechanics.fourbar.extremes import (
     transmission_extremes,
 )
 from gruebler.mechanics.fourbar.grashof import LinkageType
-from gruebler.mechanics.fourbar.slider_crank_types import SLIDER_CRANK_TYPES, offset_relation
+from gruebler.mechanics.fourbar.lengths import STROKE, Lengths
+from gruebler.mechanics.fourbar.slider_crank_types import SLIDER_CRANK_TYPES, offset_relation, offset_sentence
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import (
@@ -71,7 +72,7 @@ class StrokeMidpoint:
 
 
 @dataclass(frozen=True, slots=True)
-class SliderCrank:
+class SliderCrank(Lengths):
     """A slider-crank: crank a = A0A, connecting rod b = AB, eccentricity e.
 
     A0 = (0, 0), A = a exp(i phi), B = (s, e): the slider's path lies e above A0, below if e is negative. Branch +1 has
@@ -146,9 +147,9 @@ class SliderCrank:
         a = math.sqrt((q + math.sqrt(q**2 - 4 * p * r)) / (2 * p))
         return cls(a, a / lam, e)
 
-    def _repr_svg_(self) -> str | None:
-        """The linkage to scale, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
+    def condition(self, lang: str = "en") -> str:
+        """The lengths, the type and the links that turn fully, in English or German (``de``)."""
+        return offset_sentence(self.type, self.turning, lang, a=self.a, b=self.b, e=self.e)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
         """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""
@@ -247,6 +248,10 @@ class SliderCrank:
             close = np.where(np.abs(np.abs(cosine) - 1) < 1e-14, np.sign(cosine), cosine)
             angle = np.arccos(close)
         return np.asarray((line + angle) % TURN), np.asarray((line - angle) % TURN)
+
+    @property
+    def _travel(self) -> Message:
+        return STROKE
 
     @property
     def transmission_angle(self) -> TransmissionExtremes:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from gruebler.base.text import message
+from collections.abc import Collection
+
+from gruebler.base.text import joined, message, number, number_separator, translate
 from gruebler.mechanics.fourbar.grashof import NOT_ASSEMBLABLE, SINGLE_POSITION, LinkageType
 
 _CLOSE = 1e-12
@@ -32,6 +34,18 @@ INVERTED_SLIDER_CRANK_TYPES = {
     ("rigid", ""): SINGLE_POSITION,
     ("open", ""): NOT_ASSEMBLABLE,
 }
+
+
+def offset_sentence(kind: LinkageType, turning: Collection[str], lang: str = "en", **lengths: float) -> str:
+    """The lengths, the type and the links that turn fully.
+
+    >>> offset_sentence(SLIDER_CRANK_TYPES["<", "a"], ["a"], a=20, b=50, e=0)
+    'a = 20, b = 50, e = 0: slider-crank. Turns fully against the frame: a.'
+    """
+    sizes = number_separator(lang).join(f"{name} = {number(value, lang, 'n')}" for name, value in lengths.items())
+    links = joined(turning)
+    about = translate("Turns fully against the frame: {links}.", lang, links=links) if turning else ""
+    return f"{sizes}: {kind.name(lang)}. {about}".rstrip()
 
 
 def offset_relation(e: float, **lengths: float) -> tuple[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -14,7 +14,7 @@ from gruebler.base import notebook
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.columns import Table
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import brief
+from gruebler.base.notebook import brief, explained
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.kinematics.messages import (
@@ -29,6 +29,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.points import PointLike
 
 
+@explained
 @dataclass(frozen=True, kw_only=True)
 class Stop:
     """Where a motion ended before the end of its path, and why."""
@@ -44,6 +45,23 @@ class Stop:
     reason: str
     """``limit`` (it can no longer be assembled), ``singular`` (it cannot be followed), ``start`` (not even begun),
     ``open`` (the redundant conditions of a joint are not met)."""
+    linkage: Linkage = field(repr=False)
+    """The linkage that moves."""
+
+    @property
+    def message(self) -> Message:
+        """What `explain` says, in any language."""
+        return stop_message(self.linkage, self.reason, self.drives, self.links, self.form)
+
+    def explain(self, lang: str = "en") -> str:
+        """Where and why the motion ends, a sentence in English or German (``de``).
+
+        >>> from gruebler.mechanics.fourbar import SliderCrank
+        >>> from gruebler.mechanics.kinematics import move
+        >>> print(move(SliderCrank(50, 40), [0.0, 1.5]).stop)
+        The motion ends at R(frame-crank) = 53.13°: there RRP {coupler, slider} can no longer be assembled.
+        """
+        return self.message.in_language(lang)
 
 
 _POSITIONS = message("Positions: {count}, from {first} to {last}; derivatives up to order {order}.")
@@ -117,8 +135,7 @@ class Motion(LinkPoses):
             ends = [self.drives[row] for row in (self.taken_for_exact[0], self.taken_for_exact[-1])]
             parts.append(taken_for_exact_message(self.linkage, *(tuple(map(float, end)) for end in ends)))
         if self.stop is not None:
-            stop = self.stop
-            parts.append(stop_message(self.linkage, stop.reason, stop.drives, stop.links, stop.form))
+            parts.append(self.stop.message)
         return joined(parts, " ")
 
     def explain(self, lang: str = "en") -> str:

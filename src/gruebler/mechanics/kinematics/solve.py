@@ -239,6 +239,7 @@ def _while_closed(motion: Motion) -> Motion:
         links=chain.joints[number].links,
         form=chain.joint_names()[number],
         reason="open",
+        linkage=motion.linkage,
     )
     return replace(
         motion,
@@ -255,7 +256,14 @@ def _while_closed(motion: Motion) -> Motion:
 
 def _stop(plan: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason: str) -> Stop:
     group = plan.decomposition.groups[part.group]
-    return Stop(row=at, drives=tuple(float(v) for v in drives), links=group.links, form=group.form(), reason=reason)
+    return Stop(
+        row=at,
+        drives=tuple(float(v) for v in drives),
+        links=group.links,
+        form=group.form(),
+        reason=reason,
+        linkage=plan.linkage,
+    )
 
 
 @door_that_raises(LinkageError)

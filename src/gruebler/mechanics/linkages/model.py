@@ -13,6 +13,8 @@ from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.immutable import Immutable, settle
+from gruebler.base.notebook import explained
+from gruebler.mechanics.linkages.description import linkage_lines, sizes_in_a_line
 from gruebler.mechanics.linkages.drawing import taken_apart
 from gruebler.mechanics.linkages.elements import Element, LinkPoint, Pose2D
 from gruebler.mechanics.linkages.points import PointLike, points_of
@@ -24,6 +26,7 @@ NEAR_REFERENCE = 0.05
 """Sizes and radians: a closed position farther away is not the reference pose that was meant."""
 
 
+@explained
 @dataclass(frozen=True, init=False, eq=False, repr=False)
 class Linkage(Immutable):
     """A planar mechanism with the dimensions of its links. Immutable, and checked when it is constructed.
@@ -283,5 +286,21 @@ class Linkage(Immutable):
         """The linkage to scale, for notebooks."""
         return notebook.svg_of(self) if notebook.svg_of else None
 
+    def explain(self, lang: str = "en") -> str:
+        """The mechanism and the size of each link, in English or German (``de``); coordinates are those of the link.
+
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> print(FourBar(25, 70, 40, 70).linkage({"K": (30, 20)}))
+        R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)
+        frame: 70 mm from R(frame-crank) to R(frame-rocker)
+        crank: 25 mm from R(frame-crank) to R(crank-coupler)
+        coupler: R(crank-coupler) at (0, 0), R(coupler-rocker) at (70, 0), K at (30, 20)
+        rocker: 40 mm from R(coupler-rocker) to R(frame-rocker)
+        """
+        pose = self.reference_pose
+        lines = linkage_lines(self.mechanism, self.elements, self.points, unit=self.unit, reference_pose=pose)
+        return "\n".join(line.in_language(lang) for line in lines)
+
     def __repr__(self) -> str:
-        return f"<linkage {self.mechanism.text()}>"
+        sizes = sizes_in_a_line(self.elements, self.points, self.reference_pose)
+        return f"<linkage {self.mechanism.text()}; {sizes}; {self.unit}>"

@@ -125,7 +125,8 @@ class SpatialLinkage(Immutable):
         return self.mechanism, self.places, self.unit
 
     def __repr__(self) -> str:
-        return f"<{self.mechanism.chain.space} linkage {self.mechanism.text()}>"
+        places = ("(" + ", ".join(f"{number:.6g}" for number in place.at) + ")" for place in self.places)
+        return f"<{self.mechanism.chain.space} linkage {self.mechanism.text()}; {' '.join(places)}>"
 
 
 def _vector(v: Reals) -> Vector:

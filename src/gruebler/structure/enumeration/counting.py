@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+from gruebler.base.notebook import explained
+from gruebler.base.text import message
 from gruebler.structure.enumeration.assortment import Assortment, loop_count
 from gruebler.structure.enumeration.pieces import PieceCount, count_piece, pieces, run_pieces
 
 
+@explained
 @dataclass(frozen=True, kw_only=True)
 class ChainCount:
     """The numbers of chains with n links and mobility F, and of their mechanisms."""
@@ -31,6 +34,22 @@ class ChainCount:
     by_fractionation: dict[str, int] = field(default_factory=dict)
     """Chains of each requested class: ``none``, ``link``, ``joint``; empty where one class only can be counted."""
 
+    def explain(self, lang: str = "en") -> str:
+        """The numbers, a line each, in English or German (``de``).
+
+        >>> print(count_simple_chains(6, orbits=True))
+        Chains of 6 links with F = 1: 2.
+        By numbers of binary, ternary, ... links: 4,2: 2.
+        Choices of a frame: 5; of a frame and a driven joint at it: 9.
+        """
+        parts = {",".join(map(str, each)): number for each, number in self.by_assortment.items()}
+        texts = [_CHAINS.filled(links=self.links, mobility=self.mobility, chains=self.chains)]
+        texts += [_ASSORTMENTS.filled(parts=_parts(parts))] if parts else []
+        texts += [_CLASSES.filled(parts=_parts(self.by_fractionation))] if len(self.by_fractionation) > 1 else []
+        if self.inversions is not None and self.drives is not None:
+            texts.append(_ORBITS.filled(inversions=self.inversions, drives=self.drives))
+        return "\n".join(text.in_language(lang) for text in texts)
+
     def to_json(self) -> dict[str, Any]:
         """Plain data; an assortment is written ``4,4``, orbits only if they were counted, classes only if several were.
 
@@ -42,6 +61,16 @@ class ChainCount:
         orbits = {"inversions": self.inversions, "drives": self.drives, "joint_orbits": self.joint_orbits}
         document |= {name: number for name, number in orbits.items() if number is not None}
         return document | ({"by_fractionation": dict(self.by_fractionation)} if len(self.by_fractionation) > 1 else {})
+
+
+_CHAINS = message("Chains of {links} links with F = {mobility}: {chains}.")
+_ASSORTMENTS = message("By numbers of binary, ternary, ... links: {parts}.")
+_CLASSES = message("By where they fall apart: {parts}.")
+_ORBITS = message("Choices of a frame: {inversions}; of a frame and a driven joint at it: {drives}.")
+
+
+def _parts(numbers: Mapping[str, int]) -> str:
+    return "; ".join(f"{name}: {number}" for name, number in numbers.items())
 
 
 def count_simple_chains(

@@ -9,6 +9,8 @@ from typing import TypeVar
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import ChainError
+from gruebler.base.notebook import explained
+from gruebler.base.text import translate
 from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism.colouring import ColouredGraph, DriveMark, coloured_graph
 
@@ -23,6 +25,7 @@ class Permutation:
     joints: tuple[int, ...]
 
 
+@explained
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Symmetry:
     """The automorphism group of a chain. Orbits are sorted tuples, in the order of their first member."""
@@ -33,6 +36,25 @@ class Symmetry:
     joint_orbits: tuple[tuple[int, ...], ...]
     flag_orbits: tuple[tuple[tuple[str, int], ...], ...]
     """A flag is a link with a joint that it carries."""
+
+    def explain(self, lang: str = "en") -> str:
+        """How many symmetries there are, and which links and joints are alike by them: English or German (``de``).
+
+        >>> print(symmetry(Chain.parse("R(0-1) R(1-2) R(2-3) P(3-0)")))
+        Symmetries: 2, the identity among them.
+        Links that are alike: {0, 3}, {1, 2}.
+        Joints that are alike, by number: {0, 2}, {1}, {3}.
+        """
+        links, joints = (
+            ", ".join(f"{{{', '.join(map(str, each))}}}" for each in orbits)
+            for orbits in (self.link_orbits, self.joint_orbits)
+        )
+        lines = (
+            translate("Symmetries: {order}, the identity among them.", lang, order=self.order),
+            translate("Links that are alike: {links}.", lang, links=links),
+            translate("Joints that are alike, by number: {joints}.", lang, joints=joints),
+        )
+        return "\n".join(lines)
 
 
 @door_that_raises(ChainError)

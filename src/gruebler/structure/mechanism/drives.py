@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from gruebler.base.notebook import explained
 from gruebler.base.text import Message, joined, message
 from gruebler.structure.mechanism.model import Mechanism
 from gruebler.structure.mobility import generic
 from gruebler.structure.mobility.placement import LockedFreedom
 
 
+@explained
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveReport:
     """Whether the drives fix the motion of a mechanism, at almost all sizes."""
@@ -31,9 +33,6 @@ class DriveReport:
     def explain(self, lang: str = "en") -> str:
         """The report in one sentence or two, in English (``en``) or German (``de``)."""
         return self.message.in_language(lang)
-
-    def __str__(self) -> str:
-        return self.explain()
 
     @property
     def message(self) -> Message:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gruebler.base.errors import NotationError, TransformationError
+from gruebler.base.notebook import explained
 from gruebler.base.text import translate
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet
@@ -55,6 +56,7 @@ def replay(chain: Chain, kind: str, where: Mapping[str, Any]) -> Step:
         raise TransformationError("{kind}: the record does not fit: {error}", kind=kind, error=error) from None
 
 
+@explained
 @dataclass(frozen=True)
 class Derivation:
     """A start chain and steps, each from the chain that results from the previous one.
@@ -143,6 +145,3 @@ class Derivation:
         if self.steps:
             lines.append(translate("The chain: {chain}.", lang, chain=self.chain.text(alphabet)))
         return "\n".join(lines)
-
-    def __str__(self) -> str:
-        return self.explain()

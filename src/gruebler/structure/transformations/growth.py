@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from gruebler.base.doors import door
 from gruebler.base.errors import TransformationError
+from gruebler.base.notebook import explained
 from gruebler.base.text import message, plural, translate
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet
@@ -24,6 +25,7 @@ from gruebler.structure.transformations.places import Attachment
 _BUDGET = 5_000  # chains visited
 
 
+@explained
 @dataclass(frozen=True)
 class Growth:
     """The growth of a chain by dyads."""
@@ -84,9 +86,6 @@ class Growth:
         if steps:
             lines.append(self.derivation.explain(lang))
         return "\n".join(lines)
-
-    def __str__(self) -> str:
-        return self.explain()
 
 
 def is_loop(chain: Chain) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gruebler.base.immutable import settle
+from gruebler.base.notebook import explained
 from gruebler.base.text import listed, message, translate
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet, pair
@@ -31,6 +32,7 @@ _STEPS = {
 }
 
 
+@explained
 @dataclass(frozen=True)
 class Step:
     """One transformation: its kind, its arguments, and the chains before and after.
@@ -84,6 +86,3 @@ class Step:
         if "joint" in where:
             values["joint"] = names[where["joint"]]
         return _STEPS[kind].filled(**values).in_language(lang)
-
-    def __str__(self) -> str:
-        return self.explain()

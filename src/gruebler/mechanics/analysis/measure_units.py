@@ -1,0 +1,58 @@
+"""How values of drives and outputs are written: angles in degrees, lengths in the unit of the linkage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees
+
+from gruebler.base.text import Message, message
+from gruebler.mechanics.linkages import Linkage
+
+_NOTHING = 1e-12  # of the size: lengths below it are roundings
+
+
+@dataclass(frozen=True, slots=True)
+class MeasureUnits:
+    """How drive and output values are written."""
+
+    turning_drive: bool
+    turning_output: bool
+    unit: str
+    size: float
+    """Of the linkage: a length that is nothing against it is 0."""
+
+    def drive(self, value: float) -> Message:
+        """A drive value."""
+        return angle_message(value) if self.turning_drive else self._length(value)
+
+    def output(self, value: float) -> Message:
+        """A value of the output."""
+        if self.turning_output:
+            return angle_message(value)
+        return self._length(value)
+
+    def _length(self, value: float) -> Message:
+        rounded = 0.0 if abs(value) < _NOTHING * self.size else value
+        return message("{length:n} {unit}", length=rounded, unit=self.unit)
+
+    def range(self, full: bool, low: float, high: float) -> Message:
+        """How far the drive moves."""
+        if full:
+            return message("The drive turns fully.")
+        text = _TURNS if self.turning_drive else _MOVES
+        return text.filled(low=self.drive(low), high=self.drive(high))
+
+
+_TURNS = message("The drive turns from {low} to {high}.")
+_MOVES = message("The drive moves from {low} to {high}.")
+
+
+def drive_units(linkage: Linkage) -> MeasureUnits:
+    """How the values of the first drive of a linkage are written."""
+    turning = linkage.mechanism.drives[0].turning
+    return MeasureUnits(turning, turning, linkage.unit, linkage.size)
+
+
+def angle_message(value: float) -> Message:
+    """An angle in degrees."""
+    return message("{degrees:n}°", degrees=round(degrees(value), 7) + 0.0)

@@ -1,0 +1,85 @@
+"""What the linkages of a few lengths in closed form have in common: how they are read, printed and drawn."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from math import degrees
+
+from gruebler.base import notebook
+from gruebler.base.events import TransmissionExtremes
+from gruebler.base.notebook import explained
+from gruebler.base.text import Message, joined_by_or, message
+from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres
+from gruebler.mechanics.linkages.model import Linkage
+
+
+@explained
+class Lengths(ABC):
+    """A linkage of one crank that is given by its lengths."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
+        """The linkage of these lengths."""
+
+    @abstractmethod
+    def condition(self, lang: str = "en") -> str:
+        """What it is by its lengths, and what turns fully, in a sentence."""
+
+    @property
+    @abstractmethod
+    def limits(self) -> tuple[CrankRange, ...]:
+        """The crank angles for which it can be assembled."""
+
+    @property
+    @abstractmethod
+    def dead_centres(self) -> DeadCentres | None:
+        """Where the output turns back."""
+
+    @property
+    @abstractmethod
+    def transmission_angle(self) -> TransmissionExtremes:
+        """The extremes of the transmission angle."""
+
+    @property
+    @abstractmethod
+    def _travel(self) -> Message:
+        """How the travel between dead centres is said, with a gap for it."""
+
+    def explain(self, lang: str = "en") -> str:
+        """What it is, where the crank turns, how far the output goes: lines in English or German (``de``).
+
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> print(FourBar(a=25, b=70, c=40, d=70))
+        l_min + l_max = 25 + 70 = 95 < 110 = 70 + 40: crank-rocker. Turns fully against the frame: a (crank).
+        crank angle: full turn
+        swing of the output: 79.85°
+        time ratio: 1.12
+        smallest transmission angle: 36.96°
+        """
+        lines = []
+        if self.limits:
+            ranges = [_range(arc) for arc in self.limits]
+            lines.append(message("crank angle: {ranges}", ranges=joined_by_or(ranges)))
+            if (centres := self.dead_centres) is not None:
+                lines.append(self._travel.filled(length=centres.travel, angle=degrees(centres.travel)))
+                lines.append(message("time ratio: {ratio:n}", ratio=centres.time_ratio))
+            smallest = degrees(self.transmission_angle.smallest.mu)
+            lines.append(message("smallest transmission angle: {angle:n}°", angle=smallest))
+        return "\n".join([self.condition(lang), *(line.in_language(lang) for line in lines)])
+
+    def _repr_svg_(self) -> str | None:
+        """The linkage to scale, for notebooks."""
+        return notebook.svg_of(self) if notebook.svg_of else None
+
+
+STROKE = message("stroke of the output: {length:n}")
+SWING = message("swing of the output: {angle:n}°")
+
+
+def _range(arc: CrankRange) -> Message:
+    if arc.full:
+        return message("full turn")
+    return message("{start:n}°..{end:n}°", start=degrees(arc.start), end=degrees(arc.end))
