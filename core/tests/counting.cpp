@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "counting/census.hpp"
+#include "counting/graph6.hpp"
 #include "counting/growth.hpp"
+#include "counting/listing.hpp"
+#include "counting/packed_symmetry.hpp"
 
 using namespace gruebler;
 using namespace gruebler::counting;
@@ -49,7 +52,17 @@ int main(int argc, char** argv) {
             std::int64_t chains = 0;
             for (const CensusRow& row : table) chains += row.chains;
             expect(chains == chains_of_loops[loops], "another number of chains than OEIS");
+            for (const Form form : {Form::edges, Form::lines}) {
+                std::vector<std::uint8_t> bytes;
+                expect(list_chains(rows_of(graphs), loops, mobility, form, bytes, watch).end == ListEnd::done,
+                       "a list did not end");
+                const int links = links_of(loops, mobility), row = form == Form::edges ? 2 * joints_of(loops, mobility)
+                                                                                      : graph6_length(links);
+                expect(static_cast<std::int64_t>(bytes.size()) == chains * row, "another number of chains in a list");
+            }
         }
+        for (const PackedGraph& graph : graphs)
+            expect(find_symmetry(graph.rows.data(), most_nodes).end == SymmetryEnd::done, "no symmetry was found");
         Watch impatient{never, nullptr, 1};
         expect(take_census(rows_of(graphs), loops, 1, true, table.data(), impatient).end == CensusEnd::interrupted,
                "a census went on after it was to end");

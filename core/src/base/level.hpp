@@ -10,6 +10,9 @@
 #define GRUEBLER_LEVEL baseline
 #endif
 
+namespace gruebler::bits {
+inline namespace GRUEBLER_LEVEL {}
+}  // namespace gruebler::bits
 namespace gruebler::counting {
 inline namespace GRUEBLER_LEVEL {}
 }  // namespace gruebler::counting

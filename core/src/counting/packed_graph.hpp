@@ -5,26 +5,18 @@
 #pragma once
 
 #include <array>
-#include <bit>
-#include <cstdint>
 
-#include "base/level.hpp"
+#include "base/bits.hpp"
 
 namespace gruebler::counting::inline GRUEBLER_LEVEL {
 
-using Word = std::uint64_t;
+using bits::bit, bits::lowest, bits::ones, bits::size, bits::without_lowest, bits::Word;
 
 inline constexpr int most_nodes = 16;       // rows of a word each, four bits a neighbour
 inline constexpr int most_parallel = 15;    // edges between two vertices: what four bits hold
 
 using Words = std::array<Word, most_nodes>;
 using Vertices = std::array<int, most_nodes>;
-
-inline Word bit(int i) { return Word{1} << i; }
-inline Word ones(int count) { return bit(count) - 1; }
-inline int lowest(Word word) { return std::countr_zero(word); }
-inline int size(Word set) { return std::popcount(set); }
-inline Word without_lowest(Word word) { return word & (word - 1); }
 
 struct PackedGraph {
     Words rows{};

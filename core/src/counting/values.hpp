@@ -22,6 +22,28 @@ inline constexpr int most_classes = (most_cost + 1) * most_freedoms;
 // The excess that all strings of a chain have together.
 inline int spare_excess(int mobility) { return mobility > 1 ? mobility - 1 : 0; }
 
+// One value: its weights, ascending.
+struct BundleValue {
+    std::array<std::uint8_t, most_parallel> weights{};
+    std::uint8_t strings = 0;
+    int cost = 0, excess = 0;
+};
+
+// Calls `visit` with all values of so many strings, the weights of `head` first, in lexicographic order.
+template <class Visit>
+void each_value(const BundleValue& head, int strings, int mobility, int highest_cost, const Visit& visit) {
+    if (head.cost > highest_cost || head.excess > spare_excess(mobility)) return;
+    if (head.strings == strings) return visit(head);
+    const int longest = mobility + 1;
+    for (int w = head.strings > 0 ? head.weights[head.strings - 1] : 0; w <= longest; ++w) {
+        BundleValue longer = head;
+        longer.weights[longer.strings++] = static_cast<std::uint8_t>(w);
+        longer.cost += 2 - std::min(w, 2);
+        longer.excess += std::max(w - 2, 0);
+        each_value(longer, strings, mobility, highest_cost, visit);
+    }
+}
+
 // The values of one cost and excess, added up.
 struct ValueClass {
     int cost = 0, excess = 0;
@@ -47,7 +69,10 @@ public:
 
     void fill(int most_strings, int mobility, int highest_cost) {
         for (int k = 0; k <= most_parallel; ++k) of_strings[k].size = 0;
-        for (int k = 1; k <= most_strings; ++k) extend(Head{}, k, mobility, highest_cost, of_strings[k]);
+        for (int k = 1; k <= most_strings; ++k) {
+            ValueList& list = of_strings[k];
+            each_value({}, k, mobility, highest_cost, [&list](const BundleValue& value) { add(value, list); });
+        }
         for (int z = 0; z <= most_lanes; ++z) {
             Count c = 1;  // C(z + x - 1, x)
             for (int x = 0; x < std::max(mobility, 1); ++x) {
@@ -58,27 +83,8 @@ public:
     }
 
 private:
-    // The first weights of a value, ascending.
-    struct Head {
-        std::array<int, most_parallel> weights{};
-        int length = 0, cost = 0, excess = 0;
-    };
-
-    // Classes come in the order in which their first values come lexicographically.
-    static void extend(const Head& head, int strings, int mobility, int highest_cost, ValueList& list) {
-        if (head.cost > highest_cost || head.excess > spare_excess(mobility)) return;
-        if (head.length == strings) return add(head, list);
-        const int longest = mobility + 1;
-        for (int w = head.length > 0 ? head.weights[head.length - 1] : 0; w <= longest; ++w) {
-            Head longer = head;
-            longer.weights[longer.length++] = w;
-            longer.cost += 2 - std::min(w, 2);
-            longer.excess += std::max(w - 2, 0);
-            extend(longer, strings, mobility, highest_cost, list);
-        }
-    }
-
-    static void add(const Head& value, ValueList& list) {
+    // Classes come in the order in which their first values come.
+    static void add(const BundleValue& value, ValueList& list) {
         int i = 0;
         while (i < list.size && (list.classes[i].cost != value.cost || list.classes[i].excess != value.excess)) ++i;
         ValueClass& sums = list.classes[i];
@@ -87,7 +93,7 @@ private:
             ++list.size;
         }
         ++sums.many;
-        for (int k = 0; k < value.length; ++k) {
+        for (int k = 0; k < value.strings; ++k) {
             const int w = value.weights[k];
             if (k > 0 && w == value.weights[k - 1]) continue;  // equal parallel strings are one class
             sums.links += static_cast<Count>(w);
