@@ -57,5 +57,6 @@ auto run(Work work) {
 
 void add_counting(nb::module_& module);
 void add_labelling(nb::module_& module);
+void add_structure(nb::module_& module);
 
 }  // namespace gruebler::doors

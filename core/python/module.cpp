@@ -11,4 +11,5 @@ NB_MODULE(_core, module) {
     }
     gruebler::doors::add_counting(module);
     gruebler::doors::add_labelling(module);
+    gruebler::doors::add_structure(module);
 }
