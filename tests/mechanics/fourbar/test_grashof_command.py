@@ -95,7 +95,7 @@ def test_other_linkages_are_written_as_everywhere(capsys):
     status, out = run(capsys, "slider-crank:25,70,10", turns="a")
     assert status == 0
     assert out.splitlines() == [
-        "slider-crank. Turns fully against the frame: a.",
+        "a = 25, b = 70, e = 10: slider-crank. Turns fully against the frame: a.",
         "crank angle: full turn",
         "stroke of the output: 50.6",  # sqrt(95^2 - 10^2) - sqrt(45^2 - 10^2)
         "time ratio: 1.078",
