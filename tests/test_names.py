@@ -3,10 +3,14 @@
 import ast
 from collections import defaultdict
 from functools import cache
+from pathlib import Path
 
 import pytest
 
+import gruebler
 from tests.test_floors import FILES, room, tree
+
+SOURCE = Path(gruebler.__file__).parent
 
 # Names that several files define, with the reason why a reader is not led astray.
 SHARED = {
@@ -81,3 +85,21 @@ def test_shared_names_are_shared(name):
 def test_methods_of_exercises_are_in_their_room():
     for name in ("four_bar", "slider_crank"):
         assert {room(module) for module in definitions(ast.FunctionDef)[name]} == {"teaching/exercises"}
+
+
+def test_no_module_stands_beside_a_function_of_the_same_word():
+    """What a room gives is not hidden by its own file: ``room.word`` is one thing, whatever was imported before."""
+    hidden = {
+        f"{door.parent.relative_to(SOURCE)}/{name}.py"
+        for door in SOURCE.rglob("__init__.py*")
+        for name in imported(door)
+        if (door.parent / f"{name}.py").is_file()
+    }
+    assert hidden == set()
+
+
+def imported(door):
+    """The functions and classes that the door of a room takes from files."""
+    for node in ast.walk(ast.parse(door.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").strip("."):
+            yield from (alias.asname or alias.name for alias in node.names)

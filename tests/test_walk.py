@@ -86,7 +86,7 @@ def test_a_command_does_everything_once(path, capsys):
     once = (
         "files.linkages.read_linkage",
         "mechanics.linkages.lower_pairs.with_lower_pairs",
-        "mechanics.analysis.drive_cycle.drive_cycle",
+        "mechanics.analysis.drive_cycles.drive_cycle",
         "mechanics.kinematics.circuits.circuit",
         "mechanics.analysis.table.motion_table",
     )

@@ -3,15 +3,15 @@
 
 from . import base, design, files, machines, mechanics, page, pictures, structure, teaching
 from .base.errors import GrueblerError, UnitWarning
-from .design.realisation.realise import realise
+from .design.realisation.realising import realise
 from .design.synthesis import synthesise
 from .files.values import write
 from .machines.cams import Cam
 from .machines.gears import Train
 from .machines.geneva import Geneva
 from .mechanics.analysis import drive_range, motion_roles
-from .mechanics.analysis.measures import Measures, measures
-from .mechanics.analysis.rotatability import rotatability
+from .mechanics.analysis.circuit_ranges import rotatability
+from .mechanics.analysis.measuring import Measures, measures
 from .mechanics.forces import Loads, Statics, statics
 from .mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from .mechanics.geometry import coupler_curve

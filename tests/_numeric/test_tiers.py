@@ -18,7 +18,7 @@ from gruebler._numeric import compiling
 from gruebler._numeric.labelling.canonical import canonical_bulk, canonical_form
 from gruebler._numeric.motion.tracing import TraceScratch
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, follow_from_generic, load_generic_solutions
-from gruebler.mechanics.analysis.rotatability import rotatability
+from gruebler.mechanics.analysis.circuit_ranges import rotatability
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.assembly_modes import conditions
 from gruebler.mechanics.kinematics.batch import four_bars, move_many

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from gruebler.files import linkage_from_json
-from gruebler.mechanics.analysis.measures import Measures, measures
+from gruebler.mechanics.analysis.measuring import Measures, measures
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage

@@ -8,7 +8,7 @@ import pytest
 
 from gruebler.cli import main
 from gruebler.files import linkage_from_json, linkage_to_json
-from gruebler.mechanics.analysis.measures import measures
+from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.page.links import SharedLinkage, link_of, read_link
 from gruebler.page.model import model_of

@@ -13,7 +13,7 @@ from gruebler.design.synthesis import (
     synthesise,
 )
 from gruebler.design.synthesis.burmester import burmester_curves
-from gruebler.design.synthesis.structural_error import coordination_of
+from gruebler.design.synthesis.structural_errors import coordination_of
 from gruebler.pictures.canvas.shapes import TextShape
 from gruebler.pictures.designs.picture import design_figure, designs_figure, designs_page
 from gruebler.pictures.designs.plots import burmester_plot, finite_poles, function_plot, output_of

@@ -24,8 +24,8 @@ from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
 from gruebler.files.linkages import linkage_to_json
 from gruebler.mechanics.analysis import motion_roles, rotatability
+from gruebler.mechanics.analysis.circuit_ranges import slide_directions
 from gruebler.mechanics.analysis.outputs import Output, find_output
-from gruebler.mechanics.analysis.rotatability import slide_directions
 from gruebler.mechanics.analysis.table import default_rows, motion_table
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import read_branch
@@ -36,9 +36,9 @@ from gruebler.mechanics.linkages.branch import branch_text
 from gruebler.structure.chain.pairs import Alphabet
 
 if TYPE_CHECKING:
+    from gruebler.mechanics.analysis.circuit_ranges import Rotatability
     from gruebler.mechanics.analysis.link_planes import LinkPlanes
-    from gruebler.mechanics.analysis.measures import Measures
-    from gruebler.mechanics.analysis.rotatability import Rotatability
+    from gruebler.mechanics.analysis.measuring import Measures
     from gruebler.mechanics.kinematics.circuits import Circuit
 
 _MOST_BRANCHES = 16
@@ -182,7 +182,7 @@ def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> lis
 
 
 def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argparse.Namespace) -> Measures:
-    from gruebler.mechanics.analysis.measures import measures
+    from gruebler.mechanics.analysis.measuring import measures
 
     rpm = (arguments.speed[0] or None) if turning and arguments.speed else None
     return measures(

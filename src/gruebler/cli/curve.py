@@ -24,7 +24,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import Cell, print_table
-from gruebler.mechanics.analysis.drive_cycle import PathCycle
+from gruebler.mechanics.analysis.drive_cycles import PathCycle
 from gruebler.mechanics.geometry import CouplerCurve, TangentContact, coupler_curve
 
 _MODES: Mapping[str, Callable[[argparse.Namespace], int]] = {

@@ -13,7 +13,7 @@ from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word, with_points
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.mechanics.geometry.lever_contact import lever_pose

@@ -13,7 +13,7 @@ from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json
 from gruebler.cli.point_inputs import point_of
 from gruebler.files.measured_lengths import length_of, same_unit
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.mechanics.geometry.straight import (
     Path,

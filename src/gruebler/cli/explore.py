@@ -64,7 +64,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         shared = read_link(word)
         return model_of(linkage_from_json(shared.document), name=shared.name, source=shared.source)
     if "(" in word and not Path(word).is_file():
-        from gruebler.design.realisation.realise import realise
+        from gruebler.design.realisation.realising import realise
         from gruebler.page.structures import mechanism_of_text
 
         realisation = realise(mechanism_of_text(word))

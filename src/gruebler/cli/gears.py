@@ -27,7 +27,7 @@ from gruebler.machines.gears import (
     search_ratio,
     speeds,
 )
-from gruebler.machines.gears.assembly import axes
+from gruebler.machines.gears.assemblies import axes
 from gruebler.machines.gears.messages import fraction_text, writable
 from gruebler.machines.gears.train import exact_number
 

@@ -12,7 +12,7 @@ from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
+from gruebler.mechanics.fourbar.four_bar_types import Grashof, LengthRange, turning_ranges, types_along
 from gruebler.mechanics.fourbar.length_texts import size_of
 
 _HEADERS = (message("from"), message("to"), message("type"), message("below"), message("above"))

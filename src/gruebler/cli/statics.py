@@ -22,7 +22,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.table import default_rows
 from gruebler.mechanics.forces import Friction, Loads, Statics, component_table, statics, statics_table
 from gruebler.mechanics.kinematics import Motion

@@ -370,7 +370,7 @@ def _fitted(
 ) -> SynthesisResult:
     """Mechanisms of any structure, each from several starts."""
     from gruebler.cli.inputs import mechanism_of
-    from gruebler.design.realisation.realise import with_drives
+    from gruebler.design.realisation.realising import with_drives
 
     if arguments.action == "function" and arguments.minimax:
         raise SynthesisError("--minimax improves four-bars and slider-cranks; --structure fits other mechanisms")

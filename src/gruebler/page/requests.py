@@ -274,7 +274,7 @@ def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
 
 
 def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
-    from gruebler.design.realisation.realise import realise
+    from gruebler.design.realisation.realising import realise
     from gruebler.page.model import model_of
     from gruebler.page.structures import mechanism_of_text
 
@@ -316,7 +316,7 @@ def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[st
 
 def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.files import linkage_from_json
-    from gruebler.mechanics.analysis.measures import measures
+    from gruebler.mechanics.analysis.measuring import measures
     from gruebler.page.model import link_names
 
     linkage = linkage_from_json(asked.document)

@@ -11,7 +11,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, FunctionTask, function_task, synthesise_function
 from gruebler.design.synthesis.coordination import Coordination
 from gruebler.design.synthesis.formulas import Formula, FunctionLaw
-from gruebler.design.synthesis.structural_error import ErrorFamily, coordination_of, largest_error, structural_error
+from gruebler.design.synthesis.structural_errors import ErrorFamily, coordination_of, largest_error, structural_error
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages.branch import branch_of_side

@@ -12,7 +12,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import function_task, minimax, synthesise_function
 from gruebler.design.synthesis.coordination import Coordination
 from gruebler.design.synthesis.formulas import FunctionLaw
-from gruebler.design.synthesis.structural_error import ErrorFamily, coordination_of, largest_error
+from gruebler.design.synthesis.structural_errors import ErrorFamily, coordination_of, largest_error
 from gruebler.mechanics.linkages.branch import branch_of_side
 
 RIGHT, HALF = np.pi / 2, np.pi / 3

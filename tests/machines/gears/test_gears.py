@@ -21,7 +21,7 @@ from gruebler.machines.gears import (
     read_train,
     speeds,
 )
-from gruebler.machines.gears.assembly import axes
+from gruebler.machines.gears.assemblies import axes
 from gruebler.machines.gears.messages import fraction_text
 from gruebler.machines.gears.rational import Elimination, rational_echelon
 from gruebler.machines.gears.train import exact_number

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.events import transfer_function
-from gruebler.mechanics.analysis.measures import measures
+from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import transmission_angle
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank

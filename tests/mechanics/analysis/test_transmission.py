@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import deviation_angle, measure_transmission, transmission_angle
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.forces import Loads, statics
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import from_degrees, move

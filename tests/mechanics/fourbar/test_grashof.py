@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar.four_bar import FourBar
-from gruebler.mechanics.fourbar.grashof import FOUR_BAR_TYPES, grashof, turning_ranges, types_along
+from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES, grashof, turning_ranges, types_along
 
 small = st.integers(1, 12)
 length = st.floats(0.5, 20)

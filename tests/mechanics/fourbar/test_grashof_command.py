@@ -104,7 +104,7 @@ def test_other_linkages_are_written_as_everywhere(capsys):
     ]
     assert run(capsys, "slider-crank:50,70,30", turns="a") == (
         1,
-        "slider-rocker (no link turns fully).\ncrank angle: -53.13°..233.1°\n"
+        "a = 50, b = 70, e = 30: slider-rocker (no link turns fully).\ncrank angle: -53.13°..233.1°\n"
         "smallest transmission angle: 0°\na turns fully: no\n",
     )
     document = json.loads(run(capsys, "inverted-slider-crank:70,25,3", json=True)[1])

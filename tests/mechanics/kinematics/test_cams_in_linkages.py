@@ -14,7 +14,7 @@ from gruebler.files import linkage_from_json, linkage_to_json
 from gruebler.machines.cams import read_lift
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.analysis import measures
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.kinematics import circuit, from_degrees, move
 from gruebler.mechanics.kinematics.drive_rows import rpm
 from gruebler.mechanics.linkages import CamDisc, Circle, GenevaDriver, GenevaWheel, Linkage

@@ -8,14 +8,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.analysis.rotatability import drive_range, motion_roles, rotatability
+from gruebler.mechanics.analysis.circuit_ranges import drive_range, motion_roles, rotatability
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.kinematics.circuits import circuit
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.enumeration import chains
 from gruebler.structure.mechanism import Mechanism
-from gruebler.structure.mechanism.roles import Role
+from gruebler.structure.mechanism.link_roles import Role
 
 SIX = "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"
 CYLINDER = "R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)"

@@ -15,7 +15,7 @@ import pytest
 from gruebler.files import values as files
 from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, linkage_of_drawing
 from gruebler.mechanics.analysis import measures
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Line, Linkage
 from gruebler.structure.chain import Chain

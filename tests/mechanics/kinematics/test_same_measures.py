@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.analysis import measures
-from gruebler.mechanics.analysis.measures import Measures
+from gruebler.mechanics.analysis.measuring import Measures
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference

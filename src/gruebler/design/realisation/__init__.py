@@ -4,7 +4,7 @@
 docs/theory/realisation.md explains why that works.
 """
 
-from gruebler.design.realisation.realise import realise, realise_all, with_drives
+from gruebler.design.realisation.realising import realise, realise_all, with_drives
 from gruebler.design.realisation.result import Realisation
 
 __all__ = ["Realisation", "realise", "realise_all", "with_drives"]

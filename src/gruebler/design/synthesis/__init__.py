@@ -13,9 +13,9 @@ from gruebler.design.synthesis.minimax_search import minimax
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
-from gruebler.design.synthesis.structural_error import structural_error
+from gruebler.design.synthesis.structural_errors import structural_error
 from gruebler.design.synthesis.structures import synthesise_structures
-from gruebler.design.synthesis.synthesise import synthesise
+from gruebler.design.synthesis.synthesising import synthesise
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
 
 __all__ = [

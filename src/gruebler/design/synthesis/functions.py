@@ -28,7 +28,7 @@ from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
 from gruebler.design.synthesis.positions import NEAR, guiding_dyads, ranked
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of
-from gruebler.design.synthesis.structural_error import coordination_of
+from gruebler.design.synthesis.structural_errors import coordination_of
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.mechanics.linkages import Linkage

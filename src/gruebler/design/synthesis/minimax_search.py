@@ -15,7 +15,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.coordination import Coordination, Minimax, MinimaxCertificate
 from gruebler.design.synthesis.formulas import FunctionLaw
-from gruebler.design.synthesis.structural_error import ErrorFamily
+from gruebler.design.synthesis.structural_errors import ErrorFamily
 from gruebler.mechanics.linkages.branch import branch_of_side
 
 _REGION = 0.1

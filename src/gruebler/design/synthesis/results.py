@@ -13,7 +13,7 @@ from gruebler.base.notebook import brief, html_table, text_table
 from gruebler.base.text import Message, joined, message, number, plural, translate
 from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.tasks import Task
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import measure_transmission
 from gruebler.mechanics.linkages import Linkage

@@ -8,7 +8,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from gruebler.base.text import joined, message, number, plural, translate
-from gruebler.machines.gears.assembly import Assembly, assembly, axes, even_numbers
+from gruebler.machines.gears.assemblies import Assembly, assembly, axes, even_numbers
 from gruebler.machines.gears.motion import speeds
 from gruebler.machines.gears.train import FRAME, Train, comparable
 

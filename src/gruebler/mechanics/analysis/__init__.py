@@ -4,9 +4,9 @@
 fully: docs/theory/events.md.
 """
 
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
-from gruebler.mechanics.analysis.measures import Measures, measures
-from gruebler.mechanics.analysis.rotatability import DriveRange, Rotatability, drive_range, motion_roles, rotatability
+from gruebler.mechanics.analysis.circuit_ranges import DriveRange, Rotatability, drive_range, motion_roles, rotatability
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
+from gruebler.mechanics.analysis.measuring import Measures, measures
 from gruebler.mechanics.analysis.table import motion_table
 from gruebler.mechanics.analysis.transmission import deviation_angle, transmission_angle
 

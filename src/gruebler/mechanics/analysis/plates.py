@@ -10,7 +10,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.analysis.drive_cycle import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage

@@ -6,7 +6,7 @@ Types (`grashof`), dead centres, transmission angles, motion: docs/theory/four-b
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion, CrankRates
 from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres, StrokeTimes
 from gruebler.mechanics.fourbar.four_bar import FourBar
-from gruebler.mechanics.fourbar.grashof import (
+from gruebler.mechanics.fourbar.four_bar_types import (
     FOUR_BAR_TYPES,
     Grashof,
     LengthRange,

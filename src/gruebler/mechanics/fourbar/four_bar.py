@@ -32,7 +32,14 @@ from gruebler.mechanics.fourbar.extremes import (
     transmission_extremes,
     triangle_angle,
 )
-from gruebler.mechanics.fourbar.grashof import Grashof, LengthRange, LinkageType, grashof, turning_ranges, types_along
+from gruebler.mechanics.fourbar.four_bar_types import (
+    Grashof,
+    LengthRange,
+    LinkageType,
+    grashof,
+    turning_ranges,
+    types_along,
+)
 from gruebler.mechanics.fourbar.lengths import SWING, Lengths
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage

@@ -33,7 +33,7 @@ from gruebler.mechanics.fourbar.extremes import (
     crank_ranges,
     transmission_extremes,
 )
-from gruebler.mechanics.fourbar.grashof import LinkageType
+from gruebler.mechanics.fourbar.four_bar_types import LinkageType
 from gruebler.mechanics.fourbar.lengths import SWING, Lengths
 from gruebler.mechanics.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation, offset_sentence
 from gruebler.mechanics.linkages.branch import Branch, branch_side

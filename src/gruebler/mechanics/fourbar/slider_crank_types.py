@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from gruebler.base.text import joined, message, number, number_separator, translate
-from gruebler.mechanics.fourbar.grashof import NOT_ASSEMBLABLE, SINGLE_POSITION, LinkageType
+from gruebler.mechanics.fourbar.four_bar_types import NOT_ASSEMBLABLE, SINGLE_POSITION, LinkageType
 
 _CLOSE = 1e-12
 

@@ -15,7 +15,7 @@ from gruebler.design.synthesis.burmester import BurmesterCurves, burmester_curve
 from gruebler.design.synthesis.coordination import Coordination
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.results import Design
-from gruebler.design.synthesis.structural_error import error_extremes, structural_error
+from gruebler.design.synthesis.structural_errors import error_extremes, structural_error
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.pictures.canvas.axes import Axis, angles, decimals

@@ -8,8 +8,8 @@ on the dimensions.
 
 from gruebler.structure.mechanism.drives import DriveReport, check_drives
 from gruebler.structure.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
+from gruebler.structure.mechanism.link_roles import Role, roles
 from gruebler.structure.mechanism.model import Drive, Mechanism
-from gruebler.structure.mechanism.roles import Role, roles
 
 __all__ = [
     "Drive",

@@ -23,7 +23,7 @@ from gruebler.teaching.catalog.feature_query import entry_features, entry_mechan
 from gruebler.teaching.catalog.features import AccessFeatures
 
 if TYPE_CHECKING:
-    from gruebler.mechanics.analysis.measures import Measures
+    from gruebler.mechanics.analysis.measuring import Measures
     from gruebler.mechanics.geometry import CouplerCurve
     from gruebler.mechanics.screws import Freedoms, SpatialLinkage
 
@@ -159,7 +159,7 @@ def _freedoms(placed: Linkage | SpatialLinkage) -> Freedoms:
 
 def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]:
     """Measures and paths; None where the drive does not move the linkage."""
-    from gruebler.mechanics.analysis.measures import measures
+    from gruebler.mechanics.analysis.measuring import measures
     from gruebler.mechanics.geometry import coupler_curve
 
     try:

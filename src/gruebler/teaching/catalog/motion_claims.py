@@ -13,7 +13,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, Text, in_every_language, message, number, number_separator, numbers, translate
 from gruebler.files.catalog_records import Claims, Entry, MotionKind
 from gruebler.mechanics.analysis import drive_range
-from gruebler.mechanics.analysis.measures import measures
+from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_in_radians
 from gruebler.mechanics.linkages import Linkage

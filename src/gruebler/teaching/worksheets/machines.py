@@ -9,7 +9,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, number, translate
 from gruebler.files import Entry
 from gruebler.files.catalog_records import source_text
-from gruebler.mechanics.analysis.measures import measures
+from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.linkages import Linkage, Pin
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.linkage.curve_plots import coupler_plot

@@ -36,7 +36,7 @@ from gruebler.base.events import ChangePoint, DeadCentre, Transmission, Transmis
 from gruebler.base.notebook import brief
 from gruebler.base.plain_data import Units, plain
 from gruebler.base.text import Message, message
-from gruebler.mechanics.analysis.drive_cycle import CycleSpan, DriveCycle, by_place, drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import CycleSpan, DriveCycle, by_place, drive_cycle
 from gruebler.mechanics.analysis.events import (
     Crossing,
     Dwell,
@@ -334,7 +334,7 @@ def measures(
     Args:
         linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
         branch: as for `move`; without it that of the reference pose, else all ``+`` and 1. It applies where the motion
-            starts: `gruebler.mechanics.analysis.drive_cycle.drive_cycle`.
+            starts: `gruebler.mechanics.analysis.drive_cycles.drive_cycle`.
         speed: of the drive in rad/s, for the times; not zero. `gruebler.rpm` converts.
         output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
 
