@@ -98,6 +98,10 @@ export class App implements Page {
     return this.motion.linkage.model;
   }
 
+  get limits(): Page["limits"] {
+    return (this.model.get("limits") ?? {}) as Page["limits"];
+  }
+
   private get linkable(): boolean {
     return this.model.get("host") !== "notebook";
   }

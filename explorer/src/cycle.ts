@@ -196,7 +196,7 @@ function opening(sizes: Sizes, rows: Rows, row: number, joint: number): number {
   const [first, ...others] = sizes.elementsOf(joint) as [number, ...number[]];
   const lineAt = (k: number) => direction(rows, row, sizes.element(k).link, sizes.line(k));
   const at = (k: number) => place(rows, row, sizes.element(k).link, ...sizes.xy(k));
-  const { pair } = sizes.model.joints[joint]!;
+  const { free } = sizes.model.joints[joint]!.pair;
   let out = 0;
   for (const k of others) {
     const [ax, ay] = at(first);
@@ -205,10 +205,8 @@ function opening(sizes: Sizes, rows: Rows, row: number, joint: number): number {
     const gy = (by - ay) / sizes.unit;
     const [lx, ly] = lineAt(sizes.is(first, "line") ? first : k);
     const [ox, oy] = lineAt(k);
-    if (pair === "revolute") out = Math.max(out, Math.hypot(gx, gy));
-    else if (pair === "roll_slide") out = Math.max(out, Math.abs(lx * gy - ly * gx));
-    else if (pair === "double_slide") out = Math.max(out, Math.abs(lx * oy - ly * ox));
-    else out = Math.max(out, Math.abs(lx * gy - ly * gx), Math.abs(lx * oy - ly * ox));
+    const apart = Math.hypot(free.along ? 0 : lx * gx + ly * gy, free.across ? 0 : lx * gy - ly * gx);
+    out = Math.max(out, apart, free.turn ? 0 : Math.abs(lx * oy - ly * ox));
   }
   return out;
 }

@@ -7,6 +7,7 @@ import type { Leg, Place } from "./model";
 import { direction, leastRoot, origin, type Pair, place, rate, turn } from "./rows";
 
 const STILL = 1e-9; // of the natural speed: an output that is never faster does not move
+const NOISE = 1e-6; // radians, or sizes: what moves less does not move, as in the plots of Python
 const CHANGE = 1e-5; // below this root, next to a change point, velocities have no sign
 const GOLDEN = 0.6180339887498949;
 
@@ -59,6 +60,13 @@ export function outputAlong(linkage: Linkage, rows: number[]): Float64Array {
   const { cycle, model } = linkage;
   const values = Float64Array.from(rows, (row) => output(linkage, cycle.rows, row)[0]);
   return model.outputs[0]?.joint === null ? unwrapped(values, rows.indexOf(cycle.home)) : values;
+}
+
+/** Whether the output keeps its angle, or its place on its guide, but for rounding. */
+export function outputStandsStill(linkage: Linkage, rows: number[]): boolean {
+  const values = outputAlong(linkage, rows);
+  const size = linkage.model.outputs[0]?.joint === null ? 1 : linkage.sizes.unit;
+  return Math.max(...values) - Math.min(...values) < NOISE * size;
 }
 
 /** Angles that follow one another without jumps; the one at `home` stays as it is. */

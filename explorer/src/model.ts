@@ -67,6 +67,14 @@ export type LinkageDocument = Record<string, unknown> & {
   home?: Record<string, unknown>;
 };
 
+/** What a pair is, and the freedoms that it leaves in the plane: to turn, along its line, across it. */
+export interface PairRecord {
+  turning: boolean;
+  sliding: boolean;
+  contours: boolean;
+  free: { turn: boolean; along: boolean; across: boolean };
+}
+
 export interface Model {
   version: number;
   name: string;
@@ -80,7 +88,7 @@ export interface Model {
   own: number;
   frame: number;
   unit: string;
-  joints: { name: string; pair: string; links: number[] }[];
+  joints: { name: string; pair: PairRecord; links: number[] }[];
   elements: ElementRecord[];
   points: PointRecord[];
   drives: DriveRecord[];

@@ -4,7 +4,7 @@ import { type Cycle, TURN, wrapped } from "./cycle";
 import { h } from "./dom";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
-import { output, outputAlong, transmission } from "./measures";
+import { output, outputAlong, outputStandsStill, transmission } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
@@ -15,11 +15,14 @@ export interface Lap {
   rows: number[];
 }
 
+const OF_OUTPUT = 3; // plots: its angle or place, two derivatives
 const SMALL = 40; // degrees: transmission angles below are shaded
 
 export class Plots {
   readonly element = h("div", {});
   parts: { plot: Plot; make: (rows: number[]) => Series }[] = [];
+  /** In place of the plots of an output that does not turn or travel. */
+  private readonly still = h("p", { class: "note", "data-note": "still" });
   private lap: { cycle: Cycle; drives: Float64Array; values: Float64Array } | null = null;
 
   constructor(private readonly pick: (drive: number) => void) {}
@@ -39,13 +42,26 @@ export class Plots {
     this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick), make }));
     const note = record?.note[currentLanguage()];
     const notes = note ? [h("p", { class: "note" }, note)] : [];
-    this.element.replaceChildren(...this.parts.map(({ plot }) => plot.element), ...notes);
+    if (record) {
+      const name = linkage.linkName(record.link);
+      const turning = record.joint === null;
+      this.still.textContent = turning
+        ? t("Output {name} moves without turning.", { name })
+        : t("Output {name} does not travel.", { name });
+    }
+    this.element.replaceChildren(this.still, ...this.parts.map(({ plot }) => plot.element), ...notes);
     this.draw(linkage);
   }
 
-  draw({ active, cycle, drives }: Linkage): void {
+  draw(linkage: Linkage): void {
+    const { active, cycle, drives, model } = linkage;
     if (cycle.values.length < 2) return;
     const lap = lapOf(cycle);
+    const record = model.outputs[0];
+    const still = record !== undefined && outputStandsStill(linkage, lap.rows);
+    this.still.hidden = !still;
+    for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
+      plot.element.style.display = still ? "none" : "";
     for (const { plot, make } of this.parts) {
       plot.show(lap.drives, make(lap.rows), cycle.full ? [0, TURN * cycle.turns] : [cycle.low, cycle.high]);
       plot.at(wrapped(cycle, drives[active]!));

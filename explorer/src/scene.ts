@@ -69,7 +69,7 @@ export class Scene {
 
   private pin({ model }: Linkage, number: number, free: boolean): SVGGElement {
     const joint = model.joints[number]!;
-    const ground = joint.links.includes(model.frame) && joint.pair === "revolute";
+    const ground = joint.links.includes(model.frame) && joint.pair.turning;
     const element = svg("g", {
       class: free ? "pin free" : "pin",
       "data-joint": joint.name,
@@ -126,7 +126,7 @@ export class Scene {
       places.push([x, y, dx, -dy]);
     };
     model.joints.forEach((joint, number) => {
-      if (joint.links.includes(model.frame) && joint.pair === "revolute") return;
+      if (joint.links.includes(model.frame) && joint.pair.turning) return;
       const moves = (e: number) => sizes.element(e).link !== model.frame && !sizes.is(e, "round");
       const element = sizes.elementsOf(number).find(moves);
       if (element !== undefined) add(sizes.element(element).link, ...sizes.xy(element));

@@ -108,7 +108,7 @@ export class Sizes {
   /** The lines and the pins of a slide between moving links whose pins lie on it, such as a cylinder; else null. */
   cylinder(joint: number): Cylinder | null {
     const record = this.model.joints[joint]!;
-    if (record.pair !== "prismatic" || record.links.includes(this.model.frame)) return null;
+    if (!record.pair.sliding || record.links.includes(this.model.frame)) return null;
     const lines = this.elementsOf(joint);
     const pins = lines.map((k) => this.elementsOn(this.element(k).link).filter((m) => m !== k));
     if (pins.some((mine) => mine.length !== 1 || !this.is(mine[0]!, "pin"))) return null;

@@ -1,7 +1,7 @@
 /** The view of the structure: a chain out of all, its frame, drive and joint types, its mobility; then dimensions. */
 
 import { h, picture, svg, thumbnail } from "./dom";
-import { t } from "./language";
+import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
@@ -19,7 +19,6 @@ interface Structure {
   picture: string;
   joints: {
     name: string;
-    pair: string;
     at: [number, number];
     types: { symbol: string; name: string; text: string; chosen: boolean }[];
   }[];
@@ -44,6 +43,12 @@ interface Chains {
   total: number;
   start: number;
   items: { text: string; picture: string }[];
+}
+
+/** The names of the links of a linkage in the language of the page. */
+function namesOf({ links, linkNames }: Model): Record<string, string> {
+  const names = linkNames[currentLanguage()] ?? [];
+  return Object.fromEntries(names.map((name, link) => [links[link]!, name]));
 }
 
 interface Realised {
@@ -84,16 +89,14 @@ export class StructureView implements View {
   arrange(): void {
     const links = h("input", {
       type: "number",
-      min: 3,
-      max: 12,
+      ...this.page.limits.links,
       value: this.links,
       "aria-label": t("Links"),
       onchange: () => (this.links = Number(links.value)),
     });
     const mobility = h("input", {
       type: "number",
-      min: 0,
-      max: 6,
+      ...this.page.limits.mobility,
       value: this.mobility,
       "aria-label": t("Mobility"),
       onchange: () => (this.mobility = Number(mobility.value)),
@@ -169,6 +172,7 @@ export class StructureView implements View {
       const found = await this.page.ask<Structure>("structure", {
         text,
         at_frame: this.atFrame,
+        names: namesOf(this.page.shown),
         document: this.contacts(text),
       });
       if (number !== this.asked) return;
@@ -196,7 +200,7 @@ export class StructureView implements View {
   /** The linkage that is shown if it has higher pairs and the text is of its chain; else nothing. */
   private contacts(text: string): object {
     const model = this.page.shown;
-    const higher = model.joints.some((joint) => joint.pair === "roll_slide" || joint.pair === "rolling");
+    const higher = model.joints.some((joint) => joint.pair.contours);
     return higher && text.split(";")[0]!.trim() === String(model.document.joints).trim() ? model.document : {};
   }
 

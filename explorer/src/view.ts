@@ -17,6 +17,8 @@ export interface Page {
   readonly served: boolean;
   /** The linkage that is shown. */
   readonly shown: Model;
+  /** The chains of which lists are made, as far as there is somebody who makes them. */
+  readonly limits: Partial<Record<"links" | "mobility", { min: number; max: number }>>;
   ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void): Request<Result>;
   /** Show another linkage, in motion. */
   open(model: Model): void;

@@ -21,6 +21,10 @@ export const B = 1;
 export const C = 2;
 export const D = 3;
 
+const FIXED = { turning: false, sliding: false, contours: false };
+const TURNING = { ...FIXED, turning: true, free: { turn: true, along: false, across: false } };
+const SLIDING = { ...FIXED, sliding: true, free: { turn: false, along: true, across: false } };
+
 /** The angle between two sides of a triangle of which all are known. */
 export function angleBetween(one: number, other: number, opposite: number): number {
   return Math.acos((one * one + other * other - opposite * opposite) / (2 * one * other));
@@ -40,10 +44,10 @@ export function fourBar(lengths: Lengths, theta: number): Model {
   const { crank, coupler, rocker, frame } = lengths;
   const names = ["frame", "crank", "coupler", "rocker"];
   const joints = [
-    { name: "R(frame-crank)", pair: "revolute", links: [0, CRANK] },
-    { name: "R(crank-coupler)", pair: "revolute", links: [CRANK, COUPLER] },
-    { name: "R(coupler-rocker)", pair: "revolute", links: [COUPLER, ROCKER] },
-    { name: "R(frame-rocker)", pair: "revolute", links: [0, ROCKER] },
+    { name: "R(frame-crank)", pair: TURNING, links: [0, CRANK] },
+    { name: "R(crank-coupler)", pair: TURNING, links: [CRANK, COUPLER] },
+    { name: "R(coupler-rocker)", pair: TURNING, links: [COUPLER, ROCKER] },
+    { name: "R(frame-rocker)", pair: TURNING, links: [0, ROCKER] },
   ];
   const pins = [
     [A, 0, 0],
@@ -148,7 +152,7 @@ export function sliderCrank(crank: number, rod: number, line: number, theta: num
   const renamed = (text: string) => text.replace("rocker", "slider");
   model.links = model.links.map(renamed);
   model.joints = model.joints.map((joint) => ({ ...joint, name: renamed(joint.name) }));
-  model.joints[D] = { name, pair: "prismatic", links: [0, ROCKER] };
+  model.joints[D] = { name, pair: SLIDING, links: [0, ROCKER] };
   for (const k of [6, 7]) model.elements[k]!.kind = "line";
   model.elements[6]!.angle = line;
   model.program.lines.splice(12, 2, Math.cos(line), Math.sin(line));

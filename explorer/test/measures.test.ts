@@ -9,6 +9,7 @@ import {
   leastTransmission,
   output,
   outputAlong,
+  outputStandsStill,
   pole,
   transmission,
   unwrapped,
@@ -70,6 +71,19 @@ test("the output is the angle of the rocker, with its derivatives", () => {
     close(psi, at(theta));
     close(first, (at(theta + step) - at(theta - step)) / (2 * step), 1e-7);
     close(second, (at(theta + step) - 2 * at(theta) + at(theta - step)) / step ** 2, 1e-6);
+  }
+});
+
+test("the coupler of a parallelogram moves without turning, its crank turns", () => {
+  const model = fourBar({ crank: 25, coupler: 70, rocker: 25, frame: 70 }, 1);
+  for (const [link, still] of [
+    [COUPLER, true],
+    [CRANK, false],
+  ] as const) {
+    model.outputs[0]!.link = link;
+    const linkage = new Linkage(model);
+    const rows = Array.from({ length: linkage.cycle.values.length }, (_, row) => row);
+    assert.equal(outputStandsStill(linkage, rows), still);
   }
 });
 

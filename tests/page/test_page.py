@@ -188,7 +188,7 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     view.locator('.chain-picture [data-joint^="P("]').first.wait_for()
     assert view.locator('[data-fact="counted"]').inner_text() == "F = 1"
     view.locator('[data-act="realise"]').click()
-    page.until("gruebler.motion.linkage.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
+    page.until("gruebler.motion.linkage.model.joints.some((joint) => joint.pair.sliding)", 60)
     view.wait_for_timeout(300)
     before, curve = view.evaluate("gruebler.motion.found.least?.mu"), view.evaluate(CURVE)
     joints = view.evaluate(
@@ -200,7 +200,7 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     assert before is None or after != before
     view.wait_for_timeout(400)
     other = tab().open(view.evaluate("location.href"))
-    other.until("gruebler.motion.linkage.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
+    other.until("gruebler.motion.linkage.model.joints.some((joint) => joint.pair.sliding)", 60)
     sizes = "gruebler.motion.dragging.lengths().map((one) => one.value)"
     assert other.page.evaluate(sizes) == pytest.approx(view.evaluate(sizes), rel=1e-9)
 

@@ -28,3 +28,23 @@ def test_a_linkage_of_another_chain_says_nothing():
     text = "R(0-1) R(1-2) G(2-0); frame=0; drive=R(0-1)"
     alone = structure_record(text, "en")
     assert structure_record(text, "en", linkage=entries()["geneva"].linkage())["picture"] == alone["picture"]
+
+
+def test_links_are_called_by_the_names_of_the_machine():
+    """What is read has the German names; the texts, which the page sends back, keep those of the catalog."""
+    text = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)"
+    names = {"frame": "Gestell", "crank": "Kurbel", "coupler": "Koppel", "rocker": "Schwinge"}
+    record = answer("structure", {"text": text, "names": names}, "de", print)
+    assert [joint["name"] for joint in record["joints"]] == [
+        *("D(Gestell-Kurbel)", "D(Kurbel-Koppel)", "D(Koppel-Schwinge)", "D(Gestell-Schwinge)")
+    ]
+    assert record["lines"][0] == f"Kette: {' '.join(joint['name'] for joint in record['joints'])}"
+    assert {each["frame"] for each in record["inversions"]} <= set(names.values())
+    assert {each["drives"][0].split("(")[0] for each in record["driven"]} == {"D"}
+    assert record["text"] == text
+    assert all(each["text"].startswith("R(frame-crank)") for each in record["inversions"])
+
+
+def test_names_of_another_chain_say_nothing():
+    names = {"frame": "Gestell", "crank": "Kurbel"}
+    assert structure_record("R(0-1) R(1-2) R(2-0)", "de", names=names)["frame"] == "0"

@@ -23,6 +23,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines
 from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
+from gruebler.structure.chain.pairs import Pair, Space
 from gruebler.teaching.catalog import entries
 
 _COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks
@@ -70,7 +71,7 @@ def model_of(
         "frame": lower.mechanism.chain.index(mechanism.frame),
         "unit": linkage.unit,
         "joints": [
-            {"name": text, "pair": joint.pair.name, "links": [chain.index(link) for link in joint.links]}
+            {"name": text, "pair": _pair_record(joint.pair), "links": [chain.index(link) for link in joint.links]}
             for text, joint in zip(names, chain.joints, strict=True)
         ],
         "elements": [
@@ -130,6 +131,17 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     if record is not None and record.chain().links == links:
         return dict(zip(links, record.in_language(lang).chain().links, strict=True))
     return {link: translate(link, lang) if link in _COMMON else link for link in links}
+
+
+def _pair_record(pair: Pair) -> dict[str, Any]:
+    """What the page asks of a pair: what it is, and the freedoms that it leaves in the plane."""
+    turn, along, across = (freedom in pair.freedoms[Space.PLANAR] for freedom in Space.PLANAR.directions)
+    return {
+        "turning": pair.is_turning,
+        "sliding": pair.is_sliding,
+        "contours": pair.has_contours,
+        "free": {"turn": turn, "along": along, "across": across},
+    }
 
 
 def program_record(plan: Plan) -> dict[str, Any]:

@@ -12,6 +12,9 @@ from typing import Any
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.canvas.styles import STYLES
 
+LISTED_CHAINS = {"links": {"min": 3, "max": 12}, "mobility": {"min": 0, "max": 6}}
+"""The chains of which the page makes lists."""
+
 _STATIC = Path(__file__).parent / "static"
 
 
@@ -65,7 +68,7 @@ def single_file(model: Mapping[str, Any], lang: str = "") -> str:
 
 def served_page(model: Mapping[str, Any], lang: str = "") -> str:
     """The page of a server, which loads the module from beside it; its policy is sent as a header."""
-    values = {"lang": lang, "machine": model, "styles": picture_styles()}
+    values = {"lang": lang, "machine": model, "styles": picture_styles(), "limits": LISTED_CHAINS}
     return _page("gruebler", lang, "server", values, '<script type="module" src="explorer.js"></script>', "")
 
 

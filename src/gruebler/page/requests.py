@@ -11,6 +11,7 @@ import msgspec
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import error_in_language, translate
+from gruebler.page.page import LISTED_CHAINS
 
 Progress = Callable[[str], None]
 Word = Annotated[str, msgspec.Meta(max_length=200)]
@@ -26,6 +27,11 @@ class _Params(msgspec.Struct, forbid_unknown_fields=True):
 
 class Nothing(_Params):
     """No parameters."""
+
+
+def _within(what: str) -> msgspec.Meta:
+    """What a number of chains that are listed may be."""
+    return msgspec.Meta(ge=LISTED_CHAINS[what]["min"], le=LISTED_CHAINS[what]["max"])
 
 
 Number = Annotated[int, msgspec.Meta(ge=0, le=100)]
@@ -72,6 +78,8 @@ class DescribeStructure(_Params):
     """Whether only drives at the frame are listed."""
     document: dict[str, Any] = {}
     """A linkage of this chain, which says what its higher pairs are."""
+    names: dict[str, Word] = {}
+    """How a reader calls the links, as far as they are in the chain."""
 
 
 class ListModes(_Params):
@@ -84,8 +92,8 @@ class ListModes(_Params):
 class ListChains(_Params):
     """Chains of turning joints."""
 
-    links: Annotated[int, msgspec.Meta(ge=3, le=12)]
-    mobility: Annotated[int, msgspec.Meta(ge=0, le=6)] = 1
+    links: Annotated[int, _within("links")]
+    mobility: Annotated[int, _within("mobility")] = 1
     start: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
 
 
@@ -243,7 +251,7 @@ def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, An
     from gruebler.page.structures import structure_record
 
     linkage = linkage_from_json(asked.document) if asked.document else None
-    return structure_record(asked.text, lang, at_frame=asked.at_frame, linkage=linkage)
+    return structure_record(asked.text, lang, at_frame=asked.at_frame, linkage=linkage, names=asked.names)
 
 
 def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:

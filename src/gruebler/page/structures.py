@@ -30,11 +30,19 @@ def mechanism_of_text(text: str) -> Mechanism:
     return Mechanism.parse(text)
 
 
-def structure_record(text: str, lang: str, *, at_frame: bool = True, linkage: Linkage | None = None) -> dict[str, Any]:
+def structure_record(
+    text: str,
+    lang: str,
+    *,
+    at_frame: bool = True,
+    linkage: Linkage | None = None,
+    names: Mapping[str, str] | None = None,
+) -> dict[str, Any]:
     """Picture, mobility, inversions, driven mechanisms and other joint types of a text, as plain data.
 
     The driven mechanisms are those with a drive at the frame, or all with one drive. A linkage of the same chain says
-    what its higher pairs are: gears, cams, belts, ... have signs of their own in the pictures.
+    what its higher pairs are: gears, cams, belts, ... have signs of their own in the pictures. What is said about the
+    links calls them by ``names``, if there is one for each; the texts keep their own names.
 
     Raises `GrueblerError` for a text that is no chain; what it says names the place.
 
@@ -50,19 +58,21 @@ def structure_record(text: str, lang: str, *, at_frame: bool = True, linkage: Li
     corner, _ = bounds(shapes, 10.0)
     report = mobility_report(chain, frame=mechanism.frame)
     few = chain.n <= _MOST_LINKS
+    called = {link: names[link] for link in chain.links} if names and set(chain.links) <= set(names) else {}
+    shown = mechanism.renamed(called)
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
         "picture": figure_of(shapes, chain.text(Alphabet.of_language(lang)), "").svg(styled=False),
-        "joints": list(_joints(mechanism, placed, corner, lang)),
+        "joints": list(_joints(mechanism, shown, placed, corner, lang)),
         "links": list(_links(chain, placed, corner, report)),
         "frame": mechanism.frame,
         "counted": report.counted,
         "generic": report.generic,
         "verdict": str(report.verdict),
-        "lines": report.explain(lang).splitlines(),
-        "drives": check_drives(mechanism).explain(lang) if mechanism.drives else "",
-        "inversions": [_choice(inversion, lang, contacts) for inversion in inversions(chain)] if few else [],
-        "driven": [_choice(driven.mechanism, lang, contacts) for driven in _driven(chain, at_frame)]
+        "lines": mobility_report(shown.chain, frame=shown.frame).explain(lang).splitlines(),
+        "drives": check_drives(shown).explain(lang) if mechanism.drives else "",
+        "inversions": [_choice(inversion, lang, contacts, called) for inversion in inversions(chain)] if few else [],
+        "driven": [_choice(driven.mechanism, lang, contacts, called) for driven in _driven(chain, at_frame)]
         if few and chain.space is Space.PLANAR
         else [],
     }
@@ -78,27 +88,31 @@ def _driven(chain: Chain, at_frame: bool) -> list[Any]:
     return rows
 
 
-def _choice(mechanism: Mechanism, lang: str, contacts: Mapping[tuple[int, str], str]) -> dict[str, Any]:
+def _choice(
+    mechanism: Mechanism, lang: str, contacts: Mapping[tuple[int, str], str], called: Mapping[str, str]
+) -> dict[str, Any]:
+    shown = mechanism.renamed(called)
     return {
         "text": mechanism.text(),
-        "frame": mechanism.frame,
-        "drives": list(mechanism.drive_names()),
+        "frame": shown.frame,
+        "drives": list(shown.drive_names(Alphabet.of_language(lang))),
         "family": family(mechanism, lang) or "",
         "picture": draw_structure(mechanism, lang=lang, contacts=contacts).svg(styled=False),
     }
 
 
-def _joints(mechanism: Mechanism, placed: PlacedChain, corner: Point, lang: str) -> Iterator[dict[str, Any]]:
+def _joints(
+    mechanism: Mechanism, shown: Mechanism, placed: PlacedChain, corner: Point, lang: str
+) -> Iterator[dict[str, Any]]:
     """Each joint with its place in the picture and the types that it may have instead."""
     chain = mechanism.chain
-    names = chain.joint_names(Alphabet.of_language(lang))
+    names = shown.chain.joint_names(Alphabet.of_language(lang))
     waiting = [(joint.key, at) for joint, at in zip(placed.chain.joints, placed.joints, strict=True)]
     for number, joint in enumerate(chain.joints):
         k = next(k for k, (key, _) in enumerate(waiting) if key == joint.key)
         at = waiting.pop(k)[1]
         yield {
             "name": names[number],
-            "pair": joint.pair.name,
             "at": [at.x - corner.x, at.y - corner.y],
             "types": list(_types(mechanism, number, lang)),
         }

@@ -12,7 +12,7 @@ from gruebler.base.text import LANGUAGES, Message, error_in_language, message, t
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import model_of
-from gruebler.page.page import module_text, picture_styles
+from gruebler.page.page import LISTED_CHAINS, module_text, picture_styles
 from gruebler.page.requests import answer
 from gruebler.pictures.linkage.picture import draw_linkage
 
@@ -33,6 +33,7 @@ class Explorer(anywidget.AnyWidget):
     lang = traitlets.Unicode("").tag(sync=True)
     height = traitlets.Int(640).tag(sync=True)
     styles = traitlets.Unicode("").tag(sync=True)
+    limits = traitlets.Dict(LISTED_CHAINS).tag(sync=True)
     machine = traitlets.Dict().tag(sync=True)
     document = traitlets.Dict().tag(sync=True)
 
