@@ -20,13 +20,15 @@ help:
 	@echo "make test-bounds the tests of the kernels, compiled so that nothing beyond an array is read or written"
 	@echo "make test-lowest a broad choice of tests with the lowest versions that pyproject.toml allows"
 	@echo "make test-newest a broad choice of tests with another Python (NEWEST=python3.13) and the newest versions"
-	@echo "make core        the C++ kernels as a module in build/core, see core/README.md; a minute"
+	@echo "make core        the C++ kernels alone, compiled where they changed, see core/README.md"
 	@echo "make test-core   the tests of the C++ kernels, against those of numba and against print"
 	@echo "make core-sanitize  the C++ kernels with address and undefined-behaviour sanitizers, without Python"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 
-# Reinstalled only when pyproject.toml changes: repeated calls start at once.
-$(READY): pyproject.toml
+# Reinstalled only when pyproject.toml or the C++ sources change: repeated calls start at once. What did not change is not
+# compiled again.
+SOURCES := pyproject.toml core/CMakeLists.txt $(shell find core/src core/python core/build_backend -name '*.?pp' -o -name '*.py')
+$(READY): $(SOURCES)
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[test]"
 	@touch $@
@@ -77,7 +79,7 @@ wheel-test: $(READY)
 	build/wheel/venv/bin/python -m pip install --quiet --disable-pip-version-check \
 		"$$(ls build/wheel/*.whl)[test]"
 	cd build/wheel && NUMBA_CACHE_DIR=$(CURDIR)/src/gruebler/_numeric/__pycache__ venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
-		$(addprefix ../../tests/,cli/test_cli.py cli/test_languages.py cli/test_synthesise.py documents structure/chain \
+		$(addprefix ../../tests/,core cli/test_cli.py cli/test_languages.py cli/test_synthesise.py documents structure/chain \
 		teaching/catalog teaching/exercises/test_tables.py teaching/sheets test_front_door.py)
 
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise; `make test` has those that
@@ -125,7 +127,7 @@ test-newest:
 	$(NEWEST_DIR)/venv/bin/python -m pip install --quiet --disable-pip-version-check --upgrade -e ".[test]"
 	$(NEWEST_DIR)/venv/bin/python -m pytest -q -n 2 $(BROAD)
 
-# The C++ kernels of core/, which nothing in the package calls yet.
+# For work on the C++ kernels: without pip's detour it takes as long as the compiler.
 $(VENV)/.core: pyproject.toml
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[core]"
@@ -133,10 +135,12 @@ $(VENV)/.core: pyproject.toml
 
 CORE := PATH="$(CURDIR)/$(BIN):$$PATH" cmake
 core: $(VENV)/.core
-	$(CORE) -S core -B build/core -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python >/dev/null
+	$(CORE) -S core -B build/core -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python \
+		-DCORE_FOLDER=$(CURDIR)/src/gruebler >/dev/null
 	$(CORE) --build build/core
+	$(CORE) --install build/core >/dev/null
 
-test-core: $(READY) $(VENV)/.core
+test-core: $(READY)
 	$(BIN)/python -m pytest -q tests/core
 
 core-sanitize: $(VENV)/.core
@@ -148,4 +152,4 @@ bench: $(READY)
 	$(BIN)/python -m benchmarks
 
 clean:
-	rm -rf $(VENV) build dist
+	rm -rf $(VENV) build dist src/gruebler/_core*.so src/gruebler/_core*.pyd

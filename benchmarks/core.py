@@ -1,14 +1,13 @@
 """The kernels of core/ beside those of numba, in turns in one process; cold, each in a process of its own.
 
-`make core` builds the module first. Seconds are those of the processor, which other work on the machine disturbs least;
-the least of some rounds is printed. Every answer is compared.
+Seconds are those of the processor, which other work on the machine disturbs least; the least of some rounds is printed.
+Every answer is compared.
 """
 
 import os
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
@@ -16,7 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-BUILD = Path(__file__).parents[1] / "build" / "core"
+from gruebler import _core
+
 ROUNDS = 9
 
 Calls = dict[str, Callable[[], Any]]
@@ -38,10 +38,6 @@ COLD = {
 
 def main() -> None:
     """Print both tables."""
-    if not any(BUILD.glob("_core*")):
-        print("not built: make core")
-        return
-    sys.path.insert(0, str(BUILD))
     print("| warm, ms | numba | core | numba / core |\n|---|---|---|---|")
     for name, calls in [*counting(), *labelling()]:
         times = measured(calls)
@@ -53,7 +49,7 @@ def main() -> None:
         with TemporaryDirectory() as cache:
             environment = {"NUMBA_CACHE_DIR": cache, "GRUEBLER_KERNELS": "compiled"}
             first, second = (alone("import numpy as np\n" + numba, environment) for _ in range(2))
-        own = alone(f"import sys; sys.path.insert(0, {str(BUILD)!r})\nimport numpy as np, _core\n" + core, {})
+        own = alone("import numpy as np\nfrom gruebler import _core\n" + core, {})
         print(f"| {name} | {first:.1f} | {second:.2f} | {own:.2f} |")
 
 
@@ -80,8 +76,6 @@ def alone(code: str, environment: dict[str, str]) -> float:
 
 def counting() -> list[tuple[str, Calls]]:
     """Census and growth of 14 and 16 links."""
-    import _core
-
     from gruebler._numeric.compiling import compiled
     from gruebler._numeric.counting.census import COLUMNS, make_census_memory, take_census
     from gruebler._numeric.counting.contracted import add_loop, make_growth_memory
@@ -119,7 +113,6 @@ def counting() -> list[tuple[str, Calls]]:
 
 def labelling() -> list[tuple[str, Calls]]:
     """Chains in bulk, and graphs with much symmetry."""
-    import _core
     import networkx as nx
 
     from gruebler._numeric.labelling.canonical import canonical_bulk

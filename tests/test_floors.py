@@ -15,6 +15,7 @@ ROOT = Path(__file__).parents[1]
 
 # From the ground up. A wing imports the wings before it; a room within it the rooms on lower floors and its own files.
 WINGS = {
+    "_core": [{"_core"}],
     "_numeric": [{"_numeric"}],
     "base": [
         {"errors"},
@@ -57,7 +58,7 @@ WINGS = {
     "page": [{"page"}],
     "cli": [{"cli"}],
 }
-WHOLE = {"_numeric", "files", "page", "cli"}  # wings of one room: their files
+WHOLE = {"_core", "_numeric", "files", "page", "cli"}  # wings of one room: their files
 FLOORS = {
     f"{wing}/{room}" if wing not in WHOLE else wing: (k, floor)
     for k, (wing, floors) in enumerate(WINGS.items())
@@ -177,8 +178,9 @@ def test_architecture_has_the_same_floors():
 
 
 def test_the_package_has_few_entries():
-    entries = {path.name for path in PACKAGE.iterdir()} - {"__pycache__"}
-    assert entries == {*WINGS, "__init__.py", "__init__.pyi", "__main__.py", "py.typed"}
+    modules = {file.name for file in PACKAGE.glob("_core.*") if file.suffix in {".so", ".pyd"}}  # one a Python
+    entries = {path.name for path in PACKAGE.iterdir()} - {"__pycache__"} - modules
+    assert entries == {*WINGS} - {"_core"} | {"_core.pyi", "__init__.py", "__init__.pyi", "__main__.py", "py.typed"}
 
 
 def test_no_module_of_the_front_door_has_the_word_of_a_class_or_function():

@@ -2,7 +2,6 @@
 
 import doctest
 import re
-import tomllib
 from pathlib import Path
 
 README = Path(__file__).parents[1] / "README.md"
@@ -22,12 +21,3 @@ def test_links_between_pages_lead_somewhere():
     for page in pages:
         for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text(encoding="utf-8")):
             assert "://" in target or (page.parent / target).exists(), f"{page.name}: {target}"
-
-
-def test_the_source_archive_has_every_file_that_the_makefile_runs():
-    root = README.parent
-    settings = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
-    included = settings["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
-    run = set(re.findall(r"\.ci/\w+\.py", (root / "Makefile").read_text(encoding="utf-8")))
-    assert run
-    assert {f"/{path}" for path in run} <= set(included)
