@@ -55,8 +55,10 @@ auto run(Work work) {
     return outcome;
 }
 
+void add_algebra(nb::module_& module);
 void add_counting(nb::module_& module);
 void add_labelling(nb::module_& module);
+void add_layout(nb::module_& module);
 void add_structure(nb::module_& module);
 
 }  // namespace gruebler::doors

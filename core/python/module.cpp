@@ -9,7 +9,9 @@ NB_MODULE(_core, module) {
         PyErr_SetString(PyExc_ImportError, "gruebler needs a processor with x86-64-v2 (SSE 4.2 and POPCNT)");
         throw nb::python_error();
     }
+    gruebler::doors::add_algebra(module);
     gruebler::doors::add_counting(module);
     gruebler::doors::add_labelling(module);
+    gruebler::doors::add_layout(module);
     gruebler::doors::add_structure(module);
 }

@@ -10,9 +10,19 @@
 #define GRUEBLER_LEVEL baseline
 #endif
 
+// A loop is vectorised only if all that it calls is written into it.
+#ifdef _MSC_VER
+#define GRUEBLER_INLINE __forceinline
+#else
+#define GRUEBLER_INLINE [[gnu::always_inline]] inline
+#endif
+
 namespace gruebler::bits {
 inline namespace GRUEBLER_LEVEL {}
 }  // namespace gruebler::bits
 namespace gruebler::counting {
 inline namespace GRUEBLER_LEVEL {}
 }  // namespace gruebler::counting
+namespace gruebler::algebra {
+inline namespace GRUEBLER_LEVEL {}
+}  // namespace gruebler::algebra

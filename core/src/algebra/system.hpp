@@ -1,0 +1,161 @@
+// The eight equations of a task, their derivatives, and how they change on the way from one task to another.
+#pragma once
+
+#include "algebra/four_bar.hpp"
+#include "algebra/lanes.hpp"
+#include "algebra/sharp_complex.hpp"
+
+namespace gruebler::algebra::inline GRUEBLER_LEVEL {
+
+// Numbers of a task: two equations a position, one a point; the rest of the eight fix unknowns of those numbers.
+struct Shape {
+    int positions = 0;  // besides the first
+    int points = 0;
+    int equations() const { return 2 * positions + points; }
+};
+
+// Displacements and their conjugates, of the positions, then of the points; turns g of the positions; fixed unknowns.
+struct Parameters {
+    Lanes t, s, g, fixed;
+
+    // complex[4, 8], as pairs of doubles.
+    static Parameters read(const double* numbers) {
+        const auto row = [numbers](int k) {
+            Lanes values;
+            for (int i = 0; i < lanes; ++i) {
+                const double* number = numbers + 2 * (lanes * k + i);
+                values.set(i, {number[0], number[1]});
+            }
+            return values;
+        };
+        return {row(0), row(1), row(2), row(3)};
+    }
+};
+
+// A straight way from task to task: where it is at a time, and how fast it goes.
+struct Way {
+    Parameters begin, speed;
+
+    static Way between(const Parameters& begin, const Parameters& end) {
+        Way way{begin, end};
+        way.combine(way.speed, end, begin, -1);
+        return way;
+    }
+    void at(double time, Parameters& p) const { combine(p, begin, speed, time); }
+
+private:
+    static void combine(Parameters& out, const Parameters& first, const Parameters& second, double k) {
+        combine(out.t, first.t, second.t, k);
+        combine(out.s, first.s, second.s, k);
+        combine(out.g, first.g, second.g, k);
+        combine(out.fixed, first.fixed, second.fixed, k);
+    }
+    static void combine(Lanes& out, const Lanes& first, const Lanes& second, double k) {
+        for (int i = 0; i < lanes; ++i) {
+            out.re[i] = first.re[i] + k * second.re[i];
+            out.im[i] = first.im[i] + k * second.im[i];
+        }
+    }
+};
+
+inline constexpr Complex one{1, 0};
+
+// The turn of a position and its conjugate.
+template <class Number>
+Number conjugate_turn(const Number& g) {
+    return -g / (Number(one) + g);
+}
+
+template <class Number>
+Dyad<Number> first_dyad(const Complex* z) {
+    return {Number(z[0]), Number(z[1]), Number(z[4]), Number(z[5])};
+}
+
+template <class Number>
+Dyad<Number> second_dyad(const Complex* z) {
+    return {Number(z[2]), Number(z[3]), Number(z[6]), Number(z[7])};
+}
+
+// The columns of the unknowns of each dyad.
+inline constexpr int first_columns[4] = {0, 1, 4, 5}, second_columns[4] = {2, 3, 6, 7};
+
+// What is evaluated: the equations at z, and how fast they change as the task does.
+enum class Wanted { value, motion };
+
+// The derivatives by the unknowns, and what is wanted besides.
+template <Wanted wanted>
+void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Shape shape, Matrix& jacobian,
+              Lanes& out) {
+    const Dyad<Complex> first = first_dyad<Complex>(z), second = second_dyad<Complex>(z);
+    for (Lanes& column : jacobian.column) column.clear();
+    out.clear();
+    for (int j = 0; j < shape.positions; ++j) {
+        const Complex t = p.t.at(j), s = p.s.at(j), g = p.g.at(j), h = conjugate_turn(g);
+        const Coefficients<Complex> turn{g, h, one};
+        const auto write = [&](int row, const Dyad<Complex>& dyad, const int* columns) {
+            const ByDyad<Complex> by = by_dyad(dyad, t, s, turn);
+            jacobian.column[columns[0]].set(row, by.x);
+            jacobian.column[columns[1]].set(row, by.xc);
+            jacobian.column[columns[2]].set(row, by.a);
+            jacobian.column[columns[3]].set(row, by.ac);
+            const Coefficients<Complex> k = coefficients(dyad, t, s);
+            if constexpr (wanted == Wanted::value) {
+                out.set(row, of_position(k, g, h));
+            } else {
+                const Complex dg = speed.g.at(j), dh = -dg / ((one + g) * (one + g));
+                out.set(row, by_t(dyad, s, turn) * speed.t.at(j) + by_s(dyad, t, turn) * speed.s.at(j) + k.a * dg +
+                                 k.b * dh);
+            }
+        };
+        write(2 * j, first, first_columns);
+        write(2 * j + 1, second, second_columns);
+    }
+    // One iteration a point, none depends on another: a processor does several at once.
+    Matrix& __restrict matrix = jacobian;
+    Lanes& __restrict rest = out;
+    for (int q = 0; q < shape.points; ++q) {
+        const int j = shape.positions + q, row = shape.positions + j;
+        const Complex t = p.t.at(j), s = p.s.at(j);
+        const Coefficients<Complex> k = coefficients(first, t, s), l = coefficients(second, t, s);
+        const Minors<Complex> m = minors(k, l);
+        const Coefficients<Complex> u = by_first(m, l), v = by_second(m, k);
+        const ByDyad<Complex> by = by_dyad(first, t, s, u), by_other = by_dyad(second, t, s, v);
+        matrix.column[0].set(row, by.x);
+        matrix.column[1].set(row, by.xc);
+        matrix.column[2].set(row, by_other.x);
+        matrix.column[3].set(row, by_other.xc);
+        matrix.column[4].set(row, by.a);
+        matrix.column[5].set(row, by.ac);
+        matrix.column[6].set(row, by_other.a);
+        matrix.column[7].set(row, by_other.ac);
+        if constexpr (wanted == Wanted::value)
+            rest.set(row, of_point(m));
+        else
+            rest.set(row, (by_t(first, s, u) + by_t(second, s, v)) * speed.t.at(j) +
+                              (by_s(first, t, u) + by_s(second, t, v)) * speed.s.at(j));
+    }
+    for (int r = shape.equations(); r < unknowns; ++r) {
+        jacobian.column[r].set(r, one);
+        out.set(r, wanted == Wanted::value ? z[r] - p.fixed.at(r) : -speed.fixed.at(r));
+    }
+}
+
+// The equations with twice the digits, rounded at the end.
+inline void evaluate_sharply(const Complex* z, const Parameters& p, Shape shape, Lanes& out) {
+    const Dyad<SharpComplex> first = first_dyad<SharpComplex>(z), second = second_dyad<SharpComplex>(z);
+    for (int j = 0; j < shape.positions; ++j) {
+        const SharpComplex t(p.t.at(j)), s(p.s.at(j)), g(p.g.at(j)), h = conjugate_turn(g);
+        out.set(2 * j, of_position(coefficients(first, t, s), g, h).rounded());
+        out.set(2 * j + 1, of_position(coefficients(second, t, s), g, h).rounded());
+    }
+    Lanes& __restrict rest = out;
+    for (int q = 0; q < shape.points; ++q) {
+        const int j = shape.positions + q;
+        const SharpComplex t(p.t.at(j)), s(p.s.at(j));
+        const Coefficients<SharpComplex> k = coefficients(first, t, s), l = coefficients(second, t, s);
+        rest.set(shape.positions + j, of_point(minors(k, l)).rounded());
+    }
+    for (int r = shape.equations(); r < unknowns; ++r) out.set(r, z[r] - p.fixed.at(r));
+}
+
+}  // namespace gruebler::algebra::inline GRUEBLER_LEVEL
