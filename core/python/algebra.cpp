@@ -1,6 +1,8 @@
 #include <complex>
+#include <utility>
 
 #include "algebra/certificate.hpp"
+#include "algebra/modular.hpp"
 #include "algebra/tracking.hpp"
 #include "base/processor.hpp"
 #include "doors.hpp"
@@ -102,11 +104,99 @@ nb::tuple evaluate_equations(const Unknowns& z, const Task& task, int positions,
                           hand_over<Number>(std::move(derivatives), {count, 8, 8}));
 }
 
+using Numbers = Array<std::int64_t, -1>;
+using Table = Array<std::int64_t, -1, -1>;
+
+void check_rows(const Numbers& start, const Numbers& column, const Numbers& value, std::int64_t columns) {
+    const std::size_t length = start.shape(0), entries = column.shape(0);
+    bool ascends = length > 0 && start.data()[0] == 0 && start.data()[length - 1] == static_cast<std::int64_t>(entries);
+    for (std::size_t i = 1; i < length; ++i) ascends = ascends && start.data()[i - 1] <= start.data()[i];
+    expect(ascends, "start must ascend from 0 to the number of entries " + std::to_string(entries));
+    expect(value.shape(0) == entries, "value must have a number for each column");
+    for (std::size_t e = 0; e < entries; ++e)
+        expect(column.data()[e] >= 0 && column.data()[e] < columns, "an entry stands in a column that is none");
+}
+
+nb::tuple eliminate(const Numbers& start, const Numbers& column, const Numbers& value, std::int64_t columns,
+                    double most_multiplications, double most_entries) {
+    constexpr std::int64_t most_columns = std::int64_t{1} << 31;
+    expect(columns >= 0 && columns < most_columns, "the number of columns is not negative");
+    check_rows(start, column, value, columns);
+    const std::int64_t rows = static_cast<std::int64_t>(start.shape(0)) - 1;
+    std::vector<std::int64_t> last_row(static_cast<std::size_t>(columns), -1);
+    for (std::int64_t i = 0; i < rows; ++i)
+        for (std::int64_t e = start.data()[i]; e < start.data()[i + 1]; ++e)
+            expect(std::exchange(last_row[static_cast<std::size_t>(column.data()[e])], i) != i,
+                   "row " + std::to_string(i) + " has two entries in one column");
+    Echelon form;
+    const MostWork most{most_multiplications, most_entries};
+    const SparseRows matrix{rows, columns, start.data(), column.data(), value.data()};
+    const EliminationOutcome outcome =
+        run([&](Watch& watch) { return algebra::eliminate(matrix, most, form, watch); });
+    const std::size_t pivots = form.pivot.size(), entries = form.column.size();
+    return nb::make_tuple(outcome.end == EliminationEnd::done, outcome.core_rows, outcome.core_columns,
+                          hand_over<std::int64_t>(std::move(form.pivot), {pivots}),
+                          hand_over<std::int64_t>(std::move(form.start), {pivots + 1}),
+                          hand_over<std::int64_t>(std::move(form.column), {entries}),
+                          hand_over<std::int64_t>(std::move(form.value), {entries}));
+}
+
+std::vector<std::int64_t> residues(const Table& table) {
+    std::vector<std::int64_t> numbers(table.data(), table.data() + table.size());
+    for (std::int64_t& number : numbers) number = (number % prime + prime) % prime;
+    return numbers;
+}
+
+NewArray<std::int64_t> solve_back(const Numbers& pivot, const Numbers& start, const Numbers& column,
+                                  const Numbers& value, const Table& solutions) {
+    const auto columns = static_cast<std::int64_t>(solutions.shape(0));
+    check_rows(start, column, value, columns);
+    expect(start.shape(0) == pivot.shape(0) + 1, "start must have a number for each pivot and one more");
+    for (std::size_t k = 0; k < pivot.shape(0); ++k)
+        expect(pivot.data()[k] >= 0 && pivot.data()[k] < columns, "a pivot stands in a column that is none");
+    const auto copied = [](const Numbers& numbers) {
+        return std::vector<std::int64_t>(numbers.data(), numbers.data() + numbers.shape(0));
+    };
+    const Echelon form{copied(pivot), copied(start), copied(column), copied(value)};
+    std::vector<std::int64_t> solved = residues(solutions);
+    const std::size_t width = solutions.shape(1);
+    run([&](Watch& watch) {
+        return algebra::solve_back(form, static_cast<std::int64_t>(width), solved.data(), watch);
+    });
+    return hand_over<std::int64_t>(std::move(solved), {solutions.shape(0), width});
+}
+
+NewArray<std::int64_t> reduce(const Table& matrix) {
+    std::vector<std::int64_t> rows = residues(matrix);
+    const std::size_t width = matrix.shape(1);
+    std::int64_t rank = 0;
+    run([&](Watch& watch) {
+        return algebra::reduce(static_cast<std::int64_t>(matrix.shape(0)), static_cast<std::int64_t>(width),
+                               rows.data(), rank, watch);
+    });
+    rows.resize(static_cast<std::size_t>(rank) * width);
+    return hand_over<std::int64_t>(std::move(rows), {static_cast<std::size_t>(rank), width});
+}
+
 }  // namespace
 
 void add_algebra(nb::module_& module) {
+    module.def("eliminate", eliminate, nb::arg("start").noconvert(), nb::arg("column").noconvert(),
+               nb::arg("value").noconvert(), nb::arg("columns"), nb::arg("most_multiplications"), nb::arg("most_entries"),
+               "Sparse rows of whole numbers eliminated modulo 2^31 - 1: whether it is done, rows and columns of the "
+               "dense core, and the echelon form as pivot columns int64[r], starts int64[r + 1], other columns and "
+               "values after division by the pivot int64[e].\n\n"
+               "start: int64[m + 1]; column, value: int64[e], row i has the entries start[i]:start[i + 1], each column "
+               "at most once; most_multiplications, most_entries: a core that takes more is left, and it is not done.");
+    module.def("solve_back", solve_back, nb::arg("pivot").noconvert(), nb::arg("start").noconvert(),
+               nb::arg("column").noconvert(), nb::arg("value").noconvert(), nb::arg("solutions").noconvert(),
+               "Solutions modulo 2^31 - 1 of the equations of an echelon form, int64[columns, k], from the values of "
+               "the columns without pivot.\n\n"
+               "pivot, start, column, value: the form as `eliminate` gives it; solutions: int64[columns, k].");
+    module.def("reduce", reduce, nb::arg("matrix").noconvert(),
+               "The reduced row echelon form modulo 2^31 - 1 of a dense matrix int64[m, n], without rows of zeros.");
     module.def("track", track, nb::arg("starts").noconvert(), nb::arg("begin").noconvert(), nb::arg("end").noconvert(),
-               nb::arg("positions"), nb::arg("points"), nb::arg("loose"), nb::arg("level") = "",
+               nb::arg("positions"), nb::arg("points"), nb::arg("loose"), nb::kw_only(), nb::arg("level") = "",
                "Solutions of one task of four-bars followed to another, straight in the space of tasks: the ends "
                "complex[paths, 8], how each ended int64[paths] (0 arrived, 1 failed, 2 infinite), steps int64[paths]."
                "\n\n"
@@ -115,7 +205,7 @@ void add_algebra(nb::module_& module) {
                "the positions, values of the unknowns that no equation is left for; loose: how far the corrector may "
                "change a prediction; level: compiled for this instruction set, the best one by default.");
     module.def("refine_solutions", refine_solutions, nb::arg("z").noconvert(), nb::arg("task").noconvert(),
-               nb::arg("positions"), nb::arg("points"), nb::arg("level") = "",
+               nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("level") = "",
                "Newton's method for solutions of one task, with residuals of twice the digits: the solutions "
                "complex[n, 8] and the last relative step of each float64[n], infinite where the matrix is singular.\n\n"
                "The arguments are those of `track`.");
@@ -124,7 +214,7 @@ void add_algebra(nb::module_& module) {
                "Which solutions of one task are proved, each different from all others, by an interval Newton step: "
                "bool[n].\n\nThe arguments are those of `track`.");
     module.def("evaluate_equations", evaluate_equations, nb::arg("z").noconvert(), nb::arg("task").noconvert(),
-               nb::arg("positions"), nb::arg("points"), nb::arg("sharp") = false,
+               nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("sharp") = false,
                "The equations of one task at unknowns: their values complex[n, 8] and derivatives complex[n, 8, 8].\n\n"
                "sharp: values are computed with twice the digits; the other arguments are those of `track`.");
 }

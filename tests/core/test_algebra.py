@@ -47,7 +47,7 @@ def test_paths_as_numba(core, problem, loose):
     assert found[2].tolist() == work.tolist()
     assert found[0] == pytest.approx(ends, rel=1e-12, abs=1e-11)
     for level in core.level_names():
-        for array, other in zip(core.track(z, base.parameters, p, *shape, loose, level), found, strict=True):
+        for array, other in zip(core.track(z, base.parameters, p, *shape, loose, level=level), found, strict=True):
             assert array.tobytes() == other.tobytes()
 
 
