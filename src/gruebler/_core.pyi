@@ -30,3 +30,54 @@ def count_sliding(
     vectors: NDArray[np.int64], simple: int, joint: NDArray[np.int64], mobility: int, images: NDArray[np.int64]
 ) -> NDArray[np.int64]: ...
 def describe_groups(n: int, trusses: NDArray[np.uint8]) -> NDArray[np.int64]: ...
+
+# algebra
+def track(
+    starts: NDArray[np.complex128],
+    begin: NDArray[np.complex128],
+    end: NDArray[np.complex128],
+    positions: int,
+    points: int,
+    loose: float,
+    *,
+    level: str = "",
+) -> tuple[NDArray[np.complex128], NDArray[np.int64], NDArray[np.int64]]: ...
+def refine_solutions(
+    z: NDArray[np.complex128], task: NDArray[np.complex128], positions: int, points: int, *, level: str = ""
+) -> tuple[NDArray[np.complex128], NDArray[np.float64]]: ...
+def certify(
+    z: NDArray[np.complex128], task: NDArray[np.complex128], positions: int, points: int
+) -> NDArray[np.bool_]: ...
+def evaluate_equations(
+    z: NDArray[np.complex128], task: NDArray[np.complex128], positions: int, points: int, *, sharp: bool = False
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]: ...
+def eliminate(
+    start: NDArray[np.int64],
+    column: NDArray[np.int64],
+    value: NDArray[np.int64],
+    columns: int,
+    most_multiplications: float,
+    most_entries: float,
+) -> tuple[bool, int, int, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]: ...
+def solve_back(
+    pivot: NDArray[np.int64],
+    start: NDArray[np.int64],
+    column: NDArray[np.int64],
+    value: NDArray[np.int64],
+    solutions: NDArray[np.int64],
+) -> NDArray[np.int64]: ...
+def reduce(matrix: NDArray[np.int64]) -> NDArray[np.int64]: ...
+
+# layout
+def relax(
+    layout: NDArray[np.float64],
+    segments: NDArray[np.int64],
+    pull: NDArray[np.float64],
+    watched: NDArray[np.int64],
+    images: NDArray[np.int64],
+    turns: NDArray[np.float64],
+    power: int,
+    rounds: int,
+) -> tuple[NDArray[np.float64], float]: ...
+def closest(layout: NDArray[np.float64], segments: NDArray[np.int64], watched: NDArray[np.int64]) -> float: ...
+def crossing_segments(layout: NDArray[np.float64], segments: NDArray[np.int64]) -> NDArray[np.int64]: ...
