@@ -10,7 +10,7 @@ from gruebler.base.text import message, translate
 from gruebler.cli.inputs import mechanism_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.long_work import ask_before, progress
-from gruebler.cli.output import print_json
+from gruebler.cli.output import print_count, print_items
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.structure.assur import AssurGroup, Decomposition, SolvedGroup, decompose, drive_choices
@@ -55,10 +55,16 @@ def run(arguments: argparse.Namespace) -> int:
     mechanism = mechanism_of(arguments.mechanism, arguments.frame, arguments.drive, language_of_names(arguments))
     if not mechanism.drives:
         choices = list(drive_choices(mechanism.chain, mechanism.frame, anywhere=arguments.anywhere))
-        items = [
-            {"code": _code(choice.mechanism), "text": str(choice.mechanism), **_verdict(choice)} for choice in choices
-        ]
-        _print(items, arguments, lambda: _compare(choices, arguments.lang))
+        print_items(
+            arguments,
+            choices,
+            lambda choice: {
+                "code": _code(choice.mechanism),
+                "text": str(choice.mechanism),
+                **_verdict(choice),
+            },
+            lambda: _compare(choices, arguments.lang),
+        )
         return 0
     decomposition = decompose(mechanism)
     about = {"code": _code(mechanism), "text": str(mechanism), **_verdict(decomposition)}
@@ -70,23 +76,14 @@ def run(arguments: argparse.Namespace) -> int:
     if not decomposition.complete:
         about["message"] = decomposition.message(arguments.lang)
     names = mechanism.chain.joint_names()
-    items = [_item(group, names) for group in decomposition.groups]
-    _print(items, arguments, lambda: print_text(decomposition.explain(arguments.lang)), about)
+    print_items(
+        arguments,
+        decomposition.groups,
+        lambda group: _item(group, names),
+        lambda: print_text(decomposition.explain(arguments.lang)),
+        about,
+    )
     return int(not decomposition.complete)
-
-
-def _print(
-    items: list[dict[str, Any]], arguments: argparse.Namespace, say: Any, about: dict[str, Any] | None = None
-) -> None:
-    if arguments.json:
-        document = {**(about or {}), "count": len(items)}
-        if not arguments.count:
-            document["items"] = items
-        print_json(document)
-    elif arguments.count:
-        print(len(items))
-    else:
-        say()
 
 
 def _verdict(decomposition: Decomposition) -> dict[str, Any]:
@@ -123,18 +120,16 @@ def _code(mechanism: Mechanism) -> str | None:
 def _list_groups(arguments: argparse.Namespace) -> int:
     """All groups of a size: counted without a list, listed without an object for each."""
     if arguments.count:
-        count = count_assur_groups(arguments.list)
-        if arguments.json:
-            print_json({"count": count})
-        else:
-            print(count)
+        print_count(arguments, count_assur_groups(arguments.list))
         return 0
     ask_before(expected_seconds_of_groups(arguments.list), arguments.yes)
     rows = list(progress(group_rows(arguments.list), _PROGRESS.in_language(arguments.lang)))
-    if arguments.json:
-        _print([_group_item(row.group()) for row in rows], arguments, None)
-    else:
-        _list(rows, arguments.list, arguments.lang)
+    print_items(
+        arguments,
+        rows,
+        lambda row: _group_item(row.group()),
+        lambda: _list(rows, arguments.list, arguments.lang),
+    )
     return 0
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from gruebler.base.text import translate
+from gruebler.base.text import message
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.output import print_json
+from gruebler.cli.output import print_items, print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.structure.chain import Chain
@@ -16,6 +16,11 @@ from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.isomorphism import code
 from gruebler.structure.mobility import mobility_report
 from gruebler.structure.transformations import Attachment, Extension, derive, extend
+
+_HEADERS = (
+    *(message("chain"), message("F counted"), message("generic"), message("places")),
+    message("joints that cannot move"),
+)
 
 
 def add(parser: Parser) -> None:
@@ -49,23 +54,13 @@ def run(arguments: argparse.Namespace) -> int:
         _derive(chain, arguments)
         return 0
     extensions = extend(chain, dyad=arguments.dyad, coupler=arguments.coupler, at_joints=arguments.at_joints)
-    if arguments.json:
-        document: dict[str, Any] = {"count": len(extensions)}
-        if not arguments.count:
-            document["items"] = [_item(chain, extension) for extension in extensions]
-        print_json(document)
-    elif arguments.count:
-        print(len(extensions))
-    else:
-        lang = arguments.lang
-        headers = [
-            translate("chain", lang),
-            translate("F counted", lang),
-            translate("generic", lang),
-            translate("places", lang),
-            translate("joints that cannot move", lang),
-        ]
-        print_table(headers, [_row(chain, extension, lang) for extension in extensions], numbers=(1, 2))
+    lang = arguments.lang
+    print_items(
+        arguments,
+        extensions,
+        lambda extension: _item(chain, extension),
+        lambda: print_table(_HEADERS, [_row(chain, each, lang) for each in extensions], numbers=(1, 2), lang=lang),
+    )
     return 0
 
 

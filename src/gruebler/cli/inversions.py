@@ -10,7 +10,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, translate
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.output import print_json, write_file
+from gruebler.cli.output import print_items, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.mechanics.fourbar import SizedInversion, double_slide_inversions, sized_inversions
@@ -73,18 +73,8 @@ def run(arguments: argparse.Namespace) -> int:
         )
     else:
         drivens = [DrivenMechanism(mechanism) for mechanism in inversions(chain)]
-    if arguments.json:
-        document: dict[str, object] = {"count": len(drivens)}
-        if not arguments.count:
-            document["items"] = [item(driven) for driven in drivens]
-        print_json(document)
-    elif arguments.count:
-        print(len(drivens))
-    elif arguments.text:
-        for driven in drivens:
-            print(driven)
-    else:
-        _print(drivens, arguments.lang)
+    show = _print_texts if arguments.text else _print
+    print_items(arguments, drivens, item, lambda: show(drivens, arguments.lang))
     return 0
 
 
@@ -121,14 +111,14 @@ def _sized(word: str, arguments: argparse.Namespace) -> int:
     lang, path = arguments.lang, arguments.out
     if path is not None and path.suffix.lower() in _PICTURES:
         write_file(path, _page(word, sized, path, lang), lang)
-    elif arguments.json:
-        items = [{"frame": each.frame, "drive": each.drive, "type": each.type.in_language(lang)} for each in sized]
-        print_json({"count": len(sized)} | ({} if arguments.count else {"items": items}))
-    elif arguments.count:
-        print(len(sized))
-    else:
-        headers = (message("frame"), message("drive"), message("mechanism"))
-        print_table(headers, [(each.frame, each.drive, each.type) for each in sized], lang=lang)
+        return 0
+    headers = (message("frame"), message("drive"), message("mechanism"))
+    print_items(
+        arguments,
+        sized,
+        lambda each: {"frame": each.frame, "drive": each.drive, "type": each.type.in_language(lang)},
+        lambda: print_table(headers, [(each.frame, each.drive, each.type) for each in sized], lang=lang),
+    )
     return 0
 
 
@@ -178,6 +168,11 @@ def _row(driven: DrivenMechanism, lang: str) -> dict[str, str]:
         "output": driven.output or "",
         "family": family(mechanism, lang) or "",
     }
+
+
+def _print_texts(drivens: Sequence[DrivenMechanism], _: str) -> None:
+    for driven in drivens:
+        print(driven)
 
 
 def _print(drivens: Sequence[DrivenMechanism], lang: str) -> None:

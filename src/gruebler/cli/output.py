@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import argparse
 import codecs
 import json
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.columns import Column, Table, as_csv
 from gruebler.base.errors import visible
 from gruebler.base.text import translate
+
+Item = TypeVar("Item")
 
 
 def print_json(document: Any, indent: int | None = 2) -> None:
@@ -28,6 +31,36 @@ def print_json(document: Any, indent: int | None = 2) -> None:
     except ValueError:
         text = json.dumps(_finite(document), ensure_ascii=ascii_only, indent=indent, allow_nan=False)
     print(text)
+
+
+def print_items(
+    arguments: argparse.Namespace,
+    items: Sequence[Item],
+    as_data: Callable[[Item], Mapping[str, object]],
+    show: Callable[[], object],
+    about: Mapping[str, object] | None = None,
+) -> None:
+    """Print a list as its command was asked to: with --json as plain data, with --count its length, else by ``show``.
+
+    Args:
+        arguments: of the command, with ``json`` and ``count``.
+        items: what is listed.
+        as_data: an item as it stands in JSON.
+        show: prints the list for a reader.
+        about: what the JSON says before the list.
+    """
+    if arguments.json:
+        listed = {} if arguments.count else {"items": [as_data(item) for item in items]}
+        print_json({**(about or {}), "count": len(items), **listed})
+    elif arguments.count:
+        print(len(items))
+    else:
+        show()
+
+
+def print_count(arguments: argparse.Namespace, count: int) -> None:
+    """Print a number, with --json as ``{"count": number}``."""
+    print(json.dumps({"count": count}) if arguments.json else count)
 
 
 def _finite(document: Any) -> Any:

@@ -11,7 +11,7 @@ from gruebler.cli.executors import executor_of
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
 from gruebler.cli.long_work import ask_before, progress
-from gruebler.cli.output import print_json
+from gruebler.cli.output import print_count, print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.structure.chain import Chain
@@ -85,11 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
     words = message("{n} found, {seconds:.0f} s").in_language(arguments.lang) if quiet else ""
     candidates = progress(variants(wanted, executor=executor_of(arguments)), words)
     if arguments.count:
-        count = sum(1 for _ in candidates)
-        if arguments.json:
-            print_json({"count": count}, indent=None)
-        else:
-            print(count)
+        print_count(arguments, sum(1 for _ in candidates))
     elif arguments.json:
         items = [_item(each) for each in candidates]
         print_json({"count": len(items), "items": items})
@@ -139,11 +135,7 @@ def _count_sliding(wanted: Requirements, arguments: argparse.Namespace) -> int:
             headers = [translate("sliding joints", arguments.lang), translate("chains", arguments.lang)]
             print_table(headers, [(str(k), str(number)) for k, number in enumerate(numbers)], numbers=(0, 1))
         return 0
-    count = numbers[wanted.prismatic] if wanted.prismatic < len(numbers) else 0
-    if arguments.json:
-        print_json({"count": count}, indent=None)
-    else:
-        print(count)
+    print_count(arguments, numbers[wanted.prismatic] if wanted.prismatic < len(numbers) else 0)
     return 0
 
 
