@@ -58,11 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_items(
             arguments,
             choices,
-            lambda choice: {
-                "code": _code(choice.mechanism),
-                "text": str(choice.mechanism),
-                **_verdict(choice),
-            },
+            lambda choice: {"code": _code(choice.mechanism), "text": str(choice.mechanism), **_verdict(choice)},
             lambda: _compare(choices, arguments.lang),
         )
         return 0
@@ -125,10 +121,7 @@ def _list_groups(arguments: argparse.Namespace) -> int:
     ask_before(expected_seconds_of_groups(arguments.list), arguments.yes)
     rows = list(progress(group_rows(arguments.list), _PROGRESS.in_language(arguments.lang)))
     print_items(
-        arguments,
-        rows,
-        lambda row: _group_item(row.group()),
-        lambda: _list(rows, arguments.list, arguments.lang),
+        arguments, rows, lambda row: _group_item(row.group()), lambda: _list(rows, arguments.list, arguments.lang)
     )
     return 0
 

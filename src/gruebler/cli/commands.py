@@ -98,10 +98,7 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
             Command("demo", message("check the whole catalog and explain four machines")),
         ),
     ),
-    (
-        message("Files"),
-        (Command("convert", message("convert files: formats of other programs, chains as graphs")),),
-    ),
+    (message("Files"), (Command("convert", message("convert files: formats of other programs, chains as graphs")),)),
     (
         message("Shell"),
         (

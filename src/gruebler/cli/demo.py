@@ -16,7 +16,7 @@ def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="Check the whole catalog and explain a V-compressor, a differential, a locomotive and a braced "
-        "four-bar.",
+        "four-bar."
     )
 
 

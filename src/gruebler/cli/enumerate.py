@@ -186,10 +186,7 @@ def _bytes(size: float) -> str:
 
 
 def _count(
-    request: Request,
-    arguments: argparse.Namespace,
-    executor: Callable[[], Executor] | None,
-    size: Estimate,
+    request: Request, arguments: argparse.Namespace, executor: Callable[[], Executor] | None, size: Estimate
 ) -> int:
     with run_progress(arguments.lang) as draw:
         count = run_count(
@@ -228,22 +225,13 @@ def _print_count(count: ChainCount, request: Request, lang: str) -> None:
 
 
 def _list(
-    request: Request,
-    form: str,
-    arguments: argparse.Namespace,
-    executor: Callable[[], Executor] | None,
-    size: Estimate,
+    request: Request, form: str, arguments: argparse.Namespace, executor: Callable[[], Executor] | None, size: Estimate
 ) -> int:
     with (
         run_progress(arguments.lang) as draw,
         closing(
             run_list(
-                request,
-                form,
-                executor=executor,
-                checkpoint=arguments.checkpoint,
-                progress=draw,
-                expected=size.chains,
+                request, form, executor=executor, checkpoint=arguments.checkpoint, progress=draw, expected=size.chains
             )
         ) as listings,
     ):

@@ -32,11 +32,7 @@ from gruebler.teaching.exercises import (
     with_values,
 )
 
-_MARKS = {
-    Mark.RIGHT: message("right"),
-    Mark.NEAR: message("nearly right"),
-    Mark.WRONG: message("wrong"),
-}
+_MARKS = {Mark.RIGHT: message("right"), Mark.NEAR: message("nearly right"), Mark.WRONG: message("wrong")}
 _MOST = 1000
 
 
@@ -55,10 +51,7 @@ def add(parser: Parser) -> None:
     )
     listing = parser.add_command("list", help="list all exercises and worked examples")
     show = parser.add_command("show", help="show a task without its solution")
-    solve = parser.add_command(
-        "solve",
-        help="solve a task step by step, checked by a second method",
-    )
+    solve = parser.add_command("solve", help="solve a task step by step, checked by a second method")
     for action in (show, solve):
         action.take(
             """

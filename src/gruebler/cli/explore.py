@@ -73,12 +73,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         return model_of(realisation.linkage)
     linkage, between = linkage_and_range(word)
     record = entry_of(word)
-    return model_of(
-        linkage,
-        name=word if record is None else record.name,
-        source=word,
-        between=between,
-    )
+    return model_of(linkage, name=word if record is None else record.name, source=word, between=between)
 
 
 def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:

@@ -199,9 +199,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         )
     if not listed:
         raise GrueblerError(
-            "there are no such chains with {links} links and F = {mobility}",
-            links=arguments.links,
-            mobility=mobility,
+            "there are no such chains with {links} links and F = {mobility}", links=arguments.links, mobility=mobility
         )
     sections = []
     pictures = 0

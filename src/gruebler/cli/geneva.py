@@ -44,14 +44,7 @@ _ROWS = {
 }
 _KEYS = ("driver_deg", "wheel_deg", "ratio", "acceleration", "jerk", "dwell")
 _DWELL = message("dwell")
-_TABLE = (
-    message("driver"),
-    message("wheel"),
-    message("ratio"),
-    "α/ω²",
-    "dα/dt/ω³",
-    _DWELL,
-)
+_TABLE = (message("driver"), message("wheel"), message("ratio"), "α/ω²", "dα/dt/ω³", _DWELL)
 
 
 def add(parser: Parser) -> None:

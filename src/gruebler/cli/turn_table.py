@@ -26,10 +26,7 @@ def turn_degrees(step: float, *, closed: bool = False) -> NDArray[np.float64]:
 
 
 def print_turn(
-    headers: Sequence[Cell],
-    rows: Sequence[Sequence[float | Readable]],
-    formats: Sequence[tuple[str, str]],
-    lang: str,
+    headers: Sequence[Cell], rows: Sequence[Sequence[float | Readable]], formats: Sequence[tuple[str, str]], lang: str
 ) -> None:
     """Print rows of numbers, each column with its format and unit."""
     cells = [

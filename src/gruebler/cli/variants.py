@@ -110,10 +110,7 @@ def _number_or_any(text: str) -> int | str:
 def _only_sliding(wanted: Requirements) -> bool:
     """Whether nothing is asked of the chains but numbers of links, freedoms, sliding and multiple joints."""
     plain = Requirements(
-        links=wanted.links,
-        mobility=wanted.mobility,
-        prismatic=wanted.prismatic,
-        multiple_joints=wanted.multiple_joints,
+        links=wanted.links, mobility=wanted.mobility, prismatic=wanted.prismatic, multiple_joints=wanted.multiple_joints
     )
     return wanted == plain and wanted.links >= 3 and wanted.prismatic >= 0
 

@@ -60,14 +60,7 @@ def dxf_from_linkage(
     space = document.modelspace()
     for number, (link, layer) in enumerate(_layers(list(plates.plates)).items()):
         pose = poses[link]
-        _add_plate(
-            document,
-            layer,
-            plates.plates[link],
-            sizes,
-            partial(_posed, pose, origin),
-            left_out,
-        )
+        _add_plate(document, layer, plates.plates[link], sizes, partial(_posed, pose, origin), left_out)
         document.layers.get(layer).description = planes[link]
         document.layers.get(layer).color = _COLOURS[number % len(_COLOURS)]
     for name in (_CURVES, _POINTS):

@@ -169,10 +169,7 @@ def _connector_names(connectors: Mapping[str, Element]) -> dict[str, str]:
 
 
 def _slot(
-    number: str,
-    limits: list[str],
-    places: Mapping[str, tuple[float, float]],
-    links_of: Mapping[str, list[str]],
+    number: str, limits: list[str], places: Mapping[str, tuple[float, float]], links_of: Mapping[str, list[str]]
 ) -> tuple[str, float]:
     """The link with the slot between two limits, and its direction."""
     if len(limits) != 2 or any(limit not in places for limit in limits):

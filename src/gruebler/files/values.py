@@ -46,10 +46,7 @@ def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
             return form
     endings = [ending for form in FORMATS for ending in form.suffixes if not ending.endswith(".gz")]
     raise GrueblerError(
-        "{path}: expected {endings}, not {suffix!r}",
-        path=path,
-        endings=joined_by_or(endings),
-        suffix=Path(path).suffix,
+        "{path}: expected {endings}, not {suffix!r}", path=path, endings=joined_by_or(endings), suffix=Path(path).suffix
     )
 
 
@@ -95,11 +92,7 @@ def _say(notes: list[Message], left_out: list[Message] | None, text: Message) ->
 
 
 def write(
-    value: object,
-    path: str | PathLike[str],
-    *,
-    format_name: str | None = None,
-    left_out: list[Message] | None = None,
+    value: object, path: str | PathLike[str], *, format_name: str | None = None, left_out: list[Message] | None = None
 ) -> Path:
     """Write a value into a file that `read` takes back, a motion as a table; returns the path.
 

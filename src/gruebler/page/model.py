@@ -32,11 +32,7 @@ _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but fo
 
 
 def model_of(
-    linkage: Linkage,
-    *,
-    name: str | Text = "",
-    source: str = "",
-    between: tuple[float, float] | None = None,
+    linkage: Linkage, *, name: str | Text = "", source: str = "", between: tuple[float, float] | None = None
 ) -> dict[str, Any]:
     """Everything that the page needs to show a linkage and to move it by itself, as plain data for `json.dumps`.
 
@@ -75,13 +71,7 @@ def model_of(
             for text, joint in zip(names, chain.joints, strict=True)
         ],
         "elements": [
-            {
-                "joint": number,
-                "link": chain.index(link),
-                "kind": e.form,
-                "at": [e.x, e.y],
-                "angle": e.direction,
-            }
+            {"joint": number, "link": chain.index(link), "kind": e.form, "at": [e.x, e.y], "angle": e.direction}
             for number, link in keys
             for e in [linkage.elements[number, link]]
         ],

@@ -3,9 +3,4 @@
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.gallery import Item, Section, gallery_html
 
-__all__ = [
-    "Figure",
-    "Item",
-    "Section",
-    "gallery_html",
-]
+__all__ = ["Figure", "Item", "Section", "gallery_html"]

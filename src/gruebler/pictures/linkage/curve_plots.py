@@ -195,12 +195,7 @@ def family_of(
 
 
 def _paths(
-    linkage: Linkage,
-    places: dict[str, LinkPoint],
-    branch: Branch,
-    between: Between,
-    lang: str,
-    name: str,
+    linkage: Linkage, places: dict[str, LinkPoint], branch: Branch, between: Between, lang: str, name: str
 ) -> Figure:
     run = plot_run(linkage, 0, branch, between, lang, name)
     paths = [run.motion.complex_point(place) for place in places.values()]

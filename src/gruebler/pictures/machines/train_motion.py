@@ -12,10 +12,7 @@ from gruebler.machines.gears import GearError, Train, Unit, speeds
 
 _MOST = 100  # turns of the fastest link
 _TRAVEL = 2  # radii: the largest displacement of a rack or a load
-_WHY = {
-    False: message("do not determine all speeds"),
-    True: message("contradict each other"),
-}
+_WHY = {False: message("do not determine all speeds"), True: message("contradict each other")}
 _THREADS = 4  # turns of a screw
 
 

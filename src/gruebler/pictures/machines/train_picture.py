@@ -44,12 +44,7 @@ class TrainPictureOptions(TypedDict, total=False):
 
 
 def draw_train(
-    train: Train,
-    *,
-    planets: Mapping[str, int] | None = None,
-    teeth: bool = False,
-    lang: str = "en",
-    name: str = "",
+    train: Train, *, planets: Mapping[str, int] | None = None, teeth: bool = False, lang: str = "en", name: str = ""
 ) -> Figure:
     """A gear train in the reference pose, to scale by its tooth numbers or radii.
 

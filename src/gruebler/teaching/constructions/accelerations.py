@@ -163,12 +163,7 @@ def accelerations_of_inverted_slider_crank(
         plan.arrow("a_rel", tip, a_a),
     )
     return plan.board.done(
-        a_A=abs(a_a),
-        a_Cor=abs(coriolis),
-        a_Ct=t_c,
-        a_rel=rel,
-        alpha_lever=t_c / abs(lever),
-        omega_lever=abs(turn),
+        a_A=abs(a_a), a_Cor=abs(coriolis), a_Ct=t_c, a_rel=rel, alpha_lever=t_c / abs(lever), omega_lever=abs(turn)
     )
 
 

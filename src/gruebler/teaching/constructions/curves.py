@@ -133,13 +133,7 @@ def _polar_rays(board: Board, pins: tuple[complex, complex, complex, complex]) -
 
 
 def inflection_circle(
-    a: float = 25,
-    b: float = 70,
-    c: float = 40,
-    d: float = 70,
-    phi: float = 225,
-    u: float = 35,
-    v: float = 25,
+    a: float = 25, b: float = 70, c: float = 40, d: float = 70, phi: float = 225, u: float = 35, v: float = 25
 ) -> Construction:
     """The inflection circle by Euler and Savary, and the centre of curvature of the path of a coupler point."""
     board = Board(message("Inflection circle and centre of curvature by Euler and Savary"))
@@ -194,13 +188,7 @@ def inflection_circle(
 
 
 def bobillier(
-    a: float = 25,
-    b: float = 70,
-    c: float = 40,
-    d: float = 70,
-    phi: float = 225,
-    u: float = 35,
-    v: float = 25,
+    a: float = 25, b: float = 70, c: float = 40, d: float = 70, phi: float = 225, u: float = 35, v: float = 25
 ) -> Construction:
     """The pole tangent and a centre of curvature by Bobillier's theorem."""
     board = Board(message("Pole tangent and centre of curvature by Bobillier"))

@@ -161,8 +161,7 @@ def cam_profile(
         ),
     )
     board.step(
-        message("Circles of the roller about these centres."),
-        *(DrawnCircle(z, roller, "ghost") for z in centres),
+        message("Circles of the roller about these centres."), *(DrawnCircle(z, roller, "ghost") for z in centres)
     )
     slope = law.at(fine, 1)
     along = np.exp(1j * (pi / 2 - fine))

@@ -92,11 +92,7 @@ def three_positions(
 ) -> Construction:
     """Three positions: the pivots are the centres of the circles through the positions of A and of B."""
     board = Board(message("Three positions of a body"))
-    places = (
-        _position(0, 0, 0, length),
-        _position(x2, y2, angle2, length),
-        _position(x3, y3, angle3, length),
-    )
+    places = (_position(0, 0, 0, length), _position(x2, y2, angle2, length), _position(x3, y3, angle3, length))
     _segments(board, places, length)
     pivots = []
     for name, points, style in (("A", [p[0] for p in places], "line-6"), ("B", [p[1] for p in places], "line-7")):
@@ -135,11 +131,5 @@ def three_positions(
         *(Segment(z, w, "ghost") for pin, joint in others for z, w in ((a0, pin), (pin, joint), (joint, b0))),
     )
     return board.done(
-        x_A0=a0.real,
-        y_A0=a0.imag,
-        x_B0=b0.real,
-        y_B0=b0.imag,
-        a=abs(a1 - a0),
-        c=abs(b1 - b0),
-        d=abs(b0 - a0),
+        x_A0=a0.real, y_A0=a0.imag, x_B0=b0.real, y_B0=b0.imag, a=abs(a1 - a0), c=abs(b1 - b0), d=abs(b0 - a0)
     )

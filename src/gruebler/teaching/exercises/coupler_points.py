@@ -140,13 +140,7 @@ def _add_straight(builder: SolutionBuilder, path: Path, by_solver: Path, band: f
             end=degrees(piece.end),
         )
     )
-    builder.keep(
-        "length",
-        message("length of the nearly straight part"),
-        piece.length,
-        unit=unit,
-        symbol="L",
-    )
+    builder.keep("length", message("length of the nearly straight part"), piece.length, unit=unit, symbol="L")
     again = path_piece(by_solver, piece.start, piece.end, piece.direction, samples=2001)
     builder.check(message("Length of this part, by the general solver"), piece.length, again.length)
     width = message("Width of this part, by the general solver, and the band")

@@ -52,20 +52,12 @@ def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
         inner = builder.find("l_i", _INNER, "√((b - a)² - e²)", sqrt((b - a) ** 2 - e**2), a=a, b=b, e=e)
     stroke = builder.find("H", _STROKE, "l_a - l_i", outer - inner, l_a=outer, l_i=inner)
     measured = measures(size.linkage())
-    builder.check(
-        message("Stroke, from the extremes of the solved motion"),
-        stroke,
-        measured.travel or 0.0,
-    )
+    builder.check(message("Stroke, from the extremes of the solved motion"), stroke, measured.travel or 0.0)
     for key, centre in (("l_a", measured.outer), ("l_i", measured.inner)):
         position = abs(centre.output) if centre else 0.0
         builder.check(message("{key} of the solved motion", key=key), builder.number(key), position)
     builder.mistake("H", a, message("The stroke is twice the crank, not once."))
-    builder.mistake(
-        "H",
-        2 * a,
-        message("H = 2a holds for a central slider-crank only; this one is eccentric."),
-    )
+    builder.mistake("H", 2 * a, message("H = 2a holds for a central slider-crank only; this one is eccentric."))
     builder.mistake(
         "H",
         sqrt((a + b) ** 2 + e**2) - sqrt((b - a) ** 2 + e**2),
@@ -202,14 +194,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     if size.dead_centres is None:
         raise LinkageError("the crank of the slider-crank a = {a:g}, b = {rod:g} does not turn", a=a, rod=rod)
     builder.find("H", _STROKE, "2·a", 2 * a, a=a)
-    builder.find(
-        "s_H2",
-        message("slider in the middle of the stroke"),
-        "(l_a + l_i)/2",
-        rod,
-        l_a=rod + a,
-        l_i=rod - a,
-    )
+    builder.find("s_H2", message("slider in the middle of the stroke"), "(l_a + l_i)/2", rod, l_a=rod + a, l_i=rod - a)
     name = message("crank angle in the middle of the stroke, on either side of the outer dead centre")
     text = message(
         "crank angle there: the triangle A0, A, B has two sides b, so its height from B stands on the middle of a"
@@ -287,7 +272,7 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
         message(
             "Between the dead centres the crank's line turns by the difference; the crank itself makes half a "
             "turn more or less."
-        ),
+        )
     )
     angles = {"φ_i": angle(phi_i), "φ_a": angle(phi_a)}
     way_angle = _add_times(builder, abs(phi_i - phi_a), angles, "φ_i - φ_a" if phi_i >= phi_a else "φ_a - φ_i")
@@ -317,7 +302,7 @@ def _dead_centre_angles(builder: SolutionBuilder, size: FourBar, lengths: dict[s
         message(
             "In a dead centre crank and coupler lie on one line; with rocker and frame they form a triangle with "
             "the side b - a (inner) or b + a (outer). The cosine rule gives the angle at A0."
-        ),
+        )
     )
     angles = []
     for key, sign, name in (
@@ -344,11 +329,7 @@ def _add_swing(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str])
         angles.append(builder.find(key, name, formula, value, unit="°", values=lengths))
     inner, outer = angles
     swing = builder.find("ψ_H", _SWING, "ψ_i - ψ_a", inner - outer, unit="°", ψ_i=angle(inner), ψ_a=angle(outer))
-    builder.mistake(
-        "ψ_H",
-        180 - swing,
-        message("Take both angles of the rocker from the same side of the frame line."),
-    )
+    builder.mistake("ψ_H", 180 - swing, message("Take both angles of the rocker from the same side of the frame line."))
 
 
 def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motion: float) -> None:
@@ -365,17 +346,8 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     name = message("difference of the times")
     shown = {"T_max": f"{formula_number(slow)} ms", "T_min": f"{formula_number(quick)} ms"}
     builder.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
-    builder.check(
-        message("Time of the slower stroke, by the solved motion"),
-        slow,
-        by_motion,
-        "ms",
-    )
-    builder.mistake(
-        "ΔT",
-        (slow - quick) / 2,
-        message("That is the distance from T/2; the strokes differ by twice it."),
-    )
+    builder.check(message("Time of the slower stroke, by the solved motion"), slow, by_motion, "ms")
+    builder.mistake("ΔT", (slow - quick) / 2, message("That is the distance from T/2; the strokes differ by twice it."))
 
 
 def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solution:
@@ -407,9 +379,7 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
     builder.check(message("Smallest transmission angle, from the solved motion"), mu, degrees(smallest), "°")
     builder.check(message("Time ratio, 1 for a central linkage"), 1.0, measured.time_ratio or 0, "")
     builder.mistake(
-        "d",
-        hypot(b, c),
-        message("b² + c² is still a² too much: the triangle has its right angle elsewhere."),
+        "d", hypot(b, c), message("b² + c² is still a² too much: the triangle has its right angle elsewhere.")
     )
     builder.mistake("d", sqrt(a**2 + b**2 + c**2), message("a² is subtracted, not added."))
     builder.mistake("μ_min", 180 - mu, message("μ is folded to at most 90°."))

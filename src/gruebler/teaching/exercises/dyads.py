@@ -30,10 +30,7 @@ def dyad(chain: str, form: str = "RRR") -> Solution:
     builder = SolutionBuilder()
     start = Chain.parse(chain)
     before = _add_before(builder, start)
-    builder.say(
-        message("A dyad brings two links and three joints with f = 1:"),
-        "ΔF = 3·2 - 2·3 = 0",
-    )
+    builder.say(message("A dyad brings two links and three joints with f = 1:"), "ΔF = 3·2 - 2·3 = 0")
     extensions = extend(start, dyad=form)
     _add_after(builder, start, extensions)
     builder.say(message("A dyad leaves F unchanged."))
@@ -58,10 +55,7 @@ def coupler(chain: str) -> Solution:
     builder = SolutionBuilder()
     start = Chain.parse(chain)
     before = _add_before(builder, start)
-    builder.say(
-        message("A coupler brings one link and two joints with f = 1:"),
-        "ΔF = 3·1 - 2·2 = -1",
-    )
+    builder.say(message("A coupler brings one link and two joints with f = 1:"), "ΔF = 3·1 - 2·2 = -1")
     extensions = extend(start, coupler="RR")
     sound = [extension for extension in extensions if not mobility_report(extension.chain).rigid_clusters]
     _add_after(builder, start, sound)
@@ -70,15 +64,9 @@ def coupler(chain: str) -> Solution:
         if extension not in sound:
             links = joined_by_and(extension.places[0])
             builder.say(message("Between {links} it makes a rigid triangle: these links become one.", links=links))
+    builder.mistake("F_after", before, message("That holds for a dyad; a coupler takes one away."))
     builder.mistake(
-        "F_after",
-        before,
-        message("That holds for a dyad; a coupler takes one away."),
-    )
-    builder.mistake(
-        "F_after",
-        before + 1,
-        message("The coupler has two joints, and each removes two freedoms: 3 - 4 = -1."),
+        "F_after", before + 1, message("The coupler has two joints, and each removes two freedoms: 3 - 4 = -1.")
     )
     _add_places(builder, sound)
     return builder.done()

@@ -45,21 +45,13 @@ class Grade:
 # Mistakes possible with any measured number: the answer as a function of the right one, the unit, the hint.
 _ANYWHERE = (
     (lambda x: -x, "", message("Look at the sign.")),
-    (
-        math.radians,
-        "°",
-        message("That is the angle in radians; degrees are asked for."),
-    ),
+    (math.radians, "°", message("That is the angle in radians; degrees are asked for.")),
     (
         lambda x: math.degrees(math.sin(math.radians(x))) if abs(x) < 360 else math.nan,
         "°",
         message("The inverse function is missing (arcsin, arccos)."),
     ),
-    (
-        lambda x: 180 - x,
-        "°",
-        message("That is the supplementary angle, 180° less it."),
-    ),
+    (lambda x: 180 - x, "°", message("That is the supplementary angle, 180° less it.")),
     (lambda x: 90 - x, "°", message("That is the complement, 90° less it.")),
     (lambda x: x / 10, "", message("Look at the unit: a factor of 10.")),
     (lambda x: 10 * x, "", message("Look at the unit: a factor of 10.")),

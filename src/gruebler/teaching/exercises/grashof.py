@@ -48,9 +48,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
             "",
         )
     builder.mistake(
-        "turns",
-        not turns,
-        message("Compare l_min + l_max with the two others, and see where the shortest link is."),
+        "turns", not turns, message("Compare l_min + l_max with the two others, and see where the shortest link is.")
     )
     return builder.done()
 
@@ -68,7 +66,7 @@ def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
             unit=unit,
             longest=grashof.longest,
             high=figure(high),
-        ),
+        )
     )
     name = message("sum of the shortest and the longest length")
     ends = builder.find("sum_ends", name, "l_min + l_max", low + high, symbol="s1", l_min=low, l_max=high)
@@ -135,7 +133,7 @@ def length_range(
         message(
             "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, "
             "and with it l_min + l_max must not exceed the sum of the two others."
-        ),
+        )
     )
     text = message(
         "{free} is not the longest link, {longest} is: a + {longest} ≤ {other} + {free}",
@@ -159,7 +157,7 @@ def length_range(
             unit=unit,
             free=free,
             high=figure(high),
-        ),
+        )
     )
     _add_shortest(builder, free, crank, long, short, (longer, shorter))
     _check_range(builder, free, lengths, low, high)
@@ -217,24 +215,10 @@ def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float],
 
 def _add_range_mistakes(builder: SolutionBuilder, free: str, crank: float, long: float, short: float) -> None:
     wrong = message("Both cases are needed: once the free link is the longest, once it is not.")
+    builder.mistake(f"{free}_min", long - short, message("The crank a was forgotten in the sum l_min + l_max."))
     builder.mistake(
-        f"{free}_min",
-        long - short,
-        message("The crank a was forgotten in the sum l_min + l_max."),
+        f"{free}_max", long + short, message("That only closes the chain; for a full turn the crank a is subtracted.")
     )
-    builder.mistake(
-        f"{free}_max",
-        long + short,
-        message("That only closes the chain; for a full turn the crank a is subtracted."),
-    )
-    builder.mistake(
-        f"{free}_max",
-        long + short + crank,
-        message("l_max stands on the side of l_min: a is subtracted."),
-    )
+    builder.mistake(f"{free}_max", long + short + crank, message("l_max stands on the side of l_min: a is subtracted."))
     builder.mistake(f"{free}_max", long, wrong)
-    builder.mistake(
-        f"{free}_min",
-        crank,
-        message("To be longer than the crank is not enough: the sums decide."),
-    )
+    builder.mistake(f"{free}_min", crank, message("To be longer than the crank is not enough: the sums decide."))

@@ -147,9 +147,7 @@ def _add_mistakes(builder: SolutionBuilder, structure: Chain, mark: _Mark) -> No
     builder.mistake(f"n{mark}", n - 1, frame)
     builder.mistake(f"F{mark}", correct - b, frame)
     builder.mistake(
-        f"F{mark}",
-        correct + b,
-        message("The frame does not move: the formula has n - 1 free links, not n."),
+        f"F{mark}", correct + b, message("The frame does not move: the formula has n - 1 free links, not n.")
     )
     higher = structure.joints_by_freedom.get(2, 0)
     if b == 3 and higher:

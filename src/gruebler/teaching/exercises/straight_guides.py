@@ -55,14 +55,10 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     )
     check_path(builder, size.linkage({"C": (b + e, 0)}), drives, points, "+")
     builder.check(
-        message("h, from the path at φ = 180°"),
-        height,
-        float(coupler_path(size, b + e, 0)(np.array([pi]))[0].imag),
+        message("h, from the path at φ = 180°"), height, float(coupler_path(size, b + e, 0)(np.array([pi]))[0].imag)
     )
     builder.mistake(
-        "h",
-        sqrt((b + e) ** 2 - (d - a) ** 2),
-        message("That is the height at φ = 0°, where the path is not straight."),
+        "h", sqrt((b + e) ** 2 - (d - a) ** 2), message("That is the height at φ = 0°, where the path is not straight.")
     )
     builder.mistake("h", b + e, message("C is not vertically above A but above B0."))
     return builder.done()
@@ -81,12 +77,7 @@ def _add_straight(builder: SolutionBuilder, size: FourBar, reach: float) -> None
     half = path_piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
     text = message("straight part: from φ = 90° to 270° C runs along a length of")
     builder.find(
-        "length",
-        message("length of the straight part"),
-        "|C_x(90°) - C_x(270°)|",
-        half.length,
-        symbol="L",
-        text=text,
+        "length", message("length of the straight part"), "|C_x(90°) - C_x(270°)|", half.length, symbol="L", text=text
     )
     name = message("deviation from the straight line there")
     builder.find("band", name, "max C_y - min C_y", half.band, symbol="Δ")
@@ -112,7 +103,7 @@ def watt_linkage(
         message(
             "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, "
             "-c/2), the coupler upright with its middle F in the origin."
-        ),
+        )
     )
     builder.say(
         message("For each angle t of the left rocker: A by t, B on both circles, F in the middle."),
@@ -168,7 +159,7 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left_
             "About the middle F_x grows with the power {points} of F_y only: path and tangent have {points} "
             "points in common there.",
             points=contact.points,
-        ),
+        )
     )
 
 
@@ -253,13 +244,7 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
     piece = path_piece(path, *ends)
     name = message("width of the strip in which C stays")
     builder.keep("band", name, piece.band, unit=unit, symbol="Δ")
-    builder.keep(
-        "length",
-        message("length of the path along it"),
-        piece.length,
-        unit=unit,
-        symbol="L",
-    )
+    builder.keep("length", message("length of the path along it"), piece.length, unit=unit, symbol="L")
     direction = (degrees(piece.direction) + frame) % 180
     builder.keep("direction", message("direction of the strip"), direction, unit="°")
     builder.say(
@@ -270,27 +255,17 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
             unit=unit,
             length=figure(piece.length),
             direction=figure(direction),
-        ),
+        )
     )
     arc = size.limits[0]
-    builder.keep(
-        "lowest",
-        message("smallest angle of rocker and frame"),
-        degrees(arc.start),
-        unit="°",
-    )
-    builder.keep(
-        "highest",
-        message("largest angle of rocker and frame"),
-        degrees(arc.end),
-        unit="°",
-    )
+    builder.keep("lowest", message("smallest angle of rocker and frame"), degrees(arc.start), unit="°")
+    builder.keep("highest", message("largest angle of rocker and frame"), degrees(arc.end), unit="°")
     builder.say(
         message(
             "With a horizontal frame the chain would close only for φ from {start}° to {end}°.",
             start=figure(degrees(arc.start)),
             end=figure(degrees(arc.end)),
-        ),
+        )
     )
 
 

@@ -43,11 +43,7 @@ def _freedoms(kind: Pair) -> tuple[str, ...]:
     return kind.freedoms.get(Space.SPATIAL) or kind.freedoms[Space.PLANAR]
 
 
-_CONTACTS = {
-    Contact.LOWER: message("lower"),
-    Contact.HIGHER: message("higher"),
-    Contact.COMPOUND: message("compound"),
-}
+_CONTACTS = {Contact.LOWER: message("lower"), Contact.HIGHER: message("higher"), Contact.COMPOUND: message("compound")}
 _CLOSURES = {"form": message("form"), "force": message("force"), "material": message("material")}
 
 
@@ -101,12 +97,7 @@ def links() -> tuple[TeachingTable, ...]:
         rows.append((str(k), in_every_language(partial(arity, k)), sum(having.values()), shown or "-"))
     kinds = TeachingTable(
         message("Links by their number of joints"),
-        (
-            message("joints"),
-            message("name"),
-            message("in the catalog"),
-            message("most in"),
-        ),
+        (message("joints"), message("name"), message("in the catalog"), message("most in")),
         tuple(rows),
     )
     return kinds, _identity(planar), _roles()
@@ -183,13 +174,7 @@ def grashof_types() -> tuple[TeachingTable, ...]:
     title = message(
         "Four-bars by Grashof's condition and the place of the shortest link (a crank, b coupler, c rocker, d frame)"
     )
-    headers = (
-        message("condition"),
-        message("shortest"),
-        *"abcd",
-        message("turning"),
-        message("type"),
-    )
+    headers = (message("condition"), message("shortest"), *"abcd", message("turning"), message("type"))
     return (TeachingTable(title, headers, tuple(rows)),)
 
 
@@ -255,13 +240,7 @@ def _kinds_of_transfer(columns: list[_Column]) -> TeachingTable:
         motions = message("rotation to rotation") if turns else message("rotation to translation")
         rows.append((mechanism, kind, sense, f"{still:.0%}", motions))
     title = message("Properties of the transfer function")
-    headers = (
-        message("mechanism"),
-        message("transmission"),
-        message("output"),
-        message("dwell"),
-        message("motions"),
-    )
+    headers = (message("mechanism"), message("transmission"), message("output"), message("dwell"), message("motions"))
     return TeachingTable(title, headers, tuple(rows))
 
 

@@ -55,8 +55,6 @@ def gear_pair(i: float, step: float = 90) -> Solution:
             "",
         )
     builder.mistake(
-        "slope",
-        float(i),
-        message("i is input divided by output; the slope is output divided by input, 1/i."),
+        "slope", float(i), message("i is input divided by output; the slope is output divided by input, 1/i.")
     )
     return builder.done()

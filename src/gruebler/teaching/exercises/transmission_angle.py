@@ -74,11 +74,7 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
         quantity = message("{quantity}, by the general solver", quantity=f"μ_{key}")
         between = degrees(turned) % 360
         builder.check(quantity, builder.number(f"μ_{key}"), min(between, 360 - between), "°")
-    builder.mistake(
-        "μ_min",
-        max(folded),
-        message("That is the better of the two frame positions."),
-    )
+    builder.mistake("μ_min", max(folded), message("That is the better of the two frame positions."))
     for value in folded:
         builder.mistake("μ_min", 180 - value, _FOLD)
     builder.mistake("μ_min", min(deviations), _IS_DEVIATION)
@@ -141,7 +137,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     rise = "(a + e)/b" if off else "a/b"
     if off and not mark:
         builder.say(
-            message("The joint A is farthest from the slider's line, by a + e, where the crank points away from it."),
+            message("The joint A is farthest from the slider's line, by a + e, where the crank points away from it.")
         )
     values = {"a": formula_number(a), f"b{mark}": formula_number(b), "e": formula_number(off)}
     alpha = degrees(asin((a + off) / b))
@@ -161,14 +157,10 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
             message("{quantity}, by the general solver", quantity="μ_II"), builder.number("μ_II"), angle_there, "°"
         )
         builder.mistake(
-            "μ_min",
-            90 - degrees(asin(a / b)),
-            message("The eccentricity counts too: sin α_max = (a + e)/b."),
+            "μ_min", 90 - degrees(asin(a / b)), message("The eccentricity counts too: sin α_max = (a + e)/b.")
         )
         builder.mistake(
-            "μ_min",
-            degrees(acos((a - off) / b)),
-            message("On the worse side e is added to a: sin α_max = (a + e)/b."),
+            "μ_min", degrees(acos((a - off) / b)), message("On the worse side e is added to a: sin α_max = (a + e)/b.")
         )
     else:
         largest = message("largest transmission angle, in the dead centres")
@@ -217,6 +209,6 @@ def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
             "Slider-crank {better} with the longer rod has the smaller ratio λ, the smaller deviation and the "
             "larger μ_min.",
             better=better,
-        ),
+        )
     )
     return builder.done()

@@ -47,7 +47,7 @@ def four_bar(
         message(
             "Velocities: v_B = v_A + v_BA. v_A is at right angles to the crank, v_B to the rocker, v_BA to the "
             "coupler; the triangle of velocities has the angles between them."
-        ),
+        )
     )
     rates = _four_bar_rates(builder, size, (phi, theta, psi), omega)
     _four_bar_accelerations(builder, size, (phi, theta, psi), (omega, *rates))
@@ -136,7 +136,7 @@ def _four_bar_accelerations(
         message(
             "Accelerations: a_B = a_A + a_BA, each with a normal part towards the centre, r·ω², and a tangential "
             "one, r·α."
-        ),
+        )
     )
     a_a = builder.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=unit, a=a, ω=omega)
     name = message("centripetal part of B about A")
@@ -158,11 +158,7 @@ def _four_bar_accelerations(
     builder.find("a_BAt", name, "b·|α_b|", b * abs(alpha_b), unit=unit, b=b, α_b=alpha_b)
     name = message("acceleration of the joint B")
     builder.find("a_B", name, "√(a_Bn² + a_Bt²)", hypot(normal, tangential), unit=unit, a_Bn=normal, a_Bt=tangential)
-    builder.mistake(
-        "a_B",
-        normal + tangential,
-        message("The parts are at right angles: add them by Pythagoras."),
-    )
+    builder.mistake("a_B", normal + tangential, message("The parts are at right angles: add them by Pythagoras."))
     builder.mistake("a_B", normal, message("The tangential part is missing."))
 
 
@@ -200,18 +196,8 @@ def _check_four_bar(builder: SolutionBuilder, size: FourBar, moved: Motion, phi:
     cross = (np.conj(u) * w).imag
     if abs(cross) > 1e-9:
         pole = u * ((size.d * np.conj(w)).imag / (u * np.conj(w)).imag)
-        builder.keep(
-            "P_x",
-            message("instant centre of the coupler, x"),
-            float(pole.real),
-            unit=builder.unit,
-        )
-        builder.keep(
-            "P_y",
-            message("instant centre of the coupler, y"),
-            float(pole.imag),
-            unit=builder.unit,
-        )
+        builder.keep("P_x", message("instant centre of the coupler, x"), float(pole.real), unit=builder.unit)
+        builder.keep("P_y", message("instant centre of the coupler, y"), float(pole.imag), unit=builder.unit)
         builder.check(
             message("v_B by the instant centre P of the coupler, v_A·PB/PA"),
             v_b,
@@ -287,18 +273,8 @@ def _add_inner(builder: SolutionBuilder, size: SliderCrank, phi: float, omega: f
     other = size.motion(pi + radians(phi), omega=omega)
     v, a = float(other.output.velocity), float(other.output.acceleration)
     unit = builder.unit
-    builder.keep(
-        "v_B_i",
-        message("velocity from the inner dead centre"),
-        v,
-        unit=f"{unit}/s",
-    )
-    builder.keep(
-        "a_B_i",
-        message("acceleration from the inner dead centre"),
-        a,
-        unit=f"{unit}/s²",
-    )
+    builder.keep("v_B_i", message("velocity from the inner dead centre"), v, unit=f"{unit}/s")
+    builder.keep("a_B_i", message("acceleration from the inner dead centre"), a, unit=f"{unit}/s²")
     builder.say(
         message(
             "Counted from the inner dead centre (crank and rod overlapping) it would be v_B = {v} {unit}/s and "
@@ -306,7 +282,7 @@ def _add_inner(builder: SolutionBuilder, size: SliderCrank, phi: float, omega: f
             v=figure(v),
             unit=unit,
             a=figure(a),
-        ),
+        )
     )
 
 
@@ -330,11 +306,7 @@ def _check_slider(
     rough_v = -a * omega * (sin(crank) + lam / 2 * sin(2 * crank))
     rough_a = -a * omega**2 * (cos(crank) + lam * cos(2 * crank))
     builder.mistake("v_B", -v, message("The slider moves towards the crank: negative."))
-    builder.mistake(
-        "a_B",
-        -acceleration,
-        message("The acceleration points towards the crank: negative."),
-    )
+    builder.mistake("a_B", -acceleration, message("The acceleration points towards the crank: negative."))
     if not size.e:
         near = message("That is the approximation for small λ: sin φ + λ/2·sin 2φ.")
         builder.mistake("v_B", rough_v, near)

@@ -3,10 +3,4 @@
 from gruebler.teaching.sheets.loader import sheet, sheets
 from gruebler.teaching.sheets.model import Sheet, SizedMechanism, StatedValue
 
-__all__ = [
-    "Sheet",
-    "SizedMechanism",
-    "StatedValue",
-    "sheet",
-    "sheets",
-]
+__all__ = ["Sheet", "SizedMechanism", "StatedValue", "sheet", "sheets"]
