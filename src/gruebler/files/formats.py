@@ -12,7 +12,7 @@ from functools import partial
 from importlib import import_module
 from math import atan2
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import load_document
@@ -49,9 +49,9 @@ class Format:
     """Whose format it is."""
     carries: Message
     """What it can carry."""
-    read: Callable[[Path, list[Message]], Any] | None
+    read: Callable[[Path, list[Message]], Any] | None = None
     """The value in a file; the list gets a message for each thing that the value does not have."""
-    write: Callable[[Any, Path, list[Message]], None] | None
+    write: Callable[[Any, Path, list[Message]], None]
     """Write a value; the list gets a message for each thing that the file does not have."""
     lengths: Message | None = None
     """What the numbers of lengths are; None if there are none."""
@@ -72,9 +72,8 @@ def _own_document(path: Path, left_out: list[Message]) -> Value:
         return [_chain(path, item) for item in data]
     if not isinstance(data, Mapping):
         raise GrueblerError("{path}: expected a table of keys", path=path)
-    for form in _JSON_OF_OTHERS.values():
-        if form.shows(data):
-            return _linkage(path, partial(form.read, data, left_out), left_out)
+    if (program := _program_of(data)) is not None:
+        return _linkage(path, partial(_function(program, f"drawing_from_{program}"), data, left_out), left_out)
     if not _TASKS.isdisjoint(data) and _LINKAGES.isdisjoint(data):
         from gruebler.files.tasks import read_task
 
@@ -218,62 +217,40 @@ def _as_linkage(value: Any) -> Linkage:
     return as_linkage(value)
 
 
-def _drawn(
-    name: str,
-    suffixes: tuple[str, ...],
-    title: Message,
-    carries: Message,
-    lengths: Message,
-    module: str,
-    reader: str,
-    writer: str,
-) -> Format:
-    """A row for a text of pins and slots: the functions of a module in `formats` read and write it."""
+def _function(module: str, name: str) -> Callable[..., Any]:
+    """A function of a file in this folder, loaded when it is called for."""
+    function: Callable[..., Any] = getattr(import_module(f"gruebler.files.{module}"), name)
+    return function
 
-    def function(name: str) -> Callable[..., Any]:
-        value: Callable[..., Any] = getattr(import_module(f"gruebler.files.{module}"), name)
-        return value
+
+def _drawn(
+    name: str, suffix: str, title: Message, carries: Message, lengths: Message, *, written_as: str = ""
+) -> Format:
+    """A row for a text of pins and slots: ``drawing_from_...`` of its module reads it, ``..._from_drawing`` writes."""
+    module, called = name.replace("-", "_"), written_as or name
 
     def read(path: Path, left_out: list[Message]) -> Linkage:
         from gruebler.files.text_files import read_text
 
         text = read_text(path)
-        return _linkage(path, lambda: function(reader)(text, left_out), left_out)
+        return _linkage(path, lambda: _function(module, f"drawing_from_{called}")(text, left_out), left_out)
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
         from gruebler.files.pin_drawings import drawing_of
 
-        _write_text(path, function(writer)(drawing_of(_as_linkage(value), left_out), left_out))
+        drawing = drawing_of(_as_linkage(value), left_out)
+        _write_text(path, _function(module, f"{called}_from_drawing")(drawing, left_out))
 
-    return Format(name=name, suffixes=suffixes, title=title, carries=carries, read=read, write=write, lengths=lengths)
-
-
-class _JsonForm(NamedTuple):
-    """A JSON document of another program."""
-
-    module: str
-    shown_by: str
-    reader: str
-    writer: str
-
-    def function(self, name: str) -> Any:
-        return getattr(import_module(f"gruebler.files.{self.module}"), name)
-
-    def shows(self, document: Any) -> bool:
-        return bool(self.function(self.shown_by)(document))
-
-    def read(self, document: Any, left_out: list[Message]) -> PinDrawing:
-        drawing: PinDrawing = self.function(self.reader)(document, left_out)
-        return drawing
-
-    def write(self, drawing: PinDrawing, left_out: list[Message]) -> Any:
-        return self.function(self.writer)(drawing, left_out)
+    return Format(name=name, suffixes=(suffix,), title=title, carries=carries, read=read, write=write, lengths=lengths)
 
 
-_JSON_OF_OTHERS = {
-    "motiongen": _JsonForm("motiongen", "is_motiongen", "drawing_from_motiongen", "motiongen_from_drawing"),
-    "pylinkage": _JsonForm("pylinkage", "is_pylinkage", "drawing_from_pylinkage", "pylinkage_from_drawing"),
-}
+_JSON_OF_OTHERS = ("motiongen", "pylinkage")
+"""Programs whose documents are JSON; their module knows them by ``is_...``."""
+
+
+def _program_of(document: Any) -> str | None:
+    """The other program whose document this is, by its keys."""
+    return next((each for each in _JSON_OF_OTHERS if _function(each, f"is_{each}")(document)), None)
 
 
 def json_of_another_program(path: Path) -> bool:
@@ -282,43 +259,32 @@ def json_of_another_program(path: Path) -> bool:
         data = load_document(path, GrueblerError)
     except GrueblerError:
         return False
-    return any(form.shows(data) for form in _JSON_OF_OTHERS.values())
+    return _program_of(data) is not None
 
 
 def _json_of_others(name: str, title: Message, carries: Message) -> Format:
-    form = _JSON_OF_OTHERS[name]
-
     def read(path: Path, left_out: list[Message]) -> Linkage:
         data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
-        if not form.shows(data):
+        if not _function(name, f"is_{name}")(data):
             raise GrueblerError("{path}: is not a document of {program}", path=path, program=title)
-        return _linkage(path, lambda: form.read(data, left_out), left_out)
+        return _linkage(path, partial(_function(name, f"drawing_from_{name}"), data, left_out), left_out)
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
         from gruebler.files.pin_drawings import drawing_of
 
-        document = form.write(drawing_of(_as_linkage(value), left_out), left_out)
+        document = _function(name, f"{name}_from_drawing")(drawing_of(_as_linkage(value), left_out), left_out)
         _write_text(path, json.dumps(document, indent=1) + "\n")
 
     return Format(name=name, suffixes=(), title=title, carries=carries, read=read, write=write, lengths=_AS_MILLIMETRES)
 
 
-def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
-    from gruebler.files.mjcf import mjcf_from_linkage
+def _of_linkages(name: str, title: Message, carries: Message, lengths: Message) -> Format:
+    """A row for a text that is only written, by ``NAME_from_linkage`` in the module of its name."""
 
-    _write_text(path, mjcf_from_linkage(_as_linkage(value), left_out))
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        _write_text(path, _function(name, f"{name}_from_linkage")(_as_linkage(value), left_out))
 
-
-def _write_urdf(value: Any, path: Path, left_out: list[Message]) -> None:
-    from gruebler.files.urdf import urdf_from_linkage
-
-    _write_text(path, urdf_from_linkage(_as_linkage(value), left_out))
-
-
-def _write_dxf(value: Any, path: Path, left_out: list[Message]) -> None:
-    from gruebler.files.dxf import dxf_from_linkage
-
-    _write_text(path, dxf_from_linkage(_as_linkage(value), left_out))
+    return Format(name=name, suffixes=(f".{name}",), title=title, carries=carries, write=write, lengths=lengths)
 
 
 def _write_dxf_of_links(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -437,43 +403,26 @@ FORMATS: tuple[Format, ...] = (
     _graph("matrix", (".adj",), message("adjacency matrix"), message("one chain with simple revolute joints")),
     _drawn(
         "linkage2",
-        (".linkage2",),
+        ".linkage2",
         message("Linkage by D. Rector"),
         message("one position of a linkage of pins and slots, points, driven cranks, driven lengths of links"),
         message("1/96 inch, shown as mm or in"),
-        "linkage2",
-        "drawing_from_linkage2",
-        "linkage2_from_drawing",
     ),
     _drawn(
         "pyslvs",
-        (".pyslvs",),
+        ".pyslvs",
         message("Pyslvs"),
         message("one position of a linkage of pins, slides and slots, points; drives in comments"),
         _AS_MILLIMETRES,
-        "pyslvs",
-        "drawing_from_pyslvs",
-        "pyslvs_from_drawing",
     ),
-    _drawn(
-        "pmks",
-        (".pmks",),
-        message("PMKS+"),
-        _PINS,
-        message("cm, in or m, which the address says"),
-        "pmks",
-        "drawing_from_pmks",
-        "pmks_from_drawing",
-    ),
+    _drawn("pmks", ".pmks", message("PMKS+"), _PINS, message("cm, in or m, which the address says")),
     _drawn(
         "four-bar-rs",
-        (".ron",),
+        ".ron",
         message("four-bar-rs"),
         message("a four-bar with a driven crank and one coupler point"),
         _AS_MILLIMETRES,
-        "four_bar_rs",
-        "drawing_from_ron",
-        "ron_from_drawing",
+        written_as="ron",
     ),
     _json_of_others(
         "motiongen",
@@ -485,59 +434,47 @@ FORMATS: tuple[Format, ...] = (
         message("pylinkage"),
         message("one position of a linkage of pins, pins in slots of the frame, points, driven cranks on the frame"),
     ),
-    Format(
-        name="dxf",
-        suffixes=(".dxf",),
-        title=message("CAD, laser cutters (DXF)"),
-        carries=message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
-        read=None,
-        write=_write_dxf,
-        lengths=_HEADER,
+    _of_linkages(
+        "dxf",
+        message("CAD, laser cutters (DXF)"),
+        message("plates of links of pins and slides with holes and slots, paths of points, in one position"),
+        _HEADER,
     ),
     Format(
         name="dxf-links",
         suffixes=(),
         title=message("CAD, laser cutters (DXF), a file for each link"),
         carries=message("a folder of plates with holes and slots, one file per link, with its plane in the name"),
-        read=None,
-        write=_write_dxf_of_links,
         lengths=_HEADER,
+        write=_write_dxf_of_links,
     ),
-    Format(
-        name="mjcf",
-        suffixes=(".mjcf",),
-        title=message("MuJoCo"),
-        carries=message("a linkage of pins, slides and slots as a model that runs, points, drives"),
-        read=None,
-        write=_write_mjcf,
-        lengths=message("m"),
+    _of_linkages(
+        "mjcf",
+        message("MuJoCo"),
+        message("a linkage of pins, slides and slots as a model that runs, points, drives"),
+        message("m"),
     ),
-    Format(
-        name="urdf",
-        suffixes=(".urdf",),
-        title=message("robots (URDF)"),
-        carries=message("a linkage of pins, slides and slots as a tree: its loops are cut"),
-        read=None,
-        write=_write_urdf,
-        lengths=message("m"),
+    _of_linkages(
+        "urdf",
+        message("robots (URDF)"),
+        message("a linkage of pins, slides and slots as a tree: its loops are cut"),
+        message("m"),
     ),
     Format(
         name="spreadsheet",
         suffixes=(),
         title=message("CSV for spreadsheets with decimal commas"),
         carries=message("tables of motions with units in their headers, semicolons between cells"),
-        read=None,
-        write=_write_spreadsheet,
         lengths=_WITH_UNIT,
+        write=_write_spreadsheet,
     ),
     Format(
         name="parquet",
         suffixes=(".parquet",),
         title=message("Parquet"),
         carries=message("tables of motions with units in their headers"),
-        read=None,
-        write=_write_parquet,
         lengths=_WITH_UNIT,
+        write=_write_parquet,
     ),
 )
 """Every format, those of this library first."""

@@ -139,8 +139,6 @@ def _written(value: object, path: str | PathLike[str], format_name: str | None, 
         value = value.linkage()
     _check_kind(value)
     form = format_of(path, format_name)
-    if form.write is None:
-        raise GrueblerError("{path}: the format {name} is read only", path=path, name=form.name)
     notes: list[Message] = []
     form.write(value, path, notes)
     _say(notes, left_out, message("{path}: not written: {items}", path=path, items=joined(notes, "; ")))
