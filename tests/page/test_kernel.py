@@ -16,11 +16,11 @@ from gruebler.base.errors import GrueblerError
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan
 from gruebler.mechanics.linkages import Linkage
-from gruebler.page.golden import golden_record
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries
+from tests.page.golden_record import golden_record
 from tests.strategies import GROUPS, parallelograms
 
 BUILT = Path(__file__).parents[2] / "src/gruebler/page/static/explorer.js"

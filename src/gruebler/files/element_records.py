@@ -54,16 +54,6 @@ class ElementRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_
     transfer: str | None = None
 
 
-_KINDS = {
-    "circle": {"circle"},
-    "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale", "arm", "distance", "face"},
-    "pins": {"pins", "angle"},
-    "slots": {"slots", "angle", "internal"},
-    "transfer": {"transfer", "angle", "teeth"},
-}
-"""What makes an element something else than a wheel, and its keys."""
-
-
 @dataclass(frozen=True, slots=True)
 class ElementForm:
     """How a kind of element stands in a file."""

@@ -17,10 +17,10 @@ from gruebler.design.synthesis import PathTask, PositionTask, synthesise, synthe
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, load_generic_solutions, parameters, solutions
 from gruebler.design.synthesis.discs import certified
 from gruebler.design.synthesis.endgame import path_ends
-from gruebler.design.synthesis.monodromy import find_generic
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.geometry import cognates
 from gruebler.mechanics.kinematics import move
+from tests.design.synthesis.monodromy import find_generic
 
 NINE, TWO, THREE, FOUR, GIVEN = PROBLEMS
 KNOWN = FourBar(25, 70, 40, 70).linkage({"P": (45, 40)})

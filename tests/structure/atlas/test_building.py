@@ -19,10 +19,10 @@ import gruebler as gr
 from gruebler.base.errors import GrueblerError, RunError
 from gruebler.cli import main
 from gruebler.structure.atlas import AtlasTask, build
-from gruebler.structure.atlas.making_small import make_small_atlas
 from gruebler.structure.atlas.reading import SMALL
 from gruebler.structure.enumeration.worker_pool import ProcessPools
 from gruebler.structure.isomorphism import decode
+from tests.structure.atlas.making_small import make_small_atlas
 
 TASK = AtlasTask(links="4-8", inversions=True, drives="frame")
 

@@ -4,7 +4,7 @@ import pytest
 
 from gruebler.structure.enumeration import chains, count_chains
 from gruebler.structure.enumeration.estimates import _ANY_JOINTS, _JOINT, _LINK, _NOT_FRACTIONATED
-from gruebler.structure.enumeration.fractionated_count import count_fractionated
+from tests.structure.enumeration.fractionated_oracle import count_fractionated
 
 
 def rows(table):

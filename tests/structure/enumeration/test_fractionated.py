@@ -9,9 +9,9 @@ from gruebler import Chain, code, mobility_report
 from gruebler.structure.enumeration.condition import CLASSES, fractionation, is_constrained
 from gruebler.structure.enumeration.counting import count_simple_chains
 from gruebler.structure.enumeration.fractionated import fractionated_chains
-from gruebler.structure.enumeration.fractionated_count import count_fractionated
 from gruebler.structure.enumeration.listing import chains
 from gruebler.structure.enumeration.simple_chains import simple_chains as plain
+from tests.structure.enumeration.fractionated_oracle import count_fractionated
 
 
 def composed(links, mobility, kind):

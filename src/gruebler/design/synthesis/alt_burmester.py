@@ -1,8 +1,8 @@
 """Alt-Burmester problems: all four-bars through so many positions and points, by following stored generic solutions.
 
-`Problem` is one of the finite ones. Its generic solutions were found once by monodromy (`monodromy`) and are data of
-the package; `solutions` carries them to a task, tries paths again that failed, and certifies each end by an interval
-Newton step, so that the answer says how many of how many are accounted for. docs/theory/synthesis-points.md.
+`Problem` is one of the finite ones. Its generic solutions were found once by monodromy (tests/design/synthesis) and are
+data of the package; `solutions` carries them to a task, tries paths again that failed, and certifies each end by an
+interval Newton step, so that the answer says how many of how many are accounted for. docs/theory/synthesis-points.md.
 """
 
 from __future__ import annotations

@@ -162,10 +162,6 @@ def _real_cubic(cubic: Complexes) -> Reals:
     return np.asarray((cartesian / largest).real)
 
 
-def _value(cubic: Reals, z: Complexes) -> Reals:
-    return np.asarray(np.polynomial.polynomial.polyval2d(z.real, z.imag, cubic))
-
-
 def _known_point(given: Displacements, cubic: Reals) -> complex:
     """A finite point of the circle-point curve: a pole of the body, else any."""
     poles = [complex(t / (1 - q)) for q, t in zip(*given, strict=True) if abs(q - 1) > 1e-6]

@@ -369,15 +369,6 @@ def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
     return position_targets("P", "coupler", task.z, angles, task.size)
 
 
-def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
-    """The real pairs of dyads through nine points, or five points with given pivots, without a verdict."""
-    problem = PROBLEMS[4 if task.fixed_pivots else 0]
-    reduced, complete = _best_reference(task, problem, [], None, None)
-    size, origin = reduced.size, reduced.origin
-    every = [pair for alike in _classes(problem, complete) for pair in alike]
-    return [(own.moved(size, origin), other.moved(size, origin)) for own, other in every]
-
-
 def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
     """Points with crank angles: twice the problem of guiding a body, first seen from the crank, then the coupler."""
     if len(task) > 5:

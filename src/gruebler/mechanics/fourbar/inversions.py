@@ -16,7 +16,6 @@ from gruebler.structure.mechanism import Mechanism
 
 _BLOCK_AS_FRAME = message("slider-crank (sliding lever with the block as frame)")
 _RING = "abcd"
-_LINKS = {"a": "crank", "b": "coupler", "c": "rocker", "d": "frame"}
 
 
 @dataclass(frozen=True, slots=True)

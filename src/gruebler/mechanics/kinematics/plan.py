@@ -108,11 +108,6 @@ class Plan:
         links = [self.lower.reference(k) for k in drives]
         return np.array([reference[b].angle - reference[a].angle if reference is not None else 0.0 for a, b in links])
 
-    @property
-    def dwelling(self) -> bool:
-        """Whether there are cams or Geneva drives, behind which links may rest."""
-        return any(c.law.pieces for group in self.conditions for c in group)
-
     @cached_property
     def windings(self) -> tuple[Condition, ...]:
         """The closing conditions that count whole turns."""

@@ -1,4 +1,4 @@
-"""The small atlas that comes with the library, made anew: `python -m gruebler.structure.atlas.making_small DIR`.
+"""The small atlas that comes with the library, made anew: `python -m tests.structure.atlas.making_small DIR`.
 
 It has the chains with simple joints to 10 links of every mobility, fractionated ones included, and their mechanisms;
 the driven mechanisms with the drive at the frame for F = 1. One file for each table keeps it small.
