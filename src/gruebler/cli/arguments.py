@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from textwrap import dedent
 from typing import Any
 
-_KINDS: dict[str, type] = {"int": int, "float": float}
+_KINDS: dict[str, type] = {"int": int, "float": float, "path": Path}
 _COUNTS = ("?", "*", "+")
+_VALUES = {"=": "default", ":": "const"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +27,9 @@ def rows_of(table: str) -> Iterator[Row]:
     """The rows of a table of arguments.
 
     A row is NAMES PLACEHOLDERS NOTES and, after two blanks, the help, which goes on in lines that are indented.
-    Without a placeholder an option is a flag. Notes: int or float; {a,b} for a choice; ... for what can be repeated;
-    ?, * or + for how many values there may be; =VALUE for the default; ! for what must be given.
+    Without a placeholder an option is a flag. Notes: int, float or path; {a,b} for a choice; ... for what can be
+    repeated; ?, * or + for how many values there may be; =VALUE for the default; :VALUE for what an option means
+    without its value; ! for what must be given.
 
     >>> [(row.names, row.settings, row.help) for row in rows_of("--at DEG float  an angle of the crank")]
     [(('--at',), {'metavar': 'DEG', 'type': <class 'float'>}, 'an angle of the crank')]
@@ -57,8 +60,8 @@ def _row(words: list[str], help: str) -> Row:
             settings["choices"] = tuple(word.strip("{}").split(","))
         elif word == "!":
             settings["required"] = True
-        elif word.startswith("="):
-            settings["default"] = settings.get("type", str)(word[1:])
+        elif word[0] in _VALUES:
+            settings[_VALUES[word[0]]] = settings.get("type", str)(word[1:])
         else:
             placeholders.append(word)
     if len(placeholders) > 1:

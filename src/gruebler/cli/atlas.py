@@ -8,7 +8,6 @@ import io
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, astuple, fields
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gruebler.base.columns import FORMULA, harmless_cell
@@ -43,39 +42,22 @@ def add(parser: Parser) -> None:
         help="write all chains of some sizes with their properties into a folder",
         epilog="A build can be stopped at any time; the same command continues it, and the files are the same.",
     )
-    build.add_argument("directory", type=Path, metavar="DIR", help="a folder of its own")
-    build.add_argument("--links", required=True, metavar="N", help="number of links, or a range such as 4-10")
-    build.add_argument("--mobility", default="1", metavar="F", help="mobility, or a range (default: 1)")
-    build.add_argument(
-        "--fractionated",
-        choices=("none", "link", "joint", "all"),
-        nargs="?",
-        const="all",
-        default="none",
-        help="as for gruebler enumerate (default: none)",
+    build.take(
+        """
+        directory DIR path  a folder of its own
+        --links N !  number of links, or a range such as 4-10
+        --mobility F =1  mobility, or a range (default: 1)
+        --fractionated {none,link,joint,all} ? :all =none  as for gruebler enumerate (default: none)
+        --multiple-joints K|any ? :any =0  as for gruebler enumerate (default: 0)
+        --prismatic K =0  number of sliding joints, or a range (default: 0)
+        --inversions  also the mechanisms: each chain with each frame
+        --drives {frame,any} ? :frame =none  also the driven mechanisms with their Assur groups: drives at the frame, or
+            any drives
+        --jobs
+        --scheduler
+        --yes  start even if it takes long
+        """
     )
-    build.add_argument(
-        "--multiple-joints",
-        nargs="?",
-        const="any",
-        default="0",
-        metavar="K|any",
-        help="as for gruebler enumerate (default: 0)",
-    )
-    build.add_argument(
-        "--prismatic", default="0", metavar="K", help="number of sliding joints, or a range (default: 0)"
-    )
-    build.add_argument("--inversions", action="store_true", help="also the mechanisms: each chain with each frame")
-    build.add_argument(
-        "--drives",
-        choices=("frame", "any"),
-        nargs="?",
-        const="frame",
-        default="none",
-        help="also the driven mechanisms with their Assur groups: drives at the frame, or any drives",
-    )
-    build.take("--jobs\n--scheduler")
-    build.add_argument("--yes", action="store_true", help="start even if it takes long")
     query = parser.add_command("query", help="answer a query in SQL")
     query.add_argument(
         "words", nargs="+", metavar="[DIR] SQL", help="the folder of an atlas (default: the small one), and the query"

@@ -54,24 +54,15 @@ def add(parser: Parser) -> None:
         epilog="Example: gruebler cam 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell' --base 40 --roller 10 "
         "-o cam.svg --plot. Exit status: 0 good, 1 undercut, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument("lift", nargs="?", metavar="LIFT", help="the lift over a turn; one dwell may omit its angle")
-    parser.add_argument("--laws", action="store_true", help="list the laws of motion with C_v, C_a, C_j")
-    parser.add_argument(
-        "--contour", metavar="FILE", help="the points x y of a given contour, one per line: its follower motion"
-    )
-    parser.add_argument("--base", type=float, metavar="R", help="radius of the base circle")
-    parser.add_argument("--roller", type=float, metavar="R", help="roller follower with this radius")
-    parser.add_argument("--knife", action="store_true", help="knife-edge follower")
-    parser.add_argument(
-        "--flat",
-        type=float,
-        nargs="?",
-        const=0.0,
-        metavar="E",
-        help="flat-faced follower; E: its distance from the pivot",
-    )
     parser.take(
         """
+        lift LIFT ?  the lift over a turn; one dwell may omit its angle
+        --laws  list the laws of motion with C_v, C_a, C_j
+        --contour FILE  the points x y of a given contour, one per line: its follower motion
+        --base R float  radius of the base circle
+        --roller R float  roller follower with this radius
+        --knife  knife-edge follower
+        --flat E float ? :0.0  flat-faced follower; E: its distance from the pivot
         --offset E float =0  distance of the guide to the right of the cam's axis
         --swing ARM D float  swinging follower: length of its arm (0 for a flat face) and distance of its pivot
         --step DEG float  also a table over the turn with this step

@@ -56,27 +56,14 @@ def add(parser: Parser) -> None:
         "gruebler enumerate --links 5 --trains. A run with --checkpoint can be stopped at any time; the same command "
         "continues it.",
     )
-    parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
-    parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
-    parser.add_argument(
-        "--fractionated",
-        choices=("none", "link", "joint", "all"),
-        nargs="?",
-        const="all",
-        default="none",
-        help="chains that are not fractionated (default), fractionated at a link, at a joint, or all of them",
-    )
-    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
-    parser.add_argument(
-        "--multiple-joints",
-        nargs="?",
-        const="any",
-        default="0",
-        metavar="K|any",
-        help="number of joints of three or more links: K, K-M or any (default: 0)",
-    )
     parser.take(
         """
+        --links N int !  number of links
+        --mobility F int =1  mobility (default: 1)
+        --fractionated {none,link,joint,all} ? :all =none  chains that are not fractionated (default), fractionated at a
+            link, at a joint, or all of them
+        --assortment N2,N3,...  numbers of binary, ternary, ... links
+        --multiple-joints K|any ? :any =0  number of joints of three or more links: K, K-M or any (default: 0)
         --count  print only the numbers, by assortment
         --orbits  with --count: also count inversions and driven mechanisms
         --assortments  list only the link assortments

@@ -78,9 +78,7 @@ def add(parser: Parser) -> None:
         epilog="Example: gruebler exercise sheet --kind mobility,grashof,dead-centre --count 6 --level 2 --seed 7 "
         "--lang de -o sheet.pdf. PDF needs matplotlib: pip install 'gruebler[plot]'.",
     )
-    sheet.add_argument(
-        "--kind", required=True, metavar="KIND,...", help="topics that take turns, as those of `exercise new`"
-    )
+    sheet.take("--kind KIND,... !  topics that take turns, as those of `exercise new`")
     sheet.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="from 1 (easy) to 3 (default: 1)")
     sheet.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the first task (default: 0)")
     sheet.add_argument("--count", type=int, default=6, metavar="K", help="number of tasks (default: 6)")

@@ -32,10 +32,8 @@ def add(parser: Parser) -> None:
         lengths LENGTH +  A B C D; with --free the other three, or all four; or one word: four-bar:A,B,C,D,
             slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]
         --free {a,b,c,d}  vary this length
+        --turns LINK {a,b,c,guide}  a, b, c or guide: ask whether it turns fully
         """
-    )
-    parser.add_argument(
-        "--turns", choices=("a", "b", "c", "guide"), metavar="LINK", help="a, b, c or guide: ask whether it turns fully"
     )
     parser.add_printed(help="print an object; with --free, its items")
 

@@ -147,9 +147,7 @@ class Parser(argparse.ArgumentParser):
                 help="write into a file instead: .txt, .json as with --json, or the columns: .csv, or .parquet (needs "
                 "pyarrow)"
             )
-            self.add_argument(
-                "--decimal-comma", action="store_true", help="in .csv: decimal commas, semicolons between cells"
-            )
+            self.take("--decimal-comma  in .csv: decimal commas, semicolons between cells")
         else:
             self.add_out(help="write into a file instead: .txt, or .json as with --json")
         self.set_defaults(written=_PICTURES if pictures else TABLES if table else ())

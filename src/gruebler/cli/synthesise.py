@@ -178,13 +178,12 @@ def add(parser: Parser) -> None:
         )
         kind.add_json(help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
-        kind.add_argument("--design", type=int, metavar="K", help="with -o: write design K of the list (default: 1)")
-        kind.add_argument(
-            "--draw",
-            type=Path,
-            metavar="FILE",
-            help="draw the designs, or rejected ones if there are no others: .html all, moving; .svg, .png or .pdf the "
-            "best six",
+        kind.take(
+            """
+            --design K int  with -o: write design K of the list (default: 1)
+            --draw FILE path  draw the designs, or rejected ones if there are no others: .html all, moving; .svg, .png
+                or .pdf the best six
+            """
         )
 
 
