@@ -10,6 +10,7 @@ NB_MODULE(_core, module) {
         throw nb::python_error();
     }
     gruebler::doors::add_algebra(module);
+    gruebler::doors::add_atlas(module);
     gruebler::doors::add_counting(module);
     gruebler::doors::add_labelling(module);
     gruebler::doors::add_layout(module);

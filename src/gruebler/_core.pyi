@@ -81,3 +81,18 @@ def relax(
 ) -> tuple[NDArray[np.float64], float]: ...
 def closest(layout: NDArray[np.float64], segments: NDArray[np.int64], watched: NDArray[np.int64]) -> float: ...
 def crossing_segments(layout: NDArray[np.float64], segments: NDArray[np.int64]) -> NDArray[np.int64]: ...
+
+# atlas
+def describe_chains(
+    n: int,
+    mobility: int,
+    loops: int,
+    hubs: NDArray[np.int64],
+    sizes: NDArray[np.int64],
+    edges: NDArray[np.int32],
+    pairs: NDArray[np.int32],
+    letters: NDArray[np.uint8],
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8], NDArray[np.uint8], NDArray[np.uint8]]: ...
+def list_mechanisms(
+    n: int, joints: int, text: NDArray[np.uint8], ends: NDArray[np.int64], driven: bool
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int16]]: ...
