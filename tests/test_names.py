@@ -19,7 +19,6 @@ SHARED = {
     "read": "one word: of a file, and at the front door of a catalog entry or lengths as well",
     "main": "where a process begins",
     "central_crank_rocker": "a fact of dead centres: constructed, and as an exercise",
-    "write_graph6": "one format: of many chains at once, and of one chain with its links in canonical order",
     "inflection_circle": "one circle: computed, and constructed step by step",
     "four_bar": "methods of exercises are called by file and name: velocities.four_bar",
     "slider_crank": "methods of exercises are called by file and name: velocities.slider_crank",

@@ -70,8 +70,9 @@ BY_POSITION = {
 
 
 def modules() -> Iterator[str]:
+    """The modules in Python."""
     for found in pkgutil.walk_packages([str(SOURCE)], "gruebler."):
-        if not found.name.endswith("__main__"):
+        if not found.name.endswith(("__main__", "._core")):
             yield found.name
 
 
@@ -93,7 +94,7 @@ NAMED_TUPLES = [each for each in CLASSES if issubclass(each, tuple) and hasattr(
 def kernel(each: type) -> bool:
     """Whether its room hands it to compiled kernels, which know tuples and no other records."""
     room = each.__module__
-    return "._numeric" in room or room.endswith(("_kernels", "_memory"))
+    return "._numeric" in room
 
 
 RECORDS = {

@@ -1,4 +1,7 @@
-"""The atlas kernels of the core against those of numba; wrong calls raise."""
+"""The atlas kernels of the core: print, codes made chain by chain, wrong calls.
+
+Other methods for each column: tests/structure/atlas/test_columns.py.
+"""
 
 from functools import cache
 
@@ -8,32 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gruebler import Chain
-from gruebler._numeric.compiling import compiled
-from gruebler._numeric.counting.chain_lists import line_length
-from gruebler.structure.atlas import chain_memory as memory
-from gruebler.structure.atlas import mechanism_kernels as kernels
-from gruebler.structure.atlas.chain_kernels import describe_chains
-from gruebler.structure.atlas.chain_table import ChainArrays, arrays_of_chains
+from gruebler.structure.atlas.chain_table import ChainArrays
 from gruebler.structure.enumeration import edge_blocks
-from gruebler.structure.enumeration.listing import chains
-from gruebler.structure.enumeration.multiple import with_multiple_joints
 from gruebler.structure.isomorphism import code
 
 LETTERS = np.frombuffer(b"RPHCSEGTUW", np.uint8)
-
-
-def described_by_numba(arrays):
-    n, count = arrays.links, len(arrays.sizes)
-    numbers, ends = np.zeros((count, memory.COLUMNS), np.int64), np.zeros(count, np.int64)
-    text, lines = np.empty(count * 2000, np.uint8), np.zeros((count, line_length(n) - 1), np.uint8)
-    certificates = np.zeros((count, arrays.edges.shape[1]), np.uint8)
-    desk = memory.make_chain_memory(n + int(arrays.hubs.max(initial=0)), arrays.edges.shape[1])
-    loops = (n - 1 - arrays.mobility) // 2
-    done = compiled(describe_chains)(
-        n, arrays.mobility, loops, arrays.hubs, arrays.sizes, arrays.edges, arrays.pairs, LETTERS, desk,
-        numbers, ends, text, lines, certificates,
-    )  # fmt: skip
-    return numbers[:done], ends[:done], text[: ends[done - 1]], lines[:done], certificates[:done]
 
 
 def described(core, arrays):
@@ -49,65 +31,9 @@ def simple(links, mobility):
     return ChainArrays.of_edges(links, mobility, np.concatenate(list(edge_blocks(links, mobility)))[:6000])
 
 
-@cache
-def multiple(links, mobility):
-    found = list(with_multiple_joints(chains(links, mobility, fractionated="all")))
-    return arrays_of_chains(links, mobility, found[:3000])
-
-
-def assert_equal(found, expected):
-    assert len(found) == len(expected)
-    for one, other in zip(found, expected, strict=True):
-        assert one.shape == other.shape
-        assert (one == other).all()
-
-
-@pytest.mark.parametrize(
-    ("links", "mobility"), [(4, 1), (6, 1), (8, 1), (10, 1), (12, 1), (14, 1), (9, 0), (9, 2), (8, 3), (11, 2)]
-)
-def test_simple_chains_as_numba(core, links, mobility):
-    arrays = simple(links, mobility)
-    found = described(core, arrays)
-    assert_equal(found, described_by_numba(arrays))
-    assert len(found[0]) == len(arrays.sizes)
-
-
-@pytest.mark.parametrize(("links", "mobility"), [(6, 1), (8, 1), (9, 2), (7, 0)])
-def test_multiple_joints_as_numba(core, links, mobility):
-    arrays = multiple(links, mobility)
-    assert arrays.hubs.max() > 0
-    assert_equal(described(core, arrays), described_by_numba(arrays))
-
-
-def test_other_pairs_as_numba(core):
-    texts = ["P(0-1) R(1-2) R(2-3) R(3-0)", "P(0-1) R(1-2) P(2-3) R(3-0)", "R(0-1) R(1-2) R(2-3) R(3-0)"]
-    arrays = arrays_of_chains(4, 1, [Chain.parse(text) for text in texts])
-    assert_equal(described(core, arrays), described_by_numba(arrays))
-
-
 def codes(core, arrays):
     _, ends, text, _, _ = described(core, arrays)
     return ends, text
-
-
-@pytest.mark.parametrize("links", [4, 6, 8, 10])
-@pytest.mark.parametrize("driven", [False, True])
-def test_mechanisms_as_numba(core, links, driven):
-    arrays = simple(links, 1)
-    joints = arrays.edges.shape[1]
-    numbers, ends, text, _, _ = described(core, arrays)
-    orbits, drives = numbers[:, memory.INVERSIONS].sum(), numbers[:, memory.DRIVES].sum() if driven else 0
-    desk = kernels.make_mechanism_memory(links, joints, 64 + 8 * int(drives))
-    frames = np.zeros((orbits, 4), np.int32)
-    rows = np.zeros((drives, kernels.GROUPS + 1 + (links - 2) // 2), np.int32)
-    counts = np.zeros(2, np.int64)
-    assert compiled(kernels.list_mechanisms)(links, joints, text.copy(), ends, desk, frames, rows, counts)
-    found = core.list_mechanisms(links, joints, text, ends, driven)
-    groups = desk.groups[: int(desk.state[0])].copy()
-    behind = kernels.HEAD + 2 * groups[:, kernels.JOINTS]
-    groups[np.arange(groups.shape[1]) >= behind[:, None]] = 0
-    assert counts.tolist() == [len(frames), len(rows)]
-    assert_equal(found, (frames, rows, groups))
 
 
 @pytest.mark.parametrize(("links", "inversions", "drives"), [(6, 5, 9), (8, 71, 153)])

@@ -1,4 +1,7 @@
-"""Multiple joints, sliding joints and Assur groups of the core: against numba and print; wrong calls raise."""
+"""Multiple joints, sliding joints and Assur groups of the core: laws and print; wrong calls raise.
+
+Other methods: tests/structure/enumeration/test_multiple.py, type_synthesis/test_sliding.py, assur/test_groups.py.
+"""
 
 import signal
 import threading
@@ -11,15 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gruebler import Chain
-from gruebler._numeric.compiling import compiled
-from gruebler._numeric.labelling.label_workspace import make_workspace
-from gruebler.structure.assur import group_kernels
 from gruebler.structure.enumeration import edge_blocks
 from gruebler.structure.enumeration.condition import joint_masks
 from gruebler.structure.enumeration.listing import chains
-from gruebler.structure.enumeration.multiple_kernels import grow_chains, make_merge_memory
 from gruebler.structure.type_synthesis import sliding
-from gruebler.structure.type_synthesis.sliding_kernels import count_sliding
 
 EVERY = (0, 99, 99)
 
@@ -30,36 +28,6 @@ def simple(links, mobility=1):
     return np.array([joint_masks(chain) for chain in chains(links, mobility, fractionated="all")], np.int64)
 
 
-def numba_growth(links, masks, limits, room):
-    rows = np.zeros((room, 1 + masks.shape[1]), np.int64)
-    memory = make_merge_memory(links, masks.shape[1])
-    return rows[: compiled(grow_chains)(links, masks, *limits, memory, rows)]
-
-
-@pytest.mark.parametrize(
-    ("links", "mobility", "limits"),
-    [
-        (4, 1, EVERY),
-        (6, 1, EVERY),
-        (8, 1, EVERY),
-        (8, 1, (1, 2, 99)),
-        (8, 1, (0, 99, 3)),
-        (8, 1, (2, 2, 4)),
-        (7, 0, EVERY),
-        (9, 0, EVERY),
-        (7, 2, EVERY),
-        (9, 2, EVERY),
-        (8, 3, EVERY),
-        (10, 1, EVERY),
-    ],
-)
-def test_growth_as_numba(core, links, mobility, limits):
-    masks = simple(links, mobility)
-    rows = core.MultipleJoints(links, masks, *limits).next(1 << 20)
-    assert (rows == numba_growth(links, masks, limits, len(rows) + 1)).all()
-
-
-# docs/theory/multiple-joints.md: F = 1, by the number of multiple joints.
 @pytest.mark.parametrize(("links", "numbers"), [(4, [1]), (6, [2, 1, 1]), (8, [16, 22, 18, 3, 1])])
 def test_multiple_joints_in_print(core, links, numbers):
     rows = core.MultipleJoints(links, simple(links), *EVERY).next(1000)[:, 1:]
@@ -189,15 +157,6 @@ SLIDING = [
 ]
 
 
-@pytest.mark.parametrize("text", SLIDING)
-def test_sliding_as_numba(core, text):
-    vectors, number, joint, mobility, group = of_chain(text)
-    for wanted in range(mobility + 2):
-        expected = np.zeros(number + 1, np.int64)
-        compiled(count_sliding)(vectors, number, joint, wanted, group, expected)
-        assert core.count_sliding(vectors, number, joint, wanted, group).tolist() == expected.tolist()
-
-
 def test_sliding_in_print(core):
     """Four-bars: turning alone, one slide, two slides side by side or opposite."""
     vectors, number, joint, mobility, group = of_chain(SLIDING[0])
@@ -272,18 +231,6 @@ def modular_rank(rows):
 @cache
 def trusses(links):
     return np.concatenate(list(edge_blocks(links, 0)))[:5000]
-
-
-@pytest.mark.parametrize("links", [3, 5, 7, 9, 11])
-def test_groups_as_numba(core, links):
-    blocks = trusses(links)
-    rows = np.zeros((links * len(blocks), group_kernels.HEAD + 2 * blocks.shape[1]), np.int64)
-    describe = compiled(group_kernels.describe_groups)
-    workspace = make_workspace(2 * links, blocks.shape[1])
-    count = describe(links, blocks, workspace, rows, np.zeros(len(rows), np.int64))
-    found = core.describe_groups(links, blocks)
-    assert found.shape == (count, rows.shape[1])
-    assert (found == rows[:count]).all()
 
 
 @pytest.mark.parametrize(("links", "number"), [(2, 1), (4, 2), (6, 10), (8, 173)])

@@ -12,13 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gruebler import _core
 from gruebler.base.doors import door
 from gruebler.structure.assur.groups import AssurGroup, place_name
 from gruebler.structure.assur.locking import AssurError
 from gruebler.structure.chain import Chain
 
 _GROUP = 1.5e-5  # seconds on one core
-_INTERPRETED = 4e-3  # for a truss, if the kernel is interpreted
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,23 +79,16 @@ def group_rows(links: int) -> Iterator[GroupRow]:
 
 
 def _rows(links: int) -> Iterator[GroupRow]:
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.labelling.label_workspace import make_workspace
-    from gruebler.structure.assur.group_kernels import CLASS, HEAD, ORDER, describe_groups
-    from gruebler.structure.enumeration import edge_blocks  # imported only here: it compiles kernels
+    from gruebler.structure.enumeration import edge_blocks  # imported only here: the rooms import each other
 
     n = links + 1
     for block in edge_blocks(n, 0):
-        joints = block.shape[1]
         for begin in range(0, len(block), 4096):
             trusses = np.ascontiguousarray(block[begin : begin + 4096])
-            rows = np.zeros((n * len(trusses), HEAD + 2 * joints), np.int64)
-            describe = for_work(describe_groups, _INTERPRETED * len(trusses))
-            count = describe(n, trusses, make_workspace(2 * n, joints), rows, np.zeros(len(rows), np.int64))
-            for row in rows[:count].tolist():
-                ends = [(row[k], str(row[k + 1])) for k in range(HEAD, len(row), 2)]
-                named = tuple((str(a) if a else place_name(k), b) for k, (a, b) in enumerate(ends))
-                yield GroupRow(row[CLASS], row[ORDER], named)
+            for class_number, order, *ends in _core.describe_groups(n, trusses).tolist():
+                pairs = zip(ends[::2], ends[1::2], strict=True)
+                named = tuple((str(a) if a else place_name(k), str(b)) for k, (a, b) in enumerate(pairs))
+                yield GroupRow(class_number, order, named)
 
 
 def _check_number(links: int) -> None:

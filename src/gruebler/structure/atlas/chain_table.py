@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.atlas.crossings import Bundle, least_crossings
 from gruebler.structure.atlas.schema import arrow_library, arrow_schema
@@ -27,12 +28,28 @@ Int64 = NDArray[np.int64]
 _PLACE = {pair.name: k for k, pair in enumerate(PAIRS)}
 _TURNS = np.array([pair.is_turning for pair in PAIRS])
 _SLIDES = np.array([pair.is_sliding for pair in PAIRS])
-_INTERPRETED = 2.5e-4  # seconds for each link of a chain, if the kernel is interpreted
+_MOST_LINKS = 40
+_MOST_MEMBERS = 9
+# The columns of numbers that the kernel gives.
+_NUMBERS = (
+    "group_order",
+    "inversions",
+    "joint_orbits",
+    "drives",
+    "smallest_circuit",
+    "largest_circuit",
+    "diameter",
+    "dyadic",
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChainArrays:
-    """Chains of one number of links as graphs: see `chain_memory`."""
+    """Chains of one number of links as graphs, see docs/theory/atlas.md.
+
+    Links are the vertices 0 to n - 1, multiple joints the vertices from n on; a joint of two links is an edge, a
+    multiple joint has an edge to each of its links.
+    """
 
     links: int
     mobility: int
@@ -102,43 +119,24 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
     Cost: about 30 us for a chain of 14 links, and the crossings of each contracted graph.
     """
     pa = arrow_library()
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.chain_lists import line_length
-    from gruebler.structure.atlas import chain_memory as memory
-    from gruebler.structure.atlas.chain_kernels import describe_chains
-
     n, count = chains.links, len(chains.sizes)
     loops = (n - 1 - chains.mobility) // 2
-    widest = chains.edges.shape[1]
     simple = chains.hubs == 0
     members, degrees = _members(chains)
     joints = chains.sizes - members.sum(axis=1) + chains.hubs
-    if n > memory.MOST_LINKS or members.max(initial=0) > memory.MOST_MEMBERS:
+    if n > _MOST_LINKS or members.max(initial=0) > _MOST_MEMBERS:
         raise GrueblerError(
             "the atlas describes chains of at most {links} links with at most {members} links in a joint",
-            links=memory.MOST_LINKS,
-            members=memory.MOST_MEMBERS,
+            links=_MOST_LINKS,
+            members=_MOST_MEMBERS,
         )
-    numbers = np.zeros((count, memory.COLUMNS), np.int64)
-    ends = np.zeros(count, np.int64)
-    text = np.empty(int((joints * 8 + members.sum(axis=1) * 3 + 8).sum()), np.uint8)
-    graph6 = np.zeros((count, line_length(n) - 1), np.uint8)
-    certificates = np.zeros((count, widest), np.uint8)
     letters = np.array([ord(p.symbols.get(Alphabet.INTERNATIONAL, "?")[0]) for p in PAIRS], np.uint8)
-    most = n + int(chains.hubs.max(initial=0))
-    describe = for_work(describe_chains, count * n * _INTERPRETED)
-    described = describe(
-        n, chains.mobility, loops, chains.hubs, chains.sizes, chains.edges, chains.pairs, letters,
-        memory.make_chain_memory(most, widest), numbers, ends, text, graph6, certificates,
-    )  # fmt: skip
-    if described < count:
+    numbers, ends, text, graph6, certificates = _core.describe_chains(
+        n, chains.mobility, loops, chains.hubs, chains.sizes, chains.edges, chains.pairs, letters
+    )
+    if len(numbers) < count:
         raise GrueblerError("a chain of {links} links has too many circuits for the atlas", links=n)
-    column = {name: numbers[:, k] for name, k in (
-        ("group_order", memory.GROUP_ORDER), ("inversions", memory.INVERSIONS),
-        ("joint_orbits", memory.JOINT_ORBITS), ("drives", memory.DRIVES),
-        ("smallest_circuit", memory.GIRTH), ("largest_circuit", memory.CIRCUMFERENCE),
-        ("diameter", memory.DIAMETER),
-    )}  # fmt: skip
+    column = {name: numbers[:, k] for k, name in enumerate(_NUMBERS)}
     turning = ((_TURNS[chains.pairs]) | ~_present(chains)).all(axis=1)
     if contracted is None:
         graphs, graph_codes = _contracted(chains, kinds)
@@ -157,12 +155,12 @@ def chain_table(chains: ChainArrays, kinds: Sequence[str] | str, contracted: Con
         "fractionated": pa.repeat(kinds, count) if isinstance(kinds, str) else pa.array(kinds, pa.string()),
         "assortment": _assortments(degrees),
         "graph6": _texts(graph6, np.full(count, graph6.shape[1]), simple & turning),
-        "code": _flat_texts(text[: ends[-1] if count else 0], ends),
+        "code": _flat_texts(text, ends),
         "contracted_graph": graphs,
         "contracted_code": graph_codes,
         "planar": crossings == 0,
         "crossings": pa.array(crossings, pa.int16(), mask=crossings < 0),
-        "dyadic": numbers[:, memory.DYADIC] == 1,
+        "dyadic": column["dyadic"] == 1,
         "certificate": _texts(certificates, chains.sizes, simple & turning),
     }
     schema = arrow_schema("chains")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.base.errors import GrueblerError
+from gruebler import _core
 from gruebler.structure.assur import AssurGroup, decompose
 from gruebler.structure.atlas.schema import arrow_library, arrow_schema
 from gruebler.structure.chain import Chain
@@ -19,12 +19,9 @@ from gruebler.structure.mechanism.model import Mechanism
 if TYPE_CHECKING:
     import pyarrow as pa
 
-    from gruebler.structure.atlas.mechanism_kernels import MechanismMemory
-
 _BULK_LINKS = 7  # from here on: smaller chains have names of families, and their rows are few
 _NAMED = 4  # Assur groups of more links have no names
-_GROUPS = 1 << 19  # the most kinds of groups in a part of the work
-_INTERPRETED = 1e-4  # seconds for each link of a driven mechanism, if the kernel is interpreted
+_GROUP_HEAD = 4  # columns of a kind of group before its joints
 
 
 def mechanism_table(codes: Iterable[str], mobility: int) -> pa.Table:
@@ -108,14 +105,8 @@ def bulk_tables(chains: pa.Table, *, driven: bool) -> dict[str, pa.Table] | None
         The tables ``mechanisms`` and ``driven``; None for chains of few links, whose families have names.
 
     Cost: some 10 us for each driven mechanism.
-
-    Raises:
-        GrueblerError: more kinds of Assur groups than there is room for.
     """
     pa = arrow_library()
-    from gruebler._numeric.compiling import for_work
-    from gruebler.structure.atlas import mechanism_kernels as kernels
-
     if not chains.num_rows or chains["links"][0].as_py() < _BULK_LINKS:
         return None
     n, joints = chains["links"][0].as_py(), chains["joints"][0].as_py()
@@ -123,14 +114,8 @@ def bulk_tables(chains: pa.Table, *, driven: bool) -> dict[str, pa.Table] | None
     codes = codes.chunk(0) if isinstance(codes, pa.ChunkedArray) else codes
     lengths = pa.compute.binary_length(codes).to_numpy()
     text = np.frombuffer("".join(codes.to_pylist()).encode("ascii"), np.uint8)
-    memory = kernels.make_mechanism_memory(n, joints, min(_GROUPS, 64 + 8 * int(chains["drives"].to_numpy().sum())))
-    frames = np.zeros((int(chains["inversions"].to_numpy().sum()), 4), np.int32)
-    rows = int(chains["drives"].to_numpy().sum()) if driven else 0
-    drives = np.zeros((rows, kernels.GROUPS + 1 + (n - 2) // 2), np.int32)
-    counts = np.zeros(2, np.int64)
-    find = for_work(kernels.list_mechanisms, _INTERPRETED * n * (rows + len(codes)))
-    if not find(n, joints, text, np.cumsum(lengths).astype(np.int64), memory, frames, drives, counts):
-        raise GrueblerError("a part of the atlas has too many kinds of Assur groups; take smaller pieces of work")
+    ends = np.cumsum(lengths).astype(np.int64)
+    frames, drives, groups = _core.list_mechanisms(n, joints, text, ends, driven)
 
     def column(values: Any, name: str, table: str) -> Any:
         kind = arrow_schema(table).field(name).type
@@ -147,15 +132,11 @@ def bulk_tables(chains: pa.Table, *, driven: bool) -> dict[str, pa.Table] | None
         }
 
     tables = {
-        "mechanisms": common(frames[:, kernels.CHAIN])
-        | {
-            "frame": frames[:, kernels.FRAME],
-            "frame_joints": frames[:, kernels.FRAME_JOINTS],
-            "orbit": frames[:, kernels.ORBIT],
-        }
+        "mechanisms": common(frames[:, 0])
+        | {"frame": frames[:, 1], "frame_joints": frames[:, 2], "orbit": frames[:, 3]}
     }
     if driven:
-        tables["driven"] = common(drives[:, kernels.CHAIN]) | _driven_columns(drives, memory)
+        tables["driven"] = common(drives[:, 0]) | _driven_columns(drives, groups)
     return {
         name: pa.Table.from_arrays(
             [column(values[field.name], field.name, name) for field in arrow_schema(name)], schema=arrow_schema(name)
@@ -164,23 +145,19 @@ def bulk_tables(chains: pa.Table, *, driven: bool) -> dict[str, pa.Table] | None
     }
 
 
-def _driven_columns(drives: NDArray[np.int32], memory: MechanismMemory) -> dict[str, Any]:
-    from gruebler.structure.atlas import mechanism_kernels as kernels
-
+def _driven_columns(drives: NDArray[np.int32], kinds: NDArray[np.int16]) -> dict[str, Any]:
+    """The columns of driven mechanisms, from rows of chain, frame, driven link, number of groups and groups."""
     pa = arrow_library()
-    count = drives[:, kernels.GROUPS]
-    present = np.arange(drives.shape[1] - kernels.GROUPS - 1) < count[:, None]
-    numbers = drives[:, kernels.GROUPS + 1 :]
+    frame, driven, count, numbers = drives[:, 1], drives[:, 2], drives[:, 3], drives[:, 4:]
+    present = np.arange(numbers.shape[1]) < count[:, None]
     flat = numbers[present]
     offsets = pa.array(np.concatenate([[0], np.cumsum(count)]).astype(np.int32))
-    kinds = memory.groups[: int(memory.state[0])]
-    classes = kinds[:, kernels.CLASS]
+    links, classes, orders = kinds[:, 0], kinds[:, 1], kinds[:, 2]
     texts = pa.array([_form(row.tolist()) for row in kinds], pa.string())
 
     def lists(values: Any, name: str) -> Any:
         return pa.ListArray.from_arrays(offsets, values).cast(arrow_schema("driven").field(name).type)
 
-    frame, driven = drives[:, kernels.FRAME], drives[:, kernels.DRIVEN]
     least, greatest = np.minimum(frame, driven), np.maximum(frame, driven)
     pairs, place = np.unique(least * 256 + greatest, return_inverse=True)
     names = pa.array([f"{pair // 256}-{pair % 256}" for pair in pairs.tolist()], pa.string())
@@ -191,16 +168,15 @@ def _driven_columns(drives: NDArray[np.int32], memory: MechanismMemory) -> dict[
         "at_frame": np.ones(len(drives), np.bool_),
         "groups": lists(texts.take(pa.array(flat)), "groups"),
         "classes": lists(pa.array(classes[flat]), "classes"),
-        "orders": lists(pa.array(kinds[flat, kernels.ORDER]), "orders"),
+        "orders": lists(pa.array(orders[flat]), "orders"),
         "highest_class": highest,
-        "dyads_only": (np.where(present, kinds[numbers, kernels.LINKS], 2) == 2).all(axis=1),
+        "dyads_only": (np.where(present, links[numbers], 2) == 2).all(axis=1),
     }
 
 
 def _form(row: list[int]) -> str:
-    """The form of a group of the table of groups: its name if it has one, else its code."""
-    from gruebler.structure.atlas import mechanism_kernels as kernels
-
-    pairs = row[kernels.HEAD : kernels.HEAD + 2 * row[kernels.JOINTS]]
+    """The form of a kind of group, a row of links, class, order, number of joints, joints: its name, else its code."""
+    links, joints = row[0], row[3]
+    pairs = row[_GROUP_HEAD : _GROUP_HEAD + 2 * joints]
     code = "gr1:" + "".join(f"R({a}-{b})" for a, b in zip(pairs[::2], pairs[1::2], strict=True))
-    return AssurGroup.known(decode(code).chain).form if row[kernels.LINKS] <= _NAMED else code
+    return AssurGroup.known(decode(code).chain).form if links <= _NAMED else code

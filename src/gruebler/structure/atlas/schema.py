@@ -30,7 +30,7 @@ class SchemaColumn:
     origin: str
 
 
-_DESCRIBED = "atlas.chain_kernels"
+_DESCRIBED = "_core.describe_chains"
 
 COLUMNS: tuple[SchemaColumn, ...] = tuple(
     SchemaColumn(*row)

@@ -17,6 +17,7 @@ from itertools import groupby, islice
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.condition import joint_masks
@@ -24,7 +25,7 @@ from gruebler.structure.enumeration.condition import joint_masks
 _MANY = 99  # no limit: more than a chain can have
 _AT_ONCE = 64  # chains with simple joints that are grown together
 _BLOCK = 16384  # chains in a block
-_INTERPRETED = 2e-3  # seconds for a chain with simple joints of six links, if the kernel is interpreted
+_MOST_LINKS = 20  # the search needs 2^links bytes for each joint
 
 
 def with_multiple_joints(
@@ -87,22 +88,16 @@ def grown_joints(
     >>> [block[:, 1:].tolist() for block in grown_joints(4, [[0b0011, 0b0110, 0b1100, 0b1001]])]
     [[[3, 6, 12, 9]]]
     """
-    from gruebler._numeric.compiling import for_work
-    from gruebler.structure.enumeration.multiple_kernels import MOST_LINKS, grow_chains, make_merge_memory
-
-    if links > MOST_LINKS:
+    if links > _MOST_LINKS:
         raise GrueblerError(
-            "chains with multiple joints are enumerated up to {most} links, not {links}", most=MOST_LINKS, links=links
+            "chains with multiple joints are enumerated up to {most} links, not {links}", most=_MOST_LINKS, links=links
         )
     if not simple:
         return
-    chains = np.array(simple, np.int64)
-    memory = make_merge_memory(links, chains.shape[1])
-    grow = for_work(grow_chains, _INTERPRETED * len(chains) * 2.0 ** (links - 6))
     limits = fewest, _MANY if most is None else most, _MANY if largest is None else largest
+    search = _core.MultipleJoints(links, np.array(simple, np.int64), *limits)
     while True:
-        block = np.empty((_BLOCK, 1 + chains.shape[1]), np.int64)
-        count = grow(links, chains, *limits, memory, block)
-        yield block[:count]
-        if count < _BLOCK:
+        block = search.next(_BLOCK)
+        yield block
+        if len(block) < _BLOCK:
             return

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.errors import ChainError, RunError
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Space
@@ -26,7 +27,6 @@ Int64 = NDArray[np.int64]
 
 _PRIME = 2**31 - 1
 _AT_ONCE = 16  # chains in a piece of work
-_CHOICE = 6e-5  # seconds for a choice, if the kernel is interpreted
 
 
 def count_sliding_variants(
@@ -74,9 +74,6 @@ def sliding_numbers(chain: Chain) -> tuple[int, ...]:
     >>> sliding_numbers(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
     (1, 1, 2, 0, 0)
     """
-    from gruebler._numeric.compiling import for_work
-    from gruebler.structure.type_synthesis.sliding_kernels import count_sliding
-
     if chain.space is not Space.PLANAR or not all(joint.pair.is_turning for joint in chain.joints):
         raise ChainError("{chain}: expected a planar chain of turning joints", chain=chain)
     loops = _loops(chain)
@@ -85,12 +82,8 @@ def sliding_numbers(chain: Chain) -> tuple[int, ...]:
     joint = np.array([column.joint for column in columns], np.int64)
     mobility = 3 * (chain.n - 1) - 2 * len(columns)
     group = _group(chain, joint[:simple].tolist())
-    count = for_work(count_sliding, _CHOICE * 2.0**simple)
-    numbers = []
-    for seed in (1, 2):  # by chance a placement may lose rank, never gain it: the larger number is right
-        sums = np.zeros(simple + 1, np.int64)
-        count(_vectors(columns, joint, seed), simple, joint, mobility, group, sums)
-        numbers.append(sums)
+    # by chance a placement may lose rank, never gain it: the larger number is right
+    numbers = (_core.count_sliding(_vectors(columns, joint, seed), simple, joint, mobility, group) for seed in (1, 2))
     total = np.maximum(*numbers)
     if (total % len(group)).any():
         raise RunError("the numbers of choices of {chain} are no multiples of its symmetries", chain=chain)
