@@ -5,14 +5,13 @@ docs/theory/kinematics.md, "Degrees by mistake".
 
 from __future__ import annotations
 
-import warnings
 from math import pi
 
 import numpy as np
 import numpy.typing as npt
 from numpy.typing import ArrayLike
 
-from gruebler.base.errors import UnitWarning, level_of_user
+from gruebler.base.errors import UnitWarning, warn
 from gruebler.base.text import Message, message
 
 _TURN = 2 * pi * (1 + 1e-9)
@@ -69,4 +68,4 @@ def warn_of_degrees(name: str, values: ArrayLike, *, path: bool = False, once: b
     if doubt is None:
         return
     text = message("{name}: angles are in radians, but {doubt}; from_degrees() converts", name=name, doubt=doubt)
-    warnings.warn(str(text), UnitWarning, stacklevel=level_of_user())
+    warn(text, UnitWarning)

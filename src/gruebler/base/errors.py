@@ -4,12 +4,18 @@ Every message says what was expected, what was found and, where there is one, th
 raises; a failure (a budget spent, a proof not found) is a result and never one of these.
 """
 
+import functools
 import re
 import sys
-from collections.abc import Iterable, Mapping
+import warnings
+from collections.abc import Callable, Iterable, Mapping
+from contextvars import ContextVar
 from difflib import get_close_matches
-from typing import Any, Protocol
+from typing import Any, ParamSpec, Protocol, TypeVar
 from unicodedata import category
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 
 LONGEST = 1000
 """Characters of a message; 300 of them at most without a space."""
@@ -99,6 +105,33 @@ class TransformationError(GrueblerError):
 
 class UnitWarning(UserWarning):
     """Angles, which are in radians everywhere, look as if they were degrees; `gruebler.base.angles` says when."""
+
+
+class AssemblyWarning(UserWarning):
+    """A motion has no row, because the linkage cannot be assembled at the first one; its ``stop`` says why."""
+
+
+_heard: ContextVar[bool] = ContextVar("heard", default=True)
+
+
+def warn(text: object, kind: type[UserWarning]) -> None:
+    """A warning at the line of the user, unless a function that is `unwarned` gives it."""
+    if _heard.get():
+        warnings.warn(str(text), kind, stacklevel=level_of_user())
+
+
+def unwarned(function: Callable[_P, _R]) -> Callable[_P, _R]:
+    """The function without its warnings: for the library itself, which looks at what comes back."""
+
+    @functools.wraps(function)
+    def quiet(*args: _P.args, **named: _P.kwargs) -> _R:
+        before = _heard.set(False)
+        try:
+            return function(*args, **named)
+        finally:
+            _heard.reset(before)
+
+    return quiet
 
 
 def level_of_user() -> int:

@@ -30,7 +30,7 @@ from gruebler.mechanics.analysis.table import default_rows, motion_table
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import read_branch
 from gruebler.mechanics.kinematics.drive_rows import rpm as per_minute
-from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_in_radians
+from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import branch_text
 from gruebler.structure.chain.pairs import Alphabet
@@ -97,7 +97,7 @@ def run(arguments: argparse.Namespace) -> int:
                 count=len(turning),
             )
         if speeds:
-            motion = move_in_radians(
+            motion = move_quietly(
                 linkage,
                 given,
                 branch=arguments.branch,
@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
                 order=order,
             )
         else:
-            motion = move_in_radians(linkage, given, branch=arguments.branch)
+            motion = move_quietly(linkage, given, branch=arguments.branch)
         table = (
             motion_table(motion, outputs, arguments.point, lang=language_of_names(arguments)) if len(motion) else None
         )
@@ -195,12 +195,10 @@ def _moved(linkage: Linkage, measures: Measures, rows: Reals, branch: str | None
 
     Returns the motion and how many rows at its beginning were not asked for.
     """
-    motion = move_in_radians(
+    motion = move_quietly(
         linkage, np.concatenate([[[measures.start]], rows]), branch=measures.branch, speed=1.0, order=order
     )
-    return (
-        (motion, 1) if len(motion) > 1 else (move_in_radians(linkage, rows, branch=branch, speed=1.0, order=order), 0)
-    )
+    return (motion, 1) if len(motion) > 1 else (move_quietly(linkage, rows, branch=branch, speed=1.0, order=order), 0)
 
 
 def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Namespace) -> list[Column]:

@@ -26,7 +26,7 @@ from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.table import default_rows
 from gruebler.mechanics.forces import Friction, Loads, Statics, component_table, statics, statics_table
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 
 _FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
@@ -215,7 +215,7 @@ def _motion(
     if rows is None and len(turning) > 1:
         raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
     if rows is not None:
-        return move_in_radians(linkage, rows, branch=arguments.branch, order=1)
+        return move_quietly(linkage, rows, branch=arguments.branch, order=1)
     cycle = drive_cycle(linkage, branch=arguments.branch)
     values = default_rows(cycle.span, shown_range, turning[0])[:, 0]
     if not cycle.span.full:

@@ -25,7 +25,7 @@ from gruebler.files.pin_drawings import lower_linkage
 from gruebler.mechanics.analysis.link_planes import link_planes, plate_sizes
 from gruebler.mechanics.analysis.plates import Plate, Plates, plates_of, whole_motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
-from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
+from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage, Pose2D
 
 _UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "dm": 14}
@@ -124,7 +124,7 @@ def _cut(
         motion = whole_motion(lower)
     except LinkageError as error:
         drives = pose_at_reference(cached_plan(lower), np.zeros(len(lower.mechanism.drives))).drives
-        plates = plates_of(move_in_radians(lower, drives[None]))
+        plates = plates_of(move_quietly(lower, drives[None]))
         left_out.append(message("the lengths of slots, paths and planes ({reason})", reason=error))
         return plates, sizes, dict.fromkeys(plates.plates, "")
     plates = plates_of(motion)

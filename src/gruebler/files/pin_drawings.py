@@ -19,7 +19,7 @@ from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.files.measured_lengths import MILLIMETRES, in_unit
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Pair, pair
@@ -481,7 +481,7 @@ def _posed(linkage: Linkage) -> Linkage:
         return linkage
     drives = linkage.mechanism.drives
     for k in range(_TRIALS):
-        motion = move_in_radians(
+        motion = move_quietly(
             linkage, [[(2 * pi if drive.turning else linkage.size) * k / _TRIALS for drive in drives]]
         )
         if motion.complete:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gruebler.base.doors import door
-from gruebler.base.errors import GrueblerError, level_of_user, nearest
+from gruebler.base.errors import GrueblerError, nearest, warn
 from gruebler.base.text import Message, joined, joined_by_or, message
 from gruebler.files.formats import FORMATS, Format, json_of_another_program
 
@@ -88,7 +87,7 @@ def _say(notes: list[Message], left_out: list[Message] | None, text: Message) ->
     if left_out is not None:
         left_out += notes
     elif notes:
-        warnings.warn(str(text), FormatWarning, stacklevel=level_of_user())
+        warn(text, FormatWarning)
 
 
 def write(

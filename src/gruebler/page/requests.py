@@ -257,12 +257,12 @@ def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, An
 def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
     """Every assembly mode with the linkage in it."""
     from gruebler.files import linkage_from_json, linkage_to_json
-    from gruebler.mechanics.kinematics.solve import assembly_modes, move_in_radians
+    from gruebler.mechanics.kinematics.solve import assembly_modes, move_quietly
 
     linkage = linkage_from_json(asked.document)
     modes = []
     for label in assembly_modes(linkage, asked.drives)[:_MOST_MODES]:
-        motion = move_in_radians(linkage, [asked.drives], branch=label)
+        motion = move_quietly(linkage, [asked.drives], branch=label)
         if motion.complete:
             modes.append({"label": label, "document": linkage_to_json(linkage.with_reference_pose(motion.pose()))})
     return modes

@@ -12,7 +12,7 @@ from gruebler.design.synthesis.dyads import Displacements, all_dyads, misfit
 from gruebler.design.synthesis.positions import guiding_dyads
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 
 
 def task_of(rows):
@@ -267,7 +267,7 @@ def test_three_positions_are_met_by_many_linkages_moved_by_the_solver():
     found = synthesise_positions(task)
     assert len(found.designs) > 10
     for design in found.designs:
-        motion = move_in_radians(design.linkage, design.drives)  # targets may lie more than half a turn apart
+        motion = move_quietly(design.linkage, design.drives)  # targets may lie more than half a turn apart
         assert np.abs(motion.complex_point("P") - task.origins).max() < 1e-9
         turned = motion.angle("coupler") - motion.angle("coupler")[0]
         assert np.abs(np.exp(1j * turned) - task.turns / task.turns[0]).max() < 1e-9

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler.base.errors import LinkageError
+from gruebler.base.errors import AssemblyWarning, LinkageError
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import from_degrees, move
@@ -328,7 +328,8 @@ def test_a_cylinder_does_not_pass_a_narrow_gap(path):
 
 
 def test_a_start_that_cannot_be_assembled_is_said():
-    motion = move(FourBar(1, 1, 1, 10).linkage(), 0.0)
+    with pytest.warns(AssemblyWarning, match="At the start.* cannot be assembled in this way"):
+        motion = move(FourBar(1, 1, 1, 10).linkage(), 0.0)
     assert (len(motion), motion.stop.reason) == (0, "start")
     assert "cannot be assembled" in motion.message()
 

@@ -14,7 +14,7 @@ from gruebler.design.realisation.layout_trial import FLOOR, LayoutTrial, range_p
 from gruebler.design.realisation.measures import conditioning
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
-from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
+from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage
 
 Ranges = tuple[tuple[float, float], ...]
@@ -53,7 +53,7 @@ def finish_linkage(program: LayoutProgram, drawing: Reals, trial: LayoutTrial, u
 def _moved(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) -> tuple[Ranges, float]:
     """The ranges of a linkage and the smallest measure in them; 0 if it does not move through them."""
     ranges = _ranges(linkage, trial, scale, length)
-    motion = move_in_radians(linkage, range_path(ranges, full=trial.full, rows=361))
+    motion = move_quietly(linkage, range_path(ranges, full=trial.full, rows=361))
     quality = motion_quality(motion, full=trial.full)
     return ranges, quality if quality and motion.closure_error < _OPEN else 0.0
 
@@ -103,7 +103,7 @@ def _with_rounded_reference(linkage: Linkage, length: float) -> Linkage | None:
         for value, turns in zip(reference.drives, turning, strict=True)
     ]
     try:
-        motion = move_in_radians(linkage, np.array([reference.drives, values]))
+        motion = move_quietly(linkage, np.array([reference.drives, values]))
     except LinkageError:  # rounding has moved the joints too far apart
         return None
     if not motion.complete:

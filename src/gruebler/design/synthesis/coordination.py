@@ -18,7 +18,7 @@ from gruebler.base.plain_data import plain
 from gruebler.base.text import Message
 from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import branch_of_side
 
@@ -99,7 +99,7 @@ class Minimax:
         """The linkage in the position where the interval begins, on its branch."""
         solution = self.solution
         own = solution.linkage().linkage(unit=unit)
-        start = move_in_radians(own, [solution.input_start], branch=branch_of_side(solution.side))
+        start = move_quietly(own, [solution.input_start], branch=branch_of_side(solution.side))
         return own.with_reference_pose(start.pose(0))
 
     def to_json(self) -> dict[str, Any]:

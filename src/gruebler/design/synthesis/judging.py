@@ -23,7 +23,7 @@ from gruebler.design.synthesis.targets import Targets
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
@@ -210,7 +210,7 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
     rows = np.stack([np.interp(between, np.arange(len(drives)), column) for column in drives.T], axis=1)
     error = np.inf
     try:
-        motion = move_in_radians(linkage, rows)
+        motion = move_quietly(linkage, rows)
         if motion.complete:
             values = np.stack([probe.of_motion(motion)[::_ROWS] for probe in targets.probes], axis=1)
             error = float(np.sqrt(np.nansum(np.abs(values - targets.values) ** 2, axis=1)).max() / targets.size)
@@ -329,7 +329,7 @@ def _carried(
     values = tuple(float(drive[rows[k]]) for k in range(len(path.arcs)))
     # From target 1, where the reference pose is, to both ends.
     for part, forward in ((drive[begin:], True), (drive[: begin + 1][::-1], False)):
-        motion = move_in_radians(linkage, part, order=2)
+        motion = move_quietly(linkage, part, order=2)
         if not motion.complete:
             return values, float("inf"), float("nan")
         least = min(least, _least_transmission(motion))

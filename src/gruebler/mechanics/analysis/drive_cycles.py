@@ -29,7 +29,7 @@ from gruebler.mechanics.kinematics.motion import Motion, Stop
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose, pose_at_reference
 from gruebler.mechanics.kinematics.root_finding import FunctionSamples, bracketed_root
-from gruebler.mechanics.kinematics.solve import cached_plan, motion_from_rows, move_in_radians
+from gruebler.mechanics.kinematics.solve import cached_plan, motion_from_rows, move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch, branch_labels
 from gruebler.structure.assur.forms import form_message
@@ -370,7 +370,7 @@ class PathCycle(Course):
         """The poses at parts of the path, in any order; rates by the part."""
         order_of = np.argsort(drives, kind="stable")
         parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
-        motion = move_in_radians(
+        motion = move_quietly(
             self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
         )
         if not motion.complete:
@@ -388,7 +388,7 @@ def path_cycle(linkage: Linkage, path: ArrayLike, *, branch: Branch = None) -> P
     ends = np.array([rows[0], rows[-1]])
     if (ends[0] == ends[1]).all():
         raise LinkageError("the path of the drives has no length: its first row is its last")
-    start = move_in_radians(plan, ends[:1], branch=branch)
+    start = move_quietly(plan, ends[:1], branch=branch)
     if not start.complete:
         raise LinkageError("{reason}", reason=start.reason)
     cycle = PathCycle(
@@ -437,7 +437,7 @@ def _begun(plan: Plan, branch: Branch) -> Motion:
     branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     best, margin = None, 0.0
     for value in _candidates(plan):
-        motion = move_in_radians(plan, [value], branch=labels)
+        motion = move_quietly(plan, [value], branch=labels)
         root = float(np.abs(motion.roots[:, branching]).min(initial=1.0)) if len(motion) else -1.0
         if best is None or root > margin:
             best, margin = motion, root

@@ -10,7 +10,7 @@ from gruebler.base.arrays import Reals
 from gruebler.mechanics.forces.loads import Rows
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import branch_of
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 
 _TELLS = 1e-9  # a smaller root does not tell the assembly mode: its sign is rounding
 
@@ -28,7 +28,7 @@ def with_velocities(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion
         return
     branch = branch_of(motion.plan, motion.roots[best], motion.unknowns[best], motion.drives[best])
     for rows in (np.arange(best, len(motion)), np.arange(best, -1, -1)):
-        moved = move_in_radians(motion.plan, motion.drives[rows], speed=speed, order=1, branch=branch)
+        moved = move_quietly(motion.plan, motion.drives[rows], speed=speed, order=1, branch=branch)
         yield rows[: len(moved)], moved
 
 

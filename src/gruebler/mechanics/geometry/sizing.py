@@ -10,7 +10,7 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.geometry.straight import Path, PathPiece, linkage_path, longest_piece, path_piece
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.points import PointLike, point_name
@@ -106,7 +106,7 @@ def tangent_windows(
     (True, 0.02)
     """
     least, most = ratios
-    middle = move_in_radians(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
+    middle = move_quietly(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
     if not len(middle):
         raise LinkageError("{reason}", reason=middle.reason)
     path, tangent = linkage_path(linkage, point, branch=branch), float(np.angle(middle.complex_point(point, 1)[0]))

@@ -11,7 +11,7 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.points import PointLike
@@ -63,7 +63,7 @@ def linkage_path(linkage: Linkage, point: PointLike, *, branch: Branch = None) -
     """
 
     def at(values: Reals) -> Complexes:
-        motion = move_in_radians(linkage, np.ravel(values), branch=branch)
+        motion = move_quietly(linkage, np.ravel(values), branch=branch)
         if not motion.complete:
             raise LinkageError("{reason}", reason=motion.reason)
         return motion.complex_point(point).reshape(np.shape(values))

@@ -24,7 +24,7 @@ from gruebler.mechanics.kinematics.branches import Unassembled, read_branch, sta
 from gruebler.mechanics.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
-from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians, starting_configuration
+from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly, starting_configuration
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.branch import Branch, branch_labels
 
@@ -128,7 +128,7 @@ class Motions:
 
     def motion(self, number: int) -> Motion:
         """The motion of one design with everything that a `Motion` knows, such as where it stopped and why."""
-        return move_in_radians(self.designs.linkage(number), self.drives, branch=self.branch)
+        return move_quietly(self.designs.linkage(number), self.drives, branch=self.branch)
 
     def link_index(self, link: str) -> int:
         """Where a link is in the arrays' last axis; `LinkageError` if it was not kept."""

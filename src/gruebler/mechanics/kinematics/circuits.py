@@ -32,7 +32,7 @@ from gruebler.mechanics.kinematics.configuration_curve import (
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.kinematics.poses import Poses
 from gruebler.mechanics.kinematics.root_finding import FunctionSamples, find_zeros
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
@@ -447,7 +447,7 @@ def _trial_values(lower: Linkage) -> Iterator[float]:
 def _assembled(linkage: Linkage, system: ClosureSystem, value: float, branch: Branch) -> Reals | None:
     """The pose at a drive value, or None."""
     try:
-        motion = move_in_radians(linkage, [value], branch=branch)
+        motion = move_quietly(linkage, [value], branch=branch)
     except LinkageError as error:
         if system.redundant and system.lower.reference_pose is None:
             raise LinkageError(

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
-from gruebler.base.errors import LinkageError
+from gruebler.base.errors import AssemblyWarning, LinkageError, unwarned, warn
 from gruebler.mechanics.kinematics.branches import (
     Unassembled,
     labelled_groups,
@@ -68,10 +68,12 @@ def move(
 
     Returns:
         `Motion`: (rows, 2) places, (rows,) angles in radians and their rates; ``stop`` says where and why the path
-        could not be followed to its end.
+        could not be followed to its end. A linkage that cannot be assembled at the first row has a motion without
+        rows, with a warning.
 
     Raises:
         LinkageError: drives that do not fix the motion, numbers that are not usable, an unknown branch.
+        AssemblyWarning: nothing can be assembled at the first row; a warning, since in a search this is an answer.
 
     Cost:
         10 to 30 ns a pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked to, 1 to 3 us of
@@ -93,22 +95,6 @@ def move(
     plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
     path = drive_path(plan, drives)
     warn_of_path(plan, path)
-    return move_in_radians(plan, path, speed=speed, acceleration=acceleration, jerk=jerk, branch=branch, order=order)
-
-
-def move_in_radians(
-    linkage: LinkageLike | Plan,
-    drives: ArrayLike,
-    *,
-    branch: Branch = None,
-    speed: ArrayLike | None = None,
-    acceleration: ArrayLike = 0.0,
-    jerk: ArrayLike = 0.0,
-    order: int | None = None,
-) -> Motion:
-    """`move` where the drive values cannot be degrees, however far apart they are."""
-    plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
-    path = drive_path(plan, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
         raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
@@ -116,7 +102,7 @@ def move_in_radians(
     try:
         signs, unknowns = starting_configuration(plan, path[0], branch)
     except Unassembled as found:
-        return _never(plan, path, upto, found)
+        return _with_warning(_never(plan, path, upto, found))
     from_reference = branch is None and plan.lower.reference_pose is not None
     rows = follow_path(plan, path, speeds, upto, signs, unknowns)
     if from_reference and (_in_change_point(plan, rows) if rows.reached else plan.higher_groups):
@@ -127,7 +113,17 @@ def move_in_radians(
         motion = motion_from_rows(plan, path, _from_reference(plan, path, speeds, upto))
     start = pose_at_reference(plan, path[0]) if from_reference else ReferencePose(path[0], signs, unknowns)
     at_change = set_change_point_rows(plan, motion, path, speeds, start)
-    return replace(motion, **at_change._asdict(), speeds=speeds[:, : len(motion)])
+    return _with_warning(replace(motion, **at_change._asdict(), speeds=speeds[:, : len(motion)]))
+
+
+def _with_warning(motion: Motion) -> Motion:
+    if not len(motion):
+        warn(motion.reason, AssemblyWarning)
+    return motion
+
+
+move_quietly = unwarned(move)
+"""`move` for the library itself: what it computes are radians, and a motion without rows is looked at."""
 
 
 def starting_configuration(plan: Plan, first: Reals, branch: Branch) -> tuple[Reals, Reals]:
@@ -310,7 +306,7 @@ def _extended(
     plan: Plan, drives: Reals, parts: tuple[Dyad | HigherGroup, ...], labels: tuple[str, ...]
 ) -> Iterator[tuple[str, ...]]:
     if len(labels) == len(parts):
-        if len(move_in_radians(plan, drives.reshape(1, -1), branch=labels)):
+        if len(move_quietly(plan, drives.reshape(1, -1), branch=labels)):
             yield labels
         return
     part = parts[len(labels)]

@@ -124,9 +124,9 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
         reference = _settled(closing, _reference_pose(linkage))
         sided = [_sided(linkage, k, value) for k, value in enumerate(at)]
         return _centred(closing, _driven(closing, reference, sided, linkage.size))
-    from gruebler.mechanics.kinematics.solve import move_in_radians
+    from gruebler.mechanics.kinematics.solve import move_quietly
 
-    motion = move_in_radians(linkage, [tuple(at)], branch=branch)
+    motion = move_quietly(linkage, [tuple(at)], branch=branch)
     if not len(motion):
         raise LinkageError("{reason}", reason=motion.reason)
     chain = linkage.mechanism.chain

@@ -13,7 +13,7 @@ from gruebler.base.text import Message, joined, message, translate
 from gruebler.design.synthesis.dead_centres import DeadCentreFamily, FamilyMember, dead_centre_family
 from gruebler.design.synthesis.results import FITTED, Design, SynthesisResult
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.pictures.canvas import gallery_html
 from gruebler.pictures.canvas.construction_files import pictures_in_one
@@ -60,7 +60,7 @@ def _pins_at_pairs(design: Design) -> dict[str, Complexes]:
     crank = next((link for link in linkage.mechanism.drives[0].between if link != frame), None)
     marks: dict[str, Complexes] = {}
     try:
-        motion = move_in_radians(linkage, design.drives)
+        motion = move_quietly(linkage, design.drives)
     except LinkageError:
         return marks
     for prime, link in (("", crank), ("′", linkage.outputs[0] if linkage.outputs else None)):

@@ -17,7 +17,7 @@ from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.results import Design
 from gruebler.design.synthesis.structural_errors import error_extremes, structural_error
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.pictures.canvas.axes import Axis, angles, decimals
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
@@ -148,7 +148,7 @@ def output_of(design: Design, inputs: Reals) -> Reals:
         rows = rows[sign * inputs[rows] >= 0]
         drives = design.drives[0] + np.concatenate([[0.0], inputs[rows]])
         try:
-            motion = move_in_radians(linkage, drives)
+            motion = move_quietly(linkage, drives)
         except LinkageError:
             continue
         value = motion.displacement(slides[0]) if slides else np.unwrap(motion.angle(link))

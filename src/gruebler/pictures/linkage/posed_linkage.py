@@ -17,7 +17,7 @@ from gruebler.base.text import Message, message
 from gruebler.mechanics.analysis.drive_cycles import Course, drive_cycle, path_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
-from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
+from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
@@ -164,7 +164,7 @@ def posed_linkage(
     if values is None:
         zeros = np.zeros(len(linkage.mechanism.drives))
         values = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
-    pose = move_in_radians(linkage, values.reshape(1, -1), branch=branch)
+    pose = move_quietly(linkage, values.reshape(1, -1), branch=branch)
     if not len(pose):
         raise LinkageError("{reason}", reason=pose.reason)
     return _posed(pose)
@@ -183,7 +183,7 @@ def _one_position(linkage: Linkage, values: Reals | None, branch: Branch, error:
     turning = linkage.mechanism.drives[0].turning
     for row in candidates if values is not None or turning else ():
         try:
-            pose = move_in_radians(linkage, row.reshape(1, -1), branch=branch)
+            pose = move_quietly(linkage, row.reshape(1, -1), branch=branch)
         except LinkageError:
             raise error from None
         if len(pose):
@@ -198,7 +198,7 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
         try:
             driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [number]))
             plan = cached_plan(driven)
-            pose = move_in_radians(driven, pose_at_reference(plan, np.zeros(1)).drives.reshape(1, -1))
+            pose = move_quietly(driven, pose_at_reference(plan, np.zeros(1)).drives.reshape(1, -1))
         except GrueblerError:
             continue
         if len(pose):

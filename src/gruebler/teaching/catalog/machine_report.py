@@ -186,7 +186,7 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     """Transfer functions of order 1 by each drive, in the reference pose."""
     from gruebler.mechanics.analysis.outputs import find_output
     from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
-    from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
+    from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 
     names, plan = linkage.mechanism.drive_names(), cached_plan(linkage)
     if plan.lower.reference_pose is None:
@@ -196,7 +196,7 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     far = 1.0 if output.turning else linkage.size
     each = [1.0 if drive.turning else linkage.size for drive in linkage.mechanism.drives]
     values = [
-        output.values(move_in_radians(linkage, [reference], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))
+        output.values(move_quietly(linkage, [reference], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))
     ]
     rest = [abs(value) * drive <= _ROUNDING * far for value, drive in zip(values, each, strict=True)]
     rates = [0.0 if still else float(value) for value, still in zip(values, rest, strict=True)]
@@ -208,10 +208,10 @@ def _shown_transmission(entry: Entry, measured: Measures | None) -> tuple[float,
     if measured is None or measured.transmission is None or entry.dimensions is None or entry.dimensions.range is None:
         return None
     from gruebler.mechanics.analysis.transmission import transmission_angle
-    from gruebler.mechanics.kinematics.solve import move_in_radians
+    from gruebler.mechanics.kinematics.solve import move_quietly
 
     rows = np.linspace(*entry.dimensions.range, _ROWS)
-    motion = move_in_radians(measured.linkage, np.radians(rows) if measured.turning_drive else rows, speed=1.0)
+    motion = move_quietly(measured.linkage, np.radians(rows) if measured.turning_drive else rows, speed=1.0)
     angles = transmission_angle(motion, measured.output.name)
     return float(angles.min()), float(angles.max())
 

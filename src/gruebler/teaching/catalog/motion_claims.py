@@ -15,7 +15,7 @@ from gruebler.files.catalog_records import Claims, Entry, MotionKind
 from gruebler.mechanics.analysis import drive_range
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 
 _WORDS: dict[MotionKind, Message] = {
@@ -85,7 +85,7 @@ def motion_lines(claims: Claims, lang: str = "en") -> list[str]:
 
 def _wrong_kinds(record: Entry, linkage: Linkage) -> Iterator[Disagreement]:
     values, full = _shown_values(record, linkage)
-    moved = move_in_radians(linkage, values)
+    moved = move_quietly(linkage, values)
     if not moved.complete:
         yield Disagreement("claims.motion", message("a linkage that moves"), moved.message)
         return

@@ -17,7 +17,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.files.catalog_records import Entry, MotionQuantity
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
-from gruebler.mechanics.kinematics.solve import cached_plan, move_in_radians
+from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.teaching.catalog.claims import WrongClaim
 
@@ -72,7 +72,7 @@ class _Run:
     def moved(self, low: float, high: float, rows: int = _ROWS) -> Motion:
         """The motion between two values of the drive, at speed 1."""
         speed = [float(k == self.drive) for k in range(len(self.linkage.mechanism.drives))]
-        motion = move_in_radians(self.linkage, self.values(np.linspace(low, high, rows)), speed=[speed], order=1)
+        motion = move_quietly(self.linkage, self.values(np.linspace(low, high, rows)), speed=[speed], order=1)
         if not motion.complete:
             raise LinkageError("{reason}", reason=motion.reason)
         return motion

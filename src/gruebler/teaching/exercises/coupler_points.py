@@ -15,7 +15,7 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank
 from gruebler.mechanics.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.mechanics.geometry.sizing import longest_in_band
 from gruebler.mechanics.kinematics import from_degrees
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, as_step, figure
 
@@ -30,7 +30,7 @@ BY_SOLVER = message("Largest distance of the path from that of the general solve
 
 def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
     """Check the path against that of the general solver, whose point is ``C``."""
-    moved = move_in_radians(linkage, drives, branch=branch)
+    moved = move_quietly(linkage, drives, branch=branch)
     apart = (
         float(np.abs(moved.complex_point("C") - (points[:, 0] + 1j * points[:, 1])).max()) if moved.complete else 1.0
     )

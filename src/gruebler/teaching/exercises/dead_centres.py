@@ -9,7 +9,7 @@ from gruebler.base.text import Message, in_every_language, joined_by_or, message
 from gruebler.mechanics.analysis import Measures, measures
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics.drive_rows import rpm as per_minute
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, as_step, formula_number
 
@@ -160,7 +160,7 @@ def stroke_table(
     inner = (centres.inner.drive - centres.outer.drive) % (2 * pi)
     name = message("crank angle from the outer to the inner dead centre")
     builder.keep("inner_at", name, degrees(inner), unit="°", symbol="φ_ai")
-    moved = move_in_radians(size.linkage(), [radians(row[1]) for row in rows])
+    moved = move_quietly(size.linkage(), [radians(row[1]) for row in rows])
     builder.check(
         message("Largest difference of s in the table from the general solver's"),
         0.0,
@@ -217,7 +217,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
         α_H2=angle(alpha),
     )
     _add_middle_of_time(builder, size, phi)
-    moved = move_in_radians(size.linkage(), [radians(phi)])
+    moved = move_quietly(size.linkage(), [radians(phi)])
     slide = float(moved.displacement("P(frame-slider)")[0])
     rod_angle = degrees(abs(float(moved.angle("coupler")[0])))
     builder.check(message("s at this angle, by the general solver"), rod, slide)

@@ -14,7 +14,7 @@ from gruebler.mechanics.geometry import Path, PathPiece, coupler_path, linkage_p
 from gruebler.mechanics.geometry.contact import tangent_contact
 from gruebler.mechanics.geometry.lever_contact import lever_contact
 from gruebler.mechanics.kinematics import from_degrees
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.teaching.exercises.coupler_points import BY_SOLVER, PATH, STRIP, check_path
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, as_step, figure
 
@@ -124,7 +124,7 @@ def watt_linkage(
     builder.table(PATH, ["t [°]", "F_x", "F_y", last], rows)
     _add_watt_stroke(builder, size, tilt, left_pivot, coupler)
     _check_watt(builder, size, tilt, left_pivot, coupler)
-    moved = move_in_radians(size.linkage({"C": (coupler / 2, 0)}), values - tilt, branch="-")
+    moved = move_quietly(size.linkage({"C": (coupler / 2, 0)}), values - tilt, branch="-")
     builder.check(BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
     return builder.done()
 
@@ -167,7 +167,7 @@ def _check_watt(builder: SolutionBuilder, size: FourBar, tilt: float, left_pivot
     """Both ends of the stroke and the order of contact, by the general solver."""
     linkage = size.linkage({"F": (coupler / 2, 0)})
     ends = [radians(builder.number(key)) for key in ("t_low", "t_high")]
-    moved = left_pivot + move_in_radians(linkage, [t - tilt for t in ends], branch="-").complex_point("F") * cmath.exp(
+    moved = left_pivot + move_quietly(linkage, [t - tilt for t in ends], branch="-").complex_point("F") * cmath.exp(
         1j * tilt
     )
 
@@ -177,7 +177,7 @@ def _check_watt(builder: SolutionBuilder, size: FourBar, tilt: float, left_pivot
     builder.check(solved(message("Stroke")), builder.number("stroke"), float(np.ptp(moved.imag)))
     for name, place in zip(("F_y1", "F_y2"), moved, strict=True):
         builder.check(solved(message("|F_x| at {end}", end=name)), size.a / 600, float(abs(place.real)))
-    met = tangent_contact(move_in_radians(linkage, -tilt, speed=1, branch="-"), "F").points
+    met = tangent_contact(move_quietly(linkage, -tilt, speed=1, branch="-"), "F").points
     builder.check(solved(message("Points in common")), builder.number("n"), float(met or 0), "")
 
 
@@ -275,7 +275,7 @@ def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
     for key, side in (("lowest", -1), ("highest", 1)):
         limit = builder.number(key)
         inside, beyond = (
-            move_in_radians(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
+            move_quietly(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
         )
         builder.check(
             message("{limit}° is the limit (1) or not (0), by the general solver", limit=figure(limit)),

@@ -8,7 +8,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import in_every_language, message
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, formula_number
 
@@ -69,7 +69,7 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     )
     _add_rule(builder, mu)
     _check_smallest(builder, size.linkage(), mu)
-    moved = move_in_radians(size.linkage(), [0.0, pi], branch="+")
+    moved = move_quietly(size.linkage(), [0.0, pi], branch="+")
     for key, turned in zip(("I", "II"), abs(moved.angle("rocker") - moved.angle("coupler")).tolist(), strict=True):
         quantity = message("{quantity}, by the general solver", quantity=f"μ_{key}")
         between = degrees(turned) % 360
@@ -151,7 +151,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     builder.mistake(f"μ_min{mark}", worst, _IS_DEVIATION)
     if off:
         _add_other_extreme(builder, a, b, off)
-        moved = move_in_radians(size.linkage(), pi / 2 if e > 0 else -pi / 2)
+        moved = move_quietly(size.linkage(), pi / 2 if e > 0 else -pi / 2)
         angle_there = 90 - degrees(abs(float(moved.angle("coupler")[0])))
         builder.check(
             message("{quantity}, by the general solver", quantity="μ_II"), builder.number("μ_II"), angle_there, "°"

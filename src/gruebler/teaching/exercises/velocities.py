@@ -11,7 +11,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import message
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages.branch import branch_side
 from gruebler.mechanics.linkages.quantities import as_finite
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, figure
@@ -51,7 +51,7 @@ def four_bar(
     )
     rates = _four_bar_rates(builder, size, (phi, theta, psi), omega)
     _four_bar_accelerations(builder, size, (phi, theta, psi), (omega, *rates))
-    moved = move_in_radians(size.linkage(), [radians(phi)], speed=omega, branch=branch)
+    moved = move_quietly(size.linkage(), [radians(phi)], speed=omega, branch=branch)
     _add_vectors(builder, moved)
     _check_four_bar(builder, size, moved, phi)
     return builder.done()
@@ -292,7 +292,7 @@ def _check_slider(
     phi, omega = inputs
     v, acceleration = results
     unit, a, b = builder.unit, size.a, size.b
-    moved = move_in_radians(size.linkage(), [radians(phi)], speed=omega)
+    moved = move_quietly(size.linkage(), [radians(phi)], speed=omega)
     slide = "P(frame-slider)"
     builder.check(
         message("{quantity} by the general solver", quantity="v_B"),

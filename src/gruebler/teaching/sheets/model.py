@@ -22,7 +22,7 @@ from gruebler.mechanics.geometry.roberts import cognates
 from gruebler.mechanics.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, scale_for
 from gruebler.mechanics.geometry.straight import Path, linkage_path
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.kinematics.solve import move_in_radians
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.catalog.features import AccessFeatures, access_features
@@ -142,7 +142,7 @@ class Sheet:
 
     def motion(self, *degrees: float) -> Motion:
         """The linkage at drive values in degrees, with velocities."""
-        return move_in_radians(self.linkage, np.radians(degrees), speed=1.0)
+        return move_quietly(self.linkage, np.radians(degrees), speed=1.0)
 
     def place(self, motion: Motion, name: str, row: int = 0) -> complex:
         """The position of one of the sheet's points."""
