@@ -123,6 +123,7 @@ def test_what_a_user_guesses_first_works(tmp_path):
     assert gr.read("wiper").mechanism == entry("wiper").linkage().mechanism
     assert gr.read("four-bar:25,70,40,70") == gr.read("25,70,40,70") == CRANK_ROCKER.linkage()
     assert gr.read(str(CHAIN)) == CHAIN
+    assert gr.read("sun:24 planet:18 ring:-60 on arm").train.mobility == 2
     assert gr.read(str(MECHANISM)) == MECHANISM
     motion = gr.move(CRANK_ROCKER.linkage({"K": (45, 40)}), gr.from_degrees(0, 360, 1), speed=gr.rpm(60))
     steps = np.gradient(motion.point("K"), 1 / 360, axis=0)[5:-5]  # a turn a second, by differences
@@ -152,6 +153,17 @@ MISTAKES = [
     (lambda: gr.Chain([("R", ["a", "b"])]), "unknown pair 'R': expected a full name such as 'revolute'"),
     (lambda: gr.read("wipr"), "'wipr' is no file and no entry of the catalog (did you mean 'wiper'?)"),
     (lambda: gr.read("four-bar:25,70"), "four-bar: expected a,b,c,d, but found 2 numbers"),
+    (
+        lambda: gr.move("wiper", [0.0]),
+        "InvertedSliderCrank, but found 'wiper'; gr.read('wiper') reads what it stands for",
+    ),
+    (lambda: gr.draw("wiper"), "a text has no picture; gr.read('wiper') reads what it stands for"),
+    (lambda: gr.code("wiper"), "expected Chain, but found 'wiper'; gr.read('wiper') reads what it stands for"),
+    (lambda: gr.Train("sun:24 planet:18"), "; gr.read('sun:24 planet:18') reads what it stands for"),
+    (lambda: gr.move(CRANK_ROCKER, 1.0, speed="10"), "speed: expected finite numbers, but found '10'"),
+    (lambda: gr.move(CRANK_ROCKER, 1.0, speed=1, jerk=["1"]), "jerk: expected finite numbers, but found ['1']"),
+    (lambda: gr.move_many([CRANK_ROCKER.linkage()], 1.0, speed="10"), "speed: expected finite numbers, but found '10'"),
+    (lambda: gr.measures(CRANK_ROCKER, speed="10"), "speed: expected a number, but found '10'"),
     (lambda: gr.draw(7), "values of type int have no picture"),
     (lambda: gr.draw(CRANK_ROCKER, poses=3), "draw has no option 'poses'"),
     (lambda: gr.draw(CRANK_ROCKER, teeth=True), "the picture of a FourBar has no option 'teeth'; it has branch, at, "),

@@ -103,7 +103,7 @@ class Table:
             records[header] = column.values
         return records
 
-    def pandas(self) -> Any:
+    def to_dataframe(self) -> Any:
         """A `pandas.DataFrame` whose columns are the headers, with units; `GrueblerError` without pandas."""
         try:
             import pandas

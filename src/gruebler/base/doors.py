@@ -16,7 +16,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from numbers import Integral, Real
 from typing import Annotated, Any, NamedTuple, TypeGuard, TypeVar
 
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, nearest, to_be_read
 from gruebler.base.text import Message, joined_by_or, message
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -203,7 +203,10 @@ def _refusal(error: type[GrueblerError], name: str, hint: Any, value: object) ->
     shown = reprlib.repr(value) if plain else type(value).__name__
     wanted = joined_by_or(list({str(kind): kind for kind in _wanted(hint)}.values()))
     said = message("{name}: expected {wanted}, but found {found}", name=name, wanted=wanted, found=shown)
-    for part in typing.get_args(hint) or (hint,):
+    parts = typing.get_args(hint) or (hint,)
+    if isinstance(value, str) and any(getattr(part, "__module__", "").startswith("gruebler.") for part in parts):
+        return error(message("{said}; {call} reads what it stands for", said=said, call=to_be_read(value)))
+    for part in parts:
         if isinstance(part, type) and part not in _PLAIN and (path := _path_to(part, value)):
             return error(message("{said}: take its {attribute}", said=said, attribute=path))
     return error(said)

@@ -6,6 +6,7 @@ raises; a failure (a budget spent, a proof not found) is a result and never one 
 
 import functools
 import re
+import reprlib
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Mapping
@@ -105,6 +106,15 @@ class TransformationError(GrueblerError):
 
 class UnitWarning(UserWarning):
     """Angles, which are in radians everywhere, look as if they were degrees; `gruebler.base.angles` says when."""
+
+
+def to_be_read(value: object) -> str:
+    """The call that was meant where a text was given for a value: ``gr.read('wiper')``; empty for other things.
+
+    >>> to_be_read("wiper"), to_be_read(5)
+    ("gr.read('wiper')", '')
+    """
+    return f"gr.read({reprlib.repr(value)})" if isinstance(value, str) else ""
 
 
 class AssemblyWarning(UserWarning):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.doors import door
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, nearest, to_be_read
 from gruebler.base.text import Message, message
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.files import picture_bytes, suffix_of
@@ -368,6 +368,8 @@ def _drawn(value: Any) -> tuple[Any, _Kind]:
     if type(value).__name__ not in _KINDS and makes_linkage(value):
         value = value.linkage()
     kind = _KINDS.get(type(value).__name__)
+    if kind is None and isinstance(value, str):
+        raise GrueblerError("a text has no picture; {call} reads what it stands for", call=to_be_read(value))
     if kind is None:
         raise GrueblerError(
             "values of type {kind} have no picture; these have: {known}, FourBar, SliderCrank, InvertedSliderCrank",

@@ -117,9 +117,22 @@ def test_the_same_numbers_in_every_form(lang, tmp_path):
 def test_pandas_has_the_headers():
     pytest.importorskip("pandas")
     table = move(SIZE.linkage(), from_degrees(0, 90, 30), speed=1.0).table()
-    frame = table.pandas()
+    frame = table.to_dataframe()
     assert list(frame.columns) == [column.header for column in table]
     assert frame["slider [mm]"].tolist() == table["slider"].tolist()
+
+
+def test_a_frame_of_order_1_has_points_and_velocities():
+    """A point on the crank at 20 mm and 3 rad/s has the velocity 60 (-sin, cos)."""
+    pytest.importorskip("pandas")
+    linkage = gr.FourBar(25, 70, 40, 70).linkage().with_points({"K": ("crank", 20, 0)})
+    phi = np.array([0.2, 1.0, 2.5])
+    frame = move(linkage, phi, speed=3.0, order=1).to_dataframe()
+    np.testing.assert_allclose(frame[["K x [mm]", "K y [mm]"]], 20 * np.column_stack([np.cos(phi), np.sin(phi)]))
+    velocities = frame[["K vx [mm/s]", "K vy [mm/s]"]]
+    np.testing.assert_allclose(velocities, 60 * np.column_stack([-np.sin(phi), np.cos(phi)]))
+    np.testing.assert_allclose(frame["ω rocker [rad/s]"], 3 * frame["rocker′"])
+    assert not [name for name in frame.columns if "a" in name.split() or "′′" in name]
 
 
 def test_parquet_keeps_names_and_units(tmp_path):
@@ -134,7 +147,9 @@ def test_parquet_keeps_names_and_units(tmp_path):
     assert read.schema.field("slider [mm]").metadata == {b"name": b"slider", b"unit": b"mm"}
 
 
-@pytest.mark.parametrize(("method", "package"), [("pandas", "pandas"), ("arrow", "pyarrow"), ("parquet", "pyarrow")])
+@pytest.mark.parametrize(
+    ("method", "package"), [("to_dataframe", "pandas"), ("arrow", "pyarrow"), ("parquet", "pyarrow")]
+)
 def test_a_missing_package_is_one_sentence(method, package, monkeypatch):
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(GrueblerError, match=f"needs? {package}: pip install"):

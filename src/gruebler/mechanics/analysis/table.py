@@ -49,7 +49,7 @@ def motion_table(
     Of a motion of one drive that was solved for another speed than 1 both are there.
 
     Args:
-        motion: Solved to the second or third order; to order 0 or 1 the table has positions only.
+        motion: Solved to any order: the table has as many derivatives, by the drive the first two.
         outputs: Links or sliding joints; without them the linkage's outputs.
         points: Names of points or joints.
         rates: Velocity, acceleration and jerk of one drive, in radians or units of length and seconds, for a motion
@@ -78,7 +78,7 @@ def motion_table(
         columns.append(_scaled(name, turning, linkage, motion.drives[:, k]))
     turning = mechanism.drives[0].turning
     per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
-    orders = range(1, motion.order + 1) if motion.order >= 2 else ()
+    orders = range(1, motion.order + 1)
     solved = _drive_rates(motion) if orders and len(mechanism.drives) == 1 else None
     if rates is not None and solved is not None:
         raise LinkageError("rates of the drive need a motion that was solved for speed 1")
@@ -110,7 +110,7 @@ def motion_table(
     for output in seen:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         columns.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
-        for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
+        for order in orders[:2] if len(mechanism.drives) == 1 else ():
             name, usually = f"{output.name}{'′' * order}", natural / unit**order
             values = by_drive(order, partial(output.values, motion))
             columns.append(Column(name, _by(own, per, order), values, usually, noise[order]))
@@ -140,9 +140,9 @@ def _drive_rates(motion: Motion) -> tuple[Reals, Reals] | None:
     """Velocity and acceleration of the only drive, (rows,) each; None if it was solved for speed 1 throughout."""
     if motion.speeds is None:
         return None
-    velocity, acceleration, *jerk = motion.speeds[:, :, 0]
-    plain = (velocity == 1.0).all() and not acceleration.any() and not any(each.any() for each in jerk)
-    return None if plain else (velocity, acceleration)
+    velocity, *higher = motion.speeds[:, :, 0]
+    plain = (velocity == 1.0).all() and not any(each.any() for each in higher)
+    return None if plain else (velocity, higher[0] if higher else np.zeros_like(velocity))
 
 
 def _seconds(order: int) -> str:

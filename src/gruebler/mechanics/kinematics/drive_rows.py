@@ -98,12 +98,7 @@ def in_rpm(speed: float) -> float:
 def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     """(rows, drives) values, checked."""
     wanted = len(plan.linkage.mechanism.drives)
-    try:
-        given = np.asarray(drives)
-        numbers = given.dtype.kind in "iuf" or (given.dtype.kind == "O" and all(map(_is_real, given.ravel())))
-        path = np.array(given, np.float64) if numbers or not given.size else None
-    except (TypeError, ValueError, OverflowError):
-        path = None
+    path = _real(drives)
     if path is None:
         raise LinkageError("drives: expected numbers (radians, or lengths), but found {drives!r}", drives=drives)
     if path.ndim == 0:
@@ -128,6 +123,16 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     return np.ascontiguousarray(path)
 
 
+def _real(values: ArrayLike) -> Reals | None:
+    """A new array of real numbers; None for anything else, texts of numbers among them."""
+    try:
+        given = np.asarray(values)
+        numbers = given.dtype.kind in "iuf" or (given.dtype.kind == "O" and all(map(_is_real, given.ravel())))
+        return np.array(given, np.float64) if numbers or not given.size else None
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
 def _is_real(value: object) -> bool:
     return isinstance(value, Real | Decimal) and not isinstance(value, bool)
 
@@ -144,14 +149,11 @@ def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals
     """(order, rows, drives) rates, checked; one value may stand for all rows."""
     speeds = np.zeros((order, *path.shape))
     for k, (name, value) in enumerate(zip(("speed", "acceleration", "jerk"), given, strict=True)):
-        if k >= order:
-            break
-        try:
-            numbers = np.asarray(value, np.float64)
-        except (TypeError, ValueError, OverflowError):
-            numbers = np.array(np.nan)
-        if not np.isfinite(numbers).all():
+        numbers = _real(value)
+        if numbers is None or not np.isfinite(numbers).all():
             raise LinkageError("{name}: expected finite numbers, but found {value!r}", name=name, value=value)
+        if k >= order:
+            continue
         if numbers.ndim == 1 and path.shape[1] == 1 and len(numbers) == len(path):
             numbers = numbers.reshape(-1, 1)
         try:

@@ -182,8 +182,8 @@ class Motion(LinkPoses):
         return self.point(point, 2)
 
     def to_dataframe(self) -> Any:
-        """The `table` as a `pandas.DataFrame`, a row for each pose; `GrueblerError` without pandas."""
-        return self.table().pandas()
+        """The `table` with all named points as a `pandas.DataFrame`, a row for each pose; needs pandas."""
+        return self.table(points=tuple(self.linkage.points)).to_dataframe()
 
     @cached_property
     def closure_error(self) -> float:
@@ -207,8 +207,8 @@ class Motion(LinkPoses):
     ) -> Table:
         """Drives, outputs and points row by row, with derivatives: `gruebler.mechanics.analysis.motion_table`.
 
-        `Table.structured`, `Table.pandas`, `Table.arrow` and `Table.csv` give it to other programs, `gruebler.write`
-        writes it into a file.
+        `Table.structured`, `Table.to_dataframe`, `Table.arrow` and `Table.csv` give it to other programs,
+        `gruebler.write` writes it into a file.
 
         Args:
             outputs: Links or sliding joints; without them the linkage's outputs.

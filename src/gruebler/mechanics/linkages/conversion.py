@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol, TypeGuard, runtime_checkable
 
-from gruebler.base.errors import LinkageError
+from gruebler.base.errors import LinkageError, to_be_read
+from gruebler.base.text import message
 from gruebler.mechanics.linkages.model import Linkage
 
 
@@ -43,9 +44,12 @@ def as_linkage(value: object) -> Linkage:
         raise LinkageError("a {kind} has no dimensions: realise(mechanism) finds some", kind=kind)
     if makes_linkage(value):
         return value.linkage()
-    raise LinkageError(
+    said = message(
         "expected a linkage, a FourBar, SliderCrank or InvertedSliderCrank, but found {found}", found=_in_short(value)
     )
+    if isinstance(value, str):
+        raise LinkageError(message("{said}; {call} reads what it stands for", said=said, call=to_be_read(value)))
+    raise LinkageError(said)
 
 
 def _in_short(value: object) -> str:

@@ -25,15 +25,15 @@ def read(
 
     Args:
         path: a file, whose ending says the format (JSON of other programs is recognised); or the id of a catalog entry
-            such as ``wiper``; or lengths such as ``four-bar:25,70,40,70``; or the text of a chain or mechanism. A file
-            that is there comes first.
+            such as ``wiper``; or lengths such as ``four-bar:25,70,40,70``; or the text of a chain, mechanism or train
+            (``sun:24 planet:18 ring:-60 on arm``). A file that is there comes first.
         format_name: the format of a file, if its name does not say it: one of `gruebler.files.formats.FORMATS`.
         left_out: gets a message for each thing in the file that the value does not have; without it such things are
             warnings, `FormatWarning`.
 
     Returns:
-        A `Linkage`, `Chain`, `Mechanism`, list of chains, task, `Train` or spatial linkage. A catalog entry gives its
-        linkage, or its mechanism or chain where it has no dimensions.
+        A `Linkage`, `Chain`, `Mechanism`, list of chains, task, `TrainReading` or spatial linkage. A catalog entry
+        gives its linkage, or its mechanism or chain where it has no dimensions.
 
     Raises:
         GrueblerError: the file or word and what does not fit.
@@ -67,6 +67,7 @@ def _is_file(word: str) -> bool:
 
 
 def _of_word(word: str) -> Value | Mechanism:
+    from gruebler.machines.gears import read_train
     from gruebler.structure.chain import Chain
     from gruebler.structure.mechanism import Mechanism
     from gruebler.teaching.catalog.loader import entries
@@ -76,6 +77,8 @@ def _of_word(word: str) -> Value | Mechanism:
     if (size := size_of(word)) is not None:
         return size.linkage()
     known = entries()
+    if word not in known and ":" in word and " " in word:
+        return read_train(word)
     if word not in known:
         kind = word.partition(":")[0]
         raise GrueblerError(
