@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from gruebler import Chain
 from gruebler.mechanics.linkages import Linkage
-from gruebler.structure.chain.pairs import PAIRS, Space
+from gruebler.structure.chain.pairs import PAIRS
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
 REVOLUTE = ("revolute",)

@@ -11,7 +11,8 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Readable
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Space, pair
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mobility import count_freedoms, counted, mobility_report
 from gruebler.teaching.exercises import teaching_table
 from tests.documents import independent as own

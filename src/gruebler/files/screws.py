@@ -18,7 +18,7 @@ from gruebler.files.linkages import linkage_from_json
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import JointPlace, SpatialLinkage
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
 

@@ -23,7 +23,8 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines
 from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
-from gruebler.structure.chain.pairs import Pair, Space
+from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entries
 
 _COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks

@@ -11,7 +11,8 @@ from gruebler.pictures.canvas.shapes import Point, bounds
 from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.structure import PlacedChain, draw_structure, paint, place_joints
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Space
+from gruebler.structure.chain.pairs import PAIRS, Alphabet
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions

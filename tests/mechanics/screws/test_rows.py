@@ -8,7 +8,8 @@ import pytest
 from gruebler.mechanics.screws import Closing, JointPlace, exponential
 from gruebler.mechanics.screws.closing_rows import joint_rows
 from gruebler.mechanics.screws.joint_places import read_place
-from gruebler.structure.chain.pairs import PAIRS, Space
+from gruebler.structure.chain.pairs import PAIRS
+from gruebler.structure.chain.spaces import Space
 from tests.mechanics.screws import machines
 
 RANDOM = np.random.default_rng(7)

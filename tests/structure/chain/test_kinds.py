@@ -9,7 +9,8 @@ import pytest
 import gruebler
 from gruebler.mechanics.linkages.contacts import CONTACTS
 from gruebler.pictures.canvas.symbols import SIGNS
-from gruebler.structure.chain.pairs import PAIRS, Freedom, Space
+from gruebler.structure.chain.pairs import PAIRS
+from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.teaching.worksheets.joint_pictures import DRAWINGS
 
 SOURCE = Path(gruebler.__file__).parent
@@ -26,10 +27,6 @@ TABLES = {
 ALLOWED = {
     "files/pylinkage.py": "words of the format",
     "files/pyslvs.py": "words of the format",
-    "machines/gears/reading.py": "the notation of trains: R(...) axes, G(...) meshes with tooth numbers",
-    "design/synthesis/functions.py": "forms of dyads: words of two letters such as RP",
-    "design/synthesis/positions.py": "forms of dyads",
-    "mechanics/kinematics/triads.py": "forms of legs to the integer codes of the kernels",
     "structure/type_synthesis/selection.py": "how many of each pair are wanted, from the fields of `Requirements`",
     "structure/atlas/parts.py": "how many sliding pairs are wanted",
     "structure/atlas/chain_table.py": "the name of a column",

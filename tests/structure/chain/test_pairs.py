@@ -6,7 +6,8 @@ import pytest
 
 from gruebler.base.errors import PairError
 from gruebler.base.text import error_in_language
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Space, pair
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.chain.symbols import read_symbols
 
 # Table 2.2 of the seeds as reconstructed: German symbol -> f in space (f = sum of the indices, W counts 1).

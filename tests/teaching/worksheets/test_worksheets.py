@@ -13,7 +13,8 @@ from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.pictures.canvas.shapes import TextShape
 from gruebler.structure.assur import assur_groups
-from gruebler.structure.chain.pairs import PAIRS, Space
+from gruebler.structure.chain.pairs import PAIRS
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.enumeration import count_chains
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries

@@ -21,7 +21,8 @@ from gruebler.base.text import joined
 from gruebler.mechanics.kinematics.plan import Plan, plan
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import PAIRS, Freedom, Space
+from gruebler.structure.chain.pairs import PAIRS
+from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.structure.mechanism import Mechanism
 
 if TYPE_CHECKING:

@@ -9,12 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations, product
+from math import atan2
 from typing import NamedTuple
 
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import SynthesisError
+from gruebler.structure.chain.spaces import Space
+from gruebler.structure.chain.symbols import read_symbols
 
 _REAL = 1e-7
 """Two conjugate numbers nearer to real than this are looked at as real: a double root has half the digits of 1e-16."""
@@ -39,6 +42,16 @@ class GuidingDyad:
     """RR and RP: the pivot on the frame. PR: the pivot on the body."""
     direction: complex = 0j
     """PR: of the slide on the frame. RP: of the slide on the body, in the first position."""
+
+    @property
+    def joints(self) -> tuple[tuple[str, tuple[float, ...]], ...]:
+        """The first joint and the one on the body: symbol and place as in a drawing, of a slide with its angle."""
+        pairs = read_symbols(self.form, Space.PLANAR)
+        angle = (atan2(self.direction.imag, self.direction.real),)
+        return tuple(
+            (symbol, (at.real, at.imag, *(angle if pairs[symbol].is_sliding else ())))
+            for symbol, at in zip(self.form, (self.fixed, self.moving), strict=True)
+        )
 
     @property
     def length(self) -> float:

@@ -270,20 +270,15 @@ def _judged_function(
 ) -> Design:
     """The linkage of crank, coupling dyad and output in its first position, judged."""
     side = "rocker" if task.output == "angle" else "slider"
-    parts: list[str] = []
-    places: dict[str | int, object] = {}
-
-    def joint(kind: str, a: str, b: str, at: complex, direction: complex = 1 + 0j) -> None:
-        name = f"{kind}({a}-{b})"
-        parts.append(name)
-        angle = (float(np.angle(direction)),) if kind == "P" else ()
-        places[name] = (at.real, at.imag, *angle)
-
-    joint("R", "frame", "crank", near)
-    joint(dyad.form[0], "crank", "coupler", dyad.moving if dyad.form == "PR" else dyad.fixed, dyad.direction)
-    joint(dyad.form[1], "coupler", side, dyad.fixed if dyad.form == "RP" else dyad.moving, dyad.direction)
-    joint("R" if side == "rocker" else "P", "frame", side, far)
-    mechanism = Mechanism.parse(f"{' '.join(parts)}; frame=frame; drive={parts[0]}")
+    (first, at_crank), (second, at_output) = dyad.joints
+    last, *along = ("R",) if side == "rocker" else ("P", 0.0)
+    places: dict[str | int, object] = {
+        "R(frame-crank)": (near.real, near.imag),
+        f"{first}(crank-coupler)": at_crank,
+        f"{second}(coupler-{side})": at_output,
+        f"{last}(frame-{side})": (far.real, far.imag, *along),
+    }
+    mechanism = Mechanism.parse(f"{' '.join(map(str, places))}; frame=frame; drive=R(frame-crank)")
     linkage = Linkage.from_drawing(mechanism, places, unit=task.unit, outputs=[side])
     return judge_design(linkage, _function_targets(task, linkage, side), demands, form)
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import combinations
-from math import atan2, comb
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -241,14 +241,9 @@ def linkage_of_dyads(first_dyad: GuidingDyad, other_dyad: GuidingDyad, point: co
     parts: list[str] = []
     places: dict[str | int, object] = {}
     for side, dyad in ((first, first_dyad), (second, other_dyad)):
-        for kind, a, b, at in (
-            (dyad.form[0], "frame", side, dyad.moving if dyad.form == "PR" else dyad.fixed),
-            (dyad.form[1], side, "coupler", dyad.fixed if dyad.form == "RP" else dyad.moving),
-        ):
-            name = f"{kind}({a}-{b})"
-            parts.append(name)
-            angle = (atan2(dyad.direction.imag, dyad.direction.real),) if kind == "P" else ()
-            places[name] = (at.real, at.imag, *angle)
+        for (symbol, place), links in zip(dyad.joints, (f"frame-{side}", f"{side}-coupler"), strict=True):
+            parts.append(f"{symbol}({links})")
+            places[parts[-1]] = place
     mechanism = Mechanism.parse(f"{parts[0]} {parts[1]} {parts[3]} {parts[2]}; frame=frame; drive={parts[0]}")
     points = {"P": ("coupler", point.real, point.imag)}
     return Linkage.from_drawing(mechanism, places, points, unit=unit, outputs=[second])

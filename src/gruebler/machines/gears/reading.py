@@ -33,7 +33,8 @@ from gruebler.machines.gears.train import FRAME, KINDS, GearError, Mesh, Train, 
 _STATEMENTS = (*(kind for kind in KINDS if " " not in kind), "drive", "hold", "load")
 _OPTIONS = {"rack": {"module", "pitch"}, "screw": {"lead"}, "winch": {"falls", "pitch"}, "gear": {"planets"}}
 _NAME = re.compile(r"[^\s:=;#]+\Z")
-_JOINT = re.compile(r"([RG])\(([^()]*)\)")
+_JOINT = re.compile(r"[RG]\([^()]*\)")
+_AXIS, _GEAR = re.compile(r"R\(([^()]*)\)"), re.compile(r"G\(([^()]*)\)")
 _WHEELS = re.compile(r"([^\s:-]+):(-?[^\s:-]+)-([^\s:-]+):(-?[^\s:-]+)")
 
 
@@ -186,11 +187,8 @@ def _read_meshes(kind: str, tokens: list[str], statement: str, planets: dict[str
 
 def _meshes_of_chain(statement: str) -> Iterator[Mesh]:
     """The gear pairs of an epicyclic train given as a chain, as `enumerate --trains` prints it, with tooth numbers."""
-    joints = [(pair, text.strip()) for pair, text in _JOINT.findall(statement)]
-    axes = [set(text.split("-")) for pair, text in joints if pair == "R"]
-    for pair, text in joints:
-        if pair == "R":
-            continue
+    axes = [set(text.strip().split("-")) for text in _AXIS.findall(statement)]
+    for text in map(str.strip, _GEAR.findall(statement)):
         wheels = _WHEELS.fullmatch(text)
         if wheels is None:
             raise GearError(

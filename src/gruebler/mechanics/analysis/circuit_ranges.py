@@ -20,7 +20,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.linkages.wheels import round_joints
-from gruebler.structure.chain.pairs import Freedom, Space
+from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.structure.mechanism.link_roles import Role
 
 _FREEDOMS = {Freedom.TURN_Z: "turn", Freedom.TRAVEL_X: "slide", Freedom.TRAVEL_Y: "across"}

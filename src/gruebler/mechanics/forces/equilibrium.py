@@ -12,7 +12,7 @@ from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.forces.loads import Wrench
 from gruebler.mechanics.kinematics import Motion
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 
 _GROWTH = 1e6  # an answer larger than this by its load (lengths in sizes): the links are not held in this pose
 _BLOCK = 2048  # rows solved at once

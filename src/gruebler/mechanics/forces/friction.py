@@ -20,7 +20,7 @@ from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.quantities import as_finite
-from gruebler.structure.chain.pairs import Freedom
+from gruebler.structure.chain.spaces import Freedom
 
 PerJoint = float | Mapping[str, float]
 """One number for all joints, or numbers by joint, ``"*"`` for all others; without that they have the default."""

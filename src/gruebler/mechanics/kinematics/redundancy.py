@@ -23,7 +23,8 @@ from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.assur import decompose
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import Freedom, Pair, Space, pair
+from gruebler.structure.chain.pairs import Pair, pair
+from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.structure.mechanism import Drive, Mechanism
 
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `screws.freedoms`

@@ -58,6 +58,9 @@ _FLAT = 1e-3  # sine of the angle below which two lines do not determine a point
 Z = TypeVar("Z", complex, NDArray[np.complex128])
 
 
+_LETTERS = {PIN: "R", SLIDE: "P"}
+
+
 class _End(NamedTuple):
     """A joint element: a point and a direction in its body."""
 
@@ -70,11 +73,17 @@ class _Leg:
     """A body between base and hub, with its four joint elements."""
 
     body: int
-    form: str
+    kinds: tuple[int, int]
+    """Of its joint at the base and of that at the hub: PIN or SLIDE."""
     base: _End
     outer: _End
     inner: _End
     hub: _End
+
+    @property
+    def form(self) -> str:
+        """Its joints in letters, such as RP."""
+        return "".join(_LETTERS[kind] for kind in self.kinds)
 
 
 class _Truss(NamedTuple):
@@ -188,19 +197,19 @@ def _truss(group: GroupConditions) -> _Truss | None:
         if outer is None or inner is None:
             return None
         legs.append(
-            _Leg(body=body, form=outer[0] + inner[0], base=outer[1], outer=outer[2], inner=inner[1], hub=inner[2])
+            _Leg(body=body, kinds=(outer[0], inner[0]), base=outer[1], outer=outer[2], inner=inner[1], hub=inner[2])
         )
     return _Truss(base, hub, tuple(sorted(legs, key=lambda leg: (leg.form, leg.body))))
 
 
-def _joint(group: GroupConditions, first: int, second: int) -> tuple[str, _End, _End] | None:
-    """The only joint between two bodies: its letter and its elements; None if there is not one."""
+def _joint(group: GroupConditions, first: int, second: int) -> tuple[int, _End, _End] | None:
+    """The only joint between two bodies: its kind and its elements; None if there is not one."""
     joints = []
     for c, kind in enumerate(group.kinds):
         slots = {int(group.owners[2 * c]): 2 * c, int(group.owners[2 * c + 1]): 2 * c + 1}
         if set(slots) == {first, second}:
             ends = [_End(complex(group.points[slots[b]]), complex(group.lines[slots[b]])) for b in (first, second)]
-            joints.append(("R" if kind == PIN else "P", ends[0], ends[1]))
+            joints.append((int(kind), ends[0], ends[1]))
     return joints[0] if len(joints) == 1 else None
 
 
@@ -219,7 +228,7 @@ def _centred(legs: Sequence[_Leg], size: float) -> tuple[_Leg, ...]:
     return tuple(
         _Leg(
             body=leg.body,
-            form=leg.form,
+            kinds=leg.kinds,
             base=moved(leg.base, base),
             outer=moved(leg.outer, leg.outer.point),
             inner=moved(leg.inner, leg.outer.point),
@@ -231,11 +240,10 @@ def _centred(legs: Sequence[_Leg], size: float) -> tuple[_Leg, ...]:
 
 def _conditions(legs: Sequence[_Leg]) -> GroupConditions:
     """The same group seen from its base: body 0 is the hub, 1 to 3 are the legs."""
-    kinds = {"R": PIN, "P": SLIDE}
     rows = []
     for k, leg in enumerate(legs, start=1):
-        rows.append((kinds[leg.form[0]], -1, k, *leg.base, *leg.outer))
-        rows.append((kinds[leg.form[1]], k, 0, *leg.inner, *leg.hub))
+        rows.append((leg.kinds[0], -1, k, *leg.base, *leg.outer))
+        rows.append((leg.kinds[1], k, 0, *leg.inner, *leg.hub))
     return conditions((a, b, c, p, q, r, s) for a, b, c, p, q, r, s in rows)
 
 

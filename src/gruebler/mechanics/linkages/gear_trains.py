@@ -23,7 +23,8 @@ from gruebler.mechanics.linkages.elements import Element, Line, Wheel
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.wheels import Carrier, carriers, round_joints
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import Space, pair
+from gruebler.structure.chain.pairs import pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
 _PLANAR = ("gear", "friction", "belt", "chain", "crossed", "rack", "rack by pitch")

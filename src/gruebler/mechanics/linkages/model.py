@@ -19,7 +19,7 @@ from gruebler.mechanics.linkages.drawing import taken_apart
 from gruebler.mechanics.linkages.elements import Element, LinkPoint, Pose2D
 from gruebler.mechanics.linkages.points import PointLike, points_of
 from gruebler.mechanics.linkages.soundness import checked_elements, checked_link, checked_points, checked_pose
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
 NEAR_REFERENCE = 0.05

@@ -12,7 +12,7 @@ from gruebler.mechanics.screws.closing_rows import Bent, joint_rows
 from gruebler.mechanics.screws.joint_places import JointPlace
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import exponential, exponential_rate, inverse_motion
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
 CLOSED = 1e-12

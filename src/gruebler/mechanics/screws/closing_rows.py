@@ -20,7 +20,8 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.joint_places import JointPlace
-from gruebler.structure.chain.pairs import Freedom, Pair, Space
+from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.spaces import Freedom, Space
 
 Bent = Callable[[Reals], tuple[float, Reals]]
 """From E to the value of a row and its derivatives by the entries of E, (4, 4)."""

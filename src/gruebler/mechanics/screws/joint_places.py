@@ -11,7 +11,8 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import joined_by_and, joined_by_or
-from gruebler.structure.chain.pairs import Pair, Space
+from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.spaces import Space
 
 Vector = tuple[float, float, float]
 

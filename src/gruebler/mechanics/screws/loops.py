@@ -10,7 +10,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.mechanics.screws.joint_geometry import SAME, JointGeometry, Reason
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 
 
 def bennett(s: JointGeometry) -> Iterator[Reason]:

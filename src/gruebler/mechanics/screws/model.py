@@ -14,7 +14,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axes, read_place
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
 _ORTHOGONAL = 1e-9  # by how much a rotation matrix may miss its transpose as inverse: nine digits were written

@@ -15,7 +15,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.closing import Closing
 from gruebler.mechanics.screws.rigid_motions import adjoint, lie_bracket
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 
 _SAME = 1e-9  # directions and shares of twists that differ by less are one: poses are closed to 1e-12
 

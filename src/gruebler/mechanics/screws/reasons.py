@@ -16,7 +16,7 @@ from gruebler.mechanics.screws.joint_geometry import SAME, JointGeometry, Reason
 from gruebler.mechanics.screws.loops import bennett, bricard, cardan, sarrus
 from gruebler.mechanics.screws.motion_groups import MotionGroupKind, common_group, screws_of
 from gruebler.mechanics.screws.rigid_motions import adjoint
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mobility import counted
 
 _ROUNDING = 1e-14  # of a point, in sizes

@@ -20,7 +20,7 @@ from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.orientation import upright
 from gruebler.pictures.structure.picture import chain_of, letters, mean_scale, paint, place_joints
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.isomorphism import canonical_order
 from gruebler.structure.mechanism import Mechanism
 

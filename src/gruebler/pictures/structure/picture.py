@@ -33,7 +33,8 @@ from gruebler.pictures.structure.layout import Layout, lay_out
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.orientation import upright
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Alphabet, Freedom, Pair, Space
+from gruebler.structure.chain.pairs import Alphabet, Pair
+from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.structure.isomorphism import canonical_order
 from gruebler.structure.mechanism import Mechanism
 

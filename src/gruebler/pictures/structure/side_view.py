@@ -17,7 +17,7 @@ from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import chain_of
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
 _COLUMN = 38.0  # pixels between wheels along the axis, at least

@@ -10,7 +10,8 @@ from collections import Counter, deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space, SymbolText, in_alphabets
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, SymbolText, in_alphabets
+from gruebler.structure.chain.spaces import Space
 
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP is not rigid."""

@@ -11,7 +11,8 @@ from gruebler.structure.assur.forms import DYADS, GroupJoint, class_number, form
 from gruebler.structure.assur.locking import AssurError
 from gruebler.structure.assur.splitting import BodyJoint, split_into_groups
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import Alphabet, Space
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.isomorphism import canonical_order, code, decode
 from gruebler.structure.mobility.placement import random_placement
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.assur.splitting import BodyJoint
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mobility import generic, pebble_rank
 from gruebler.structure.mobility.placement import LockedFreedom

@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 from gruebler.structure.assur.forms import GroupJoint, class_number
 from gruebler.structure.assur.matching import components, dependencies, orientation
-from gruebler.structure.chain.pairs import Pair, Space
+from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mobility import pebble_rank
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from gruebler.base.errors import NotationError
 from gruebler.structure.chain import notation
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 
 MOST_LINKS = 5000
 """Links of a chain in a code or a graph file: a few letters can announce any number of them."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from gruebler.base.errors import ChainError
 from gruebler.base.text import Message, message
 from gruebler.structure.chain.joint import Joint
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -22,8 +22,9 @@ from gruebler.base.text import message
 from gruebler.structure.chain import graphs, notation
 from gruebler.structure.chain.documents import read_document, read_graph6
 from gruebler.structure.chain.joint import Joint
-from gruebler.structure.chain.pairs import Alphabet, Pair, Space, SymbolText, in_alphabets
+from gruebler.structure.chain.pairs import Alphabet, Pair, SymbolText, in_alphabets
 from gruebler.structure.chain.soundness import check_connected, checked_edges, checked_joints, checked_links
+from gruebler.structure.chain.spaces import Space
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -17,7 +17,8 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from gruebler.base.errors import NotationError, PairError
 from gruebler.base.text import LANGUAGES, Message, message
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.chain.symbols import read_symbols
 
 _BARE = r"""[^\s()\-",:;]+"""

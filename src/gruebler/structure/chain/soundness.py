@@ -10,7 +10,8 @@ from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import ChainError, PairError, nearest
 from gruebler.base.text import Message, joined, message
 from gruebler.structure.chain.joint import Joint
-from gruebler.structure.chain.pairs import Pair, Space, pair
+from gruebler.structure.chain.pairs import Pair, pair
+from gruebler.structure.chain.spaces import Space
 
 _LONGEST_NAME = 200
 _MOST_NAMES = 5

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 from gruebler.base.errors import PairError, nearest
 from gruebler.base.text import Message, joined, joined_by_or, message
-from gruebler.structure.chain.pairs import BY_FULL_NAME, PAIRS, Alphabet, Pair, Space, pair
+from gruebler.structure.chain.pairs import BY_FULL_NAME, PAIRS, Alphabet, Pair, pair
+from gruebler.structure.chain.spaces import Space
 
 
 def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 
 Fractionation = Literal["none", "link", "joint"]
 CLASSES: tuple[Fractionation, ...] = ("none", "link", "joint")

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import compared_by_value
 from gruebler.base.errors import expect
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import PAIRS, Freedom
+from gruebler.structure.chain.pairs import PAIRS
+from gruebler.structure.chain.spaces import Freedom
 
 _FRAME, _LINK, _FIRST_JOINT = 0, 1, 2
 _INCIDENCE = 0

@@ -14,7 +14,8 @@ from gruebler.base.errors import ChainError, NotationError
 from gruebler.base.immutable import Immutable, settle
 from gruebler.base.text import joined_by_and
 from gruebler.structure.chain import Chain, graphs, notation
-from gruebler.structure.chain.pairs import Alphabet, Freedom
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.chain.spaces import Freedom
 from gruebler.structure.isomorphism import DriveMark, code, decode
 
 if TYPE_CHECKING:

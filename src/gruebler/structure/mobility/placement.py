@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.modular import P, Row
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import Freedom, Space
+from gruebler.structure.chain.spaces import Freedom, Space
 
 _SPATIAL = Space.SPATIAL.directions
 _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotation) + 1 (origin) + 1 (pitch)

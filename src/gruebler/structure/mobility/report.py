@@ -15,7 +15,8 @@ from gruebler.base.notebook import brief
 from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, arity, joined, message
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Alphabet, Space
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mobility.circuits import Overconstrained, overconstrained
 from gruebler.structure.mobility.counting import Count, count_freedoms
 from gruebler.structure.mobility.idle import IdleCondition, IdleFreedom, idle_freedoms

@@ -21,7 +21,8 @@ from dataclasses import dataclass
 from gruebler.base.errors import ChainError
 from gruebler.base.text import Message, message
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Pair, Space
+from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.spaces import Space
 
 
 def _is_bars(pair: Pair, space: Space) -> bool:

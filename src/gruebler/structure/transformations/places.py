@@ -12,7 +12,8 @@ from itertools import count
 from gruebler.base.errors import ChainError, TransformationError
 from gruebler.base.text import Message, joined_by_or, message
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair
+from gruebler.structure.chain.spaces import Space
 
 Attachment = str | int
 

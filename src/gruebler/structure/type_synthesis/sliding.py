@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gruebler import _core
 from gruebler.base.errors import ChainError, RunError
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.enumeration import Request
 from gruebler.structure.enumeration.work_units import chains_of_request
 from gruebler.structure.enumeration.worker_pool import run_work

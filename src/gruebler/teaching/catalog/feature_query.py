@@ -14,7 +14,8 @@ from gruebler.base.errors import GrueblerError, PairError
 from gruebler.base.text import Text, arity, in_every_language
 from gruebler.files.catalog_records import Entry
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import Pair, Space
+from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.chain.symbols import read_symbols
 from gruebler.structure.mechanism import Mechanism, check_drives
 from gruebler.structure.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions

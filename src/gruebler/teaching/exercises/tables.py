@@ -18,7 +18,8 @@ from gruebler.mechanics.analysis import motion_roles
 from gruebler.mechanics.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Pair, Space
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Pair
+from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises.solution import TeachingTable, Value
 

@@ -14,7 +14,8 @@ from gruebler.base.text import translate
 from gruebler.pictures.canvas.figure import Figure, figure_of
 from gruebler.pictures.canvas.shapes import Point, Polylines, Shape, TextShape
 from gruebler.pictures.canvas.symbols import arrow
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair, Space
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair
+from gruebler.structure.chain.spaces import Space
 
 _X, _Y, _Z = Point(0.88, 0.26), Point(0.62, -0.34), Point(0.0, -1.0)  # of the axes, on paper
 _SIDES = 48

@@ -11,7 +11,7 @@ from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.structure import draw_structure
 from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.assur import AssurGroup, assur_groups
-from gruebler.structure.chain.pairs import Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.enumeration import chains
 from gruebler.structure.mechanism.inversion import family, inversions
 from gruebler.teaching.worksheets.joint_pictures import joint_pictures
