@@ -1,4 +1,4 @@
-"""The kernels of core/ beside those of numba, in turns in one process; cold, each in a process of its own.
+"""The kernels of core/ by level, labelling beside numba, in turns in one process; cold, each in a process of its own.
 
 Seconds are those of the processor, which other work on the machine disturbs least; the least of some rounds is printed.
 Every answer is compared.
@@ -22,12 +22,6 @@ ROUNDS = 9
 Calls = dict[str, Callable[[], Any]]
 
 COLD = {
-    "census and growth, to 10 links": (
-        "import gruebler; gruebler.count_chains(10, orbits=True)",
-        "graphs = np.array([[48, 3] + [0] * 14])\n"
-        "for loops in 2, 3: graphs, _ = _core.add_loop(graphs, loops, 0, 10**9)\n"
-        "_core.take_census(graphs, 4, 1, True)",
-    ),
     "one labelling": (
         "from gruebler._numeric.labelling.canonical import canonical_form; "
         "canonical_form(3, None, np.array([[0, 1], [1, 2]]))",
@@ -38,12 +32,10 @@ COLD = {
 
 def main() -> None:
     """Print both tables."""
-    print("| warm, ms | numba | core | numba / core |\n|---|---|---|---|")
+    print("| warm | ms |\n|---|---|")
     for name, calls in [*counting(), *labelling()]:
-        times = measured(calls)
-        for level in [key for key in times if key != "numba"]:
-            row = f"{1000 * times['numba']:.2f} | {1000 * times[level]:.2f} | {times['numba'] / times[level]:.2f}"
-            print(f"| {name}, {level} | {row} |")
+        for level, seconds in measured(calls).items():
+            print(f"| {name}, {level} | {1000 * seconds:.2f} |")
     print("| cold, s | numba, nothing compiled | numba, compiled before | core |\n|---|---|---|---|")
     for name, (numba, core) in COLD.items():
         with TemporaryDirectory() as cache:
@@ -76,38 +68,19 @@ def alone(code: str, environment: dict[str, str]) -> float:
 
 def counting() -> list[tuple[str, Calls]]:
     """Census and growth of 14 and 16 links."""
-    from gruebler._numeric.compiling import compiled
-    from gruebler._numeric.counting.census import COLUMNS, make_census_memory, take_census
-    from gruebler._numeric.counting.contracted import add_loop, make_growth_memory
     from gruebler.structure.enumeration.contracted import packed_graphs
-
-    def numba_census(graphs: NDArray[np.int64], loops: int, orbits: bool) -> NDArray[np.int64]:
-        table = np.zeros((len(graphs), COLUMNS), np.int64)
-        compiled(take_census)(graphs, 1, orbits, make_census_memory(loops, 1), table)
-        return table
-
-    def numba_growth(parents: NDArray[np.int64], room: int) -> NDArray[np.int64]:
-        children = np.empty((room, 16), np.int64)
-        total, _ = compiled(add_loop)(parents, 0, children, make_growth_memory())
-        return children[:total]
 
     rows: list[tuple[str, Calls]] = []
     for links, loops in ((14, 6), (16, 7)):
         graphs, parents = (np.concatenate([block.copy() for block in packed_graphs(k)]) for k in (loops, loops - 1))
         for orbits in (False, True):
-            calls: Calls = {"numba": lambda g=graphs, k=loops, o=orbits: numba_census(g, k, o)}  # type: ignore[misc]
+            calls: Calls = {}
             for level in _core.level_names():
                 calls[level] = lambda g=graphs, k=loops, o=orbits, n=level: _core.take_census(g, k, 1, o, level=n)  # type: ignore[misc]
             rows.append((f"census of {links} links" + (" with orbits" if orbits else ""), calls))
         rows.append(
-            (
-                f"growth to {loops} loops",
-                {
-                    "numba": lambda p=parents, g=graphs: numba_growth(p, len(g) + 1024),  # type: ignore[misc]
-                    "core": lambda p=parents, k=loops: _core.add_loop(p, k - 1, 0, 1 << 62)[0],  # type: ignore[misc]
-                },
-            )
-        )
+            (f"growth to {loops} loops", {"core": lambda p=parents, k=loops: _core.add_loop(p, k - 1, 0, 1 << 62)[0]})
+        )  # type: ignore[misc]
     return rows
 
 

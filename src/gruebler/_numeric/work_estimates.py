@@ -46,13 +46,8 @@ def packed_labelling() -> float:
     return 3e-4
 
 
-def growing(loops: int) -> float:
-    """All contracted graphs with so many loops, and with fewer on the way."""
-    return 6e-3 * 9.0 ** (loops - 4)
-
-
-def census(graphs: int) -> float:
-    """Counting or listing the chains of contracted graphs."""
+def listing(graphs: int) -> float:
+    """The chains of contracted graphs."""
     return 3.5e-3 * graphs
 
 

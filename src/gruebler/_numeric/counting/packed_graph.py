@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import for_work, njit
-from gruebler._numeric.counting.bits import lowest, popcount
+from gruebler._numeric.counting.bits import lowest
 from gruebler._numeric.work_estimates import packed_labelling
 
 Int64 = NDArray[np.int64]
@@ -69,13 +69,6 @@ def make_label_memory() -> LabelMemory:
 def bundle_strings(rows: Int64, u: int, v: int) -> int:
     """The number of edges between u and v."""
     return int((rows[u] >> (v << 2)) & 15)
-
-
-@njit(cache=True)
-def set_bundle_strings(rows: Int64, u: int, v: int, number: int) -> None:
-    """Let there be this number of edges between u and v."""
-    rows[u] = (rows[u] & ~(15 << (v << 2))) | (number << (v << 2))
-    rows[v] = (rows[v] & ~(15 << (u << 2))) | (number << (u << 2))
 
 
 @njit(cache=True)
@@ -263,39 +256,6 @@ def label_packed(n: int, near: Int64, rows: Int64, labels: LabelMemory) -> int:
         level += 1
         fresh = True
     return found
-
-
-@njit(cache=True)
-def is_removable(n: int, near: Int64, rows: Int64, x: int, y: int) -> bool:
-    """Whether a two-connected graph stays so without one of its edges between x and y.
-
-    A vertex that then separates the graph lies on every path from x to y: only the vertices of one such path
-    are tried, found by way of a common neighbour, or else all of them. Two vertices alone never lose it.
-    """
-    if n == 2 or (rows[x] >> (y << 2)) & 15 > 1:
-        return True
-    around_x = near[x] & ~(1 << y)
-    around_y = near[y] & ~(1 << x)
-    common = around_x & around_y
-    if popcount(common) > 1:
-        return True
-    suspects = common if common else ((1 << n) - 1) & ~((1 << x) | (1 << y))
-    while suspects:
-        missing = suspects & -suspects
-        suspects &= suspects - 1
-        seen = missing | (1 << x)
-        front = around_x & ~seen
-        while front and not front & around_y:
-            seen |= front
-            bits = front
-            front = 0
-            while bits:
-                front |= near[lowest(bits)]
-                bits &= bits - 1
-            front &= ~seen & ~(1 << y)
-        if not front:
-            return False
-    return True
 
 
 def canonical_rows(rows: Int64) -> Int64:

@@ -26,7 +26,7 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.assortment import joint_count, loop_count
 from gruebler.structure.enumeration.contracted import unpacked
 from gruebler.structure.enumeration.fractionated import BlockAddition
-from gruebler.structure.enumeration.pieces import WorkPiece, list_piece
+from gruebler.structure.enumeration.pieces import WorkPiece, census, list_piece
 from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.work_units import MultipleJointPiece, RingPiece, Work, chains_of_piece, work_units
 from gruebler.structure.type_synthesis import joint_types
@@ -309,19 +309,11 @@ class PartWriter:
 
 def _simple_chains(piece: WorkPiece, first_graph: int) -> pa.Table:
     """The rows of a piece of contracted graphs, checked against their numbers by Burnside's lemma."""
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting import census
-
-    loops = loop_count(piece.links, piece.mobility)
-    assert loops is not None
     edges = list_piece(piece)
-    numbers = np.zeros((len(piece.graphs), census.COLUMNS), np.int64)
-    count = for_work(census.take_census, 3.5e-3 * len(piece.graphs))
-    memory = census.make_census_memory(loops, piece.mobility)
-    count(np.ascontiguousarray(piece.graphs), piece.mobility, True, memory, numbers)
-    graph = np.repeat(np.arange(len(piece.graphs), dtype=np.int32), numbers[:, census.CHAINS])
+    numbers = census(piece, orbits=True)[:, 1:]
+    graph = np.repeat(np.arange(len(piece.graphs), dtype=np.int32), numbers[:, 0])
     contracted = Contracted(graph + np.int32(first_graph), tuple(map(unpacked, piece.graphs)), first_graph)
-    sums = numbers[:, [census.CHAINS, census.INVERSIONS, census.JOINT_ORBITS, census.DRIVES]].sum(axis=0).tolist()
+    sums = numbers.sum(axis=0).tolist()
     table = None
     if sums[0] == len(edges):
         table = chain_table(ChainArrays.of_edges(piece.links, piece.mobility, edges), "none", contracted)

@@ -7,7 +7,7 @@ are 1, 4, 17, 118, 1198, 17133, 311757 with 2, 3, ..., 8 loops.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -185,30 +185,24 @@ def packed_graphs(loops: int) -> Iterator[Packed]:
             most_loops=MOST_LOOPS,
             loops=loops,
         )
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.contracted import add_loop
-    from gruebler._numeric.work_estimates import growing
-
-    return _grown(loops, for_work(add_loop, growing(loops)))
+    return _grown(loops)
 
 
-def _grown(loops: int, grow: Callable[..., tuple[int, int]]) -> Iterator[Packed]:
-    """The blocks of `packed_graphs`, grown with a given kernel."""
+def _grown(loops: int) -> Iterator[Packed]:
+    """The blocks of `packed_graphs`."""
     if loops == 2:
         theta = np.zeros((1, _NODES), np.int64)
         theta[0, :2] = 3 << 4, 3
         yield theta
         return
-    from gruebler._numeric.counting.contracted import make_growth_memory
+    from gruebler import _core
 
-    memory = make_growth_memory()
-    for parents in _grown(loops - 1, grow):
+    for parents in _grown(loops - 1):
         k = 0
         while k < len(parents):
-            room = np.empty((_BLOCK, _NODES), np.int64)
-            total, k = grow(parents, k, room, memory)
-            if total:
-                yield room[:total]
+            children, k = _core.add_loop(parents, loops - 1, k, _BLOCK)
+            if len(children):
+                yield children
 
 
 def contracted_graphs(loops: int) -> Iterator[ContractedGraph]:

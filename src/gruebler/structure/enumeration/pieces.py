@@ -153,29 +153,30 @@ def _has_degrees(rows: Packed, assortment: Assortment) -> NDArray[np.bool_]:
     return matches
 
 
+def census(piece: WorkPiece, orbits: bool) -> NDArray[np.int64]:
+    """The numbers of chains of each contracted graph: int64[k, 5], degrees, chains, inversions, orbits, drives."""
+    from gruebler import _core
+
+    loops = loop_count(piece.links, piece.mobility)
+    assert loops is not None
+    return _core.take_census(np.ascontiguousarray(piece.graphs), loops, piece.mobility, orbits)
+
+
 def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...]:
     """The numbers of chains of a piece by assortment, with orbits if requested.
 
     Raises:
         OverflowError: a number beyond 64 bits.
     """
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.census import COLUMNS, DEGREES, DIGITS, make_census_memory, take_census
-    from gruebler._numeric.work_estimates import census
-
-    loops = loop_count(piece.links, piece.mobility)
-    assert loops is not None
-    table = np.zeros((len(piece.graphs), COLUMNS), np.int64)
-    count = for_work(take_census, census(len(piece.graphs)))
-    count(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_census_memory(loops, piece.mobility), table)
+    table = census(piece, orbits)
     counts = []
-    for code in np.unique(table[:, DEGREES]):
+    for code in np.unique(table[:, 0]):
         higher = []
-        remaining = int(code)
+        remaining = int(code)  # five bits a degree, from 3 on: how many nodes have it
         while remaining:
-            higher.append(remaining & ((1 << DIGITS) - 1))
-            remaining >>= DIGITS
-        rows = table[table[:, DEGREES] == code, DEGREES + 1 :]
+            higher.append(remaining & 31)
+            remaining >>= 5
+        rows = table[table[:, 0] == code, 1:]
         chains, inversions, joint_orbits, drives = rows.sum(axis=0).tolist()
         counts.append(
             PieceCount(
@@ -214,7 +215,7 @@ def graph6_lines(edges: NDArray[np.unsignedinteger[Any]], links: int) -> NDArray
 def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.counting.chain_lists import list_chains, make_list_memory
-    from gruebler._numeric.work_estimates import census
+    from gruebler._numeric.work_estimates import listing
 
     loops, joints = loop_count(piece.links, piece.mobility), joint_count(piece.links, piece.mobility)
     assert loops is not None
@@ -222,7 +223,7 @@ def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
     memory = make_list_memory(loops, piece.mobility)
     graphs = np.ascontiguousarray(piece.graphs)
     capacity = max(256, min(65536, piece.work // 4))
-    listed = for_work(list_chains, census(len(graphs)))
+    listed = for_work(list_chains, listing(len(graphs)))
     while True:
         edges = np.empty((capacity, joints, 2), np.uint8)
         count = listed(graphs, piece.mobility, memory, edges)
