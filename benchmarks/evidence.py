@@ -7,20 +7,17 @@ its binary links (`tests.structure.enumeration.pebble_oracle`).
 
 import sys
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
-from functools import cache
 from math import factorial
 from random import Random
 from time import process_time
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import compiled
-from gruebler._numeric.counting.packed_graph import LabelMemory, label_packed, make_label_memory, order_of, survey_graph
+from gruebler import _core
 from gruebler.structure.enumeration.contracted import packed_graphs, unpacked
 from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, work_of_graphs
 
@@ -29,6 +26,7 @@ Degrees = tuple[int, ...]
 """How many nodes of 3, 4, ... strings there are."""
 
 _FACTORIALS = np.array([factorial(k) for k in range(16)], np.int64)
+_PLACES = np.arange(0, 64, 4, dtype=np.uint64)  # of the numbers of strings in a row
 _SAMPLE = 3  # contracted graphs that are checked of an assortment with too much work for all
 
 
@@ -96,41 +94,25 @@ def _degree_sequences(block: Int64) -> list[Degrees]:
     return [sequences[k] for k in place.reshape(-1).tolist()]
 
 
-@cache
-def _groups() -> Callable[..., Any]:
-    """The kernel that writes out the sequence of degrees, and the order of the group, of each packed graph."""
-    order, survey, label = compiled(order_of), compiled(survey_graph), compiled(label_packed)
-
-    @numba.njit
-    def groups(graphs: Int64, factorials: Int64, labels: LabelMemory, near: Int64, degree: Int64, out: Int64) -> None:
-        for k in range(graphs.shape[0]):
-            rows = graphs[k]
-            n = order(rows)
-            survey(n, rows, near, degree)
-            size = label(n, near, rows, labels)
-            out[k, 0] = 0
-            for v in range(n):
-                out[k, 0] += 1 << 5 * (degree[v] - 3)
-                for u in range(v):
-                    size *= factorials[rows[v] >> 4 * u & 15]
-            out[k, 1] = size
-
-    return groups
+def _order(rows: Int64) -> int:
+    """The order of the group of a packed graph, equal strings told apart."""
+    strings = rows[:, None].view(np.uint64) >> _PLACES & np.uint64(15)
+    return len(_core.find_automorphisms(rows)) * int(np.prod(_FACTORIALS[np.tril(strings)]))
 
 
 def sums_of_graphs(loops: int) -> tuple[int, dict[Degrees, Fraction]]:
     """The number of contracted graphs, and the sum of 1/|Aut| for each sequence of degrees."""
-    sums: defaultdict[int, Fraction] = defaultdict(Fraction)
-    memory = make_label_memory(), np.zeros(16, np.int64), np.zeros(16, np.int64)
+    sums: defaultdict[Degrees, Fraction] = defaultdict(Fraction)
     number = 0
     for block in packed_graphs(loops):
-        table = np.zeros((len(block), 2), np.int64)
-        _groups()(block, _FACTORIALS, *memory, table)
-        rows, counts = np.unique(table, axis=0, return_counts=True)
-        for (degrees, order), count in zip(rows.tolist(), counts.tolist(), strict=True):
-            sums[degrees] += Fraction(count, order)
+        orders = np.array([_order(rows) for rows in block])
+        degrees = (block[:, :, None].view(np.uint64) >> _PLACES & np.uint64(15)).sum(axis=2)
+        sequences = (degrees[:, :, None] == np.arange(3, degrees.max() + 1)).sum(axis=1)
+        rows, counts = np.unique(np.column_stack([sequences, orders]), axis=0, return_counts=True)
+        for (*sequence, order), count in zip(rows.tolist(), counts.tolist(), strict=True):
+            sums[tuple(np.trim_zeros(sequence, "b"))] += Fraction(count, order)
         number += len(block)
-    return number, {tuple(w >> 5 * k & 31 for k in range((w.bit_length() + 4) // 5)): v for w, v in sums.items()}
+    return number, dict(sums)
 
 
 def main(most: int = 9) -> None:

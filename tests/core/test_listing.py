@@ -1,19 +1,18 @@
-"""Chains written out by the core, and the symmetry of one packed graph: against numba, print, and networkx."""
+"""Chains written out by the core, and the symmetry of one packed graph: against print and networkx.
+
+Other methods: tests/structure/enumeration/test_listing.py and test_contracted.py.
+"""
 
 from functools import cache
+from itertools import permutations
 
 import networkx as nx
 import numpy as np
 import pytest
 
-from gruebler._numeric.compiling import compiled
-from gruebler._numeric.counting import chain_lists as numba
-from gruebler._numeric.counting import packed_graph
 from gruebler.structure.enumeration.contracted import contracted_graphs
 from tests.core.test_counting import THETA, loops_of
 from tests.structure.enumeration.test_counts import NUMBERS
-
-CALLS = [(6, 1), (7, 0), (9, 0), (8, 1), (10, 1), (12, 1), (14, 1), (9, 2), (11, 2), (8, 3), (10, 5), (11, 0), (13, 0)]
 
 
 @cache
@@ -22,25 +21,6 @@ def grown(core, loops):
     for more in range(2, loops):
         rows, _ = core.add_loop(rows, more, 0, 1 << 62)
     return rows
-
-
-def numba_chains(rows, loops, mobility, room):
-    edges = np.empty((room, 3 * loops + mobility, 2), np.uint8)
-    memory = numba.make_list_memory(loops, mobility)
-    return edges[: compiled(numba.list_chains)(rows, mobility, memory, edges)]
-
-
-@pytest.mark.parametrize(("links", "mobility"), CALLS)
-def test_chains_as_numba(core, links, mobility):
-    loops = loops_of(links, mobility)
-    rows = grown(core, loops)
-    edges = core.list_chains(rows, loops, mobility)
-    assert edges.dtype == np.uint8
-    assert (edges == numba_chains(rows, loops, mobility, len(edges) + 1)).all()
-    lines = np.empty((len(edges), numba.line_length(links)), np.uint8)
-    compiled(numba.write_graph6)(edges, links, lines)
-    assert (core.list_graph6(rows, loops, mobility) == lines).all()
-    assert (core.write_graph6(edges, links) == lines).all()
 
 
 @pytest.mark.parametrize(("mobility", "links"), [(f, n) for f, row in NUMBERS.items() for n in row if f + 3 < n < 14])
@@ -66,20 +46,38 @@ def test_a_ring_as_networkx(core, links):
     assert core.write_graph6(edges, links).tobytes() == nx.to_graph6_bytes(ring, header=False)
 
 
-def test_much_freedom(core):
-    """A ring of strings of 24 freedoms: the longest chains there is room for."""
-    for loops in 2, 3:
-        rows = grown(core, loops)
-        edges = core.list_chains(rows, loops, 9)
-        assert (edges == numba_chains(rows, loops, 9, len(edges) + 1)).all()
-    assert core.list_chains(THETA, 2, 24).shape[1:] == (30, 2)
+def as_rows(multigraph):
+    """int64[16]: the packed graph of a multigraph."""
+    rows = [0] * 16
+    for u, v in multigraph.edges():
+        rows[u] += 1 << 4 * v
+        rows[v] += 1 << 4 * u
+    return np.array(rows, np.uint64).view(np.int64)
 
 
-def test_symmetry_as_numba(core):
-    for graph in [graph for loops in (2, 3, 4, 5) for graph in contracted_graphs(loops)]:
-        rows = graph._packed()
-        assert (core.canonical_rows(rows) == packed_graph.canonical_rows(rows)).all()
-        assert (core.find_automorphisms(rows) == packed_graph.find_automorphisms(rows)).all()
+def test_longest_chains(core):
+    """Two nodes, three strings and 24 freedoms: 27 binary links in strings."""
+    edges = core.list_chains(THETA, 2, 24)
+    assert len(edges)
+    for pairs in edges.tolist():
+        graph = nx.Graph(pairs)
+        assert (len(graph), graph.number_of_edges()) == (29, 30)
+        assert sorted(dict(graph.degree).values(), reverse=True)[:3] == [3, 3, 2]
+
+
+@pytest.mark.parametrize("loops", [2, 3, 4])
+def test_symmetry_by_all_permutations(core, loops):
+    for graph in contracted_graphs(loops):
+        n, strings = graph.nodes, {frozenset((u, v)): k for u, v, k in graph.bundles}
+        own = as_rows(graph.multigraph())
+        images = {
+            image
+            for image in permutations(range(n))
+            if all(strings.get(frozenset((image[u], image[v]))) == k for u, v, k in graph.bundles)
+        }
+        assert set(map(tuple, core.find_automorphisms(own).tolist())) == images
+        turned = nx.relabel_nodes(graph.multigraph(), {v: n - 1 - v for v in range(n)})
+        assert (core.canonical_rows(as_rows(turned)) == core.canonical_rows(own)).all()
 
 
 @pytest.mark.parametrize(

@@ -41,21 +41,6 @@ def labelling(n: int, m: int) -> float:
     return 1.5e-5 * (n + m)
 
 
-def packed_labelling() -> float:
-    """The same of a packed graph."""
-    return 3e-4
-
-
-def listing(graphs: int) -> float:
-    """The chains of contracted graphs."""
-    return 3.5e-3 * graphs
-
-
-def writing(chains: int, links: int) -> float:
-    """Lines of graph6."""
-    return 1e-6 * chains * links**2
-
-
 def relaxing(pairs: int, rounds: int) -> float:
     """A layout with so many watched pairs, relaxed for at most so many rounds (mostly a third of them)."""
     return 1e-6 * pairs * rounds

@@ -86,9 +86,9 @@ class ContractedGraph:
         >>> ContractedGraph(((0, 1, 3),)).automorphisms
         ((0, 1), (1, 0))
         """
-        from gruebler._numeric.counting.packed_graph import find_automorphisms
+        from gruebler import _core
 
-        return tuple(sorted(tuple(image) for image in find_automorphisms(self._packed()).tolist()))
+        return tuple(sorted(tuple(image) for image in _core.find_automorphisms(self._packed()).tolist()))
 
     @cached_property
     def is_planar(self) -> bool:
@@ -99,9 +99,9 @@ class ContractedGraph:
 
     def canonical(self) -> ContractedGraph:
         """The isomorphic graph that `contracted_graphs` yields; equal for isomorphic graphs."""
-        from gruebler._numeric.counting.packed_graph import canonical_rows
+        from gruebler import _core
 
-        return unpacked(canonical_rows(self._packed()))
+        return unpacked(_core.canonical_rows(self._packed()))
 
     def multigraph(self) -> nx.MultiGraph:
         """The graph for networkx, an edge for each string."""

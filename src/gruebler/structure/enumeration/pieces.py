@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.errors import GrueblerError
-from gruebler.structure.enumeration.assortment import Assortment, joint_count, loop_count
+from gruebler.structure.enumeration.assortment import Assortment, loop_count
 from gruebler.structure.enumeration.contracted import MOST_LOOPS, packed_graphs
 
 MOST_FREEDOMS = 24  # the kernels' products of binomial coefficients stay within 64 bits
@@ -197,43 +197,19 @@ def list_piece(piece: WorkPiece, form: str = "edges") -> NDArray[np.uint8]:
         piece: the piece.
         form: ``edges`` for uint8[k, joints, 2], ``graph6`` for uint8[k, bytes of a line].
     """
-    blocks = list(_blocks(piece, form))
-    return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
+    from gruebler import _core
+
+    loops = loop_count(piece.links, piece.mobility)
+    assert loops is not None
+    write = _core.list_graph6 if form == "graph6" else _core.list_chains
+    return write(np.ascontiguousarray(piece.graphs), loops, piece.mobility)
 
 
 def graph6_lines(edges: NDArray[np.unsignedinteger[Any]], links: int) -> NDArray[np.uint8]:
     """Chains as lines of graph6, line ends included: uint8[k, bytes of a line] from [k, joints, 2]."""
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.chain_lists import line_length, write_graph6
-    from gruebler._numeric.work_estimates import writing
+    from gruebler import _core
 
-    lines = np.empty((len(edges), line_length(links)), np.uint8)
-    for_work(write_graph6, writing(len(edges), links))(edges, links, lines)
-    return lines
-
-
-def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.chain_lists import list_chains, make_list_memory
-    from gruebler._numeric.work_estimates import listing
-
-    loops, joints = loop_count(piece.links, piece.mobility), joint_count(piece.links, piece.mobility)
-    assert loops is not None
-    assert joints is not None
-    memory = make_list_memory(loops, piece.mobility)
-    graphs = np.ascontiguousarray(piece.graphs)
-    capacity = max(256, min(65536, piece.work // 4))
-    listed = for_work(list_chains, listing(len(graphs)))
-    while True:
-        edges = np.empty((capacity, joints, 2), np.uint8)
-        count = listed(graphs, piece.mobility, memory, edges)
-        edges = edges[:count]
-        if form == "graph6":
-            yield graph6_lines(edges, piece.links)
-        else:
-            yield edges
-        if count < capacity:
-            return
+    return _core.write_graph6(np.ascontiguousarray(edges, np.uint8), links)
 
 
 def run_pieces(

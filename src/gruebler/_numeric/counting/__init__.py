@@ -1,1 +1,0 @@
-"""Chains counted and listed: contracted graphs, strings of links, Burnside's lemma."""
