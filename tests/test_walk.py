@@ -35,8 +35,8 @@ class Walk:
         if room(module) in WORKING and room(module) not in self.entered:
             self.entered.append(room(module))
         caller = frame.f_back
-        while caller is not None and module_of(caller.f_code.co_filename) in (None, "base.doors", "base.immutable"):
-            caller = caller.f_back  # a door checks arguments, equality asks for keys: they go on to what they open
+        while caller is not None and module_of(caller.f_code.co_filename) in (None, *PASSING_ON):
+            caller = caller.f_back
         if caller is not None:
             calling = module_of(caller.f_code.co_filename)
             if (
@@ -46,6 +46,10 @@ class Walk:
                 and not room(module).startswith("base/")
             ):
                 self.upward.append(f"{calling} calls {module}.{code.co_qualname}")
+
+
+PASSING_ON = {"base.doors", "base.errors", "base.immutable"}
+"""A door checks arguments, what is unwarned is called without warnings, equality asks for keys: they go on."""
 
 
 @cache
