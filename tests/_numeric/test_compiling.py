@@ -71,15 +71,15 @@ def test_little_work_is_interpreted_and_much_is_compiled(monkeypatch: pytest.Mon
 
 
 def test_the_price_falls_when_a_kernel_lies_in_the_cache_or_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    from gruebler._numeric.layout import closest
+    from gruebler._numeric.motion.newton import factor
     from gruebler._numeric.motion.path import walk_path
 
     monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr(compiling, "is_cached", lambda _: False)
-    fresh = price(closest)
+    fresh = price(factor)
     assert price(walk_path) > 2 * fresh
     monkeypatch.setattr(compiling, "is_cached", lambda _: True)
-    assert price(closest) == price(walk_path) < fresh
+    assert price(factor) == price(walk_path) < fresh
     monkeypatch.undo()
     compiled(_tripled)(1)
     assert price(_tripled) == 0
@@ -230,10 +230,10 @@ def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:
         import numpy as np
         from gruebler._numeric.compiling import compiled
         from gruebler._numeric.kernel_cache import is_cached
-        from gruebler._numeric.layout import closest
-        before = is_cached(closest)
-        kernel = compiled(closest)
-        kernel(np.zeros((3, 2)), np.array([[0, 1]]), np.array([[0, 2]]))
+        from gruebler._numeric.motion.newton import factor
+        before = is_cached(factor)
+        kernel = compiled(factor)
+        kernel(np.eye(2), 2, np.zeros(2, np.int64))
         print(before, sum(kernel.stats.cache_hits.values()), sum(kernel.stats.cache_misses.values()))
         """
 

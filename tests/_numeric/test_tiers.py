@@ -17,7 +17,6 @@ from gruebler import _numeric
 from gruebler._numeric import compiling
 from gruebler._numeric.labelling.canonical import canonical_bulk, canonical_form
 from gruebler._numeric.motion.tracing import TraceScratch
-from gruebler.design.synthesis.alt_burmester import PROBLEMS, follow_from_generic, load_generic_solutions
 from gruebler.mechanics.analysis.circuit_ranges import rotatability
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.assembly_modes import conditions
@@ -25,8 +24,6 @@ from gruebler.mechanics.kinematics.batch import four_bars, move_many
 from gruebler.mechanics.kinematics.circuits import circuit
 from gruebler.mechanics.kinematics.triads import all_modes
 from gruebler.mechanics.linkages import Linkage
-from gruebler.pictures.structure import draw_structure
-from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration import chains, contracted_graphs, graph6_blocks
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
@@ -39,9 +36,9 @@ CLOSE = 1e-11
 EXACT = f"{_numeric.__name__}.motion."
 DOORS = {
     "walk_path", "_designs", "closing", "newton", "close_near_singular", "settle_on_curve", "trace_curve",
-    "evaluate_pose", "evaluate_system", "jacobian", "label_graph", "adjacency",
-    "_label_all", "list_chains", "write_graph6", "relax", "closest", "crossing_segments",
-    "refine", "refine_solutions",
+    "evaluate_pose", "jacobian", "label_graph", "adjacency",
+    "_label_all", "list_chains", "write_graph6",
+    "refine",
 }  # fmt: skip
 PARTS = {
     "_goes_on",
@@ -96,7 +93,6 @@ def work() -> None:
         canonical_form(len(plain), None, np.array(plain.edges()))
     canonical_bulk(4, np.array([[[0, 1], [1, 2], [2, 3]], [[0, 2], [2, 1], [1, 3]]]))
     assert sum(len(lines) for lines in graph6_blocks(8, 1)) == 16
-    draw_structure(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
     steady = {"speed": 1.0, "acceleration": 2.0, "jerk": 3.0, "order": 3}
     doors = FourBar(25, 70, 40, 70), FourBar(25, 70, 25, 70), SliderCrank(20, 70, 8), InvertedSliderCrank(50, 30, 3)
     for linkage in (door.linkage() for door in doors):
@@ -124,9 +120,6 @@ def work() -> None:
     move_many(
         four_bars([25, 30], 70, 40, 70), gr.from_degrees(0, 60, 5), speed=1.0, threads=1
     )  # nobody else writes what is compared
-    for problem in PROBLEMS[2:]:  # four-bars through positions and points: a short way from known solutions
-        begin, z = load_generic_solutions(problem)
-        follow_from_generic(problem, z[:2], begin, begin * (1.01 + 0.005j), 1e-3)
 
 
 @cache

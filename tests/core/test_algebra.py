@@ -1,14 +1,11 @@
-"""Four-bars through positions and points in the core: against numba, against plain Python, against small steps."""
+"""Four-bars through positions and points in the core: against plain Python, small steps, and steps counted before."""
 
 import signal
 
 import numpy as np
 import pytest
 
-from gruebler._numeric import homotopy
-from gruebler._numeric.compiling import compiled
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, load_generic_solutions
-from gruebler.design.synthesis.discs import certified
 from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.test_points import random_parameters
 
@@ -24,28 +21,39 @@ def test_the_equations_as_they_stand_in_the_theory(core, problem):
     z = rng.normal(size=(20, 8)) + 1j * rng.normal(size=(20, 8))
     values, derivatives = core.evaluate_equations(z, p, problem.poses, problem.points)
     sharp, _ = core.evaluate_equations(z, p, problem.poses, problem.points, sharp=True)
+    assert sharp == pytest.approx(values, rel=1e-10, abs=1e-12)
     for k, unknowns in enumerate(z):
         f, jac, _ = evaluate(unknowns, p, STILL, problem.poses, problem.points)
         assert values[k] == pytest.approx(f, rel=1e-12, abs=1e-12)
         assert derivatives[k] == pytest.approx(jac, rel=1e-12, abs=1e-12)
-        numba = np.empty(8, complex)
-        homotopy.sharp_residuals(unknowns, p, problem.poses, problem.points, numba)
-        assert sharp[k] == pytest.approx(numba, rel=1e-15, abs=1e-28)
+
+
+# Of the first twelve paths to the task of seed 7, quick and careful: counted by the tracker in Python, after which this
+# one was written.
+STEPS = {
+    NINE: (1920, 6963),
+    TWO: (1628, 6137),
+    THREE: (1634, 6263),
+    FOUR: (1311, 5114),
+    GIVEN: (936, 3523),
+}
 
 
 @each_problem
-@pytest.mark.parametrize("loose", [1e-3, 1e-6])
-def test_paths_as_numba(core, problem, loose):
-    """The same steps on every path, and every level the same bits."""
+@pytest.mark.parametrize("careful", [False, True])
+def test_paths_end_at_solutions_after_known_numbers_of_steps(core, problem, careful):
+    """And every level has the same bits."""
     base = load_generic_solutions(problem)
     z, p = base.z[:12], random_parameters(problem, 7)
-    ends, status, work = np.empty_like(z), np.empty(len(z), np.int64), np.empty(len(z), np.int64)
-    shape = problem.poses, problem.points
-    compiled(homotopy.track)(z, base.parameters, p, *shape, loose, ends, status, work)
+    shape, loose = (problem.poses, problem.points), 1e-6 if careful else 1e-3
     found = core.track(z, base.parameters, p, *shape, loose)
-    assert found[1].tolist() == status.tolist()
-    assert found[2].tolist() == work.tolist()
-    assert found[0] == pytest.approx(ends, rel=1e-12, abs=1e-11)
+    ends, status, steps = found
+    assert status.tolist() == [0] * len(z)
+    assert steps.sum() == STEPS[problem][careful]
+    for end in ends:
+        f, jac, _ = evaluate(end, p, STILL, *shape)
+        assert np.abs(np.linalg.solve(jac, f)).max() < 1e-8 * (1 + np.abs(end).max())
+    assert len(np.unique(np.round(ends, 6), axis=0)) == len(z)
     for level in core.level_names():
         for array, other in zip(core.track(z, base.parameters, p, *shape, loose, level=level), found, strict=True):
             assert array.tobytes() == other.tobytes()
@@ -71,24 +79,20 @@ def test_paths_by_many_small_steps(core, problem):
 
 
 @each_problem
-def test_newton_as_numba(core, problem):
+def test_newton_comes_back(core, problem):
     p, z = load_generic_solutions(problem)
-    z = z[:50] * (1 + 1e-5)
-    own, steps = z.copy(), np.empty(len(z))
-    compiled(homotopy.refine_solutions)(own, p, problem.poses, problem.points, steps)
-    refined, last = core.refine_solutions(z, p, problem.poses, problem.points)
-    assert refined == pytest.approx(own, rel=1e-12)
+    refined, last = core.refine_solutions(z[:30] * (1 + 1e-5), p, problem.poses, problem.points)
+    assert refined == pytest.approx(z[:30], rel=1e-10)
     assert (last < 1e-12).all()
-    assert (np.abs(refined - z) > 0).any()
 
 
 @each_problem
-def test_proofs_as_in_python(core, problem):
+def test_what_is_no_solution_and_what_is_there_twice_is_not_proved(core, problem):
     p, z = load_generic_solutions(problem)
     shape = problem.poses, problem.points
     assert core.certify(z, p, *shape).all()
-    mixed = z[:30] + np.where(np.arange(30) % 3 == 0, 1e-3, 0)[:, None]
-    assert core.certify(mixed, p, *shape).tolist() == certified(*shape, mixed, p).tolist()
+    wrong = np.arange(30) % 3 == 0
+    assert core.certify(z[:30] + np.where(wrong, 0.1, 0)[:, None], p, *shape).tolist() == (~wrong).tolist()
     twice = np.repeat(z[:3], [1, 2, 1], axis=0)
     assert core.certify(twice, p, *shape).tolist() == [True, False, False, True]
 

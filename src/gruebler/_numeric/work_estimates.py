@@ -39,28 +39,3 @@ def sampling(unknowns: int, places: int) -> float:
 def labelling(n: int, m: int) -> float:
     """A canonical labelling of a graph of n vertices and m edges."""
     return 1.5e-5 * (n + m)
-
-
-def relaxing(pairs: int, rounds: int) -> float:
-    """A layout with so many watched pairs, relaxed for at most so many rounds (mostly a third of them)."""
-    return 1e-6 * pairs * rounds
-
-
-def comparing(pairs: int) -> float:
-    """Distances or crossings of so many pairs in a layout."""
-    return 2e-6 * pairs
-
-
-def tracking(paths: int) -> float:
-    """`homotopy.track`: some 150 steps a path, each of five evaluations and solutions of eight equations."""
-    return 1.0 * paths
-
-
-def refining(solutions: int) -> float:
-    """`homotopy.refine`: some steps of Newton's method with eight equations."""
-    return 5e-3 * solutions
-
-
-def evaluating(solutions: int) -> float:
-    """`homotopy.sharp_residuals`: eight equations with twice the digits."""
-    return 5e-3 * solutions

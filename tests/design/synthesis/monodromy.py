@@ -12,8 +12,16 @@ from pathlib import Path
 
 import numpy as np
 
+from gruebler import _core
 from gruebler.base.arrays import Complexes
-from gruebler.design.synthesis.alt_burmester import QUICK, GenericSolutions, Problem, _distinct, follow_from_generic
+from gruebler.design.synthesis.alt_burmester import (
+    ARRIVED,
+    QUICK,
+    GenericSolutions,
+    Problem,
+    _distinct,
+    follow_from_generic,
+)
 
 _IDLE = 4  # so many ways without anything new: enough
 _SHARP = 1e-8  # a last Newton step above it: no solution, or a nearly singular one
@@ -49,10 +57,6 @@ def find_generic(
     problem: Problem, seed: int, *, report: Callable[[int, int], None] | None = None, most: int = 200
 ) -> GenericSolutions:
     """All solutions of a random task; ``report`` gets the number of the way and how many solutions there are."""
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import ARRIVED, refine_solutions
-    from gruebler._numeric.work_estimates import refining
-
     rng = np.random.default_rng(seed)
     p, z = known_solution(problem, rng)
     used = np.abs(p) > 0
@@ -68,8 +72,7 @@ def find_generic(
             ends = ends[status == ARRIVED]
         count = len(z)
         z = _distinct(problem, np.concatenate([z, ends]))
-        steps = np.empty(len(z))
-        for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
+        z, steps = _core.refine_solutions(z, p, problem.poses, problem.points)
         z = z[steps < _SHARP]
         idle = idle + 1 if len(z) == count else 0
         if report is not None:

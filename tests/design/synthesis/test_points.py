@@ -10,16 +10,16 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler._numeric.homotopy import evaluate_system, sharp_residuals
+from gruebler import _core
 from gruebler.base.errors import SynthesisError
 from gruebler.cli import main
 from gruebler.design.synthesis import PathTask, PositionTask, synthesise, synthesise_path
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, load_generic_solutions, parameters, solutions
-from gruebler.design.synthesis.discs import certified
 from gruebler.design.synthesis.endgame import path_ends
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.geometry import cognates
 from gruebler.mechanics.kinematics import move
+from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.monodromy import find_generic
 
 NINE, TWO, THREE, FOUR, GIVEN = PROBLEMS
@@ -46,10 +46,8 @@ def random_parameters(problem, seed):
 
 
 def values(problem, z, p):
-    f, ft = np.empty(8, complex), np.empty(8, complex)
-    jac = np.empty((8, 8), complex)
-    evaluate_system(z, p, np.zeros((4, 8), complex), problem.poses, problem.points, f, jac, ft)
-    return f.copy(), jac.copy()
+    f, jac = _core.evaluate_equations(z[None], p, problem.poses, problem.points)
+    return f[0], jac[0]
 
 
 @pytest.mark.parametrize("problem", PROBLEMS, ids=lambda p: p.name)
@@ -64,8 +62,7 @@ def test_the_derivatives_of_the_equations(problem):
         step[k] = 1e-6
         slope = (values(problem, z + step, p)[0] - values(problem, z - step, p)[0]) / 2e-6
         assert jac[:, k] == pytest.approx(slope, rel=1e-6, abs=1e-6)
-    f, ft, free = np.empty(8, complex), np.empty(8, complex), np.empty((8, 8), complex)
-    evaluate_system(z, p, dp, problem.poses, problem.points, f, free, ft)
+    _, _, ft = evaluate(z, p, dp, problem.poses, problem.points)
     slope = (values(problem, z, p + 1e-6 * dp)[0] - values(problem, z, p - 1e-6 * dp)[0]) / 2e-6
     assert ft == pytest.approx(slope, rel=1e-6, abs=1e-6)
 
@@ -74,7 +71,7 @@ def test_the_derivatives_of_the_equations(problem):
 def test_the_stored_solutions_are_complete_and_proved(problem):
     p, z = load_generic_solutions(problem)
     assert len(z) == problem.classes
-    assert certified(problem.poses, problem.points, z, p).all()
+    assert _core.certify(z, p, problem.poses, problem.points).all()
     assert problem.classes * problem.members in (8652, 2224, 402, 60, 36)
 
 
@@ -123,18 +120,15 @@ def test_residuals_with_twice_the_digits_are_the_exact_ones(problem, size):
     rng = np.random.default_rng(4)
     z = size * np.repeat(rng.normal(size=4) + 1j * rng.normal(size=4), 2)[[0, 2, 1, 3, 0, 2, 1, 3]]
     z += 1e-6 * rng.normal(size=8)
-    f = np.empty(8, complex)
-    sharp_residuals(z, p, problem.poses, problem.points, f)
+    f, _ = _core.evaluate_equations(z[None], p, problem.poses, problem.points, sharp=True)
 
     def exact(values):
         out = np.empty(np.shape(values), object)
         out.ravel()[:] = [Exact.of(v) for v in np.ravel(values)]
         return out
 
-    true, ft, jac = np.empty(8, object), np.empty(8, object), np.empty((8, 8), object)
-    still = exact(np.zeros((4, 8)))
-    evaluate_system(exact(z), exact(p), still, problem.poses, problem.points, true, jac, ft)
-    assert f == pytest.approx(true.astype(complex), rel=1e-15)
+    true, _, _ = evaluate(exact(z), exact(p), exact(np.zeros((4, 8))), problem.poses, problem.points)
+    assert f[0] == pytest.approx(true.astype(complex), rel=1e-15)
 
 
 @pytest.mark.parametrize("seed", [45, 1009])
@@ -226,8 +220,8 @@ def test_the_endgame_knows_limit_winding_number_and_infinity(winding, poles):
 
 def test_a_wrong_solution_is_not_certified():
     p, z = load_generic_solutions(FOUR)
-    assert not certified(FOUR.poses, FOUR.points, z + 0.3, p).any()
-    assert not certified(FOUR.poses, FOUR.points, np.repeat(z[:1], 2, axis=0), p).any()
+    assert not _core.certify(z + 0.3, p, FOUR.poses, FOUR.points).any()
+    assert not _core.certify(np.repeat(z[:1], 2, axis=0), p, FOUR.poses, FOUR.points).any()
 
 
 @pytest.mark.parametrize("problem", [FOUR, GIVEN], ids=lambda p: p.name)

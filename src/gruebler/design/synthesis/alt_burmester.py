@@ -18,14 +18,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.arrays import Complexes, Integers
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis.discs import certified
 from gruebler.design.synthesis.endgame import path_ends
 from gruebler.design.synthesis.results import Progress
 
+ARRIVED = 0
+"""The status of a path that ended at a finite solution."""
 QUICK, CAREFUL = 1e-3, 1e-6
 """How far the corrector may change a prediction: at first, and when paths are followed again."""
+_BLOCK = 8  # paths that one thread follows before another may go on: some 10 ms
 _ASIDE = 1e-7  # from where a solution is looked for again; a task has the size 1, dyads may be a millionth apart
 _REGULAR = 1e-8  # the last relative step of Newton's method at a regular solution; far out rounding leaves so much
 _BENDS = (0.02, 0.1, 0.4)
@@ -99,16 +102,11 @@ class GenericSolutions(NamedTuple):
 @cache
 def load_generic_solutions(problem: Problem) -> GenericSolutions:
     """The stored solutions, sharpened to full precision."""
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import refine_solutions
-    from gruebler._numeric.work_estimates import refining
-
     name = problem.name.replace(" ", "_")
     raw = (files("gruebler.design.synthesis") / "data" / f"{name}.npz").read_bytes()
     with np.load(BytesIO(raw)) as stored:
         p, z = stored["parameters"], stored["solutions"].astype(np.complex128)
-    steps = np.empty(len(z))
-    for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
+    z, steps = _core.refine_solutions(z, p, problem.poses, problem.points)
     if not (steps < 1e-10).all():
         raise SynthesisError("the stored solutions of {name} are damaged", name=problem.name)
     return GenericSolutions(p, z)
@@ -150,18 +148,11 @@ def follow_from_generic(
     progress: Progress | None = None,
 ) -> tuple[Complexes, Integers]:
     """Ends and statuses of all paths; threads share them, the answer does not depend on how many there are."""
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import track
-    from gruebler._numeric.work_estimates import tracking
-
-    kernel = for_work(track, tracking(len(starts)))
     ends, status = np.empty_like(starts), np.empty(len(starts), np.int64)
-    work = np.empty(len(starts), np.int64)
-    size = 32
-    blocks = [slice(k, k + size) for k in range(0, len(starts), size)]
+    blocks = [slice(k, k + _BLOCK) for k in range(0, len(starts), _BLOCK)]
 
     def run(part: slice) -> None:
-        kernel(starts[part], begin, end, problem.poses, problem.points, loose, ends[part], status[part], work[part])
+        ends[part], status[part], _ = _core.track(starts[part], begin, end, problem.poses, problem.points, loose)
 
     workers = max(1, min(threads or os.cpu_count() or 1, len(blocks)))
     done = 0
@@ -183,11 +174,9 @@ def solutions(
     """All solutions of a task whose displacements are of the order of 1.
 
     Paths that fail, and those whose ends coincide, are followed again with fine steps, then to where an endgame says
-    how they end. What is still missing is sought along other ways through the space of tasks. Cost: 1442 paths 1.5 s on
+    how they end. What is still missing is sought along other ways through the space of tasks. Cost: 1442 paths 1 s on
     one core, and some seconds where the endgame is needed.
     """
-    from gruebler._numeric.homotopy import ARRIVED
-
     base = load_generic_solutions(problem)
     ends, status = follow_from_generic(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
     again = (status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)
@@ -198,13 +187,13 @@ def solutions(
     arrived = status == ARRIVED
     lost = ~arrived | _repeated(problem, ends, arrived)
     doubtful = ~lost
-    doubtful[doubtful] = ~certified(problem.poses, problem.points, ends[doubtful], p)
+    doubtful[doubtful] = ~_core.certify(ends[doubtful], p, problem.poses, problem.points)
     if doubtful.any():  # paths end with residuals of double precision
         sharp = ends[doubtful]
         _sharpened(problem, sharp, p)
         same = np.abs(sharp - ends[doubtful]).max(axis=1) < _NEAR
         ends[doubtful] = np.where(same[:, None], sharp, ends[doubtful])
-        doubtful[doubtful] = ~certified(problem.poses, problem.points, ends[doubtful], p)
+        doubtful[doubtful] = ~_core.certify(ends[doubtful], p, problem.poses, problem.points)
     outcome = _outcome(problem, base, p, lost | doubtful, threads)
     # What arrived, though it is not certified, is believed unless the endgame finds others, or branches, at its end.
     near = np.abs(outcome.z - ends[lost | doubtful]).max(axis=1, initial=0.0) < _NEAR
@@ -230,7 +219,7 @@ def solutions(
         _sharpened(problem, more, p)
         regular = _distinct(problem, np.concatenate([regular, more]))
         missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
-    proved = certified(problem.poses, problem.points, regular, p)
+    proved = _core.certify(regular, p, problem.poses, problem.points)
     multiple = _distinct(problem, outcome.multiple)
     return Solutions(
         z=regular,
@@ -283,7 +272,6 @@ def _outcome(
     problem: Problem, base: GenericSolutions, p: Complexes, lost: NDArray[np.bool_], threads: int | None
 ) -> _Outcome:
     """The ends of paths by the endgame."""
-    from gruebler._numeric.homotopy import ARRIVED
 
     def follow(starts: Complexes, begin: Complexes, end: Complexes) -> tuple[Complexes, NDArray[np.bool_]]:
         ends, status = follow_from_generic(problem, starts, begin, end, CAREFUL, threads=threads)
@@ -320,13 +308,7 @@ def _regular(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:
 
 def _sharpened(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:
     """Solutions by Newton's method, in place, and which of them are regular: it converges to the last digits."""
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import refine_solutions
-    from gruebler._numeric.work_estimates import refining
-
-    steps = np.empty(len(z))
-    if len(z):
-        for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
+    z[:], steps = _core.refine_solutions(z, p, problem.poses, problem.points)
     return np.asarray(steps < _REGULAR)
 
 

@@ -9,6 +9,7 @@ from itertools import islice, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.arrays import compared_by_value
 from gruebler.pictures.structure.bodies import LayoutBodies
 from gruebler.pictures.structure.embedding import Rotation, an_embedding, embeddings
@@ -115,34 +116,29 @@ class _Run:
         hubs = range(self.bodies.size, self.bodies.size + len(self.bodies.polygons))
         x = tutte(self.start, hubs)
         if self.crossed.strands:
-            self._relax(x, self._task(bent=True), 2.0, 200)
-        return self._layout(x, 2.0, 120)
+            x = self._relax(x, self._task(bent=True), 2, 200)
+        return self._layout(x, 2, 120)
 
     def polished(self, layout: Layout) -> Layout:
         """The layout with larger smallest distances."""
         x = np.zeros((len(self.start.rotation), 2))
         x[: self.bodies.size] = layout.points * 5.0
-        return min(layout, self._layout(x, 6.0, 300), key=lambda candidate: candidate.rank)
+        return min(layout, self._layout(x, 6, 300), key=lambda candidate: candidate.rank)
 
-    def _layout(self, x: NDArray[np.float64], power: float, rounds: int) -> Layout:
-        from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.layout import closest, crossing_segments
-        from gruebler._numeric.work_estimates import comparing
-
+    def _layout(self, x: NDArray[np.float64], power: int, rounds: int) -> Layout:
         task = self._task(bent=False)
-        self._relax(x, task, power, rounds)
+        x = self._relax(x, task, power, rounds)
         points = x[: self.bodies.size]
         points = points / np.ptp(points, axis=0).max()
         drawn = task.segments[task.pull > 0]
-        crossing = for_work(crossing_segments, comparing(len(drawn) ** 2 // 2))
-        crossings = {(task.owners[i], task.owners[j]) for i, j in crossing(points, drawn)}
+        crossings = {(task.owners[i], task.owners[j]) for i, j in _core.crossing_segments(points, drawn)}
         outlines = self._outlines()
         return Layout(
             points=points,
             outlines=outlines,
             crossings=tuple(sorted({(min(pair), max(pair)) for pair in crossings})),
             covered=_covered(points, outlines),
-            clearance=for_work(closest, comparing(len(task.watched)))(points, task.segments, task.watched),
+            clearance=_core.closest(points, task.segments, task.watched),
             turns=self.start.turns,
             images=tuple(image[: self.bodies.size] for image in self.start.images),
             faces=()
@@ -150,14 +146,10 @@ class _Run:
             else tuple(self._without_hubs(walk) for walk in self.start.inner),
         )
 
-    def _relax(self, x: NDArray[np.float64], task: _Task, power: float, rounds: int) -> None:
-        from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.layout import relax
-        from gruebler._numeric.work_estimates import relaxing
-
+    def _relax(self, x: NDArray[np.float64], task: _Task, power: int, rounds: int) -> NDArray[np.float64]:
         images = np.array(self.start.images, np.int64)
-        lower = for_work(relax, relaxing(len(task.watched), rounds))
-        lower(x, task.segments, task.pull, task.watched, images, self.start.turns, power, rounds)
+        relaxed, _ = _core.relax(x, task.segments, task.pull, task.watched, images, self.start.turns, power, rounds)
+        return relaxed
 
     def _without_hubs(self, walk: tuple[int, ...]) -> tuple[int, ...]:
         return tuple(p for p in walk if p < self.bodies.size)
