@@ -9,7 +9,6 @@ from gruebler._numeric.modular import (
     P,
     echelon,
     left_null_space,
-    left_null_spaces,
     modular_inverse,
     modular_product,
     null_space,
@@ -134,22 +133,6 @@ def test_a_basis_with_too_many_entries_is_not_written_down(monkeypatch):
     assert len(null_space_by_column(echelon(rows, 6))) == 6
     monkeypatch.setattr(modular, "_SPARSE_STEPS", 3)
     assert null_space_by_column(echelon(rows, 6)) is None
-
-
-@given(st.integers(1, 6), st.integers(1, 40), st.integers(0, 2**32))
-@settings(max_examples=40)
-def test_left_null_spaces_side_by_side(height, many, seed):
-    random = np.random.default_rng(seed)
-    widths = random.integers(1, 6, many)
-    stack = [random.integers(0, P, (height, w)) * (random.random((height, w)) < 0.5) for w in widths]
-    stack += [modular_product(m[:, :1], random.integers(0, P, (1, 3))) for m in stack]
-    for found, matrix in zip(left_null_spaces(stack), stack, strict=True):
-        assert np.array_equal(found, left_null_space(matrix))
-
-
-def test_inverses_of_many():
-    values = np.random.default_rng(1).integers(1, P, 1000)
-    assert (modular._inverses(values) * values % P == 1).all()
 
 
 def test_what_is_long_or_large_is_refused_unless_it_is_wanted(monkeypatch):

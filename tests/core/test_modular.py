@@ -1,13 +1,14 @@
-"""Linear algebra modulo a prime in the core: against numpy and whole numbers of Python."""
+"""Linear algebra modulo a prime in the core: against whole numbers of Python."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler._numeric import modular
-from gruebler._numeric.modular import P, echelon, modular_product, null_space, random_solutions, reduced_echelon
+from gruebler._numeric.modular import modular_product
 from tests._numeric.test_prime_field import matrices, plain_rank, sparse
+from tests.core.plain_elimination import P
+from tests.core.plain_elimination import eliminate as plain
 
 ANY = 1e18
 
@@ -27,42 +28,40 @@ def eliminate(core, rows, columns, most=ANY):
 @given(matrices())
 def test_the_same_pivots_and_rows(core, matrix):
     rows, n = sparse(matrix), matrix.shape[1]
-    form = echelon(rows, n)
+    pivots, reduced = plain(rows)
     done, _, _, pivot, start, column, value = eliminate(core, rows, n)
     assert done
     assert len(pivot) == plain_rank(matrix)
-    assert pivot.tolist() == [k for k, _, _ in form.pivots]
-    for k, (_, columns, values) in enumerate(form.pivots):
+    assert pivot.tolist() == pivots
+    for k, row in enumerate(reduced):
         part = slice(start[k], start[k + 1])
         assert (np.diff(column[part]) > 0).all()
-        assert dict(zip(column[part].tolist(), value[part].tolist(), strict=True)) == dict(
-            zip(columns.tolist(), values.tolist(), strict=True)
-        )
+        assert dict(zip(column[part].tolist(), value[part].tolist(), strict=True)) == row
 
 
 @settings(deadline=None)
 @given(matrices())
 def test_solutions(core, matrix):
-    rows, n = sparse(matrix), matrix.shape[1]
-    form = echelon(rows, n)
-    _, _, _, *own = eliminate(core, rows, n)
-    free = sorted(set(range(n)) - set(own[0].tolist()))
-    start = np.full((n, len(free)), -7)
-    start[free] = np.eye(len(free), dtype=np.int64)
-    basis = core.solve_back(*own, start)
-    assert (null_space(form) == basis.T).all()
-    assert not modular_product(matrix, basis).any()
-    if form.rank < n:
-        some = np.random.Generator(np.random.PCG64(n)).integers(1, P, (n, 3), np.int64)
-        assert (core.solve_back(*own, some) == random_solutions(form, 3)).all()
+    """Whatever the free columns are, they stay, and the rows of the matrix vanish."""
+    n = matrix.shape[1]
+    _, _, _, *form = eliminate(core, sparse(matrix), n)
+    free = sorted(set(range(n)) - set(form[0].tolist()))
+    start = np.full((n, len(free) + 1), -7)
+    start[free] = np.random.default_rng(n).integers(0, P, (len(free), len(free) + 1))
+    solutions = core.solve_back(*form, start)
+    assert (solutions[free] == start[free]).all()
+    assert not modular_product(matrix, solutions).any()
 
 
 @settings(deadline=None)
 @given(matrices(20), st.integers(0, 3))
 def test_reduced_rows(core, matrix, turns):
-    shifted = matrix - turns * P
-    assert (core.reduce(shifted) == reduced_echelon(matrix)).all()
-    assert core.reduce(shifted).shape == reduced_echelon(matrix).shape
+    """The reduced form is known by its shape, and spans what the matrix does."""
+    reduced = core.reduce(matrix - turns * P)
+    assert len(reduced) == plain_rank(matrix) == plain_rank(np.vstack([matrix, reduced]))
+    firsts = [np.flatnonzero(row)[0] for row in reduced]
+    assert (np.diff(firsts) > 0).all()
+    assert (reduced[:, firsts] == np.eye(len(reduced))).all()
 
 
 @pytest.mark.parametrize(("m", "n", "rank"), [(230, 250, 230), (260, 260, 131), (110, 300, 97)])
@@ -70,12 +69,13 @@ def test_a_large_core(core, m, n, rank):
     random = np.random.default_rng(m + n)
     left, right = random.integers(0, P, (m, rank)), random.integers(0, P, (rank, n))
     right[:, 3:110] *= random.random(right[:, 3:110].shape) < 0.02
-    rows = sparse(modular_product(left, right))
+    matrix = modular_product(left, right)
+    rows = sparse(matrix)
     done, core_rows, core_columns, pivot, *_ = eliminate(core, rows, n)
     assert done
     assert core_rows <= m
     assert core_columns <= n
-    assert pivot.tolist() == [k for k, _, _ in echelon(rows, n).pivots]
+    assert len(pivot) == plain_rank(matrix)
     for most in ((1e5, ANY), (ANY, 1e3)):
         refused = core.eliminate(*packed(rows), n, *most)
         assert not refused[0]
@@ -136,7 +136,3 @@ def test_nothing(core):
     assert core.solve_back(pivot, start, column, value, np.zeros((0, 3), np.int64)).shape == (0, 3)
     assert core.reduce(np.zeros((0, 4), np.int64)).shape == (0, 4)
     assert core.reduce(np.zeros((4, 0), np.int64)).shape == (0, 0)
-
-
-def test_the_prime_is_the_same():
-    assert modular.P == 2**31 - 1

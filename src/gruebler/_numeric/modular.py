@@ -1,38 +1,31 @@
 """Exact linear algebra over the field of integers modulo P = 2^31 - 1: rank and null space of sparse matrices.
 
 The matrices of mechanisms are sparse and stay so under a good order of elimination, until a dense core is
-left (for chains with many cross-connected loops). The sparse head is eliminated row by row in plain Python
-after Markowitz's rule (a short row, in it a rare column); the core by numpy. Products of two residues stay
-below 2^62.
+left (for chains with many cross-connected loops). The core (`gruebler._core`) eliminates both; sizes are judged here.
 """
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable, Iterator
-from heapq import heapify, heappop, heappush
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gruebler import _core
 
 P = 2**31 - 1
 
 Row = dict[int, int]
 """One sparse row: column -> residue, zeros left out."""
 
-_DENSE_AT = 0.1  # the share of entries from which a dense core is cheaper than dictionaries
-_DENSE_FROM = 40  # ... provided that it has at least so many rows
-_MOST_ENTRIES = 4_000_000  # entries in dictionaries, about 400 MB, from which the core is taken as dense
 _SECONDS = 5e-10  # for each rows * columns * min(rows, columns) of the core
 _LONG = 60.0
 _LARGE = 1e9
-_PANEL = 96  # columns of the core eliminated together; the rest of the core follows by one product
-_STRIPE = 512  # rows of one such product
+_BYTES = 4  # an entry of the core
 _DENSE_BASIS = 16_000_000  # entries of a basis of the null space that is kept as one array: 128 MB
 _SMALL_PRODUCT = 500_000  # multiplications up to which whole numbers are quicker than four products of doubles
-_FEW = 12  # matrices from which elimination side by side is quicker than one after the other
-_FEW_INVERSES = 300
-_CHUNK = 1_000_000  # entries of the matrices that are eliminated side by side
 _SPARSE_STEPS = 20_000_000  # products of entries spent on a larger one: about ten seconds
 
 
@@ -45,16 +38,25 @@ class CoreTooLarge(Exception):
 
 
 class Echelon(NamedTuple):
-    """Pivots in order of elimination: each row knows only its own column, later pivot columns and free ones."""
+    """Rows in order of elimination: each knows only its own pivot column, later pivot columns and free ones."""
 
-    pivots: list[tuple[int, NDArray[np.int64], NDArray[np.int64]]]
-    """(pivot column, other columns, their coefficients after division by the pivot)."""
+    arrays: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]
+    """Pivot columns; where each row starts; other columns; their coefficients after division by the pivot."""
     columns: int
 
     @property
     def rank(self) -> int:
         """The rank of the matrix."""
-        return len(self.pivots)
+        return len(self.arrays[0])
+
+    @property
+    def pivots(self) -> list[tuple[int, NDArray[np.int64], NDArray[np.int64]]]:
+        """(pivot column, other columns, their coefficients) of each row."""
+        pivot, start, column, value = self.arrays
+        ends = start[1:-1]
+        return (
+            list(zip(pivot.tolist(), np.split(column, ends), np.split(value, ends), strict=True)) if len(pivot) else []
+        )
 
 
 def modular_inverse(a: int) -> int:
@@ -87,137 +89,18 @@ def echelon(rows: Iterable[Row], columns: int, *, large: bool = False) -> Echelo
     >>> echelon([{0: 1, 1: 2}, {0: 2, 1: 4}, {1: 1}], 2).rank
     2
     """
-    active = {i: {c: v % P for c, v in row.items() if v % P} for i, row in enumerate(rows)}
-    active = {i: row for i, row in active.items() if row}
-    where: dict[int, set[int]] = {}
-    for i, row in active.items():
-        for c in row:
-            where.setdefault(c, set()).add(i)
-    heap = [(len(row), i) for i, row in active.items()]
-    heapify(heap)
-    entries = sum(len(row) for row in active.values())
-    pivots: list[tuple[int, NDArray[np.int64], NDArray[np.int64]]] = []
-    while heap:
-        size, i = heappop(heap)
-        if i not in active or len(active[i]) != size:
-            continue
-        if len(active) >= _DENSE_FROM and entries > min(_DENSE_AT * len(active) * len(where), _MOST_ENTRIES):
-            if not large:
-                _refuse_too_large(len(active), len(where))
-            pivots += _dense(list(active.values()))
-            break
-        row = active.pop(i)
-        entries -= size
-        for c in row:
-            where[c].discard(i)
-        pivot = min(row, key=lambda c: (len(where[c]), c))
-        scale = modular_inverse(row[pivot])
-        rest = [(c, v * scale % P) for c, v in row.items() if c != pivot]
-        pivots.append((pivot, *_arrays(rest)))
-        for k in where.pop(pivot):
-            target = active[k]
-            before = len(target)
-            entries -= before
-            factor = target.pop(pivot)
-            for c, v in rest:
-                value = (target.get(c, 0) - factor * v) % P
-                if value:
-                    if c not in target:
-                        where[c].add(k)
-                    target[c] = value
-                elif c in target:
-                    del target[c]
-                    where[c].discard(k)
-            if target:
-                entries += len(target)
-                if len(target) != before:
-                    heappush(heap, (len(target), k))
-            else:
-                del active[k]
-        for c, _ in rest:
-            if not where[c]:
-                del where[c]
-    return Echelon(pivots, columns)
-
-
-def _refuse_too_large(rows: int, columns: int) -> None:
-    seconds = _SECONDS * rows * columns * min(rows, columns)
-    size = 16 * rows * columns + 64 * _STRIPE * columns  # the matrix and its result; the parts of a product
-    if seconds > _LONG or size > _LARGE:
-        raise CoreTooLarge(rows, seconds, size)
-
-
-def _arrays(items: list[tuple[int, int]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    return np.array([c for c, _ in items], np.int64), np.array([v for _, v in items], np.int64)
-
-
-def _dense(rows: list[Row]) -> list[tuple[int, NDArray[np.int64], NDArray[np.int64]]]:
-    """Eliminate the core: columns in ascending order, a panel of them at a time, the rest by exact products."""
-    columns = np.array(sorted({c for row in rows for c in row}), np.int64)
-    place = {int(c): k for k, c in enumerate(columns)}
-    matrix = np.zeros((len(rows), len(columns)), np.int64)
-    for i, row in enumerate(rows):
-        matrix[i, [place[c] for c in row]] = list(row.values())
-    pivots: list[int] = []
-    for left in range(0, len(columns), _PANEL):
-        top = len(pivots)
-        if top == len(rows):
-            break
-        right = min(left + _PANEL, len(columns))
-        new_pivots, factors = _panel(matrix, top, left, right)
-        pivots += new_pivots
-        done = top + len(new_pivots)
-        if not new_pivots or right == len(columns):
-            continue
-        # The rows of the panel's pivots, then the rows below: A12 = L11^-1 A12, A22 -= L21 A12.
-        within = _inverse_of_unit_lower(factors[: len(new_pivots)])
-        matrix[top:done, right:] = modular_product(within, matrix[top:done, right:])
-        for start in range(done, len(rows), _STRIPE):
-            stripe = slice(start, start + _STRIPE)
-            less = modular_product(factors[start - top : start - top + _STRIPE], matrix[top:done, right:])
-            matrix[stripe, right:] = (matrix[stripe, right:] - less) % P
-    reduced = []
-    for top, k in enumerate(pivots):
-        others = k + 1 + np.flatnonzero(matrix[top, k + 1 :])
-        scale = modular_inverse(int(matrix[top, k]))
-        reduced.append((int(columns[k]), columns[others], matrix[top, others] * scale % P))
-    return reduced
-
-
-def _panel(matrix: NDArray[np.int64], top: int, left: int, right: int) -> tuple[list[int], NDArray[np.int64]]:
-    """Eliminate within the columns from left to right: the pivot columns, and for each row from top its factors.
-
-    Rows of the whole matrix change places; the factors say how often each pivot row is to be taken from a row.
-    """
-    work = matrix[top:, left:right].copy()
-    factors = np.zeros_like(work)
-    pivots: list[int] = []
-    for k in range(right - left):
-        done = len(pivots)
-        nonzero = np.flatnonzero(work[done:, k])
-        if len(nonzero) == 0:
-            continue
-        if nonzero[0]:
-            swap, back = [done, done + nonzero[0]], [done + nonzero[0], done]
-            work[swap], factors[swap] = work[back], factors[back]
-            matrix[[top + i for i in swap]] = matrix[[top + i for i in back]]
-        below = done + 1 + np.flatnonzero(work[done + 1 :, k])
-        factor = work[below, k] * modular_inverse(int(work[done, k])) % P
-        factors[below, done] = factor
-        work[below, k:] = (work[below, k:] - factor[:, None] * work[done, k:]) % P
-        pivots.append(left + k)
-        if top + len(pivots) == len(matrix):
-            break
-    matrix[top:, left:right] = work
-    return pivots, factors[:, : len(pivots)]
-
-
-def _inverse_of_unit_lower(factors: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The inverse of the lower triangular matrix with ones on the diagonal and these factors below it."""
-    inverse = np.eye(len(factors), dtype=np.int64)
-    for i in range(1, len(factors)):
-        inverse[i, :i] = -modular_product(factors[i : i + 1, :i], inverse[:i, :i])[0] % P
-    return inverse
+    start, column, value = array("q", [0]), array("q"), array("q")
+    for row in rows:
+        column.extend(row)
+        value.extend(row.values())
+        start.append(len(column))
+    most = (np.inf, np.inf) if large else (_LONG / _SECONDS, _LARGE / _BYTES)
+    packed = np.array(start, np.int64), np.array(column, np.int64), np.array(value, np.int64)
+    done, core_rows, core_columns, *form = _core.eliminate(*packed, columns, *most)
+    if not done:
+        area = core_rows * core_columns
+        raise CoreTooLarge(core_rows, _SECONDS * area * min(core_rows, core_columns), _BYTES * area)
+    return Echelon((form[0], form[1], form[2], form[3]), columns)
 
 
 def random_solutions(form: Echelon, number: int) -> NDArray[np.int64]:
@@ -231,12 +114,7 @@ def random_solutions(form: Echelon, number: int) -> NDArray[np.int64]:
     """
     random = np.random.Generator(np.random.PCG64(form.columns))
     solution = random.integers(1, P, (form.columns, number), np.int64)
-    if form.rank == form.columns:
-        solution[:] = 0
-    else:
-        for pivot, columns, values in reversed(form.pivots):
-            solution[pivot] = -(values[:, None] * solution[columns] % P).sum(axis=0) % P
-    return solution
+    return np.zeros_like(solution) if form.rank == form.columns else _core.solve_back(*form.arrays, solution)
 
 
 Support = tuple[NDArray[np.int64], NDArray[np.int64]]
@@ -281,7 +159,7 @@ def null_space_by_column(form: Echelon) -> dict[int, Support] | None:
         entries = {k: x for k, x in sorted(entries.items()) if x}
         if entries:
             sparse[pivot] = entries
-            entries_by_column[pivot] = _arrays(list(entries.items()))
+            entries_by_column[pivot] = np.array(list(entries), np.int64), np.array(list(entries.values()), np.int64)
     return entries_by_column
 
 
@@ -291,120 +169,33 @@ def null_space(form: Echelon) -> NDArray[np.int64]:
     Each basis vector has a 1 in a free column of its own and a 0 in the others, so the basis is of the form [I | D]
     up to the order of columns. Cost: dimension times the entries of the echelon form.
 
-    >>> null_space(echelon([{0: 1, 1: P - 1}], 2))
-    array([[1, 1]])
+    >>> null_space(echelon([{0: 1, 1: P - 1}], 2)).tolist()
+    [[1, 1]]
     """
-    taken = {pivot for pivot, _, _ in form.pivots}
-    free = [c for c in range(form.columns) if c not in taken]
+    free = np.setdiff1d(np.arange(form.columns), form.arrays[0])
     solution = np.zeros((form.columns, len(free)), np.int64)
-    for k, c in enumerate(free):
-        solution[c, k] = 1
-    if free:
-        for pivot, columns, values in reversed(form.pivots):
-            if len(columns):
-                solution[pivot] = -(values[:, None] * solution[columns] % P).sum(axis=0) % P
-    return solution.T
+    solution[free, np.arange(len(free))] = 1
+    return _core.solve_back(*form.arrays, solution).T
 
 
 def reduced_echelon(matrix: NDArray[np.int64]) -> NDArray[np.int64]:
     """The reduced row echelon form of a small dense matrix without its zero rows: equal for equal row spaces.
 
-    >>> reduced_echelon(np.array([[2, 4], [1, 2]]))
-    array([[1, 2]])
+    >>> reduced_echelon(np.array([[2, 4], [1, 2]])).tolist()
+    [[1, 2]]
     """
-    work = matrix % P
-    top = 0
-    for k in range(work.shape[1]):
-        if top == len(work):
-            break
-        nonzero = work[top:, k].nonzero()[0]
-        if len(nonzero) == 0:
-            continue
-        if nonzero[0]:
-            work[[top, top + nonzero[0]]] = work[[top + nonzero[0], top]]
-        work[top] = work[top] * modular_inverse(int(work[top, k])) % P
-        others = work[:, k].nonzero()[0]
-        others = others[others != top]
-        if len(others):
-            work[others] = (work[others] - work[others, k, None] * work[top]) % P
-        top += 1
-    return work[:top]
+    return _core.reduce(np.ascontiguousarray(matrix))
 
 
 def left_null_space(matrix: NDArray[np.int64]) -> NDArray[np.int64]:
     """The basis of all y with y A = 0 for a small dense A, as the rows of an array in reduced echelon form.
 
-    >>> left_null_space(np.array([[1, 2], [2, 4]]))
-    array([[         1, 1073741823]])
+    >>> left_null_space(np.array([[1, 2], [2, 4]])).tolist()
+    [[1, 1073741823]]
     """
     width = matrix.shape[1]
-    both = reduced_echelon(np.hstack([matrix, np.eye(len(matrix), dtype=np.int64)]))
+    both = _core.reduce(np.hstack([matrix, np.eye(len(matrix), dtype=np.int64)]))
     return both[~both[:, :width].any(axis=1), width:]
-
-
-def left_null_spaces(matrices: list[NDArray[np.int64]]) -> list[NDArray[np.int64]]:
-    """`left_null_space` of many matrices with the same number of rows, eliminated side by side.
-
-    >>> [len(kernel) for kernel in left_null_spaces([np.array([[1], [2]]), np.array([[0, 0], [0, 0]])])]
-    [1, 2]
-    """
-    bases: list[NDArray[np.int64]] = [np.zeros((0, 0), np.int64)] * len(matrices)
-    by_width: dict[int, list[int]] = {}
-    for k, matrix in enumerate(matrices):
-        # Columns of zeros change no kernel, and so widths that are nearly equal go together.
-        by_width.setdefault(1 << (matrix.shape[1] - 1).bit_length(), []).append(k)
-    for width, members in by_width.items():
-        height = len(matrices[members[0]])
-        chunk = max(1, _CHUNK // (height * (width + height)))
-        if min(len(members), chunk) < _FEW:
-            for k in members:
-                bases[k] = left_null_space(matrices[k])
-            continue
-        for start in range(0, len(members), chunk):
-            some = members[start : start + chunk]
-            both = np.zeros((len(some), height, width + height), np.int64)
-            for matrix, k in zip(both, some, strict=True):
-                matrix[:, : matrices[k].shape[1]] = matrices[k]
-            both[:, :, width:] = np.eye(height, dtype=np.int64)
-            _reduce_side_by_side(both)
-            kernels: NDArray[np.bool_] = ~np.any(both[:, :, :width], axis=2)
-            for k, whole, rows in zip(some, both, kernels, strict=True):
-                bases[k] = whole[rows, width:]
-    return bases
-
-
-def _reduce_side_by_side(stack: NDArray[np.int64]) -> None:
-    """Bring each matrix of a stack to reduced row echelon form."""
-    many, height, width = stack.shape
-    everyone, numbers = np.arange(many), np.arange(height)
-    top = np.zeros(many, np.int64)
-    for k in range(width):
-        candidates = (stack[:, :, k] != 0) & (numbers >= top[:, None])
-        has = candidates.any(axis=1)
-        if not has.any():
-            continue
-        who, row = everyone[has], candidates.argmax(axis=1)[has]
-        at = top[has]
-        pivots = stack[who, row]
-        stack[who, row] = stack[who, at]
-        pivots = pivots * _inverses(pivots[:, k])[:, None] % P
-        factors = stack[who, :, k]
-        factors[np.arange(len(who)), at] = 0
-        stack[who] = (stack[who] - factors[:, :, None] * pivots[:, None, :] % P) % P
-        stack[who, at] = pivots
-        top[has] += 1
-
-
-def _inverses(values: NDArray[np.int64]) -> NDArray[np.int64]:
-    """1/a modulo P for each entry, by Fermat's little theorem: P - 2 has ones in all its 31 bits but the second."""
-    if len(values) < _FEW_INVERSES:
-        return np.array([modular_inverse(value) for value in values.tolist()], np.int64)
-    inverses = np.ones_like(values)
-    for bit in range(30, -1, -1):
-        inverses = inverses * inverses % P
-        if P - 2 >> bit & 1:
-            inverses = inverses * values % P
-    return inverses
 
 
 def modular_product(a: NDArray[np.int64], b: NDArray[np.int64]) -> NDArray[np.int64]:

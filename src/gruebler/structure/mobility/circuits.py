@@ -24,7 +24,6 @@ from gruebler._numeric.modular import (
     Support,
     echelon,
     left_null_space,
-    left_null_spaces,
     modular_product,
     null_space_by_column,
     reduced_echelon,
@@ -214,7 +213,7 @@ class _StressedPart:
         """The non-zero subspaces, each once, that leave one class of links unloaded."""
         subspaces = {}
         if len(space) > 1:
-            for kernel in left_null_spaces([modular_product(space, load) for load in self.classes.values()]):
+            for kernel in map(left_null_space, [modular_product(space, load) for load in self.classes.values()]):
                 if 0 < len(kernel) < len(space):
                     smaller = reduced_echelon(modular_product(kernel, space))
                     subspaces[smaller.tobytes()] = smaller
@@ -241,7 +240,7 @@ class _StressedPart:
 def _by_kernel(loads: dict[int, list[Matrix]]) -> tuple[dict[int, bytes], dict[bytes, Matrix]]:
     """For each number, in order, the key of the stresses that do not load it; for each key one load that has it."""
     whole = {number: np.hstack(some) for number, some in sorted(loads.items())}
-    kernels = left_null_spaces(list(whole.values()))
+    kernels = [left_null_space(load) for load in whole.values()]
     keys = {number: kernel.tobytes() for number, kernel in zip(whole, kernels, strict=True)}
     return keys, {keys[number]: load for number, load in whole.items()}
 
