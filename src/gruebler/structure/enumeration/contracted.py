@@ -202,7 +202,7 @@ def _grown(loops: int) -> Iterator[Packed]:
         while k < len(parents):
             children, k = _core.add_loop(parents, loops - 1, k, _BLOCK)
             if len(children):
-                yield children
+                yield children.view(np.int64)  # a `long long` of C; numpy would print it otherwise once sent
 
 
 def contracted_graphs(loops: int) -> Iterator[ContractedGraph]:
