@@ -60,6 +60,7 @@ void add_atlas(nb::module_& module);
 void add_counting(nb::module_& module);
 void add_labelling(nb::module_& module);
 void add_layout(nb::module_& module);
+void add_motion(nb::module_& module);
 void add_structure(nb::module_& module);
 
 }  // namespace gruebler::doors

@@ -21,6 +21,59 @@ def canonical_form(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]: ...
 def canonical_bulk(n: int, edges: NDArray[np.int32], bounds: NDArray[np.int64]) -> NDArray[np.int32]: ...
 
+# motion: a tuple holds the fields that are named
+def run_path(
+    program: tuple[object, ...],
+    path: NDArray[np.float64],
+    speeds: NDArray[np.float64],
+    signs: NDArray[np.float64],
+    start: NDArray[np.float64],
+    poses: tuple[object, ...],
+    *,
+    level: str = "",
+) -> tuple[int, int, float, int]: ...
+def run_designs(
+    program: tuple[object, ...],
+    designs: tuple[object, ...],
+    path: NDArray[np.float64],
+    speeds: NDArray[np.float64],
+    kept: NDArray[np.int64],
+    poses: tuple[object, ...],
+    part: tuple[int, int],
+    *,
+    level: str = "",
+) -> None: ...
+def closing(
+    conditions: tuple[object, ...],
+    x: NDArray[np.float64],
+    residual: NDArray[np.float64],
+    jacobian: NDArray[np.float64],
+) -> float: ...
+def newton(conditions: tuple[object, ...], x: NDArray[np.float64], steps: int) -> tuple[int, float]: ...
+def close_near_singular(conditions: tuple[object, ...], x: NDArray[np.float64]) -> None: ...
+def jacobian(
+    conditions: tuple[object, ...], x: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+def settle_on_curve(
+    conditions: tuple[object, ...], x: NDArray[np.float64], tangent: NDArray[np.float64]
+) -> tuple[bool, float, float, int, NDArray[np.int64]]: ...
+def trace_curve(
+    conditions: tuple[object, ...],
+    samples: tuple[object, ...],
+    count: int,
+    step: float,
+    longest: float,
+    most: float,
+) -> tuple[int, int, float]: ...
+def evaluate_pose(
+    conditions: tuple[object, ...],
+    samples: tuple[object, ...],
+    at: NDArray[np.float64],
+    segments: NDArray[np.int64],
+    poses: NDArray[np.float64],
+    tangents: NDArray[np.float64],
+) -> int: ...
+
 # structure
 class MultipleJoints:
     def __init__(self, links: int, simple: NDArray[np.int64], fewest: int, most: int, largest: int) -> None: ...

@@ -26,3 +26,7 @@ inline namespace GRUEBLER_LEVEL {}
 namespace gruebler::algebra {
 inline namespace GRUEBLER_LEVEL {}
 }  // namespace gruebler::algebra
+
+namespace gruebler::motion {
+inline namespace GRUEBLER_LEVEL {}
+}  // namespace gruebler::motion

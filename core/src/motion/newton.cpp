@@ -1,0 +1,109 @@
+#include "motion/newton.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace gruebler::motion {
+namespace {
+
+constexpr double arrived = 1e-9;   // of the size: the step behind one so small is below rounding, since each squares the error
+constexpr double closed = 1e-14;   // of the size: an equation that misses by less, some ten roundings, is satisfied
+constexpr double astray = 10;      // sizes: a step that long leads away from every position
+constexpr double finite = 1e300;   // a residual that is larger, or NaN, comes of an overflow
+constexpr double damping = 1e-12;  // of the sum of squares of the Jacobian: holds directions with a singular value below 1e-6
+constexpr int damped_steps = 4;    // each squares the error, from that of an extrapolation (some 1e-2) down to rounding
+
+// Angles are compared with lengths by the size.
+double scale_of(int unknown, double size) { return unknown % 3 == 2 ? size : 1.0; }
+
+}  // namespace
+
+double factor(double* matrix, int n, int* pivots) {
+    double determinant = 1;
+    for (int k = 0; k < n; ++k) {
+        double* pivot_row = matrix + k * n;
+        int best = k;
+        for (int i = k + 1; i < n; ++i)
+            if (std::fabs(matrix[i * n + k]) > std::fabs(matrix[best * n + k])) best = i;
+        pivots[k] = best;
+        if (best != k) {
+            determinant = -determinant;
+            for (int m = 0; m < n; ++m) std::swap(pivot_row[m], matrix[best * n + m]);
+        }
+        const double pivot = pivot_row[k];
+        determinant *= pivot;
+        if (pivot == 0) return 0;
+        for (int i = k + 1; i < n; ++i) {
+            double* row = matrix + i * n;
+            if (row[k] == 0) continue;
+            const double share = row[k] / pivot;
+            row[k] = share;
+            for (int m = k + 1; m < n; ++m) row[m] -= share * pivot_row[m];
+        }
+    }
+    return determinant;
+}
+
+void solve_factored(const double* matrix, int n, const int* pivots, double* target) {
+    for (int k = 0; k < n; ++k)
+        if (pivots[k] != k) std::swap(target[k], target[pivots[k]]);
+    for (int k = 0; k < n; ++k)
+        for (int i = k + 1; i < n; ++i) target[i] -= matrix[i * n + k] * target[k];
+    for (int k = n - 1; k >= 0; --k) {
+        for (int m = k + 1; m < n; ++m) target[k] -= matrix[k * n + m] * target[m];
+        target[k] /= matrix[k * n + k];
+    }
+}
+
+NewtonEnd newton(const Conditions& conditions, double* x, int n, int steps, LinearRoom& room) {
+    double *residual = room.residual.data(), *jacobian = room.jacobian.data();
+    const double size = conditions.size;
+    for (int step = 0; step < steps; ++step) {
+        const double miss = closing(conditions, x, n, residual, jacobian);
+        if (!(miss < finite)) return {-1, 0};
+        const double determinant = factor(jacobian, n, room.pivots.data());
+        if (determinant == 0) return {miss < closed * size ? step : -1, 0};
+        solve_factored(jacobian, n, room.pivots.data(), residual);
+        double moved = 0;
+        for (int k = 0; k < n; ++k) {
+            const double way = std::fabs(residual[k]) * scale_of(k, size);
+            if (!(way <= moved)) moved = way;  // so that NaN wins
+        }
+        if (!(moved < astray * size)) return {-1, 0};
+        for (int k = 0; k < n; ++k) x[k] -= residual[k];
+        if (moved < arrived * size) return {step + 1, determinant};
+    }
+    return {-1, 0};
+}
+
+void close_near_singular(const Conditions& conditions, double* x, int n, LinearRoom& room) {
+    double *residual = room.residual.data(), *jacobian = room.jacobian.data(), *normal = room.normal.data();
+    const double size = conditions.size;
+    for (int step = 0; step < damped_steps; ++step) {
+        closing(conditions, x, n, residual, jacobian);
+        double trace = 0;
+        for (int i = 0; i < n; ++i) {
+            if (i % 3 == 2)
+                for (int k = 0; k < n; ++k) jacobian[k * n + i] /= size;
+            for (int k = 0; k < n; ++k) trace += square(jacobian[k * n + i]);
+        }
+        for (int i = 0; i < n; ++i) {
+            for (int m = 0; m < n; ++m) {
+                double sum = i == m ? damping * trace : 0.0;
+                for (int k = 0; k < n; ++k) sum += jacobian[k * n + i] * jacobian[k * n + m];
+                normal[i * n + m] = sum;
+            }
+        }
+        double* gradient = jacobian;  // its first row: column i is read before it is written
+        for (int i = 0; i < n; ++i) {
+            double sum = jacobian[i] * residual[0];
+            for (int k = 1; k < n; ++k) sum += jacobian[k * n + i] * residual[k];
+            gradient[i] = sum;
+        }
+        factor(normal, n, room.pivots.data());
+        solve_factored(normal, n, room.pivots.data(), gradient);
+        for (int i = 0; i < n; ++i) x[i] -= gradient[i] / scale_of(i, size);
+    }
+}
+
+}  // namespace gruebler::motion
