@@ -100,7 +100,7 @@ def test_a_wrong_name_is_seen():
         ("dead centre of a four-bar", "`FourBar.dead_centres`"),
         ("file format", "`FORMATS`"),
         ("message for a joint", "`Chain.joint_number`"),
-        ("RRR dyad", "`_numeric/motion/dyads.py`"),
+        ("RRR dyad", "`core/src/motion/dyads.cpp`"),
         ('German for "dead centre"', "`base/locale/de/LC_MESSAGES/gruebler.po`"),
     ],
 )

@@ -1,5 +1,5 @@
 /** Closing conditions of joints between bodies: residual, Jacobian, derivatives; Newton's method on them.
- * The same formulas as in `gruebler._numeric.motion`: closure, closure_rates, newton. Orders up to 2. */
+ * The same formulas as in `core/src/motion`: closure, closure_rates, newton. Orders up to 2. */
 
 import { Kind, type Program } from "./program";
 

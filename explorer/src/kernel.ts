@@ -1,7 +1,7 @@
 /** A linkage moved along a path of its drives: every group after the other, every step checked for continuity.
  *
  * The interpreter of the solving plan that Python flattens (`gruebler.page.model`), with the rules of
- * `gruebler._numeric.motion`: placing, dyads, path. A step is halved until what is found is near what was foretold, so
+ * `core/src/motion`: placing, dyads, path. A step is halved until what is found is near what was foretold, so
  * that nothing jumps from one assembly mode to another; docs/theory/kinematics.md has the theorems. */
 
 import {

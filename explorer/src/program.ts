@@ -1,5 +1,5 @@
 /** What the kernel gets from Python: the flattened solving plan of a linkage. The codes are those of
- * `gruebler._numeric.motion.program` and `closure`; complex arrays are given as real and imaginary parts in turn. */
+ * `gruebler.mechanics.kinematics.kernel_records`; complex arrays are given as real and imaginary parts in turn. */
 
 export const enum Code {
   TURN,

@@ -1,4 +1,4 @@
-"""Derivatives of turned vectors: against power series and against the compiled kernel."""
+"""Derivatives of turned vectors: against power series and against plain complex numbers."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler._numeric.motion.planar_jets import rotated_derivative
 from gruebler.base.jets import turn_derivative, turned_derivative
+from tests.core.plain.planar_jets import rotated_derivative
 
 number = st.floats(-5, 5)
 rates = st.tuples(number, number, number)
@@ -37,7 +37,7 @@ def test_a_turned_vector_is_the_product_of_two_series(spins, vector, order):
 
 
 @given(rates, vectors, st.integers(0, 3))
-def test_the_compiled_kernel_has_the_same_formulas(spins, vector, order):
+def test_plain_complex_numbers_give_the_same(spins, vector, order):
     scale = 1 + sum(map(abs, vector)) * (1 + sum(map(abs, spins))) ** 3
     kernel = rotated_derivative(order, 1 + 0j, *spins, *vector)
     assert abs(turned_derivative(spins, vector, order) - kernel) < 1e-13 * scale

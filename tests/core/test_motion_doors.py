@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import gruebler as gr
-from gruebler._numeric.motion import path
-from gruebler._numeric.motion.closure import Conditions
+from gruebler import _core
 from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.kinematics.kernel_records import Conditions
 from tests.samples import CLASS_III
 
 ROWS = 12
@@ -18,8 +18,8 @@ def call_of(linkage):
     """The arguments of a short motion."""
     calls = []
     with pytest.MonkeyPatch.context() as patch:
-        kernel = path.run_path
-        patch.setattr(path, "run_path", lambda *arguments: calls.append(arguments) or kernel(*arguments))
+        kernel = _core.run_path
+        patch.setattr(_core, "run_path", lambda *arguments: calls.append(arguments) or kernel(*arguments))
         gr.move(linkage, np.linspace(0.8, 1.0, ROWS), speed=1.0)
     return [np.ascontiguousarray(a) if isinstance(a, np.ndarray) else a for a in calls[0]]
 

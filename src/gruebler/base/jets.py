@@ -1,6 +1,6 @@
 """Derivatives of turned vectors in the plane, written with complex numbers: of e^{i phi} b, for NumPy arrays.
 
-The compiled kernels have the same formulas in `_numeric.motion.planar_jets`.
+The kernels have the same formulas in `core/src/motion/jets.hpp`.
 """
 
 from __future__ import annotations

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.motion.program import RPR, RRP, RRR
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import joined
+from gruebler.mechanics.kinematics.kernel_records import RPR, RRP, RRR
 from gruebler.mechanics.kinematics.plan import Plan, plan
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain import Chain
@@ -26,7 +26,7 @@ from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.structure.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from gruebler._numeric.motion.program import Program
+    from gruebler.mechanics.kinematics.kernel_records import Program
 
 _DRAWN = [p for p in PAIRS if Space.PLANAR in p.freedoms and p.lower_pairs]
 

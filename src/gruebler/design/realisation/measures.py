@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gruebler._numeric.motion.closure import PIN
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.mechanics.kinematics.contacts import Condition
+from gruebler.mechanics.kinematics.kernel_records import PIN
 from gruebler.mechanics.kinematics.plan import Plan
 
 if TYPE_CHECKING:
-    from gruebler._numeric.motion.program import Program
+    from gruebler.mechanics.kinematics.kernel_records import Program
 
 _ARM = 0.3  # the length by which angles are multiplied, in parts of the size
 _SCALE = 2.0  # a larger group: singular value to sine

@@ -15,7 +15,6 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler._numeric.motion.closure import MESH, POLAR
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief, explained
@@ -25,6 +24,7 @@ from gruebler.mechanics.kinematics.change_point_rows import set_change_point_row
 from gruebler.mechanics.kinematics.contacts import Condition
 from gruebler.mechanics.kinematics.drive_rows import drive_path
 from gruebler.mechanics.kinematics.kernel_calls import follow_path
+from gruebler.mechanics.kinematics.kernel_records import MESH, POLAR
 from gruebler.mechanics.kinematics.motion import Motion, Stop
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose, pose_at_reference

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from numbers import Integral, Number
 from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.motion.closure import PIN, SLIDE
+from gruebler import _core
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import LinkageError
+from gruebler.mechanics.kinematics.kernel_records import PIN, SLIDE, Conditions
 
 Row = tuple[int, int, int, complex, complex, complex, complex]
 Method = Literal["exact", "degenerate", "search"]
@@ -162,11 +162,6 @@ class GroupSolver:
     """Newton's method on the conditions of one group, with its working arrays. Poses are flat: x, y, angle, x, ..."""
 
     def __init__(self, group: GroupConditions) -> None:
-        from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.closure import Conditions, closing
-        from gruebler._numeric.motion.newton import new_newton_scratch, newton
-        from gruebler._numeric.work_estimates import closing_work, newton_work
-
         self.size, n = group.size, 3 * group.bodies
         self._group = group
         self._conditions = Conditions(
@@ -179,10 +174,7 @@ class GroupSolver:
             spins=np.zeros((0, 3)),
             size=group.size,
         )
-        self._scratch = new_newton_scratch(n)
-        self._residual, self._jacobian = self._scratch.residual, self._scratch.jacobian
-        self._closing = partial(for_work, closing, closing_work(n))
-        self._newton = partial(for_work, newton, newton_work(n))
+        self._residual, self._jacobian = np.zeros(n), np.zeros((n, n))
         self._widest = max(self.size, float(np.abs(group.points).max()))
         self._leaders, self._offsets = _parallel_bodies(group)
 
@@ -193,7 +185,7 @@ class GroupSolver:
 
     def settle(self, pose: Reals) -> bool:
         """Improve a pose, in place, by Newton's method; whether it then satisfies the conditions."""
-        self._newton()(self._conditions, pose, _STEPS, self._scratch)
+        _core.newton(self._conditions, pose, _STEPS)
         return self._is_closed(pose)
 
     def settle_singular(self, pose: Reals) -> bool:
@@ -204,7 +196,7 @@ class GroupSolver:
         return self._is_closed(pose)
 
     def _is_closed(self, pose: Reals) -> bool:
-        gap = self._closing()(self._conditions, pose, self._residual, self._jacobian)
+        gap = _core.closing(self._conditions, pose, self._residual, self._jacobian)
         if not gap <= _CLOSED * max(self._widest, _farthest(pose)):
             return False
         turns = np.exp(1j * np.append(pose[2::3], 0.0))
@@ -244,7 +236,7 @@ class GroupSolver:
 
     def _slope(self, pose: Reals) -> tuple[Reals, Reals]:
         """The Jacobian, without unit, and the units of the pose; the residual is left behind."""
-        self._closing()(self._conditions, pose, self._residual, self._jacobian)
+        _core.closing(self._conditions, pose, self._residual, self._jacobian)
         reach = max(self.size, _farthest(pose))
         unit = np.tile([reach, reach, 1.0], len(pose) // 3)
         return self._jacobian * (unit / self.size), unit

@@ -8,11 +8,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler import _core
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
@@ -22,14 +22,12 @@ from gruebler.base.text import translate
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.branches import Unassembled, read_branch, starting_state
 from gruebler.mechanics.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
+from gruebler.mechanics.kinematics.kernel_records import DesignInputs, DesignPoses
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly, starting_configuration
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.branch import Branch, branch_labels
-
-if TYPE_CHECKING:
-    from gruebler._numeric.motion.batch import DesignPoses
 
 
 @compared_by_value
@@ -303,8 +301,6 @@ def move_many(
     Theory:
         docs/theory/kinematics.md
     """
-    from gruebler._numeric.motion.batch import DesignPoses
-
     batch = many if isinstance(many, Designs) else designs(many)
     plan, count = batch.plan, len(batch)
     path = drive_path(plan, drives)
@@ -370,17 +366,20 @@ def _run(
     poses: DesignPoses,
     threads: int | None,
 ) -> None:
-    from gruebler._numeric.motion.batch import DesignInputs, run_designs
-
     program = designs.plan.program
     longest = designs.sizes[:, None] / program.size * program.most
     turning = [d.turning for d in designs.plan.lower.mechanism.drives]
     longest[:, turning] = program.most[turning]
 
-    inputs = DesignInputs(designs.points, designs.lines, longest, designs.sizes, *starts)
+    points, lines = np.ascontiguousarray(designs.points), np.ascontiguousarray(designs.lines)
+    reals = (longest, designs.sizes, *starts, path, speeds)
+    longest, sizes, signs, unknowns, path, speeds = (np.ascontiguousarray(array) for array in reals)
+    inputs = DesignInputs(points, lines, longest, sizes, signs, unknowns)
     workers = max(1, min(threads or os.cpu_count() or 1, len(designs)))
     cuts = [len(designs) * k // workers for k in range(workers + 1)]
     with ThreadPoolExecutor(workers) as pool:
-        jobs = [pool.submit(run_designs, program, inputs, path, speeds, kept, poses, part) for part in pairwise(cuts)]
+        jobs = [
+            pool.submit(_core.run_designs, program, inputs, path, speeds, kept, poses, part) for part in pairwise(cuts)
+        ]
     for job in jobs:
         job.result()

@@ -14,10 +14,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.motion.program import GROUP
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, joined, message
+from gruebler.mechanics.kinematics.kernel_records import GROUP
 from gruebler.mechanics.kinematics.plan import Dyad, HigherGroup, Plan
 from gruebler.mechanics.linkages.branch import Branch, branch_labels, branch_text
 from gruebler.structure.chain.pairs import in_alphabets

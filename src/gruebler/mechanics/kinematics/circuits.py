@@ -15,6 +15,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler import _core
 from gruebler.base.angles import warn_of_degrees
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
@@ -29,6 +30,7 @@ from gruebler.mechanics.kinematics.configuration_curve import (
     nearest_on_curve,
     trace_circuit,
 )
+from gruebler.mechanics.kinematics.kernel_records import SampleBuffer
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.kinematics.poses import Poses
 from gruebler.mechanics.kinematics.root_finding import FunctionSamples, find_zeros
@@ -111,10 +113,6 @@ class Circuit:
 
         Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
         """
-        from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.tracing import SampleBuffer, evaluate_pose
-        from gruebler._numeric.work_estimates import sampling
-
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
             raise LinkageError("expected finite positions on the circuit, but found {arcs!r}", arcs=arcs)
@@ -134,10 +132,7 @@ class Circuit:
         if len(between):
             curve, n = SampleBuffer(traced.arcs, traced.poses, traced.tangents, np.zeros(0)), self.system.unknowns
             near, slopes = np.empty((2, len(between), n))
-            evaluated = for_work(evaluate_pose, sampling(n, len(between)))
-            count = evaluated(
-                self.system.conditions, curve, place[between], segments[between], near, slopes, self.system.room
-            )
+            count = _core.evaluate_pose(self.system.conditions, curve, place[between], segments[between], near, slopes)
             if count < len(between):
                 where = place[between[count]]
                 raise LinkageError(

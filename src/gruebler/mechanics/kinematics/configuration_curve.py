@@ -9,23 +9,37 @@ from cmath import phase, rect
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.motion.closure import MESH, POLAR, RACK, RIDE
+from gruebler import _core
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contacts import contact_conditions, law_tables
 from gruebler.mechanics.kinematics.contours import PiecewiseLaw
+from gruebler.mechanics.kinematics.kernel_records import (
+    CLOSED,
+    EQUATIONS,
+    FLIP,
+    FULL,
+    LONG,
+    MESH,
+    PIN,
+    POLAR,
+    RACK,
+    RIDE,
+    SHORTEST,
+    SLIDE,
+    TRAIN,
+    TRAVEL,
+    Conditions,
+    SampleBuffer,
+)
 from gruebler.mechanics.linkages import Element, Linkage, Pose2D
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.linkages.wheels import carriers, round_joints
-
-if TYPE_CHECKING:
-    from gruebler._numeric.motion.closure import Conditions
-    from gruebler._numeric.motion.tracing import SampleBuffer, TraceScratch
 
 _SHORT = 0.02  # a change point is passed by a step of at most this length
 _EXACT = 1e-12  # a change point is open by less; if by more, the linkage only passes near one
@@ -55,7 +69,6 @@ class ClosureSystem:
     arms: tuple[tuple[tuple[int, str], tuple[int, str]], ...]
     """For each arm the wheels between which it lies, by joint and link."""
     conditions: Conditions
-    room: TraceScratch
     equations: int
     meshes: tuple[NDArray[np.int64], NDArray[np.int64]]
     """The equations that hold the phases of wheels, and their conditions."""
@@ -88,25 +101,13 @@ class ClosureSystem:
 
     def linearised(self, x: Reals) -> tuple[Reals, Reals]:
         """Residual and Jacobian: (equations,) and (equations, unknowns)."""
-        from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.tracing import jacobian
-        from gruebler._numeric.work_estimates import closing_work
-
-        m = for_work(jacobian, closing_work(self.unknowns))(self.conditions, x, self.room)
-        return self.room.residual[:m].copy(), self.room.rows[:m].copy()
+        return _core.jacobian(self.conditions, x)
 
     def independent(self, x: Reals) -> NDArray[np.int64]:
         """The numbers of equations on which the others depend at a pose on the curve."""
         if not self.redundant:
             return np.arange(self.equations)
-        from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.tracing import settle_on_curve
-        from gruebler._numeric.work_estimates import sampling
-
-        for_work(settle_on_curve, sampling(self.unknowns, 1))(
-            self.conditions, x.copy(), np.ones(self.unknowns), self.room
-        )
-        return np.sort(self.room.order[: self.unknowns - 1])
+        return np.sort(_core.settle_on_curve(self.conditions, x.copy(), np.ones(self.unknowns))[-1])
 
 
 class ChangeSample(NamedTuple):
@@ -139,9 +140,6 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
 
     `LinkageError` if it has more than one freedom by count.
     """
-    from gruebler._numeric.motion.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL, Conditions
-    from gruebler._numeric.motion.tracing import new_trace_scratch
-
     chain, frame, size = lower.mechanism.chain, lower.mechanism.frame, lower.size
     bodies = tuple(link for link in chain.links if link != frame)
     keys = tuple(lower.elements)
@@ -237,7 +235,6 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
         bodies=bodies,
         arms=tuple(free),
         conditions=conditions,
-        room=new_trace_scratch(conditions),
         equations=equations,
         meshes=(first[meshes], meshes),
     )
@@ -269,16 +266,10 @@ def nearest_on_curve(system: ClosureSystem, x: Reals) -> tuple[Reals, Reals, flo
 
     The error is raised for a pose that is off by more than `NEAR_REFERENCE`, in sizes and radians.
     """
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.motion.tracing import settle_on_curve
-    from gruebler._numeric.work_estimates import sampling
-
     pose = x.copy()
     _, matrix = system.linearised(pose)
     tangent = np.linalg.svd(matrix)[2][-1].copy()
-    arrived, miss, gauge, rank = for_work(settle_on_curve, sampling(system.unknowns, 1))(
-        system.conditions, pose, tangent, system.room
-    )
+    arrived, miss, gauge, rank, _ = _core.settle_on_curve(system.conditions, pose, tangent)
     if not arrived or np.abs(pose - x).max() > NEAR_REFERENCE or not (miss < _SAME or rank == system.unknowns):
         raise LinkageError("the joints are not closed in the position from which the circuit is to start")
     return pose, tangent, gauge, rank
@@ -305,18 +296,12 @@ def trace_circuit(system: ClosureSystem, pose: Reals, tangent: Reals, step: floa
 
 
 def _follow(system: ClosureSystem, pose: Reals, tangent: Reals, longest: float, most: float) -> TracedCurve:
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.motion.tracing import CLOSED, FLIP, FULL, LONG, SHORTEST, settle_on_curve, trace_curve
-    from gruebler._numeric.work_estimates import sampling
-
     curve = _room(64, system.unknowns)
     curve.poses[0], curve.tangents[0] = pose, tangent
-    put = for_work(settle_on_curve, sampling(system.unknowns, 1))
-    curve.gauges[0] = put(system.conditions, curve.poses[0], curve.tangents[0], system.room)[2]
+    curve.gauges[0] = _core.settle_on_curve(system.conditions, curve.poses[0], curve.tangents[0])[2]
     count, step, changes = 1, longest / 4, list[ChangeSample]()
     while True:
-        follow = for_work(trace_curve, sampling(system.unknowns, len(curve.arcs) - count))
-        status, count, step = follow(system.conditions, curve, count, step, longest, most, system.room)
+        status, count, step = _core.trace_curve(system.conditions, curve, count, step, longest, most)
         if status == FULL:
             curve = _larger(curve)
         elif status == FLIP:
@@ -353,8 +338,6 @@ def _follow(system: ClosureSystem, pose: Reals, tangent: Reals, longest: float, 
 
 
 def _room(samples: int, unknowns: int) -> SampleBuffer:
-    from gruebler._numeric.motion.tracing import SampleBuffer
-
     shape = (samples, unknowns)
     return SampleBuffer(np.zeros(samples), np.zeros(shape), np.zeros(shape), np.zeros(samples))
 
@@ -409,13 +392,10 @@ def _meeting(system: ClosureSystem, first: Reals, second: Reals, tangent: Reals)
     Along the curve the smallest singular value of the Jacobian, with the other sign behind it, goes through zero there:
     the place is the zero of a cubic through four values, the pose lies on cubics through four poses.
     """
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.motion.tracing import settle_on_curve
-    from gruebler._numeric.work_estimates import sampling
 
     def at(part: float) -> tuple[Reals, float]:
         pose = first + part * (second - first)
-        for_work(settle_on_curve, sampling(system.unknowns, 1))(system.conditions, pose, tangent.copy(), system.room)
+        _core.settle_on_curve(system.conditions, pose, tangent.copy())
         return pose, float(np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2])
 
     before, behind = at(0.0)[1], at(1.0)[1]

@@ -14,10 +14,10 @@ from typing import Any, Generic
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.motion.closure import FACE, MESH, POLAR, RACK, REACH, RIDE
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contours import COEFFICIENTS, PiecewiseLaw, cam_law, geneva_law, noncircular_law
+from gruebler.mechanics.kinematics.kernel_records import FACE, MESH, POLAR, RACK, REACH, RIDE
 from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.kinematics.noncircular import transfer_of
 from gruebler.mechanics.linkages import (

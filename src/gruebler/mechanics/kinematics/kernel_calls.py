@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.arrays import Integers, Reals
+from gruebler.mechanics.kinematics.kernel_records import PoseBuffer, Program
 from gruebler.mechanics.kinematics.plan import Plan
-
-if TYPE_CHECKING:
-    from gruebler._numeric.motion.program import Program
 
 _AT_IT = 1e-12  # of the size: a row so near to the shortest way of a slide is there
 _PASSED = 1e-9  # of the size: a step that ends so near to the shortest way of a slide ends at it
@@ -167,22 +166,19 @@ def run_rows(
     extra = _passed(plan, path)
     if len(extra):
         return _with_extra_rows(program, plan, path, speeds, order, signs, unknowns, extra)
-    from gruebler._numeric.motion.path import run_path
-    from gruebler._numeric.motion.program import PoseBuffer
-
     rows, links = len(path), len(plan.lower.mechanism.chain.links)
     poses = PoseBuffer(
         np.empty((order + 1, links, rows), np.complex128),
         np.empty((links, rows), np.complex128),
         np.empty((order, links, rows)),
-        np.zeros((links, rows), np.int32),
+        np.empty((links, rows), np.int32),
         np.empty((len(signs), rows)),
         np.empty((len(unknowns), rows)),
     )
     if speeds is None:
         speeds = np.zeros((order, *path.shape))
-    speeds = np.ascontiguousarray(speeds)
-    status, count, at, fault = run_path(program, path, speeds, signs, unknowns, poses)
+    path, speeds, signs, unknowns = (np.ascontiguousarray(array) for array in (path, speeds, signs, unknowns))
+    status, count, at, fault = _core.run_path(program, path, speeds, signs, unknowns, poses)
     arrays: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
     return SolvedRows(status, count, at, fault, *arrays)
 

@@ -10,11 +10,23 @@ from math import radians
 
 import numpy as np
 
-from gruebler._numeric.motion.closure import PIN, SLIDE
-from gruebler._numeric.motion.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.mechanics.kinematics.contacts import Condition, contact_conditions, law_tables
+from gruebler.mechanics.kinematics.kernel_records import (
+    CARRY,
+    GROUP,
+    PIN,
+    PRP,
+    PUSH,
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    SLIDE,
+    TURN,
+    Program,
+)
 from gruebler.mechanics.kinematics.redundancy import independent_part
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.wheels import round_joints

@@ -14,7 +14,6 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.assembly_modes import (
@@ -26,6 +25,7 @@ from gruebler.mechanics.kinematics.assembly_modes import (
     ordered_modes,
     search_modes,
 )
+from gruebler.mechanics.kinematics.kernel_records import PIN, SLIDE
 
 BOUNDS = {
     ("RR", "RR", "RR"): 6,

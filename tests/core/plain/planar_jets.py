@@ -10,8 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
-
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
@@ -38,7 +36,6 @@ class ElementJets(NamedTuple):
     """(slots, 3) the rates of the direction's angle; none where nothing is derived."""
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def rotated_derivative(
     order: int, turn: complex, w: float, a: float, j: float, b0: complex, b1: complex, b2: complex, b3: complex
 ) -> complex:
@@ -52,7 +49,6 @@ def rotated_derivative(
     return turn * (b3 + 3j * w * b2 + 3 * (1j * a - w * w) * b1 + (1j * (j - w * w * w) - 3 * w * a) * b0)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def set_element_jet(
     order: int, link: int, point: complex, line: complex, links: BodyJets, slot: int, elements: ElementJets
 ) -> None:
@@ -77,7 +73,6 @@ def set_element_jet(
                 spins[slot, 2] = j
 
 
-@njit(cache=True, error_model="numpy", _nrt=False)
 def carry(order: int, link: int, body: int, links: BodyJets) -> None:
     """Motion of a link known against a body, the body's motion known: the link's motion against what the body's is."""
     places, turns, rates = links.places, links.turns, links.rates

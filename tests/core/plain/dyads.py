@@ -14,10 +14,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
-from gruebler._numeric.lanes import square_root
-from gruebler._numeric.motion.planar_jets import BodyJets, ElementJets, rotated_derivative
-from gruebler._numeric.motion.program import PRP, RPP, RPR, RRP, RRR
+from gruebler.mechanics.kinematics.kernel_records import PRP, RPP, RPR, RRP, RRR
+from tests.core.plain.planar_jets import BodyJets, ElementJets, rotated_derivative
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -27,17 +25,14 @@ _SAME_POINT = 1e-13  # of the size: points nearer than some hundred roundings ar
 _SAME_POINT_NEAR_CHANGE = 1e-7  # the same where other dyads are in a change point too: known to some 1e-8 only
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _cross(a: complex, b: complex) -> float:
     return a.real * b.imag - a.imag * b.real
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _dot(a: complex, b: complex) -> float:
     return a.real * b.real + a.imag * b.imag
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def dyad_square(kind: int, elements: ElementJets, size: float, driven: bool) -> float:
     """The square of the number whose sign is the assembly mode, without unit: negative if nothing can be assembled.
 
@@ -50,7 +45,7 @@ def dyad_square(kind: int, elements: ElementJets, size: float, driven: bool) -> 
     if kind == RRR:
         gap = points[5, 0] - points[0, 0]
         first, second = points[2, 0] - points[1, 0], points[3, 0] - points[4, 0]
-        d, r, s = sqrt(_dot(gap, gap)), square_root(_dot(first, first)), square_root(_dot(second, second))
+        d, r, s = sqrt(_dot(gap, gap)), sqrt(_dot(first, first)), sqrt(_dot(second, second))
         square = (r + s - d) * (s + d - r) * (d + r - s) * (d + r + s) / (2 * r * s) ** 2  # Heron: no digits are lost
         noise = _HERON_NOISE * (d + r + s) ** 2 / (r * s)
         return 0.0 if -noise < square < 0 else square
@@ -69,7 +64,6 @@ def dyad_square(kind: int, elements: ElementJets, size: float, driven: bool) -> 
     return sine
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _offset(elements: ElementJets) -> float:
     """RPR: how far the second outer joint lies left of the first, seen along the slide."""
     points, lines = elements.points, elements.lines
@@ -79,7 +73,6 @@ def _offset(elements: ElementJets) -> float:
     return offset
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def meeting(kind: int, elements: ElementJets, size: float) -> bool:
     """Whether the outer joints of RRR or RPR meet, or both of the arm of an RRP, so that their line has no direction.
 
@@ -102,7 +95,6 @@ def meeting(kind: int, elements: ElementJets, size: float) -> bool:
     return met
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def dyad_place(
     kind: int, root: float, elements: ElementJets, body_a: int, body_b: int, links: BodyJets, size: float, driven: bool
 ) -> None:
@@ -168,14 +160,12 @@ def dyad_place(
         places[body_b, 0] = points[5, 0] - turns[body_b] * points[4, 0]
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _solved(left: complex, right: complex, target: complex) -> tuple[float, float]:
     """The real p, q with p * left + q * right = target."""
     sine = _cross(left, right)
     return _cross(target, right) / sine, _cross(left, target) / sine
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _arm(k: int, body: int, start: int, end: int, points: Complexes, turns: Complexes, rates: Reals) -> complex:
     """The k-th derivative of the vector from slot `one` to slot `two` of a body whose rates up to k are written."""
     return rotated_derivative(
@@ -191,7 +181,6 @@ def _arm(k: int, body: int, start: int, end: int, points: Complexes, turns: Comp
     )
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _reference(k: int, body: int, slot: int, points: Complexes, turns: Complexes, rates: Reals) -> complex:
     """The k-th derivative of a slot's point of a body, without the body's origin."""
     return rotated_derivative(
@@ -207,7 +196,6 @@ def _reference(k: int, body: int, slot: int, points: Complexes, turns: Complexes
     )
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _along(k: int, line: complex, spins: Reals, slot: int, w0: float, w1: float, w2: float, w3: float) -> complex:
     """The k-th derivative of a way w(t) along the line of a slot."""
     return rotated_derivative(
@@ -215,7 +203,6 @@ def _along(k: int, line: complex, spins: Reals, slot: int, w0: float, w1: float,
     )
 
 
-@njit(cache=True, error_model="numpy", _nrt=False)
 def dyad_rates(kind: int, order: int, elements: ElementJets, body_a: int, body_b: int, links: BodyJets) -> None:
     """Write velocity, acceleration and jerk of both bodies up to the order; they are placed already.
 

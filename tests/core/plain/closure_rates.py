@@ -7,20 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
-from gruebler._numeric.motion.closure import (
-    FACE,
-    MESH,
-    PIN,
-    POLAR,
-    RACK,
-    REACH,
-    SLIDE,
-    Conditions,
-    evaluate_law,
-    unwound_angle,
-)
-from gruebler._numeric.motion.planar_jets import BodyJets, rotated_derivative
+from gruebler.mechanics.kinematics.kernel_records import FACE, MESH, PIN, POLAR, RACK, REACH, SLIDE, Conditions
+from tests.core.plain.closure import evaluate_law, unwound_angle
+from tests.core.plain.planar_jets import BodyJets, rotated_derivative
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -35,7 +24,6 @@ class RateScratch(NamedTuple):
     """(2, 3) the rates of both directions, the bodies' own rates included."""
 
 
-@njit(cache=True, error_model="numpy", _nrt=False)
 def closing_rates(order: int, conditions: Conditions, bodies: BodyJets, scratch: RateScratch, target: Reals) -> None:
     """Write the right-hand side of ``jacobian @ unknown = target`` for the derivatives of that order.
 
@@ -133,7 +121,6 @@ def closing_rates(order: int, conditions: Conditions, bodies: BodyJets, scratch:
         row += 1
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _log_rate(order: int, gap: Complexes) -> complex:
     """The derivative of that order of the logarithm of a vector: of its length, and i times its direction."""
     first = _quotient(gap[1], gap[0])
@@ -145,14 +132,12 @@ def _log_rate(order: int, gap: Complexes) -> complex:
     return complex(_quotient(gap[3], gap[0]) - 3 * first * second + 2 * first * first * first)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _quotient(a: complex, b: complex) -> complex:
     """Of two vectors of the size of the linkage; NumPy, Python and the compiler divide with other roundings."""
     square = b.real * b.real + b.imag * b.imag
     return complex((a.real * b.real + a.imag * b.imag) / square, (a.imag * b.real - a.real * b.imag) / square)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _square_rate(order: int, gap: Complexes) -> float:
     """The derivative of that order of the squared length of a vector."""
     rate = 2 * (gap[0].conjugate() * gap[order]).real

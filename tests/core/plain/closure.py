@@ -28,56 +28,39 @@ Lengths of the equations are in the unit of the points, angles of a SLIDE are mu
 from __future__ import annotations
 
 from math import atan2, cos, floor, inf, log, pi, sin
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
+from gruebler.mechanics.kinematics.kernel_records import (
+    FACE,
+    MESH,
+    PIN,
+    POLAR,
+    RACK,
+    REACH,
+    RIDE,
+    SLIDE,
+    TRAIN,
+    Conditions,
+)
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
 
-PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE, TRAIN, TRAVEL = range(10)
-EQUATIONS = (2, 2, 1, 1, 1, 1, 1, 1, 1, 1)
 
-
-class Conditions(NamedTuple):
-    """Closing conditions of joints between bodies."""
-
-    kinds: Ints
-    """(conditions,)"""
-    values: Reals
-    """(conditions, 8) their numbers."""
-    pieces: Reals
-    """(pieces, 2 + coefficients) of the laws, see `evaluate_law`."""
-    owners: Ints
-    """(2 conditions,) the body that carries the element, -1 for what is known."""
-    points: Complexes
-    """(2 conditions, 4) the jet of each element's point: against its body or, of what is known, where it is."""
-    lines: Complexes
-    """(2 conditions,) the element's direction."""
-    spins: Reals
-    """(2 conditions, 3) the rates of that direction; none where nothing is derived."""
-    size: float
-    """A length of the order of the linkage."""
-
-
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def unwound_angle(direction: complex, near: float) -> float:
     """The angle of a direction, with as many whole turns as bring it next to one near by."""
     angle = atan2(direction.imag, direction.real)
     return float(angle + 2 * pi * floor((near - angle) / (2 * pi) + 0.5))
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _divided(z: complex, by: float) -> complex:
     """NumPy multiplies by 1 / by where Python and the compiler divide: so the parts are divided here."""
     return complex(z.real / by, z.imag / by)
 
 
-@njit(cache=True, error_model="numpy", _nrt=False)
 def evaluate_law(pieces: Reals, values: Reals, angle: float) -> tuple[float, float, float, float]:
     """A function of an angle and its three derivatives; without pieces the angle itself.
 
@@ -107,7 +90,6 @@ def evaluate_law(pieces: Reals, values: Reals, angle: float) -> tuple[float, flo
     return f0 + turns * values[7], f1 / half, f2 / (half * half), f3 / (half * half * half)
 
 
-@njit(cache=True, error_model="numpy", _nrt=False)
 def closing(conditions: Conditions, unknowns: Reals, residual: Reals, jacobian: Reals) -> float:
     """Write residual and Jacobian at the unknowns (x, y, angle of each body); returns the largest residual."""
     kinds, values, pieces, owners = conditions.kinds, conditions.values, conditions.pieces, conditions.owners

@@ -1,1 +1,0 @@
-"""Linkages moved: dyads in closed form, larger groups by Newton's method, curves of positions."""
