@@ -90,6 +90,8 @@ def _compiler() -> Iterator[Settings]:
             "cmake.define.CMAKE_AR": _zig("ar"),
             "cmake.define.CMAKE_RANLIB": _zig("ranlib"),
             "cmake.define.CORE_ZIG": "ON",
+            # Trials are compiled, not linked: zig makes its C++ library when it links first, once for each set of options.
+            "cmake.define.CMAKE_TRY_COMPILE_TARGET_TYPE": "STATIC_LIBRARY",
         }
     finally:
         os.environ.clear()
@@ -102,6 +104,10 @@ def _zig(name: str) -> str:
     file = _ROOT / "build" / "zig" / (f"zig-{name}.bat" if windows else f"zig-{name}")
     file.parent.mkdir(parents=True, exist_ok=True)
     run = f'"{sys.executable}" -m ziglang {name}'
-    file.write_text(f"@{run} %*\n" if windows else f'#!/bin/sh\nexec {run} "$@"\n', encoding="utf-8")
+    script = f"""#!/bin/sh
+case "$*" in *CompilerId.c*) set -- -c "$@" ;; esac # CMake's first trial is not linked either
+exec {run} "$@"
+"""
+    file.write_text(f"@{run} %*\n" if windows else script, encoding="utf-8")
     file.chmod(0o755)
     return file.as_posix()
