@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-kernels test-bounds test-lowest test-newest core test-core core-sanitize torture mutants bench clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest core test-core core-sanitize torture mutants bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -16,12 +16,10 @@ help:
 	@echo "make mutants     one line of a room changed at a time: do its tests notice? ROOM=mobility NUMBER=20"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with kernels of OpenBLAS that this processor does not choose"
-	@echo "make test-kernels all tests with compiled kernels only, then with interpreted ones; hours, not part of CI"
-	@echo "make test-bounds the tests of the kernels, compiled so that nothing beyond an array is read or written"
 	@echo "make test-lowest a broad choice of tests with the lowest versions that pyproject.toml allows"
 	@echo "make test-newest a broad choice of tests with another Python (NEWEST=python3.13) and the newest versions"
 	@echo "make core        the C++ kernels alone, compiled where they changed, see core/README.md"
-	@echo "make test-core   the tests of the C++ kernels, against those of numba and against print"
+	@echo "make test-core   the tests of the C++ kernels, against plain Python and against print"
 	@echo "make core-sanitize  the C++ kernels with address and undefined-behaviour sanitizers, without Python"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 
@@ -72,7 +70,6 @@ mutants: $(READY)
 	$(BIN)/python -m tests.mutation $(ROOM) --number $(NUMBER)
 
 # The wheel holds the files of the source tree, which `make test` tries; what depends on being installed is tried here.
-# Kernels are the same wherever the sources lie: those of `make test` are loaded.
 wheel-test: $(READY)
 	rm -rf build/wheel
 	$(BIN)/python -m build --wheel --outdir build/wheel . >/dev/null
@@ -80,7 +77,7 @@ wheel-test: $(READY)
 	$(PYTHON) -m venv build/wheel/venv
 	build/wheel/venv/bin/python -m pip install --quiet --disable-pip-version-check \
 		"$$(ls build/wheel/*.whl)[test]"
-	cd build/wheel && NUMBA_CACHE_DIR=$(CURDIR)/src/gruebler/_numeric/__pycache__ venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
+	cd build/wheel && venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
 		$(addprefix ../../tests/,core cli/test_cli.py cli/test_languages.py teaching/exercises/test_tables.py test_front_door.py)
 
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise; `make test` has those that
@@ -92,26 +89,14 @@ test-blas: $(READY)
 		echo "OpenBLAS with the kernels for $$core"; \
 		OPENBLAS_CORETYPE=$$core $(BIN)/python -m pytest -q -n 2 $(NUMERIC) || exit 1; done
 
-# Otherwise the size of the work decides about the tier, and most tests know one only. Interpreted, a test that takes
-# more than a minute is skipped.
-test-kernels: $(READY)
-	GRUEBLER_KERNELS=compiled $(BIN)/python -m pytest -q -n 2
-	GRUEBLER_KERNELS=interpreted $(BIN)/python -m pytest -q -n 2 --longest 60
-
-# Kernels that read or write beyond an array stop with an error; compiled anew, apart from the others.
-test-bounds: $(READY)
-	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=$(CURDIR)/build/bounds GRUEBLER_KERNELS=compiled \
-		$(BIN)/python -X dev -m pytest -q tests/_numeric
-
 # What other versions of Python and of the packages could break, in a few minutes; BROAD=tests runs everything.
 BROAD := $(addprefix tests/,cli/test_cli.py cli/test_analyse.py cli/test_structure_commands.py test_front_door.py \
 	$(addprefix mechanics/,analysis fourbar kinematics linkages) $(addprefix structure/,chain isomorphism mobility) \
 	teaching/catalog)
-# Environments of their own, kept in build/: another version of the compiler does not touch the kernels of .venv.
+# Environments of their own, kept in build/.
 NEWEST ?= $(PYTHON)
 EXTRAS := $(addprefix tests/,structure/atlas/test_building.py structure/enumeration/test_schedulers.py \
 	page/test_widget.py files/test_dxf.py)
-test-lowest: export NUMBA_CACHE_DIR = $(CURDIR)/build/lowest/kernels
 test-lowest:
 	@mkdir -p build/lowest
 	@test -x build/lowest/venv/bin/python || $(PYTHON) -m venv build/lowest/venv
@@ -121,7 +106,6 @@ test-lowest:
 	build/lowest/venv/bin/python -m pytest -q -n 2 $(BROAD) $(EXTRAS)
 
 NEWEST_DIR = build/newest/$(shell $(NEWEST) -c "import sys; print('%d.%d' % sys.version_info[:2])")
-test-newest: export NUMBA_CACHE_DIR = $(CURDIR)/$(NEWEST_DIR)/kernels
 test-newest:
 	@mkdir -p $(NEWEST_DIR)
 	@test -x $(NEWEST_DIR)/venv/bin/python || $(NEWEST) -m venv $(NEWEST_DIR)/venv

@@ -1,14 +1,10 @@
-"""The kernels of core/ by level, labelling beside numba, in turns in one process; cold, each in a process of its own.
+"""The kernels of core/ by level, in turns in one process.
 
 Seconds are those of the processor, which other work on the machine disturbs least; the least of some rounds is printed.
 Every answer is compared.
 """
 
-import os
-import subprocess
-import sys
 from collections.abc import Callable
-from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
 
@@ -21,28 +17,13 @@ ROUNDS = 9
 
 Calls = dict[str, Callable[[], Any]]
 
-COLD = {
-    "one labelling": (
-        "from gruebler._numeric.labelling.canonical import canonical_form; "
-        "canonical_form(3, None, np.array([[0, 1], [1, 2]]))",
-        "_core.canonical_form(3, np.zeros(3, np.int64), np.array([[0, 1], [1, 2]], np.int32), np.zeros(2, np.int32))",
-    ),
-}
-
 
 def main() -> None:
-    """Print both tables."""
+    """Print the table."""
     print("| warm | ms |\n|---|---|")
     for name, calls in [*counting(), *labelling()]:
         for level, seconds in measured(calls).items():
             print(f"| {name}, {level} | {1000 * seconds:.2f} |")
-    print("| cold, s | numba, nothing compiled | numba, compiled before | core |\n|---|---|---|---|")
-    for name, (numba, core) in COLD.items():
-        with TemporaryDirectory() as cache:
-            environment = {"NUMBA_CACHE_DIR": cache, "GRUEBLER_KERNELS": "compiled"}
-            first, second = (alone("import numpy as np\n" + numba, environment) for _ in range(2))
-        own = alone("import numpy as np\nfrom gruebler import _core\n" + core, {})
-        print(f"| {name} | {first:.1f} | {second:.2f} | {own:.2f} |")
 
 
 def measured(calls: Calls) -> dict[str, float]:
@@ -58,14 +39,6 @@ def measured(calls: Calls) -> dict[str, float]:
     return least
 
 
-def alone(code: str, environment: dict[str, str]) -> float:
-    """The processor's seconds of a process, the start of Python included."""
-    before = os.times()
-    subprocess.run([sys.executable, "-c", code], env={**os.environ, **environment}, check=True)
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system
-
-
 def counting() -> list[tuple[str, Calls]]:
     """Census and growth of 14 and 16 links."""
     from gruebler.structure.enumeration.contracted import packed_graphs
@@ -78,9 +51,8 @@ def counting() -> list[tuple[str, Calls]]:
             for level in _core.level_names():
                 calls[level] = lambda g=graphs, k=loops, o=orbits, n=level: _core.take_census(g, k, 1, o, level=n)  # type: ignore[misc]
             rows.append((f"census of {links} links" + (" with orbits" if orbits else ""), calls))
-        rows.append(
-            (f"growth to {loops} loops", {"core": lambda p=parents, k=loops: _core.add_loop(p, k - 1, 0, 1 << 62)[0]})
-        )  # type: ignore[misc]
+        growth: Calls = {"core": lambda p=parents, k=loops: _core.add_loop(p, k - 1, 0, 1 << 62)[0]}  # type: ignore[misc]
+        rows.append((f"growth to {loops} loops", growth))
     return rows
 
 
@@ -88,7 +60,6 @@ def labelling() -> list[tuple[str, Calls]]:
     """Chains in bulk, and graphs with much symmetry."""
     import networkx as nx
 
-    from gruebler._numeric.labelling.canonical import canonical_bulk
     from gruebler.structure.enumeration import edge_blocks
 
     rows: list[tuple[str, Calls]] = []
@@ -106,15 +77,8 @@ def labelling() -> list[tuple[str, Calls]]:
         named[name] = len(plain), np.array([list(plain.edges())])
     for name, (n, edges) in named.items():
         ends, bounds = edges.astype(np.int32), np.arange(len(edges) + 1) * edges.shape[1]
-        rows.append(
-            (
-                f"labelling {name}",
-                {
-                    "numba": lambda n=n, e=ends: canonical_bulk(n, e),  # type: ignore[misc]
-                    "core": lambda n=n, e=ends, b=bounds: _core.canonical_bulk(n, e.reshape(-1, 2), b),  # type: ignore[misc]
-                },
-            )
-        )
+        whole: Calls = {"core": lambda n=n, e=ends, b=bounds: _core.canonical_bulk(n, e.reshape(-1, 2), b)}  # type: ignore[misc]
+        rows.append((f"labelling {name}", whole))
     return rows
 
 

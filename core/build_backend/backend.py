@@ -90,7 +90,7 @@ def _compiler() -> Iterator[Settings]:
             "cmake.define.CMAKE_AR": _zig("ar"),
             "cmake.define.CMAKE_RANLIB": _zig("ranlib"),
             "cmake.define.CORE_ZIG": "ON",
-            # Trials are compiled, not linked: zig makes its C++ library when it links first, once for each set of options.
+            # Trials are compiled, not linked: zig makes its C++ library when it links, once for each set of options.
             "cmake.define.CMAKE_TRY_COMPILE_TARGET_TYPE": "STATIC_LIBRARY",
         }
     finally:

@@ -71,13 +71,11 @@ def _run(words: list[str], lang: str) -> int:
     parser = chosen.parser(lang)
     with argparse_in_language(lang):
         arguments = parser.parse_args(words[1:])
-    from gruebler.cli.compiling_progress import show_compiling
     from gruebler.cli.link_names import spell_links_alike
     from gruebler.cli.printed_file import printed_to_file
     from gruebler.cli.tables import cut_tables
 
     spell_links_alike(parser, arguments)
-    show_compiling(lang)
     try:
         with _interrupts_raised(), printed_to_file(arguments), cut_tables(arguments):
             status = int(chosen.module().run(arguments))

@@ -40,7 +40,6 @@ def _page(lang: str) -> Iterator[str]:
             yield from _command(action)
     yield f".SH {translate('ENVIRONMENT', lang)}"
     yield from (".TP", r"\fBGRUEBLER_LANG\fR", _roff(translate("language of the output: en or de", lang)))
-    yield from (".TP", r"\fBGRUEBLER_KERNELS\fR", _roff(translate("compiled, interpreted or auto", lang)))
 
 
 def _command(node: CommandNode) -> Iterator[str]:

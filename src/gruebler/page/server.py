@@ -15,7 +15,6 @@ import socket
 from collections import deque
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager, suppress
-from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
@@ -27,6 +26,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError, RunError
+from gruebler.base.private_folder import private_folder
 from gruebler.base.text import error_in_language
 from gruebler.page.page import module_text, served_page
 from gruebler.page.workers import CancelledError, Workers
@@ -262,13 +262,11 @@ def kept_token() -> str:
 
     Where nothing can be kept it is a fresh one.
     """
-    from gruebler._numeric.kernel_cache import prepared_folder
-
-    folder = prepared_folder()
+    folder = private_folder()
     token = secrets.token_urlsafe(18)
     if folder is None:
         return token
-    file = Path(folder) / "explorer-token"
+    file = folder / "explorer-token"
     try:
         kept = file.read_text(encoding="ascii").strip()
         if len(kept) >= len(token):

@@ -69,7 +69,7 @@ COLUMNS: tuple[SchemaColumn, ...] = tuple(
             "its bundles: node-node, and x and the number of strings if there are several",
             "enumeration.ContractedGraph",
         ),
-        ("chains", "group_order", "int64", "", "number of automorphisms", "_numeric.labelling"),
+        ("chains", "group_order", "int64", "", "number of automorphisms", "isomorphism.labelling"),
         ("chains", "inversions", "int32", "", "orbits of links: mechanisms by choice of the frame", _DESCRIBED),
         ("chains", "joint_orbits", "int32", "", "orbits of joints", _DESCRIBED),
         ("chains", "drives", "int32", "", "orbits of (frame, joint at it, link that the joint drives)", _DESCRIBED),

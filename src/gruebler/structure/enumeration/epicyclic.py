@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.labelling.canonical import canonical_form, relabelled
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.chain import Chain
+from gruebler.structure.isomorphism.labelling import canonical_form, relabelled
 
 Axes = tuple[tuple[int, ...], ...]
 _Masks = NDArray[np.uint64]

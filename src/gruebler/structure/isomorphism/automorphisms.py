@@ -86,7 +86,7 @@ def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int |
     Theory:
         docs/theory/canonical-code.md
     """
-    from gruebler._numeric.labelling.canonical import canonical_form
+    from gruebler.structure.isomorphism.labelling import canonical_form
 
     graph = coloured_graph(chain, frame, drives)
     canonical_result = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour)

@@ -45,7 +45,7 @@ def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[i
 
     Exact for every chain. Cost: microseconds for usual chains; see docs/theory/canonical-code.md.
     """
-    from gruebler._numeric.labelling.canonical import canonical_form
+    from gruebler.structure.isomorphism.labelling import canonical_form
 
     graph = coloured_graph(chain, frame, drives)
     place = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour).labelling

@@ -14,16 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
-from gruebler._numeric.labelling.canonical import (
-    CanonicalResult,
-    adjacency,
-    canonical_bulk,
-    canonical_form,
-    label_graph,
-    relabelled,
-)
-from gruebler._numeric.labelling.label_workspace import FACTOR, FACTORS, LABELLING, THOROUGH, Workspace, make_workspace
+from gruebler import _core
+from gruebler.structure.isomorphism.labelling import CanonicalResult, canonical_form, relabelled
 
 Form = tuple[tuple[int, ...], tuple[tuple[int, int, int], ...]]
 Array = NDArray[np.int64]
@@ -179,7 +171,6 @@ def test_group_is_the_group(graph: Graph) -> None:
     assert closure(graph.n, result.generators) == set(map(tuple, every.tolist()))
 
 
-@pytest.mark.large
 def test_atlas_has_one_form_for_each_graph() -> None:
     rng = np.random.default_rng(1)
     forms: Counter[Form] = Counter()
@@ -194,7 +185,6 @@ def test_atlas_has_one_form_for_each_graph() -> None:
     assert set(forms.values()) == {1}
 
 
-@pytest.mark.large
 def test_atlas_groups_by_brute_force() -> None:
     for entry in nx.graph_atlas_g()[::7]:
         graph = Graph.of(entry).shuffled(np.random.default_rng(2))
@@ -278,7 +268,6 @@ KNOWN: list[tuple[str, Callable[[], nx.Graph], int, int]] = [
 ]
 
 
-@pytest.mark.large
 @pytest.mark.parametrize(("make", "order", "orbits"), [row[1:] for row in KNOWN], ids=[row[0] for row in KNOWN])
 def test_known_groups(make: Callable[[], nx.Graph], order: int, orbits: int) -> None:
     graph = Graph.of(make())
@@ -293,13 +282,8 @@ def test_known_groups(make: Callable[[], nx.Graph], order: int, orbits: int) -> 
         assert len(set(result.orbits.tolist())) == orbits
 
 
-@pytest.mark.large
 def test_the_numbering_is_kept() -> None:
-    """Codes are stored: who changes this digest changes the prefix of the codes (docs/theory/canonical-code.md).
-
-    It also fails on stale compiled kernels: numba looks for changes in the file of a kernel and not in the files
-    of the kernels that it calls, so after a change to one of them the .nbi and .nbc files are to be removed.
-    """
+    """Codes are stored: who changes this digest changes the prefix of the codes (docs/theory/canonical-code.md)."""
     known = [make() for _, make, _, _ in KNOWN]
     ladder = [nx.circular_ladder_graph(k) for k in range(3, 9)]
     uneven = [copies(*ladder), nx.frucht_graph(), nx.tutte_graph(), plane(3)]
@@ -325,7 +309,6 @@ def igraph_form(graph: Graph) -> Form:
     return tuple(there.vs["colour"]), tuple(edges)
 
 
-@pytest.mark.large
 def test_same_classes_as_igraph() -> None:
     rng = np.random.default_rng(4)
     pairs: set[tuple[Form, Form]] = set()
@@ -382,66 +365,6 @@ def test_without_edges(n: int) -> None:
     assert result.generators.shape == (max(n - 1, 0), n)
 
 
-def arrays(graph: Graph) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
-    m = len(graph.edges)
-    rows = np.empty(graph.n + 1, np.int32), np.empty(2 * m, np.int32), np.empty(2 * m, np.int32)
-    adjacency(graph.n, graph.edges.astype(np.int32), graph.edge_colour.astype(np.int32), *rows)
-    return graph.vertex_colour, *rows
-
-
-def test_a_workspace_forgets() -> None:
-    workspace = make_workspace(40, 120)
-    for make in (lambda: theta(7), nx.petersen_graph, lambda: nx.path_graph(9), rook, lambda: nx.cycle_graph(40)):
-        graph = Graph.of(make()).shuffled(np.random.default_rng(6))
-        assert label_graph(graph.n, *arrays(graph), workspace)
-        assert workspace.rows[LABELLING, : graph.n].tolist() == graph.solve().labelling.tolist()
-
-
-def test_a_thorough_search_finds_the_same() -> None:
-    graph = Graph.of(copies(*[nx.cycle_graph(k) for k in range(3, 14)]))
-    rng = np.random.default_rng(7)
-    forms = set()
-    for _ in range(5):
-        other = graph.shuffled(rng)
-        workspace = make_workspace(other.n, len(other.edges))
-        assert label_graph(other.n, *arrays(other), workspace)
-        assert workspace.state[THOROUGH] == 1
-        forms.add(other.under(workspace.rows[LABELLING, : other.n]))
-    assert len(forms) == 1
-
-
-def test_too_little_room_is_said_and_mended() -> None:
-    graph = Graph.of(nx.disjoint_union(nx.hypercube_graph(4), nx.cycle_graph(30)))
-    workspace = make_workspace(graph.n, len(graph.edges), support=0)
-    assert not label_graph(graph.n, *arrays(graph), workspace)
-    assert np.prod(workspace.rows[FACTOR, : workspace.state[FACTORS]]) == 384 * 60
-    full = graph.solve()
-    assert len(closure(graph.n, full.generators)) == 384 * 60
-    assert workspace.rows[LABELLING, : graph.n].tolist() == full.labelling.tolist()
-
-
-@njit()
-def _order_of_each(
-    edges: NDArray[np.int32], indptr: NDArray[np.int32], ends: NDArray[np.int32], workspace: Workspace
-) -> NDArray[np.int64]:
-    n = indptr.size - 1
-    orders = np.ones(edges.shape[0], np.int64)
-    colour = np.zeros(n, np.int64)
-    plain = np.zeros(edges.shape[1], np.int32)
-    for i in range(edges.shape[0]):
-        adjacency(n, edges[i], plain, indptr, ends[0], ends[1])
-        label_graph(n, colour, indptr, ends[0], ends[1], workspace)
-        for f in range(workspace.state[FACTORS]):
-            orders[i] *= workspace.rows[FACTOR, f]
-    return orders
-
-
-def test_callable_from_other_kernels() -> None:
-    edges = np.array([[[0, 1], [1, 2], [2, 3], [3, 0]], [[0, 1], [1, 2], [2, 0], [0, 3]]], np.int32)
-    orders = _order_of_each(edges, np.empty(5, np.int32), np.empty((2, 8), np.int32), make_workspace(4, 4))
-    assert orders.tolist() == [8, 2]
-
-
 def random_chain(n: int, rng: np.random.Generator) -> Array:
     edges = [(0, 1), (1, 2), (2, 3), (3, 0)]
     for link in range(4, n, 2):
@@ -453,15 +376,12 @@ def random_chain(n: int, rng: np.random.Generator) -> Array:
 def test_bulk_agrees_with_one_at_a_time() -> None:
     rng = np.random.default_rng(8)
     n = 12
-    packed = np.array([random_chain(n, rng) for _ in range(200)])
-    labellings = canonical_bulk(n, packed)
+    packed = [random_chain(n, rng) for _ in range(200)]
+    packed[1] = packed[1][:5]
+    bounds = np.cumsum([0, *map(len, packed)])
+    labellings = _core.canonical_bulk(n, np.concatenate(packed).astype(np.int32), bounds)
     for edges, labelling in zip(packed, labellings, strict=True):
         assert labelling.tolist() == Graph(n, edges).solve().labelling.tolist()
-    ragged = np.concatenate([packed[0], packed[1][:5], packed[2]])
-    bounds = np.array([0, 16, 21, 37])
-    some = canonical_bulk(n, ragged, bounds)
-    assert some[[0, 2]].tolist() == labellings[[0, 2]].tolist()
-    assert some[1].tolist() == Graph(n, packed[1][:5]).solve().labelling.tolist()
 
 
 @pytest.mark.parametrize(
@@ -476,9 +396,6 @@ def test_bulk_agrees_with_one_at_a_time() -> None:
         (lambda: canonical_form(2, np.array([0, 2**31]), np.array([[0, 1]])), "vertex_colour must lie in"),
         (lambda: canonical_form(2, None, np.array([[0, 1]]), np.array([-1])), "edge_colour must lie in"),
         (lambda: canonical_form(2, None, np.array([[0, 1]]), np.array([0, 0])), "edge_colour must have the shape"),
-        (lambda: canonical_bulk(2, np.array([[0, 1]])), "without bounds"),
-        (lambda: canonical_bulk(2, np.array([[0, 1]]), np.array([0, 2])), "bounds must ascend"),
-        (lambda: canonical_bulk(2, np.array([[[0, 3]]])), "edges must lie in 0..1"),
     ],
 )
 def test_wrong_calls_are_refused(call: Callable[[], object], message: str) -> None:

@@ -1,1 +1,0 @@
-"""Canonical labelling of coloured multigraphs."""
