@@ -1,6 +1,5 @@
 """Chains counted and listed, against stock geng, which makes a superset without any test of mobility."""
 
-import os
 import shutil
 import subprocess
 import sys
@@ -30,9 +29,8 @@ def seconds(call: Callable[[], object], runs: int = 3) -> float:
     return best
 
 
-def command(links: int, cache: str | None = None) -> None:
-    environment = dict(os.environ) | ({"NUMBA_CACHE_DIR": cache} if cache else {})
-    subprocess.run([sys.executable, "-c", COUNT.format(links)], check=True, env=environment)
+def command(links: int) -> None:
+    subprocess.run([sys.executable, "-c", COUNT.format(links)], check=True)
 
 
 def geng(links: int, *options: str) -> float | None:
@@ -82,8 +80,6 @@ def listing() -> None:
 def commands() -> None:
     for links in LINKS:
         print(f"whole command, {links} links: {seconds(lambda links=links: command(links)):.2f} s")
-    with tempfile.TemporaryDirectory() as cache:
-        print(f"first start, nothing compiled, 12 links: {seconds(lambda: command(12, cache), 1):.1f} s")
 
 
 def profile() -> None:

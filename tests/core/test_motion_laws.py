@@ -107,7 +107,6 @@ def test_a_row_may_lie_next_to_a_change_point(behind: float, high: float) -> Non
     assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("high", [0.8, 3.0])
 @pytest.mark.parametrize("step", np.geomspace(0.05, 60, 9))
 def test_change_points_are_crossed_with_any_spacing(step: float, high: float) -> None:
@@ -117,7 +116,6 @@ def test_change_points_are_crossed_with_any_spacing(step: float, high: float) ->
         assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
 
 
-@pytest.mark.large
 @pytest.mark.parametrize(
     "rows",
     [(100, 180, 100), (100, 180, 180, 250), (100, 180, 170, 180, 200), (100, 140, 180, 180, 140, 100), (180, 190)],
@@ -157,7 +155,6 @@ lengths = st.floats(10, 60)
 FOUR = st.tuples(lengths, lengths, lengths, lengths)
 
 
-@pytest.mark.large
 @given(FOUR, st.sampled_from("+-"), st.floats(0, 360), st.floats(-400, 400), st.sampled_from([0.5, 3.0, 20.0]))
 @settings(max_examples=60)
 def test_reversing_the_drive_retraces_the_path(
@@ -197,7 +194,6 @@ def test_scaling_scales(name: str, factor: float) -> None:
     assert np.allclose(scaled.rates, motion.rates, rtol=1e-9, atol=1e-9)
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("factor", [1e-6, 1e6])
 def test_scaling_scales_larger_groups(factor: float) -> None:
     six = class_iii((0, 0), (0.5, 0.3), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5))
@@ -218,7 +214,6 @@ def test_rows_may_coincide_and_be_far_apart(name: str) -> None:
         assert np.allclose(motion.turns[row], fine.turns[round((angle - 3) * 2)], rtol=0, atol=1e-10)
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("sizes", [(20, 20, 20, 20), (25, 70, 25, 70), (30, 50, 50, 30)])
 @pytest.mark.parametrize("step", [0.1, 0.2, 0.7, 3, 40])
 @pytest.mark.parametrize("rests", [0, 1, 3])
@@ -262,7 +257,6 @@ def test_drives_may_move_one_after_the_other_and_rest() -> None:
     assert np.allclose(motion.angle("1") - motion.angle("1")[0], one - one[0], rtol=0, atol=1e-12)
 
 
-@pytest.mark.large
 @given(st.floats(-3, 3), st.floats(0.2, 3))
 @settings(max_examples=20)
 def test_a_pose_fed_back_goes_on_alike(start: float, way: float) -> None:

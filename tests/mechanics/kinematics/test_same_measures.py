@@ -1,4 +1,4 @@
-"""Measures, events and refusals do not depend on unit, place, orientation, reflection or tier of the kernels.
+"""Measures, events and refusals do not depend on unit, place, orientation or reflection.
 
 Linkages with several drives have no measures; their poses are compared.
 `GRUEBLER_LINKAGES=10000 pytest -m slow tests/mechanics/kinematics/test_same_measures.py` tries so many random linkages.
@@ -35,7 +35,6 @@ SCALES = [1e-6, 1e6, 3.7, 2.54]
 CLOSE = 1e-6  # of the natural size: multiple zeros are known to some 1e-8
 NEAR = 1e-5  # the same for drive values: poses next to a change point have half their digits
 POSE = 1e-9  # of the size: poses away from change points
-INTERPRETED_EACH = 20  # Of so many random linkages one is measured in both tiers: interpreting takes up to 11 s.
 
 
 def in_other_coordinates(linkage: Linkage, angle: float, shift: complex) -> Linkage:
@@ -175,22 +174,19 @@ def gap(x: float, period: float | None) -> float:
     return abs(x) if period is None else abs((x + period / 2) % period - period / 2)
 
 
-def measured(linkage: Linkage, tier: str = "") -> Measures | str:
-    """The measures, in a tier of the kernels if one is named; or the refusal, without its numbers."""
-    with pytest.MonkeyPatch.context() as patch:
-        if tier:
-            patch.setenv("GRUEBLER_KERNELS", tier)
-        try:
-            return measures(linkage)
-        except LinkageError as error:
-            return re.sub(r"-?[0-9][-+.0-9e]*", "#", str(error))
+def measured(linkage: Linkage) -> Measures | str:
+    """The measures; or the refusal, without its numbers."""
+    try:
+        return measures(linkage)
+    except LinkageError as error:
+        return re.sub(r"-?[0-9][-+.0-9e]*", "#", str(error))
 
 
-def check(linkage: Linkage, scale: float, angle: float, shift: complex, tier: str = "") -> Measures | str:
-    """Measures, or the refusal, are the same in another unit, in other coordinates, mirrored and in that tier."""
+def check(linkage: Linkage, scale: float, angle: float, shift: complex) -> Measures | str:
+    """Measures, or the refusal, are the same in another unit, in other coordinates, and mirrored."""
     result = measured(linkage)
     same = [linkage.scaled(scale), in_other_coordinates(linkage, angle, shift * linkage.size)]
-    others = [measured(other) for other in same] + ([measured(linkage, tier)] if tier else [])
+    others = [measured(other) for other in same]
     image = measured(mirrored(linkage))
     if isinstance(result, str):
         assert [*others, image] == [result] * (len(others) + 1)
@@ -315,9 +311,8 @@ def test_many_random_linkages() -> None:
         if linkage is None:
             continue
         rng = np.random.default_rng(seed + 1)
-        tier = "" if tried % INTERPRETED_EACH else "interpreted"
         try:
-            result = check(linkage, 10 ** rng.uniform(-6, 6), rng.uniform(-3, 3), complex(*rng.normal(size=2)), tier)
+            result = check(linkage, 10 ** rng.uniform(-6, 6), rng.uniform(-3, 3), complex(*rng.normal(size=2)))
             tried += isinstance(result, Measures)
             refused += isinstance(result, str)
         except (AssertionError, LinkageError) as error:
@@ -351,7 +346,7 @@ def test_machines_whose_events_touch(id: str) -> None:
 def test_machines_of_the_catalog(id: str) -> None:
     linkage = entries()[id].linkage()
     for scale in SCALES:
-        check(linkage, scale, 0.7 * scale**0.1, 0.3 + 0.4j, "interpreted" if scale == SCALES[0] else "")
+        check(linkage, scale, 0.7 * scale**0.1, 0.3 + 0.4j)
 
 
 @pytest.mark.parametrize("id", SEVERAL_DRIVES)
@@ -362,11 +357,9 @@ def test_poses_of_machines_with_several_drives(id: str) -> None:
     reference = pose_at_reference(cached_plan(linkage), np.zeros(len(turning))).drives
     path = reference + np.linspace(0, 0.05, 11)[:, None] * speed
 
-    def joints(other: Linkage, factor: object = 1.0, tier: str = "compiled") -> np.ndarray:
+    def joints(other: Linkage, factor: object = 1.0) -> np.ndarray:
         """The places, velocities and accelerations of all joints in all poses: (orders, joints, poses)."""
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setenv("GRUEBLER_KERNELS", tier)
-            motion = move(other, path * factor, speed=speed * factor, order=2)
+        motion = move(other, path * factor, speed=speed * factor, order=2)
         assert motion.complete, motion.message()
         names = other.mechanism.chain.joint_names()
         return np.array([[motion.complex_point(name, order) for name in names] for order in range(3)])
@@ -382,4 +375,3 @@ def test_poses_of_machines_with_several_drives(id: str) -> None:
     np.testing.assert_allclose(turned, expected * rect(1, angle) + origin, rtol=0, atol=POSE * size)
     image = joints(mirrored(linkage), np.where(turning, -1.0, 1.0))
     np.testing.assert_allclose(image, expected.conj(), rtol=0, atol=POSE * size)
-    np.testing.assert_allclose(joints(linkage, tier="interpreted"), expected, rtol=0, atol=POSE * size)
