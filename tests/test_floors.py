@@ -32,6 +32,7 @@ WINGS = {
             "immutable",
             "notebook",
             "plain_data",
+            "private_folder",
         },
         {"columns", "jets"},
     ],

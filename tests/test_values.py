@@ -94,7 +94,7 @@ NAMED_TUPLES = [each for each in CLASSES if issubclass(each, tuple) and hasattr(
 def kernel(each: type) -> bool:
     """Whether its room hands it to compiled kernels, which know tuples and no other records."""
     room = each.__module__
-    return "._numeric" in room
+    return room.endswith(".kernel_records")
 
 
 RECORDS = {
