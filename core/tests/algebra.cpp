@@ -3,28 +3,19 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "algebra/certificate.hpp"
 #include "algebra/tracking.hpp"
+#include "check.hpp"
 
 using namespace gruebler;
 using namespace gruebler::algebra;
 using Number = std::complex<double>;
 
 namespace {
-
-bool always(void*) { return true; }
-bool never(void*) { return false; }
-
-void expect(bool truth, const char* otherwise) {
-    if (truth) return;
-    std::fprintf(stderr, "%s\n", otherwise);
-    std::exit(1);
-}
 
 const double* parts(const std::vector<Number>& numbers) { return reinterpret_cast<const double*>(numbers.data()); }
 double* parts(std::vector<Number>& numbers) { return reinterpret_cast<double*>(numbers.data()); }

@@ -1,24 +1,16 @@
 // The atlas without Python, for sanitizers: the two chains of six links, and one with a double joint.
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "atlas/chains.hpp"
 #include "atlas/mechanisms.hpp"
+#include "check.hpp"
 
 using namespace gruebler;
 using namespace gruebler::atlas;
 
 namespace {
-
-bool always(void*) { return true; }
-
-void expect(bool truth, const char* otherwise) {
-    if (truth) return;
-    std::fprintf(stderr, "%s\n", otherwise);
-    std::exit(1);
-}
 
 constexpr std::uint8_t letters[] = {'R'};
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "check.hpp"
 #include "counting/census.hpp"
 #include "counting/graph6.hpp"
 #include "counting/growth.hpp"
@@ -16,15 +17,6 @@ using namespace gruebler::counting;
 namespace {
 
 constexpr std::int64_t chains_of_loops[] = {0, 0, 2, 16, 230, 6856, 318162};  // OEIS A233288: 2 loops, 6 links, 2 chains
-
-bool always(void*) { return true; }
-bool never(void*) { return false; }
-
-void expect(bool truth, const char* otherwise) {
-    if (truth) return;
-    std::fprintf(stderr, "%s\n", otherwise);
-    std::exit(1);
-}
 
 GraphRows rows_of(const std::vector<PackedGraph>& graphs) {
     return {graphs.data()->rows.data(), static_cast<std::int64_t>(graphs.size()), most_nodes};

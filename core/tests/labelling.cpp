@@ -2,11 +2,11 @@
 // are numbered anew.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "check.hpp"
 #include "labelling/labeller.hpp"
 
 using namespace gruebler;
@@ -15,14 +15,6 @@ using namespace gruebler::labelling;
 namespace {
 
 using Edges = std::vector<std::pair<int, int>>;
-
-bool always(void*) { return true; }
-
-void expect(bool truth, const char* otherwise) {
-    if (truth) return;
-    std::fprintf(stderr, "%s\n", otherwise);
-    std::exit(1);
-}
 
 struct Answer {
     Edges form;

@@ -1,26 +1,14 @@
 // Layouts without Python, for sanitizers: a square of bars, a point beside a bar, two bars that cross.
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
+#include "check.hpp"
 #include "layout/relaxation.hpp"
 
 using namespace gruebler;
 using namespace gruebler::layout;
-
-namespace {
-
-bool always(void*) { return true; }
-
-void expect(bool truth, const char* otherwise) {
-    if (truth) return;
-    std::fprintf(stderr, "%s\n", otherwise);
-    std::exit(1);
-}
-
-}  // namespace
 
 int main() {
     Watch watch{always, nullptr};

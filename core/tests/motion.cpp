@@ -2,9 +2,9 @@
 // larger group, a slider-crank, and what is wrong with wrong programs.
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <vector>
 
+#include "check.hpp"
 #include "motion/designs.hpp"
 #include "motion/tracing.hpp"
 #include "motion/walk.hpp"
@@ -13,15 +13,6 @@ using namespace gruebler;
 using namespace gruebler::motion;
 
 namespace {
-
-bool always(void*) { return true; }
-bool never(void*) { return false; }
-
-void expect(bool truth, const char* otherwise) {
-    if (truth) return;
-    std::fprintf(stderr, "%s\n", otherwise);
-    std::exit(1);
-}
 
 // Links: 0 frame, 1 crank, 2 coupler, 3 rocker or slide; elements: the two sides of each joint in turn.
 struct Machine {

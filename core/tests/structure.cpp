@@ -1,8 +1,8 @@
 // Multiple joints, sliding joints and Assur groups without Python, for sanitizers: small numbers in print.
 #include <cstdio>
-#include <cstdlib>
 #include <vector>
 
+#include "check.hpp"
 #include "structure/groups.hpp"
 #include "structure/multiple_joints.hpp"
 #include "structure/sliding.hpp"
@@ -11,15 +11,6 @@ using namespace gruebler;
 using namespace gruebler::structure;
 
 namespace {
-
-bool always(void*) { return true; }
-bool never(void*) { return false; }
-
-void expect(bool truth, const char* otherwise) {
-    if (truth) return;
-    std::fprintf(stderr, "%s\n", otherwise);
-    std::exit(1);
-}
 
 using Ends = std::vector<std::uint8_t>;
 
