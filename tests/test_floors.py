@@ -16,7 +16,6 @@ ROOT = Path(__file__).parents[1]
 # From the ground up. A wing imports the wings before it; a room within it the rooms on lower floors and its own files.
 WINGS = {
     "_core": [{"_core"}],
-    "_numeric": [{"_numeric"}],
     "base": [
         {"errors"},
         {"text"},
@@ -59,7 +58,7 @@ WINGS = {
     "page": [{"page"}],
     "cli": [{"cli"}],
 }
-WHOLE = {"_core", "_numeric", "files", "page", "cli"}  # wings of one room: their files
+WHOLE = {"_core", "files", "page", "cli"}  # wings of one room: their files
 FLOORS = {
     f"{wing}/{room}" if wing not in WHOLE else wing: (k, floor)
     for k, (wing, floors) in enumerate(WINGS.items())

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler._numeric.modular import modular_product
-from tests._numeric.test_prime_field import matrices, plain_rank, sparse
+from gruebler.structure.mobility.prime_field import modular_product
 from tests.core.plain_elimination import P
 from tests.core.plain_elimination import eliminate as plain
+from tests.structure.mobility.test_prime_field import matrices, plain_rank, sparse
 
 ANY = 1e18
 

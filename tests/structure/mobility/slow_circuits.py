@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gruebler._numeric.modular import (
+from gruebler.structure.mobility.prime_field import (
     P,
     echelon,
     left_null_space,

@@ -11,9 +11,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from gruebler import Chain
-from gruebler._numeric import modular
 from gruebler.base.errors import ChainError
-from gruebler.structure.mobility import counted, generic, generic_mobility, mobility_report, overconstrained
+from gruebler.structure.mobility import (
+    counted,
+    generic,
+    generic_mobility,
+    mobility_report,
+    overconstrained,
+    prime_field,
+)
 from gruebler.structure.mobility.idle import IdleCondition
 from tests.strategies import PLANAR, SPATIAL, SPHERICAL, chains
 from tests.structure.mobility import slow_circuits
@@ -190,11 +196,11 @@ def test_circuits_with_a_sparse_basis_and_without_any(monkeypatch, limit, chain)
     """A sparse basis changes nothing; without a basis parts may stay together, but nothing is lost or invented."""
     rank = generic(chain)
     slow = slow_circuits.supports(rank)
-    monkeypatch.setattr(modular, "_DENSE_BASIS", -1)
+    monkeypatch.setattr(prime_field, "_DENSE_BASIS", -1)
     if limit == "_DENSE_BASIS":
         assert [dataclasses.astuple(part) for part in overconstrained(rank)] == slow
         return
-    monkeypatch.setattr(modular, "_SPARSE_STEPS", -1)
+    monkeypatch.setattr(prime_field, "_SPARSE_STEPS", -1)
     found = overconstrained(rank)
     assert sum(part.redundancy for part in found) == rank.redundancy
     links, joints = slow_circuits.loaded(rank)
@@ -216,5 +222,5 @@ def test_idle_freedoms_by_the_rank_of_all_constraints_of_a_link(chain):
     for link in chain.links[1:]:  # the first one is the frame
         mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
         rows = [dict(enumerate(f)) for k in mine for f in functionals[k]]
-        left = chain.space.b - modular.echelon(rows, chain.space.b).rank
+        left = chain.space.b - prime_field.echelon(rows, chain.space.b).rank
         assert always.get(link, 0) == (left if len(mine) > 1 else 0)

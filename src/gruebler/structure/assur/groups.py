@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from gruebler._numeric.modular import echelon
 from gruebler.base.immutable import settle
 from gruebler.structure.assur.forms import DYADS, GroupJoint, class_number, form_name
 from gruebler.structure.assur.locking import AssurError
@@ -15,6 +14,7 @@ from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.isomorphism import canonical_order, code, decode
 from gruebler.structure.mobility.placement import random_placement
+from gruebler.structure.mobility.prime_field import echelon
 
 _SEEDS = (1, 2, 3)
 

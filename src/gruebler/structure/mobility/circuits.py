@@ -19,7 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.modular import (
+from gruebler.base.disjoint_sets import DisjointSets
+from gruebler.structure.mobility.prime_field import (
     P,
     Support,
     echelon,
@@ -28,7 +29,6 @@ from gruebler._numeric.modular import (
     null_space_by_column,
     reduced_echelon,
 )
-from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.structure.mobility.rank import Generic
 
 _BUDGET = 200  # subspaces visited in one connected part of the stress space

@@ -14,9 +14,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from gruebler._numeric.modular import P, modular_inverse
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.structure.chain import Chain
+from gruebler.structure.mobility.prime_field import P, modular_inverse
 from gruebler.structure.mobility.rank import Generic
 
 

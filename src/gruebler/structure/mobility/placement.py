@@ -1,6 +1,6 @@
 """A chain at a random placement: the linear constraints of its joints on the twists of its links.
 
-Everything is counted modulo the prime P of `gruebler._numeric.modular`. Each joint gets a random frame
+Everything is counted modulo the prime P of `gruebler.structure.mobility.prime_field`. Each joint gets a random frame
 of its own (a rotation from a random quaternion, and a random origin), common to all its links. A pair with
 freedoms D allows relative twists in the span of D; the functionals that vanish on D are its constraints, u
 of them. In the joint's own axes they are the unit functionals of the directions that D leaves out; for a
@@ -19,9 +19,9 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.modular import P, Row
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.spaces import Freedom, Space
+from gruebler.structure.mobility.prime_field import P, Row
 
 _SPATIAL = Space.SPATIAL.directions
 _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotation) + 1 (origin) + 1 (pitch)

@@ -15,10 +15,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.modular import CoreTooLarge, Echelon, Row, echelon, null_space, random_solutions, transposed
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility.placement import LockedFreedom, Placement, random_placement
+from gruebler.structure.mobility.prime_field import (
+    CoreTooLarge,
+    Echelon,
+    Row,
+    echelon,
+    null_space,
+    random_solutions,
+    transposed,
+)
 from gruebler.structure.mobility.sparsity import pebble_mobility, theorem
 
 _FIRST_SEED = 20_261_121

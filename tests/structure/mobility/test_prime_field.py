@@ -3,8 +3,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gruebler._numeric import modular
-from gruebler._numeric.modular import (
+from gruebler.structure.mobility import prime_field
+from gruebler.structure.mobility.prime_field import (
     CoreTooLarge,
     P,
     echelon,
@@ -111,7 +111,7 @@ def test_a_core_of_several_panels(m, n, rank):
 @given(matrices())
 @settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_null_spaces_by_column_and_random_solutions(monkeypatch, dense, matrix):
-    monkeypatch.setattr(modular, "_DENSE_BASIS", 10**9 if dense else -1)
+    monkeypatch.setattr(prime_field, "_DENSE_BASIS", 10**9 if dense else -1)
     form = echelon(sparse(matrix), matrix.shape[1])
     basis = null_space(form)
     by_column = null_space_by_column(form)
@@ -129,16 +129,16 @@ def test_null_spaces_by_column_and_random_solutions(monkeypatch, dense, matrix):
 
 def test_a_basis_with_too_many_entries_is_not_written_down(monkeypatch):
     rows = [{0: 1, 1: 1, 2: 1}, {3: 1, 4: 1, 5: 1}]
-    monkeypatch.setattr(modular, "_DENSE_BASIS", 0)
+    monkeypatch.setattr(prime_field, "_DENSE_BASIS", 0)
     assert len(null_space_by_column(echelon(rows, 6))) == 6
-    monkeypatch.setattr(modular, "_SPARSE_STEPS", 3)
+    monkeypatch.setattr(prime_field, "_SPARSE_STEPS", 3)
     assert null_space_by_column(echelon(rows, 6)) is None
 
 
 def test_what_is_long_or_large_is_refused_unless_it_is_wanted(monkeypatch):
     random = np.random.default_rng(2)
     matrix = random.integers(0, P, (60, 70))
-    monkeypatch.setattr(modular, "_LARGE", 1000)
+    monkeypatch.setattr(prime_field, "_LARGE", 1000)
     with pytest.raises(CoreTooLarge, match=r"60 equations"):
         echelon(sparse(matrix), 70)
     assert echelon(sparse(matrix), 70, large=True).rank == 60
