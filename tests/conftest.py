@@ -6,7 +6,7 @@ from hypothesis import HealthCheck, settings
 
 # The fast tests try the same examples on every machine, so that a failure is one of the change at hand; `make slow`
 # draws new ones each time.
-# Compilation and the machine's load make single examples slow now and then; slowness is not what these tests judge.
+# The load of the machine makes single examples slow now and then; slowness is not what these tests judge.
 settings.register_profile(
     "gruebler",
     deadline=None,

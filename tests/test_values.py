@@ -92,7 +92,7 @@ NAMED_TUPLES = [each for each in CLASSES if issubclass(each, tuple) and hasattr(
 
 
 def kernel(each: type) -> bool:
-    """Whether its room hands it to compiled kernels, which know tuples and no other records."""
+    """Whether it is what the doors of the core take, field by field."""
     room = each.__module__
     return room.endswith(".kernel_records")
 
