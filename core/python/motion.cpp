@@ -155,7 +155,7 @@ constexpr LevelOfSweep levels[] = {
 
 // The best level of this processor, or the one that is named.
 Sweep* sweep_of(const std::string& name) {
-    static const Level highest = highest_level();
+    const Level highest = highest_level();
     Sweep* best = nullptr;
     for (const LevelOfSweep& each : levels) {
         if (each.level > highest) break;
