@@ -109,7 +109,7 @@ def test_a_path_to_infinity_and_a_singular_matrix(core):
     assert not refined.any()
 
 
-@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timer of this system")
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="Windows has no interval timer")
 def test_a_signal_ends_a_long_call(core):
     base = load_generic_solutions(NINE)
     starts, p = np.tile(base.z, (20, 1)), random_parameters(NINE, 7)

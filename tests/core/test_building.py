@@ -60,7 +60,7 @@ def symbols(file):
     return {(kind, name) for kind, name in found if (kind.isupper() and kind not in "BDR") or kind in "uvw"}
 
 
-@pytest.mark.skipif(not shutil.which("nm"), reason="no nm")
+@pytest.mark.skipif(not shutil.which("nm"), reason="needs nm")
 @pytest.mark.parametrize("level", ["v3", "v4"])
 def test_levels_share_no_function(level):
     """Of two functions of one name the linker keeps one: it could be the one that the processor does not know."""
@@ -76,7 +76,7 @@ def test_levels_share_no_function(level):
     assert shared == set()
 
 
-@pytest.mark.skipif(not shutil.which("objdump"), reason="no objdump")
+@pytest.mark.skipif(not shutil.which("objdump"), reason="needs objdump")
 @pytest.mark.parametrize("level", ["", "_v3", "_v4"])
 def test_no_product_is_fused_with_a_sum(level):
     """It would be rounded once, not twice: other bits than elsewhere. `-ffp-contract=off` alone does not prevent it."""

@@ -86,7 +86,7 @@ def test_growth_gives_canonical_graphs_once(core):
     assert len(np.unique(grown, axis=0)) == len(grown)
 
 
-@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timer of this system")
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="Windows has no interval timer")
 @pytest.mark.parametrize("kernel", ["census", "growth"])
 def test_a_signal_ends_a_long_call(core, kernel):
     many = np.tile(graphs(6), (200, 1))

@@ -16,7 +16,7 @@ def test_graphs_of_different_lengths_in_one_call(core):
     assert sorted(map(sorted, places.tolist())) == [[0, 1, 2]] * 4
 
 
-@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timer of this system")
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="Windows has no interval timer")
 def test_a_signal_ends_a_long_call(core):
     edges = Graph.of(nx.line_graph(nx.complete_bipartite_graph(10, 10))).edges.astype(np.int32)
     many, bounds = np.tile(edges, (3000, 1)), np.arange(3001) * len(edges)

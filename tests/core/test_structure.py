@@ -49,7 +49,7 @@ def test_growth_in_parts(core):
 
 def test_a_signal_ends_growth(core):
     if not hasattr(signal, "setitimer"):
-        pytest.skip("no timer of this system")
+        pytest.skip("Windows has no interval timer")
     search = core.MultipleJoints(20, np.array([[3, 6, 12, 24, 48, 96, 192, 129]], np.int64), *EVERY)
     assert len(search.next(5)) == 1  # a ring alone grows into nothing
     many = np.tile(simple(10), (200, 1))
