@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
+INSTALLED := $(VENV)/.installed
 
 .PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest core test-core core-sanitize torture mutants bench clean
 
@@ -29,6 +30,12 @@ SOURCES := pyproject.toml core/CMakeLists.txt $(shell find core/src core/python 
 $(READY): $(SOURCES)
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[test]"
+	@touch $@ $(INSTALLED)
+
+# Without what only the tests need.
+$(INSTALLED): $(SOURCES)
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
 	@touch $@
 
 # The same for what builds the site.
@@ -37,7 +44,7 @@ $(VENV)/.docs: pyproject.toml
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[docs]"
 	@touch $@
 
-demo: $(READY)
+demo: $(INSTALLED)
 	@$(BIN)/gruebler demo
 
 test: $(READY)
