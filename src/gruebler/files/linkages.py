@@ -59,7 +59,8 @@ def linkage_from_json(document: Mapping[str, Any]) -> Linkage:
     """The linkage of plain data, such as `linkage_to_json` makes.
 
     >>> linkage_from_json({"unit": "mm", "four_bar": {"a": 25, "b": 70, "c": 40, "d": 70}})
-    <linkage R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)>
+    <linkage R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank);
+    crank (0, 0) (25, 0); frame (0, 0) (70, 0); coupler (0, 0) (70, 0); rocker (40, 0) (0, 0); mm>
     """
     record = convert_document(document, LinkageRecord, LinkageError)
     mechanism = _mechanism(record)

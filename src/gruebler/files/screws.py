@@ -78,7 +78,7 @@ def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
     >>> z = [0, 0, 1]
     >>> spatial_from_json({"joints": "spatial: R(0-1) H(1-2) P(0-2)", "screws": {"unit": "mm", "joints": {
     ...     "R(0-1)": {"z": z}, "H(1-2)": {"z": z, "lead": 5}, "P(0-2)": {"x": z, "at": [0, 50, 0]}}}})
-    <spatial linkage spatial: R(0-1) H(1-2) P(0-2); frame=0>
+    <spatial linkage spatial: R(0-1) H(1-2) P(0-2); frame=0; (0, 0, 0) (0, 0, 0) (0, 50, 0)>
     """
     record = convert_document(document, SpatialRecord, LinkageError)
     try:

@@ -167,7 +167,7 @@ class Freedoms:
         Mobility: counted 1, generic 1, instant 1, finite 1.
         Count: F = 3(n - 1) - 2 g1 = 3(4 - 1) - 2·4 = 1
         Instant: 8 constraints of rank 8 on 9 velocities leave 1 at this pose. Singular values against the largest: the
-        smallest that counts is 1.2e-01, none counts as zero (tolerance 1e-08).
+        smallest that counts is 0.12, none counts as zero (tolerance 10⁻⁸).
         No constraint is redundant.
         Finite: 1, proved, for no constraint is redundant (implicit function theorem).
         """
