@@ -124,9 +124,9 @@ def test_every_name_of_the_front_door_is_stable_or_provisional():
     assert sorted(name for name, _ in rows) == sorted(gr.__all__)
 
 
-def readme_commands():
-    """The commands of the README in their order, without comments."""
-    for row in (ROOT / "README.md").read_text(encoding="utf-8").splitlines():
+def commands_of(page):
+    """The commands of a page in their order, without comments."""
+    for row in page.read_text(encoding="utf-8").splitlines():
         found = re.match(r"    (?:\$ (.*)|(gruebler (?!\w+,).*))", row)
         if found:
             yield re.sub(r"\s{2,}#.*| # .*", "", found[1] or found[2])
@@ -134,15 +134,16 @@ def readme_commands():
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("bash") is None, reason="the README is written for bash")
-def test_commands_of_the_readme(tmp_path):
+@pytest.mark.parametrize(("page", "least"), [("README.md", 6), ("docs/reference/tour.md", 60)])
+def test_commands_of_the_readme(page, least, tmp_path):
     """In their order in one empty folder: every file that a command reads was written by one before it.
 
     The page's server is left out, which would wait for a browser.
     """
     shell = f'gruebler() {{ "{sys.executable}" -m gruebler "$@"; }}; set -o pipefail; '
     server = re.compile(r"gruebler explore(?!.* -o )")
-    commands = [each for each in readme_commands() if not server.match(each)]
-    assert len(commands) > 60
+    commands = [each for each in commands_of(ROOT / page) if not server.match(each)]
+    assert len(commands) > least
     for each in commands:
         ran = subprocess.run(["bash", "-c", shell + each], cwd=tmp_path, capture_output=True, text=True, check=False)
         assert ran.returncode in (0, 1), f"{each}\n{ran.stderr}"

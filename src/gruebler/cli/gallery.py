@@ -17,7 +17,8 @@ from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
 from gruebler.files.structures import is_structure_text
 from gruebler.pictures.canvas import Item, Section, gallery_html
-from gruebler.pictures.canvas.files import suffix_of
+from gruebler.pictures.canvas.arrangement import gallery_figure
+from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.pictures.structure import draw_side_view, draw_structure
 from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain import Chain
@@ -55,12 +56,12 @@ def add(parser: Parser) -> None:
         --side  draw gear trains from the side, their axes as lines
         """
     )
-    parser.add_out(help="the page: .html or .pdf", required=True)
+    parser.add_out(help="the page: .html or .pdf; or one picture: .svg or .png", required=True)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
-    suffix = suffix_of(arguments.out, ("html", "pdf"))
+    suffix = suffix_of(arguments.out, ("html", *SUFFIXES))
     lang = arguments.lang
     if arguments.side and not arguments.ids:
         raise GrueblerError("--side draws gear trains that are given, such as those of gruebler enumerate --trains")
@@ -80,10 +81,12 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError("give --links N, or the chains, mechanisms or catalog entries to draw")
     if suffix == "html":
         content = gallery_html(title, sections, lang=lang, note=note).encode("utf-8")
-    else:
+    elif suffix == "pdf":
         from gruebler.pictures.canvas.matplotlib_files import gallery_pdf
 
         content = gallery_pdf(title, sections, note=note)
+    else:
+        content = picture_bytes(gallery_figure(title, sections), suffix)
     write_file(arguments.out, content, lang)
     return 0
 

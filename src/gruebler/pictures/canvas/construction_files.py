@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from html import escape
 
 from gruebler.base.text import translate
+from gruebler.pictures.canvas.arrangement import pictures_in_one
 from gruebler.pictures.canvas.construction import Construction
-from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.files import picture_bytes
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
-from gruebler.pictures.canvas.shapes import Point, Shape, moved_shape
 from gruebler.pictures.canvas.styles import COLOURS
 from gruebler.pictures.canvas.svg import style_sheet
 
 CONSTRUCTION_SUFFIXES = ("html", "pdf", "svg", "png")
-_COLUMNS = 2
 
 
 def construction_bytes(whole: Construction, suffix: str, lang: str = "en", *, step: int | None = None) -> bytes:
@@ -35,24 +32,6 @@ def construction_bytes(whole: Construction, suffix: str, lang: str = "en", *, st
 
         return pages_pdf(whole.title.in_language(lang), figures)
     return picture_bytes(pictures_in_one(figures, whole.title.in_language(lang)), suffix)
-
-
-def pictures_in_one(figures: Sequence[Figure], title: str, columns: int = _COLUMNS) -> Figure:
-    """Pictures in reading order, each in the middle of its cell; columns and rows are as large as needed."""
-    columns = min(columns, len(figures))
-    wide = [max(figure.width for figure in figures[k::columns]) for k in range(columns)]
-    rows = [figures[k : k + columns] for k in range(0, len(figures), columns)]
-    shapes: list[Shape] = []
-    top = 0.0
-    for row in rows:
-        high = max(figure.height for figure in row)
-        for k, figure in enumerate(row):
-            left = sum(wide[:k]) + (wide[k] - figure.width) / 2
-            shapes += [moved_shape(shape, Point(left, top + (high - figure.height) / 2)) for shape in figure.shapes]
-        top += high
-    return Figure(
-        tuple(shapes), width=sum(wide), height=top, title=title, description=" ".join(f.description for f in figures)
-    )
 
 
 _STYLE = (

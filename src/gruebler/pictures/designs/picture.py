@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from math import degrees, isnan, pi
-from textwrap import wrap
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
@@ -16,17 +13,15 @@ from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTa
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.pictures.canvas import gallery_html
-from gruebler.pictures.canvas.construction_files import pictures_in_one
+from gruebler.pictures.canvas.arrangement import captioned, pictures_in_one, stacked
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.gallery import Item, Section
-from gruebler.pictures.canvas.shapes import Point, Shape, TextShape, moved_shape
 from gruebler.pictures.designs.alt_construction import STRAIGHT, alt_steps
 from gruebler.pictures.designs.plots import burmester_plot, function_plot
 from gruebler.pictures.linkage.animation import animated_svg
 from gruebler.pictures.linkage.picture import draw_linkage
 
 _COLUMNS = 3
-_LETTER, _LINE = 6.5, 16.0  # pixels of a letter and of a line of a caption
 _MOST_MARKS = 12  # targets that get a name; of more every second, third, ... is shown
 
 
@@ -102,34 +97,12 @@ def designs_figure(result: SynthesisResult, *, lang: str = "en", most: int = 6) 
     shown = (result.designs or result.rejected)[:most]
     plots = [figure for figure, _ in _plots(result, lang)]
     figures = [
-        _captioned(design_figure(result.task, design, lang=lang), f"{k} {_caption(design, lang)}")
+        captioned(design_figure(result.task, design, lang=lang), f"{k} {_caption(design, lang)}")
         for k, design in enumerate(shown, 1)
     ]
     title = translate("Designs", lang)
     page = pictures_in_one(figures, title, min(_COLUMNS, len(figures)))
-    return _stacked([*plots, page], title)
-
-
-def _captioned(figure: Figure, caption: str) -> Figure:
-    """A figure with its caption below, in lines as wide as the figure."""
-    lines = wrap(caption, max(20, int(figure.width / _LETTER)))
-    texts = [
-        TextShape(Point(figure.width / 2, figure.height + _LINE * k), line, "value") for k, line in enumerate(lines)
-    ]
-    return replace(figure, shapes=(*figure.shapes, *texts), height=figure.height + _LINE * (len(lines) + 1))
-
-
-def _stacked(figures: Sequence[Figure], title: str) -> Figure:
-    """Figures one below the other."""
-    shapes: list[Shape] = []
-    top = 0.0
-    for figure in figures:
-        shapes += [moved_shape(shape, Point(0.0, top)) for shape in figure.shapes]
-        top += figure.height
-    about = " ".join(figure.description for figure in figures)
-    return Figure(
-        tuple(shapes), width=max(figure.width for figure in figures), height=top, title=title, description=about
-    )
+    return stacked([*plots, page], title)
 
 
 def _plots(result: SynthesisResult, lang: str) -> list[tuple[Figure, str]]:

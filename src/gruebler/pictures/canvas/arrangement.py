@@ -1,0 +1,70 @@
+"""Several figures as one: side by side, one below the other, with captions, with the sections of a gallery."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from textwrap import wrap
+
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.gallery import Section
+from gruebler.pictures.canvas.shapes import Point, Shape, TextShape, moved_shape
+
+_LETTER, _LINE = 6.5, 16.0  # pixels of a letter and of a line of a caption
+_HEADING = 34.0  # pixels of the heading of a section
+_WIDE = 1400.0  # pixels of a page, about
+
+
+def pictures_in_one(figures: Sequence[Figure], title: str, columns: int = 2) -> Figure:
+    """Pictures in reading order, each in the middle of its cell; columns and rows are as large as needed."""
+    columns = min(columns, len(figures))
+    wide = [max(figure.width for figure in figures[k::columns]) for k in range(columns)]
+    rows = [figures[k : k + columns] for k in range(0, len(figures), columns)]
+    shapes: list[Shape] = []
+    top = 0.0
+    for row in rows:
+        high = max(figure.height for figure in row)
+        for k, figure in enumerate(row):
+            left = sum(wide[:k]) + (wide[k] - figure.width) / 2
+            shapes += [moved_shape(shape, Point(left, top + (high - figure.height) / 2)) for shape in figure.shapes]
+        top += high
+    return Figure(
+        tuple(shapes), width=sum(wide), height=top, title=title, description=" ".join(f.description for f in figures)
+    )
+
+
+def captioned(figure: Figure, caption: str) -> Figure:
+    """A figure with its caption below, in lines as wide as the figure."""
+    lines = wrap(caption, max(20, int(figure.width / _LETTER)))
+    texts = [
+        TextShape(Point(figure.width / 2, figure.height + _LINE * k), line, "value") for k, line in enumerate(lines)
+    ]
+    return replace(figure, shapes=(*figure.shapes, *texts), height=figure.height + _LINE * (len(lines) + 1))
+
+
+def stacked(figures: Sequence[Figure], title: str) -> Figure:
+    """Figures one below the other."""
+    shapes: list[Shape] = []
+    top = 0.0
+    for figure in figures:
+        shapes += [moved_shape(shape, Point(0.0, top)) for shape in figure.shapes]
+        top += figure.height
+    about = " ".join(figure.description for figure in figures)
+    return Figure(
+        tuple(shapes), width=max(figure.width for figure in figures), height=top, title=title, description=about
+    )
+
+
+def gallery_figure(title: str, sections: Sequence[Section]) -> Figure:
+    """A gallery as one picture: each section under its heading, as many pictures side by side as fit."""
+    parts = []
+    for section in sections:
+        figures = [captioned(item.figure, item.caption) for item in section.items]
+        columns = max(1, int(_WIDE / max(figure.width for figure in figures)))
+        page = pictures_in_one(figures, section.heading or title, columns)
+        if section.heading:
+            heading = TextShape(Point(10.0, _HEADING / 2), section.heading, "name", "start")
+            shapes = (heading, *(moved_shape(shape, Point(0.0, _HEADING)) for shape in page.shapes))
+            page = replace(page, shapes=shapes, height=page.height + _HEADING)
+        parts.append(page)
+    return stacked(parts, title)
