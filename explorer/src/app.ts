@@ -1,7 +1,7 @@
 /** The page: its header, its views, its language and theme, the link that is its document. */
 
 import { CatalogView } from "./catalog";
-import { h } from "./dom";
+import { h, renew } from "./dom";
 import { ExercisesView } from "./exercises";
 import { Backend, type HostModel } from "./host";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
@@ -19,6 +19,8 @@ interface Shared {
   name: string;
   source: string;
   drive: number;
+  /** Whether it has other sizes than what its name and its source stand for. */
+  changed?: boolean;
 }
 
 export class App implements Page {
@@ -28,9 +30,11 @@ export class App implements Page {
   private view = "motion";
   private readonly header = h("header", {});
   private readonly message = h("div", { class: "message", role: "status", hidden: true });
+  private readonly lost = h("div", { class: "lost", role: "status", hidden: true });
   private readonly root: HTMLElement;
   private readonly host: HTMLElement;
-  private connected = true;
+  /** Whether the address is that of a link that could not be read: it stays until something is changed. */
+  private unread = false;
   private writing = 0;
   private hash = "";
 
@@ -65,6 +69,7 @@ export class App implements Page {
       "div",
       { class: "app" },
       this.header,
+      this.lost,
       this.message,
       ...Object.values(this.views).map((view) => view.element),
     );
@@ -76,11 +81,14 @@ export class App implements Page {
   }
 
   async start(): Promise<void> {
+    this.unread = this.linkable && location.hash.length > 1; // until it is read
     this.motion.open(this.model.get("machine") as Model);
     this.show("motion");
     if (this.linkable) {
       await this.read();
-      window.addEventListener("hashchange", () => location.hash !== this.hash && void this.read());
+      this.motion.forget();
+      this.arrangeHeader();
+      window.addEventListener("popstate", (event) => void this.goneBack(event));
     }
   }
 
@@ -125,6 +133,7 @@ export class App implements Page {
   // --- views ---------------------------------------------------------------------------------------------------------
 
   show(name: string): void {
+    if (this.view !== name) this.say("");
     this.view = name;
     for (const [key, view] of Object.entries(this.views)) view.element.classList.toggle("shown", key === name);
     if (name !== "motion") this.motion.pause();
@@ -132,10 +141,32 @@ export class App implements Page {
     this.views[name]!.appeared?.();
   }
 
+  /** Show another view, to which the browser's way back leads from the next one. */
+  private turnTo(name: string): void {
+    if (name !== this.view) this.remember(name);
+    this.show(name);
+  }
+
+  /** A new place in the history of the browser; the one before keeps its view and its linkage. */
+  private remember(view: string): void {
+    if (!this.linkable) return;
+    clearTimeout(this.writing);
+    history.replaceState({ view: this.view }, "", this.hash || null);
+    history.pushState({ view }, "", this.hash || null);
+  }
+
+  /** Back, or forth: the view, and the linkage if it was another one. */
+  private async goneBack(event: PopStateEvent): Promise<void> {
+    if (location.hash !== this.hash) await this.read();
+    const view = (event.state as { view?: string } | null)?.view;
+    if (view && view in this.views) this.show(view);
+  }
+
   /** The name of the mechanism in the language of the page. */
   private get name(): string {
     const model = this.motion.linkage?.model;
-    return model?.names[currentLanguage()] ?? model?.name ?? "";
+    const name = model?.names[currentLanguage()] ?? model?.name ?? "";
+    return name && this.motion.changed ? t("{name}, changed", { name }) : name;
   }
 
   private arrangeHeader(): void {
@@ -161,7 +192,7 @@ export class App implements Page {
                   role: "tab",
                   "data-view": key,
                   "aria-selected": String(key === this.view),
-                  onclick: () => this.show(key),
+                  onclick: () => this.turnTo(key),
                 },
                 names[key]!,
               ),
@@ -186,8 +217,10 @@ export class App implements Page {
         ] as const
       ).map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)),
     );
-    this.header.replaceChildren(
-      h("h1", {}, "gruebler", h("small", {}, this.name)),
+    if (this.linkable) document.title = this.name ? `${this.name} – gruebler` : "gruebler";
+    renew(
+      this.header,
+      h("h1", {}, "gruebler ", h("small", {}, this.name)),
       ...(tabs ? [tabs] : []),
       h("span", { class: "spring" }),
       tool("↶", t("Undo"), () => this.motion.undo(), !back),
@@ -211,19 +244,19 @@ export class App implements Page {
     this.say("");
   }
 
-  say(text: string, action?: HTMLElement): void {
-    if (!this.connected && !text)
-      text = t(
-        "The connection to gruebler is lost. The page goes on by itself; it connects again when the server is back.",
-      );
+  say(text: string, kind: "error" | "done" = "error", action?: HTMLElement): void {
     if (this.message.firstChild?.textContent === text && !action) return;
     this.message.hidden = !text;
-    this.message.replaceChildren(h("span", {}, text), ...(action ? [action] : []));
+    this.message.classList.toggle("done", kind === "done");
+    const close = h("button", { class: "quiet", "aria-label": t("Close"), onclick: () => this.say("") }, "×");
+    this.message.replaceChildren(h("span", {}, text), ...(action ? [action] : []), close);
   }
 
   private connection(on: boolean): void {
-    this.connected = on;
-    this.say("");
+    this.lost.hidden = on;
+    this.lost.textContent = on
+      ? ""
+      : t("The connection to gruebler is lost. The page goes on by itself; it connects again when the server is back.");
   }
 
   ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void) {
@@ -234,6 +267,7 @@ export class App implements Page {
 
   open(model: Model): void {
     this.say("");
+    if (this.motion.linkage) this.remember("motion");
     this.motion.open(model);
     this.show("motion");
   }
@@ -247,6 +281,8 @@ export class App implements Page {
   /** After a change: the link follows, a notebook is told. */
   changed(): void {
     this.arrangeHeader();
+    if (this.unread && !this.motion.undoable[0]) return;
+    this.unread = false;
     clearTimeout(this.writing);
     this.writing = window.setTimeout(() => void this.write(), 150);
   }
@@ -258,6 +294,7 @@ export class App implements Page {
       name: model.name,
       source: model.source,
       drive: drives[active] ?? 0,
+      changed: this.motion.changed,
     };
   }
 
@@ -267,7 +304,7 @@ export class App implements Page {
     this.model.save_changes();
     if (!this.linkable) return;
     this.hash = `#${await packed(shared)}`;
-    history.replaceState(null, "", this.hash);
+    history.replaceState({ view: this.view }, "", this.hash);
   }
 
   /** Copy the address with the linkage in it. */
@@ -276,7 +313,8 @@ export class App implements Page {
     const address = this.linkable ? location.href : `#${await packed(this.shared())}`;
     try {
       await navigator.clipboard.writeText(address);
-      this.say(t("The link is copied. It holds the mechanism with its sizes."));
+      const where = this.served && this.linkable ? t("Others open it by: gruebler explore LINK") : "";
+      this.say(`${t("The link is copied. It holds the mechanism with its sizes.")} ${where}`, "done");
     } catch {
       const field = h("input", {
         value: address,
@@ -284,7 +322,7 @@ export class App implements Page {
         "aria-label": t("Copy the link"),
         onfocus: () => field.select(),
       });
-      this.say(t("Copy this link:"), field);
+      this.say(t("Copy this link:"), "done", field);
       field.focus();
     }
   }
@@ -292,10 +330,15 @@ export class App implements Page {
   private async read(): Promise<void> {
     const text = location.hash.slice(1);
     if (!text) return;
+    this.hash = location.hash;
     try {
       const shared = (await unpacked(text)) as Shared;
+      if (typeof shared?.document?.joints !== "string") throw new BadLink("This link holds no mechanism.");
       await this.openShared(shared);
+      this.unread = false;
+      this.changed();
     } catch (error) {
+      this.unread = true;
       if (error instanceof BadLink) this.say(t(error.message));
       else this.say(error instanceof Error ? error.message : String(error));
     }
@@ -304,11 +347,13 @@ export class App implements Page {
   private async openShared(shared: Shared): Promise<void> {
     const { model } = this.motion.linkage;
     const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(shared.document[key]);
-    if (["joints", "frame", "drives", "links"].every(same)) this.motion.openDocument(shared.document, shared.drive);
+    if (["joints", "frame", "drives", "links"].every(same) && (model.name === shared.name || !this.served))
+      this.motion.openDocument(shared.document, shared.drive);
     else if (this.backend.present) {
-      this.open(
-        await this.ask<Model>("open_document", { document: shared.document, name: shared.name, source: shared.source }),
-      );
+      const { document, name, source, changed = false } = shared;
+      const found = await this.ask<Model>("open_document", { document, name, source });
+      this.motion.open({ ...found, changed });
+      this.show("motion");
     } else this.say(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
   }
 
@@ -316,6 +361,8 @@ export class App implements Page {
 
   private key(event: KeyboardEvent): void {
     const target = event.composedPath()[0] as HTMLElement;
+    const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
+    if ((event.key === "Escape" || undo) && this.motion.stage.cancelDrag()) return event.preventDefault();
     if (/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range") return;
     if (event.ctrlKey || event.metaKey) {
       if (event.key === "z" && !event.shiftKey) this.motion.undo();
@@ -339,6 +386,7 @@ export class App implements Page {
   private help(): void {
     const rows: [string, string][] = [
       [t("Space"), t("play and pause")],
+      ["Esc", t("give up a drag")],
       ["← →", t("move the drive by 1°, with Shift by 10°")],
       ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
       ["Ctrl Z, Ctrl Y", t("undo, redo")],

@@ -1,9 +1,10 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
-import { h, thumbnail } from "./dom";
+import { h, renew, thumbnail } from "./dom";
 import { t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
+import { moment } from "./waiting";
 
 interface Entry {
   id: string;
@@ -77,7 +78,8 @@ export class CatalogView implements View {
         field(t("Joints by type"), this.joints, (text) => (this.joints = text), t("R:4,P:0"), "joints"),
       ),
     );
-    this.element.replaceChildren(
+    renew(
+      this.element,
       h(
         "div",
         { class: "page" },
@@ -102,6 +104,7 @@ export class CatalogView implements View {
     const features = Object.fromEntries(
       Object.entries(this.features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])),
     );
+    if (!this.filled) renew(this.cards, moment());
     try {
       const found = await this.page.ask<Entry[]>("catalog", {
         words: this.words,
@@ -112,7 +115,8 @@ export class CatalogView implements View {
       if (number !== this.asked) return;
       this.filled = true;
       this.note.textContent = t("{count} machines", { count: found.length });
-      this.cards.replaceChildren(
+      renew(
+        this.cards,
         ...found.map((entry) =>
           h(
             "button",

@@ -32,6 +32,22 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return filled(document.createElementNS(SVG, tag), attributes, children) as SVGElementTagNameMap[K];
 }
 
+/** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name. */
+export function renew(place: Element, ...children: (Node | string)[]): void {
+  const focused = (place.getRootNode() as Document | ShadowRoot).activeElement;
+  const name = focused && focused !== place && place.contains(focused) ? selectorOf(focused) : "";
+  const { scrollTop } = place;
+  place.replaceChildren(...children);
+  place.scrollTop = scrollTop;
+  if (name) place.querySelector<HTMLElement>(name)?.focus({ preventScroll: true });
+}
+
+/** What an element is called: its number in the document, its data, else what it is read as. */
+function selectorOf(element: Element): string {
+  const named = [...element.attributes].find(({ name }) => /^(id|data-.*|aria-label)$/.test(name));
+  return element.tagName.toLowerCase() + (named ? `[${named.name}="${CSS.escape(named.value)}"]` : "");
+}
+
 /** The picture in SVG that Python wrote, as an element: parsed, not trusted as markup of the page. */
 export function picture(text: string, label: string): Element {
   const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;

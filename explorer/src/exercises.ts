@@ -1,8 +1,9 @@
 /** Exercises: a fresh task, the student's answers marked with their hints, the solution step by step. */
 
-import { h } from "./dom";
+import { h, renew } from "./dom";
 import { t } from "./language";
 import type { Page, View } from "./view";
+import { moment } from "./waiting";
 
 interface Task {
   id: string;
@@ -39,7 +40,8 @@ export class ExercisesView implements View {
       { "aria-label": t("Level"), onchange: () => (this.level = Number(level.value)) },
       ...[1, 2, 3].map((k) => h("option", { value: k, selected: k === this.level }, t("Level {level}", { level: k }))),
     );
-    this.element.replaceChildren(
+    renew(
+      this.element,
       h(
         "div",
         { class: "page" },
@@ -69,8 +71,10 @@ export class ExercisesView implements View {
   }
 
   private async fillKinds(): Promise<void> {
+    if (!this.task) renew(this.place, moment());
     const kinds = await this.page.ask<{ kind: string; name: string }[]>("exercise_kinds", {});
-    this.kinds.replaceChildren(
+    renew(
+      this.kinds,
       ...kinds.map(({ kind, name }) => h("option", { value: kind, selected: kind === this.kind }, name)),
     );
   }
@@ -81,7 +85,7 @@ export class ExercisesView implements View {
       this.answers = {};
       this.show(null);
     } catch (error) {
-      this.place.replaceChildren(h("p", { class: "error" }, (error as Error).message));
+      renew(this.place, h("p", { class: "error" }, (error as Error).message));
     }
   }
 
@@ -109,7 +113,8 @@ export class ExercisesView implements View {
         ),
       );
     });
-    this.place.replaceChildren(
+    renew(
+      this.place,
       h("h2", {}, task.name),
       h("p", {}, task.task),
       h(

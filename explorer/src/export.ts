@@ -7,6 +7,8 @@ import type { Page } from "./view";
 
 /** What is taken away. */
 export interface Exported {
+  /** Whether it has other sizes than what its name and its source stand for. */
+  readonly changed: boolean;
   document(): LinkageDocument;
   /** The picture as an SVG file. */
   picture(): string;
@@ -55,7 +57,9 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
     : [];
   const model = page.shown;
   const [reader, measured] = ["from gruebler.files import read_linkage", "print(gr.measures(linkage).explain())"];
-  const word = model.source || `${stem()}.toml`;
+  const named = model.source && !shown.changed; // by its name the library finds it as it was
+  const file = `${stem()}.json`;
+  const word = named ? model.source : file;
   return h(
     "div",
     {},
@@ -68,15 +72,18 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
     ),
     h("p", { class: "note" }, t("The chain as text")),
     h("pre", { "data-text": "chain" }, chainText(model)),
+    named
+      ? null
+      : h("p", { class: "note", "data-note": "file" }, t("Save it as JSON first; the commands read {file}.", { file })),
     h("p", { class: "note" }, t("The same on the command line")),
     h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem()}.svg`),
     h("p", { class: "note" }, t("The same in Python")),
     h(
       "pre",
       {},
-      model.source && !model.source.includes(":")
+      named && !model.source.includes(":")
         ? `import gruebler as gr\n\nlinkage = gr.teaching.catalog.entry("${model.source}").linkage()\n${measured}`
-        : `${reader}\nimport gruebler as gr\n\nlinkage = read_linkage("${stem()}.toml")\n${measured}`,
+        : `${reader}\nimport gruebler as gr\n\nlinkage = read_linkage("${file}")\n${measured}`,
     ),
   );
 }

@@ -37,6 +37,8 @@ export class Linkage {
   pose: Rows;
   active = 0;
   cycle: Cycle;
+  /** The sizes with which it was made. */
+  readonly opened: Snapshot;
   /** Whether it has wheels, whose turns are counted. */
   readonly wheels: boolean;
   private readonly kernel: Kernel;
@@ -60,6 +62,7 @@ export class Linkage {
     this.wheels = model.elements.some((e) => e.kind === "round");
     this.pose = this.solve();
     this.cycle = findCycle(this);
+    this.opened = this.snapshot();
   }
 
   // --- what it is ----------------------------------------------------------------------------------------------------

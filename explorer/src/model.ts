@@ -78,6 +78,8 @@ export interface PairRecord {
 export interface Model {
   version: number;
   name: string;
+  /** Whether it has other sizes than what its name and its source stand for. */
+  changed?: boolean;
   /** The name in several languages, if it has such. */
   names: Record<string, string>;
   source: string;

@@ -2,7 +2,7 @@
 
 import { TURN, wrapped } from "./cycle";
 import { applyDocument, documentOf } from "./document";
-import { h } from "./dom";
+import { h, renew } from "./dom";
 import { Dragging } from "./dragging";
 import { exportPanel } from "./export";
 import { driveValue, type Found, factsOf } from "./facts";
@@ -12,7 +12,7 @@ import { t } from "./language";
 import { Linkage, Refused, type Snapshot } from "./linkage";
 import { deadCentres, leastTransmission } from "./measures";
 import type { LinkageDocument, Model } from "./model";
-import { type Editor, modesPanel, optionsPanel, pointsPanel, sizeRows } from "./panels";
+import { type Editor, modesPanel, optionsPanel, pointsPanel, SizeRows } from "./panels";
 import { later, Player } from "./player";
 import { Plots } from "./plots";
 import { place } from "./rows";
@@ -25,6 +25,13 @@ import { stopText } from "./wording";
 
 const MOST_FRAMES = 2000;
 const ASKED_AFTER = 350; // milliseconds
+
+/** What is shown, to be shown again. */
+interface State {
+  linkage: Linkage;
+  dragging: Dragging;
+  sizes: Snapshot;
+}
 
 export class MotionView implements View, Editor {
   readonly element = h("div", { class: "view motion" });
@@ -51,17 +58,17 @@ export class MotionView implements View, Editor {
   readonly frames: number[] = [];
   /** What was found over the cycle. */
   found: Found = { dead: [], least: null };
-  private readonly history = new History<Snapshot>();
+  private readonly history = new History<State>();
   /** What was before the change that is going on. */
-  private before: Snapshot | null = null;
+  private before: State | null = null;
   private speed = 12; // turns a minute; of a slide, strokes
   private way = 1;
-  private pointNumber = 0;
   private readonly track = new Track((value, beyond) => this.pick(value, beyond));
   private readonly value = h("span", { class: "value" });
   private readonly side = h("div", { class: "side" });
+  private readonly bar = h("div", { class: "transport" });
   private readonly facts = h("dl", { class: "facts" });
-  private readonly sizes = h("div", { class: "rows" });
+  private readonly sizes = new SizeRows(this);
   private readonly checked = h("p", { class: "note" });
   private readonly opened = new Set(["sizes", "measures", "plots"]);
   private measuring = 0;
@@ -72,8 +79,11 @@ export class MotionView implements View, Editor {
         dragStart: () => this.begin(),
         dragJoint: (joint, x, y) => this.tryTo(() => this.dragging.dragJoint(joint, x, y)),
         dragEnd: () => this.end(),
+        dragCancel: () => this.cancel(),
+        dragPoint: (point, x, y) => this.putPoint(point, x, y),
+        movePointBy: (point, dx, dy) => this.movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.pull(link, u, v, x, y),
-        addPoint: (link, x, y) => this.addPoint(link, x, y),
+        addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
         moveJointBy: (joint, dx, dy) => {
           const [x, y] = this.linkage.jointAt(joint);
           this.attempt(() => this.dragging.dragJoint(joint, x + dx, y + dy));
@@ -81,11 +91,14 @@ export class MotionView implements View, Editor {
       },
       this.shown,
     );
+    this.element.append(this.stage.element, this.side, this.bar);
   }
 
   // --- what is shown -------------------------------------------------------------------------------------------------
 
+  /** Show another linkage; the way back to the one before is undoing. */
   open(model: Model): void {
+    if (this.linkage) this.history.add(this.state());
     this.linkage = new Linkage(model);
     this.dragging = new Dragging(this.linkage);
     this.shown.link = floatingLink(model);
@@ -94,14 +107,23 @@ export class MotionView implements View, Editor {
 
   /** Other sizes of the same structure, as a link holds them. */
   openDocument(document: LinkageDocument, drive: number): void {
+    this.history.add(this.state());
     this.tryTo(() => applyDocument(this.linkage, document, drive));
     this.renewed();
   }
 
-  /** What is shown is new: nothing can be undone. */
-  private renewed(): void {
+  /** Nothing can be undone from here on. */
+  forget(): void {
     this.history.clear();
-    this.pointNumber = this.linkage.sizes.points.length;
+  }
+
+  private state(): State {
+    const { linkage, dragging } = this;
+    return { linkage, dragging, sizes: linkage.snapshot() };
+  }
+
+  private renewed(): void {
+    this.stage.cancelDrag();
     this.arrange();
     this.show();
     this.measured();
@@ -121,16 +143,19 @@ export class MotionView implements View, Editor {
   arrange(): void {
     this.arrangeTools();
     this.player.arrange();
-    this.side.replaceChildren(
+    const { scrollTop } = this.side; // before its parts leave it for new panels
+    renew(
+      this.side,
       this.panel("measures", t("Measures"), this.facts, this.checked),
-      this.panel("sizes", t("Sizes"), this.sizes),
+      this.panel("sizes", t("Sizes"), this.sizes.element),
       this.panel("plots", t("Plots"), this.plots.element),
       this.panel("points", t("Coupler points"), pointsPanel(this)),
       this.panel("modes", t("Assembly modes"), modesPanel(this)),
       this.panel("show", t("Show"), optionsPanel(this)),
       this.panel("export", t("Export"), exportPanel(this.page, this)),
     );
-    this.element.replaceChildren(this.stage.element, this.side, this.transport());
+    this.side.scrollTop = scrollTop;
+    renew(this.bar, ...this.transport());
     this.plots.arrange(this.linkage);
   }
 
@@ -160,7 +185,7 @@ export class MotionView implements View, Editor {
   }
 
   /** The row under the picture: play, the drive, its slider and value, the speed. */
-  private transport(): HTMLElement {
+  private transport(): HTMLElement[] {
     const { active, model } = this.linkage;
     const speed = h("input", {
       type: "range",
@@ -174,7 +199,7 @@ export class MotionView implements View, Editor {
     const choices = model.drives.map((drive, k) => h("option", { value: k, selected: k === active }, drive.name));
     const drives = choices.length > 1 ? h("select", { "aria-label": t("Drive"), onchange }, ...choices) : null;
     const speedLabel = h("label", { class: "speed" }, t("Speed"), speed);
-    return h("div", { class: "transport" }, this.player.button, drives, this.track.element, this.value, speedLabel);
+    return [this.player.button, ...(drives ? [drives] : []), this.track.element, this.value, speedLabel];
   }
 
   private panel(key: string, title: string, ...content: Node[]): HTMLElement {
@@ -193,7 +218,8 @@ export class MotionView implements View, Editor {
   }
 
   private refresh(key: string, content: Node): void {
-    this.side.querySelector(`[data-panel="${key}"] > div`)?.replaceChildren(content);
+    const panel = this.side.querySelector(`[data-panel="${key}"] > div`);
+    if (panel) renew(panel, content);
   }
 
   // --- changes -------------------------------------------------------------------------------------------------------
@@ -213,11 +239,18 @@ export class MotionView implements View, Editor {
   }
 
   private begin(): void {
-    this.before = this.linkage.snapshot();
+    this.before = this.state();
+  }
+
+  /** Give up the change that is going on. */
+  private cancel(): void {
+    const { before } = this;
+    this.before = null;
+    if (before) this.goTo(before);
   }
 
   private end(): void {
-    if (this.before && !sameSizes(this.before, this.linkage.snapshot())) this.history.add(this.before);
+    if (this.before && !sameSizes(this.before.sizes, this.linkage.snapshot())) this.history.add(this.before);
     this.before = null;
     this.measured();
     this.page.changed();
@@ -251,35 +284,61 @@ export class MotionView implements View, Editor {
   }
 
   undo(): void {
-    this.goTo(this.history.undo(this.linkage.snapshot()));
+    this.goTo(this.history.undo(this.state()));
   }
 
   redo(): void {
-    this.goTo(this.history.redo(this.linkage.snapshot()));
+    this.goTo(this.history.redo(this.state()));
   }
 
-  private goTo(old: Snapshot | undefined): void {
+  private goTo(old: State | undefined): void {
     if (!old) return;
-    this.linkage.restore(old);
+    const other = old.linkage !== this.linkage;
+    this.linkage = old.linkage;
+    this.dragging = old.dragging;
+    this.linkage.restore(old.sizes);
     this.page.say("");
+    if (other) this.shown.link = floatingLink(this.linkage.model);
     this.arrange();
     this.show();
     this.measured();
+    if (other) this.stage.fit();
     this.page.changed();
+  }
+
+  /** Whether its sizes, points or assembly mode are other than those with which it was opened. */
+  get changed(): boolean {
+    const { linkage } = this;
+    return linkage.model.changed === true || !alike(linkage.opened, linkage.snapshot(), linkage.size);
   }
 
   get undoable(): [boolean, boolean] {
     return this.history.possible;
   }
 
-  private addPoint(link: number, x: number, y: number): void {
+  addPoint(link: number, x: number, y: number): void {
     this.edit(() => {
       const { model, sizes } = this.linkage;
       const taken = new Set([...sizes.points.map((p) => p.name), ...model.links]);
-      do this.pointNumber++;
-      while (taken.has(`K${this.pointNumber}`));
-      this.linkage.addPoint(`K${this.pointNumber}`, link, x, y);
+      let number = 1;
+      while (taken.has(`K${number}`)) number++;
+      this.linkage.addPoint(`K${number}`, link, x, y);
     });
+  }
+
+  /** Take a point of a link to a place in the plane. */
+  private putPoint(number: number, x: number, y: number): void {
+    const point = this.linkage.sizes.points[number]!;
+    point.at = this.linkage.toLocal(point.link, x, y);
+    this.followed();
+  }
+
+  private movePointBy(number: number, dx: number, dy: number): void {
+    const { link, at } = this.linkage.sizes.points[number]!;
+    const [x, y] = place(this.linkage.pose, 0, link, ...at);
+    this.begin();
+    this.putPoint(number, x + dx, y + dy);
+    this.end();
   }
 
   private choose(active: number): void {
@@ -360,19 +419,26 @@ export class MotionView implements View, Editor {
     this.found = { dead, least: leastTransmission(this.linkage) };
     this.showTrack();
     this.showPose();
-    this.sizes.replaceChildren(...sizeRows(this));
+    this.sizes.show();
+    this.refresh("points", pointsPanel(this));
     this.refresh("modes", modesPanel(this));
+    this.refresh("export", exportPanel(this.page, this));
     if (this.opened.has("plots")) this.plots.draw(this.linkage);
     this.ask();
   }
 
   private ask(): void {
     const { linkage } = this;
-    this.checked.textContent = "";
-    if (!this.page.served || !linkage.drive || linkage.model.drives.length > 1) return;
+    if (!this.page.served || !linkage.drive || linkage.model.drives.length > 1) {
+      this.checked.textContent = "";
+      return;
+    }
+    this.checked.classList.add("waiting"); // it keeps its room until there is another one
     clearTimeout(this.measuring);
     const said = (text: string) => {
-      if (linkage === this.linkage) this.checked.textContent = text;
+      if (linkage !== this.linkage) return;
+      this.checked.classList.remove("waiting");
+      this.checked.textContent = text;
     };
     this.measuring = window.setTimeout(() => {
       const document = this.document(linkage.cycle.rows, linkage.cycle.home);
@@ -423,6 +489,22 @@ function floatingLink({ frame, joints, own }: Model): number {
   const near = new Set(joints.filter((j) => j.links.includes(frame)).flatMap((j) => j.links));
   for (let link = 0; link < own; link++) if (!near.has(link)) return link;
   return own - 1;
+}
+
+/** Whether sizes, points and assembly mode are the same but for rounding. */
+function alike(one: Snapshot, two: Snapshot, size: number): boolean {
+  const values = ({ at, angles, points, signs }: Snapshot) => [
+    ...[...at, ...points.flatMap((point) => point.at)].map((value) => value / size),
+    ...angles,
+    ...signs,
+  ];
+  const [first, second] = [values(one), values(two)];
+  const names = ({ points }: Snapshot) => points.map(({ name, link }) => `${name} ${link}`).join();
+  return (
+    first.length === second.length &&
+    names(one) === names(two) &&
+    first.every((value, k) => Math.abs(value - second[k]!) < 1e-9)
+  );
 }
 
 /** Whether a change of the sizes, the points or the assembly mode left everything as it was. */

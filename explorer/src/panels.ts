@@ -1,7 +1,7 @@
 /** The panels beside the stage: sizes, coupler points, assembly modes, options. */
 
 import { applyDocument, documentOf } from "./document";
-import { h } from "./dom";
+import { h, renew } from "./dom";
 import type { Dragging, Length } from "./dragging";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
@@ -26,6 +26,7 @@ export interface Editor {
   attempt(change: () => void): void;
   /** Change the points; it can be undone. */
   edit(change: () => void): void;
+  addPoint(link: number, x: number, y: number): void;
   /** Draw everything anew. */
   show(): void;
   redraw(): void;
@@ -35,10 +36,34 @@ const MOST_SIZES = 60;
 
 // --- sizes -----------------------------------------------------------------------------------------------------------
 
-/** A label, a field and a unit for each size. */
-export function sizeRows(editor: Editor): HTMLElement[] {
-  const sizes = editor.dragging.lengths().slice(0, MOST_SIZES);
-  return sizes.flatMap((size) => sizeRow(editor, size));
+/** A label, a field and a unit for each size; the fields stay while the linkage does, so that one can type on. */
+export class SizeRows {
+  readonly element = h("div", { class: "rows" });
+  private fields: HTMLInputElement[] = [];
+  private names = "";
+
+  constructor(private readonly editor: Editor) {}
+
+  show(): void {
+    const { editor } = this;
+    const lengths = editor.dragging.lengths();
+    const sizes = lengths.slice(0, MOST_SIZES);
+    const rows = sizes.map((size) => sizeRow(editor, size));
+    const names = rows.map(([label]) => label!.outerHTML).join("");
+    if (names !== this.names || !this.element.isConnected) {
+      this.names = names;
+      this.fields = rows.map(([, input]) => input as HTMLInputElement);
+      const more = lengths.length - sizes.length;
+      const rest =
+        more > 0 ? [h("p", { class: "note" }, t("{count} more sizes are not listed.", { count: more }))] : [];
+      renew(this.element, ...rows.flat(), ...rest);
+      return;
+    }
+    sizes.forEach(({ value }, k) => {
+      this.fields[k]!.value = number(value, 7);
+      this.fields[k]!.setAttribute("aria-invalid", "false");
+    });
+  }
 }
 
 function sizeRow(editor: Editor, { link, first, second, value }: Length): HTMLElement[] {
@@ -57,9 +82,10 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length): HTMLEl
     onchange: () => {
       const wanted = parsed(input.value);
       const right = wanted >= 0;
-      input.setAttribute("aria-invalid", String(!right));
       if (right) editor.attempt(() => editor.dragging.setLength(first, second, wanted));
-      else editor.page.say(t("Expected a length, such as {value}.", { value: number(value, 4) }));
+      input.setAttribute("aria-invalid", String(!right));
+      if (right) return;
+      editor.page.say(t("Expected a length, such as {value}.", { value: number(value, 4) }));
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
@@ -72,25 +98,92 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length): HTMLEl
 // --- points ----------------------------------------------------------------------------------------------------------
 
 export function pointsPanel(editor: Editor): HTMLElement {
-  const { linkage } = editor;
-  const chips = linkage.sizes.points.map((point, k) => {
-    const remove = () => editor.edit(() => linkage.sizes.points.splice(k, 1));
-    const chip = h(
-      "span",
-      { class: "chip" },
-      h("i", {}),
-      `${point.name} · ${linkage.linkName(point.link)}`,
-      h("button", { "aria-label": t("Remove {name}", { name: point.name }), onclick: remove }, "×"),
-    );
-    chip.style.setProperty("--own", `var(${ownColour(k)})`);
-    return chip;
-  });
+  const { linkage, shown } = editor;
+  const { model } = linkage;
+  const rows = linkage.sizes.points.map((_, k) => pointRow(editor, k));
+  const { frame, own } = model;
+  const links = [...model.links.slice(0, own).keys()]
+    .filter((k) => k !== frame)
+    .map((k) => h("option", { value: k, selected: k === shown.link }, linkage.linkName(k)));
+  const link = h(
+    "select",
+    { "aria-label": t("Link of a new point"), onchange: () => (shown.link = Number(link.value)) },
+    ...links,
+  );
+  const add = () => {
+    const mine = linkage.sizes.elementsOn(shown.link).map((k) => linkage.elementAt(k));
+    const mean = (axis: 0 | 1) => mine.reduce((sum, p) => sum + p[axis], 0) / (mine.length || 1);
+    editor.addPoint(shown.link, mean(0), mean(1) + 0.3 * linkage.size);
+  };
   return h(
     "div",
     {},
-    h("div", { class: "chips" }, ...chips),
-    h("p", { class: "note" }, t("Double-click on a link to add a point that traces its curve.")),
+    h("div", { class: "point-rows" }, ...rows),
+    h(
+      "div",
+      { class: "form" },
+      link,
+      h("button", { class: "plain", "data-act": "add-point", onclick: add }, t("Add a point")),
+    ),
+    h(
+      "p",
+      { class: "note" },
+      t("A double-click puts a point: on a link, or beside all links on the one chosen here. Points are dragged."),
+    ),
   );
+}
+
+/** Name and place of a point on its link, to be typed. */
+function pointRow(editor: Editor, k: number): HTMLElement {
+  const { linkage } = editor;
+  const { points } = linkage.sizes;
+  const point = points[k]!;
+  const rename = (field: HTMLInputElement) => {
+    const name = field.value.trim();
+    const taken = [...linkage.model.links, ...points.filter((one) => one !== point).map((one) => one.name)];
+    if (/^[^\s=(){};,]+$/.test(name) && !taken.includes(name)) editor.edit(() => (point.name = name));
+    else editor.page.say(t("Expected a name that nothing else has, without spaces and brackets."));
+  };
+  const coordinate = (axis: 0 | 1) => (field: HTMLInputElement) => {
+    const value = parsed(field.value);
+    field.setAttribute("aria-invalid", String(!Number.isFinite(value)));
+    if (Number.isFinite(value)) editor.edit(() => (point.at[axis] = value));
+    else editor.page.say(t("Expected a number, such as {value}.", { value: numberText(point.at[axis]) }));
+  };
+  const typed = (key: string, label: string, value: string, take: (field: HTMLInputElement) => void) => {
+    const field = h("input", {
+      value,
+      "data-field": `${key}-${k}`,
+      "aria-label": `${label} ${point.name}`,
+      onchange: () => later(() => take(field)),
+      onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
+    });
+    return field;
+  };
+  const remove = () => editor.edit(() => points.splice(k, 1));
+  const row = h(
+    "div",
+    { class: "point-row" },
+    h("i", {}),
+    typed("point-name", t("Name"), point.name, rename),
+    h("span", { class: "unit" }, linkage.linkName(point.link)),
+    h("button", { class: "quiet", "aria-label": t("Remove {name}", { name: point.name }), onclick: remove }, "×"),
+    h("span", { class: "unit" }, "x"),
+    typed("point-x", "x", numberText(point.at[0]), coordinate(0)),
+    h("span", { class: "unit" }, "y"),
+    typed("point-y", "y", numberText(point.at[1]), coordinate(1)),
+  );
+  row.style.setProperty("--own", `var(${ownColour(k)})`);
+  return row;
+}
+
+function numberText(value: number): string {
+  return number(value, 7);
+}
+
+/** After the browser has moved the focus: a field that was left must not be replaced before. */
+function later(act: () => void): void {
+  setTimeout(act, 0);
 }
 
 // --- assembly modes --------------------------------------------------------------------------------------------------
@@ -133,7 +226,7 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
   const choices = found.map(({ label, document }) =>
     h("button", { class: "plain", "data-mode": label, onclick: () => take(document) }, label),
   );
-  place.replaceChildren(...choices);
+  renew(place, ...choices);
 }
 
 // --- options ---------------------------------------------------------------------------------------------------------

@@ -48,17 +48,25 @@ export class Plot {
       fill: "none",
     });
     this.element.append(this.band, frame, this.zero, this.curve, this.cursor, this.here, this.title, ...this.texts);
-    const at = (event: PointerEvent) => {
+    const at = (event: MouseEvent) => {
       const box = this.element.getBoundingClientRect();
       const part = (((event.clientX - box.left) / box.width) * WIDTH - LEFT) / (WIDTH - LEFT - RIGHT);
       const [first, last] = this.domain;
       pick(first + Math.max(0, Math.min(1, part)) * (last - first));
     };
+    // a finger that goes up or down scrolls the page; one that taps or goes sideways picks
+    let [startX, startY] = [0, 0];
     this.element.addEventListener("pointerdown", (event) => {
+      [startX, startY] = [event.clientX, event.clientY];
+      if (event.pointerType === "touch") return;
       this.element.setPointerCapture(event.pointerId);
       at(event);
     });
-    this.element.addEventListener("pointermove", (event) => event.buttons && at(event));
+    this.element.addEventListener("pointermove", (event) => {
+      const sideways = Math.abs(event.clientX - startX) > Math.abs(event.clientY - startY);
+      if (event.buttons && (sideways || event.pointerType !== "touch")) at(event);
+    });
+    this.element.addEventListener("click", at);
   }
 
   show(drives: Float64Array, series: Series, domain: [number, number]): void {

@@ -1,7 +1,7 @@
 /** The plots of a linkage over its drive. */
 
 import { type Cycle, TURN, wrapped } from "./cycle";
-import { h } from "./dom";
+import { h, renew } from "./dom";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
 import { output, outputAlong, outputStandsStill, transmission } from "./measures";
@@ -49,7 +49,7 @@ export class Plots {
         ? t("Output {name} moves without turning.", { name })
         : t("Output {name} does not travel.", { name });
     }
-    this.element.replaceChildren(this.still, ...this.parts.map(({ plot }) => plot.element), ...notes);
+    renew(this.element, this.still, ...this.parts.map(({ plot }) => plot.element), ...notes);
     this.draw(linkage);
   }
 

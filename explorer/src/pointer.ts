@@ -12,7 +12,12 @@ export interface StageEvents {
   dragEnd(): void;
   /** A place of a link is pulled to a place in the plane: the drive follows. */
   pull(link: number, u: number, v: number, x: number, y: number): void;
-  addPoint(link: number, x: number, y: number): void;
+  /** The drag that is going on is given up. */
+  dragCancel(): void;
+  /** A point is wanted at a place: on this link, or, beside all of them, on the chosen one. */
+  addPoint(link: number | null, x: number, y: number): void;
+  dragPoint(point: number, x: number, y: number): void;
+  movePointBy(point: number, dx: number, dy: number): void;
   moveJointBy(joint: number, dx: number, dy: number): void;
 }
 
@@ -31,10 +36,21 @@ export interface Board {
   draw(): void;
 }
 
+const NEAR = 14; // pixels: how near a link must be for a point that is put on it
 const GRIP = 20; // pixels: how near a pointer must be
 const WAYS: Record<string, Pair> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
+interface Follow {
+  id: number;
+  at: Pair;
+  stop(done: boolean): void;
+}
+
 export class Pointer {
+  private following: Follow | null = null;
+  /** Two fingers: the places where they are. */
+  private readonly fingers = new Map<number, Pair>();
+
   constructor(
     private readonly board: Board,
     private readonly events: StageEvents,
@@ -44,9 +60,37 @@ export class Pointer {
     root.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     root.addEventListener("dblclick", (event) => {
       const [x, y] = this.at(event);
-      const link = this.linkNear(x, y, 14);
-      if (link !== null) this.events.addPoint(link, ...viewport.world(x, y));
+      if (board.linkage && this.jointNear(x, y, GRIP) === null && this.pointNear(x, y, GRIP) === null)
+        this.events.addPoint(this.linkNear(x, y, NEAR), ...viewport.world(x, y));
     });
+    root.addEventListener("pointermove", (event) => this.pinch(event));
+    for (const name of ["pointerup", "pointercancel"] as const)
+      root.addEventListener(name, (event) => void this.fingers.delete(event.pointerId));
+  }
+
+  /** Give up what is dragged; false if nothing is. */
+  cancel(): boolean {
+    if (!this.following) return false;
+    this.following.stop(false);
+    return true;
+  }
+
+  /** Two fingers that move: the place between them goes with them, and what lies between is enlarged. */
+  private pinch(event: PointerEvent): void {
+    const before = this.fingers.get(event.pointerId);
+    const other = [...this.fingers].find(([id]) => id !== event.pointerId)?.[1];
+    if (!before || !other) return;
+    const now = this.at(event);
+    this.fingers.set(event.pointerId, now);
+    const wide = Math.hypot(before[0] - other[0], before[1] - other[1]);
+    if (!(wide > 1)) return;
+    const { board } = this;
+    board.viewport.pan((now[0] - before[0]) / 2, (now[1] - before[1]) / 2);
+    board.zoom(
+      Math.hypot(now[0] - other[0], now[1] - other[1]) / wide,
+      (now[0] + other[0]) / 2,
+      (now[1] + other[1]) / 2,
+    );
   }
 
   /** The pixel of an event. */
@@ -73,6 +117,19 @@ export class Pointer {
     return best;
   }
 
+  private pointNear(x: number, y: number, reach: number): number | null {
+    const { viewport } = this.board;
+    const { pose, sizes } = this.board.linkage!;
+    let best: number | null = null;
+    let least = reach;
+    sizes.points.forEach(({ link, at }, number) => {
+      const [px, py] = viewport.screen(...place(pose, 0, link, ...at));
+      const gap = Math.hypot(px - x, py - y);
+      if (gap < least) [best, least] = [number, gap];
+    });
+    return best;
+  }
+
   private linkNear(x: number, y: number, reach: number): number | null {
     const { viewport } = this.board;
     const linkage = this.board.linkage!;
@@ -96,13 +153,21 @@ export class Pointer {
     const [x, y] = this.at(event);
     const reach = event.pointerType === "touch" ? 1.6 * GRIP : GRIP;
     const link = this.linkNear(x, y, reach / 1.4);
-    if (adding) {
-      if (link !== null) this.events.addPoint(link, ...viewport.world(x, y));
+    if (adding) return this.events.addPoint(link, ...viewport.world(x, y));
+    root.setPointerCapture(event.pointerId);
+    if (this.following && event.pointerType === "touch") {
+      this.fingers.clear();
+      this.fingers.set(this.following.id, this.following.at);
+      this.fingers.set(event.pointerId, [x, y]);
+      this.cancel();
       return;
     }
-    root.setPointerCapture(event.pointerId);
     const joint = this.jointNear(x, y, reach);
-    if (joint !== null) {
+    const point = this.pointNear(x, y, joint === null ? reach : 0.3 * reach);
+    if (point !== null) {
+      this.events.dragStart();
+      this.follow(event, this.pointMove(point, x, y), () => this.events.dragEnd());
+    } else if (joint !== null) {
       this.events.dragStart();
       this.board.focus(joint);
       this.follow(event, this.jointMove(joint, x, y), () => this.events.dragEnd());
@@ -117,6 +182,14 @@ export class Pointer {
     const { linkage, viewport } = this.board;
     const [px, py] = viewport.screen(...linkage!.jointAt(joint));
     return (u, v) => this.events.dragJoint(joint, ...viewport.world(u + px - x, v + py - y));
+  }
+
+  /** Take a point of a link along in the same way. */
+  private pointMove(point: number, x: number, y: number): (u: number, v: number) => void {
+    const { linkage, viewport } = this.board;
+    const { link, at } = linkage!.sizes.points[point]!;
+    const [px, py] = viewport.screen(...place(linkage!.pose, 0, link, ...at));
+    return (u, v) => this.events.dragPoint(point, ...viewport.world(u + px - x, v + py - y));
   }
 
   private pan(x: number, y: number): (u: number, v: number) => void {
@@ -141,29 +214,36 @@ export class Pointer {
     const moved = (next: PointerEvent) => {
       if (next.pointerId !== first.pointerId) return;
       latest = this.at(next);
+      mine.at = latest;
       frame ||= requestAnimationFrame(flush);
     };
-    const end = (next: PointerEvent) => {
-      if (next.pointerId !== first.pointerId) return;
+    const stop = (reached: boolean) => {
       cancelAnimationFrame(frame);
-      flush();
+      if (reached) flush();
       root.removeEventListener("pointermove", moved);
       root.removeEventListener("pointerup", end);
       root.removeEventListener("pointercancel", end);
-      done?.();
+      this.following = null;
+      if (reached) done?.();
+      else this.events.dragCancel();
     };
+    const end = (next: PointerEvent) => {
+      if (next.pointerId === first.pointerId) stop(true);
+    };
+    const mine: Follow = { id: first.pointerId, at: this.at(first), stop };
+    this.following = mine;
     root.addEventListener("pointermove", moved);
     root.addEventListener("pointerup", end);
     root.addEventListener("pointercancel", end);
   }
 
-  /** Move a joint with the arrow keys. */
-  key(event: KeyboardEvent, joint: number): void {
+  /** Move a joint or a point with the arrow keys. */
+  key(event: KeyboardEvent, move: (dx: number, dy: number) => void): void {
     const way = WAYS[event.key];
     if (!way) return;
     event.preventDefault();
     event.stopPropagation();
     const step = this.board.linkage!.size * (event.shiftKey ? 0.001 : 0.01);
-    this.events.moveJointBy(joint, step * way[0], step * way[1]);
+    move(step * way[0], step * way[1]);
   }
 }

@@ -1,7 +1,7 @@
 /** The SVG of the picture: links, joints, points, names, vectors. */
 
 import { Bodies } from "./bodies";
-import { svg } from "./dom";
+import { renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -27,7 +27,7 @@ export class Scene {
   constructor(
     private readonly root: SVGSVGElement,
     private readonly viewport: Viewport,
-    private readonly key: (event: KeyboardEvent, joint: number) => void,
+    private readonly keys: Record<"joint" | "point", (event: KeyboardEvent, number: number) => void>,
   ) {}
 
   /** The joints that are drawn. */
@@ -56,15 +56,27 @@ export class Scene {
       .filter((joint) => sizes.elementsOf(joint).some((k) => sizes.is(k, "pin")))
       .map((joint) => ({ element: this.pin(linkage, joint, dragging.draggable(joint)), joint }));
     front.append(...this.pins.map(({ element }) => element));
-    this.marks = sizes.points.map((_, number) => {
-      const element = svg("g", { class: "coupler-point" }, svg("circle", { r: 4.2 }));
+    this.marks = sizes.points.map(({ name }, number) => {
+      const element = svg(
+        "g",
+        {
+          class: "coupler-point",
+          "data-mark": name,
+          tabindex: 0,
+          role: "button",
+          "aria-label": name,
+          onkeydown: (event: KeyboardEvent) => this.keys.point(event, number),
+        },
+        svg("circle", { class: "halo", r: 13 }),
+        svg("circle", { class: "dot", r: 4.2 }),
+      );
       element.style.setProperty("--own", `var(${ownColour(number)})`);
       marks.append(element);
       return { element, point: number };
     });
     this.labels = shown.labels ? labelsOf(linkage) : [];
     front.append(...this.labels.map(({ element }) => element), this.arrows, this.changes, this.circle, this.pole);
-    this.root.replaceChildren(back, bodies, marks, front);
+    renew(this.root, back, bodies, marks, front);
   }
 
   private pin({ model }: Linkage, number: number, free: boolean): SVGGElement {
@@ -76,7 +88,7 @@ export class Scene {
       tabindex: free ? 0 : -1,
       role: free ? "button" : "img",
       "aria-label": joint.name,
-      onkeydown: (event: KeyboardEvent) => this.key(event, number),
+      onkeydown: (event: KeyboardEvent) => this.keys.joint(event, number),
     });
     if (ground) element.append(svg("path", { class: "support", d: SUPPORT }));
     element.append(svg("circle", { class: "halo", r: 13 }), svg("circle", { class: "joint", r: ground ? 5.5 : 4.6 }));

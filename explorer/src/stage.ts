@@ -23,6 +23,8 @@ const STYLES = [
   "opacity",
   "font-size",
   "font-family",
+  "font-weight",
+  "paint-order",
 ];
 
 export class Stage implements Board {
@@ -34,6 +36,7 @@ export class Stage implements Board {
   adding = false;
   private readonly canvas = h("canvas", { "aria-hidden": "true" });
   private readonly scene: Scene;
+  private readonly pointer: Pointer;
   private readonly observer: ResizeObserver;
 
   constructor(
@@ -41,8 +44,11 @@ export class Stage implements Board {
     private shown: Shown,
   ) {
     this.element = h("div", { class: "stage" }, this.canvas, this.root);
-    const pointer = new Pointer(this, events);
-    this.scene = new Scene(this.root, this.viewport, (event, joint) => pointer.key(event, joint));
+    this.pointer = new Pointer(this, events);
+    this.scene = new Scene(this.root, this.viewport, {
+      joint: (event, joint) => this.pointer.key(event, (dx, dy) => events.moveJointBy(joint, dx, dy)),
+      point: (event, point) => this.pointer.key(event, (dx, dy) => events.movePointBy(point, dx, dy)),
+    });
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.element);
   }
@@ -59,12 +65,17 @@ export class Stage implements Board {
     this.scene.focus(joint);
   }
 
+  /** Give up what the pointer is dragging; false if it drags nothing. */
+  cancelDrag(): boolean {
+    return this.pointer.cancel();
+  }
+
   private resize(): void {
     const { clientWidth, clientHeight } = this.element;
     if (!clientWidth || !clientHeight) return;
     this.viewport.width = clientWidth;
     this.viewport.height = clientHeight;
-    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const ratio = Math.min(window.devicePixelRatio || 1, 3);
     this.canvas.width = Math.round(clientWidth * ratio);
     this.canvas.height = Math.round(clientHeight * ratio);
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);

@@ -1,10 +1,10 @@
 /** The view of the structure: a chain out of all, its frame, drive and joint types, its mobility; then dimensions. */
 
-import { h, picture, svg, thumbnail } from "./dom";
+import { h, picture, renew, svg, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
-import { awaited } from "./waiting";
+import { awaited, moment } from "./waiting";
 
 interface Choice {
   text: string;
@@ -102,7 +102,8 @@ export class StructureView implements View {
       onchange: () => (this.mobility = Number(mobility.value)),
     });
     this.field.setAttribute("aria-label", t("The chain as text"));
-    this.element.replaceChildren(
+    renew(
+      this.element,
       h(
         "div",
         { class: "page" },
@@ -142,12 +143,13 @@ export class StructureView implements View {
 
   private showChains(): void {
     const { chains } = this;
-    if (!chains) return this.list.replaceChildren();
+    if (!chains) return renew(this.list);
     const more =
       chains.items.length < chains.total
         ? h("button", { class: "plain", onclick: () => void this.listChains(chains.items.length) }, t("More"))
         : null;
-    this.list.replaceChildren(
+    renew(
+      this.list,
       h("p", { class: "note" }, t("{shown} of {total} chains", { shown: chains.items.length, total: chains.total })),
       h(
         "div",
@@ -168,6 +170,7 @@ export class StructureView implements View {
   async describe(text: string, scroll = false): Promise<void> {
     const number = ++this.asked;
     if (this.field.value !== text) this.field.value = text;
+    if (!this.structure) renew(this.detail, moment());
     try {
       const found = await this.page.ask<Structure>("structure", {
         text,
@@ -185,10 +188,11 @@ export class StructureView implements View {
       if (scroll) this.field.scrollIntoView({ block: "start", behavior: "smooth" });
     } catch (error) {
       if (number !== this.asked) return;
+      if (!this.structure) renew(this.detail);
       const said = (error as Error).message;
       this.field.setAttribute("aria-invalid", "true");
       const place = /(?:character|Stelle) (\d+)/.exec(said);
-      this.error.replaceChildren(said);
+      renew(this.error, said);
       if (place) {
         const at = Number(place[1]);
         const before = text.slice(Math.max(0, at - 24), at - 1);
@@ -306,7 +310,8 @@ export class StructureView implements View {
         void this.describe(this.text);
       },
     });
-    this.detail.replaceChildren(
+    renew(
+      this.detail,
       h(
         "div",
         { class: "two" },
@@ -374,6 +379,6 @@ export class StructureView implements View {
     if (!found) return;
     place.remove();
     this.page.open({ ...found.model, name: t("A mechanism with found dimensions") });
-    this.page.say(found.message);
+    this.page.say(found.message, "done");
   }
 }

@@ -1,6 +1,6 @@
 /** The view of the synthesis: points that a coupler point is to pass, clicked into a plane; four-bars that do it. */
 
-import { h, svg, thumbnail } from "./dom";
+import { h, renew, svg, thumbnail } from "./dom";
 import { angle, number, parsed, t } from "./language";
 import type { LinkageDocument, Model } from "./model";
 import type { Page, View } from "./view";
@@ -64,7 +64,8 @@ export class SynthesisView implements View {
       onchange: () => (this.least = Number(least.value)),
     });
     this.plane.setAttribute("aria-label", t("Points that are to be passed"));
-    this.element.replaceChildren(
+    renew(
+      this.element,
       h(
         "div",
         { class: "page" },
@@ -168,7 +169,7 @@ export class SynthesisView implements View {
         svg("text", { x: 3.4, y: -3.4 }, String(k + 1)),
       ),
     );
-    this.plane.replaceChildren(...lines, svg("path", { class: "polygon", d }), ...marks);
+    renew(this.plane, ...lines, svg("path", { class: "polygon", d }), ...marks);
     const cell = (k: number, axis: 0 | 1) => {
       const input = h("input", {
         value: number(this.points[k]![axis], 6),
@@ -182,7 +183,8 @@ export class SynthesisView implements View {
       });
       return h("td", {}, input);
     };
-    this.list.replaceChildren(
+    renew(
+      this.list,
       this.points.length
         ? h(
             "div",
@@ -224,7 +226,8 @@ export class SynthesisView implements View {
 
   private async search(): Promise<void> {
     if (this.points.length < FEWEST)
-      return this.status.replaceChildren(
+      return renew(
+        this.status,
         h("span", { class: "error", role: "alert" }, t("Give at least {count} points.", { count: FEWEST })),
       );
     const question = { points: this.points, closed: this.closed, crank: this.crank, transmission: this.least };
@@ -237,8 +240,9 @@ export class SynthesisView implements View {
 
   private showDesigns(): void {
     const { designs } = this;
-    if (!designs) return this.found.replaceChildren();
-    this.found.replaceChildren(
+    if (!designs) return renew(this.found);
+    renew(
+      this.found,
       h("h2", {}, t("{count} designs", { count: designs.total })),
       h(
         "p",

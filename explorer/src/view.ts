@@ -24,8 +24,8 @@ export interface Page {
   open(model: Model): void;
   /** Show the structure of a text. */
   describe(text: string): void;
-  /** A sentence for the reader; nothing takes it away. */
-  say(text: string, action?: HTMLElement): void;
+  /** A sentence for the reader, an error unless something is done; without a text the last one goes. */
+  say(text: string, kind?: "error" | "done", action?: HTMLElement): void;
   /** After a change: the link follows, a notebook is told. */
   changed(): void;
   /** Copy the address with the linkage in it. */

@@ -1,8 +1,18 @@
 /** Questions that take time. */
 
-import { h } from "./dom";
+import { h, renew } from "./dom";
 import { Cancelled, type Request } from "./host";
 import { t } from "./language";
+
+/** That something is under way, where it will stand. */
+export function moment(): HTMLElement {
+  return h(
+    "p",
+    { class: "note", role: "status", "data-waiting": "" },
+    h("progress", { "aria-hidden": "true" }),
+    t("One moment …"),
+  );
+}
 
 /** Ask, and show at a place how far it is, with a button that gives it up.
  *
@@ -14,14 +24,14 @@ export async function awaited<Result>(
   const bar = h("span", {}, "…");
   const request = ask((text) => (bar.textContent = text));
   const cancel = h("button", { class: "plain", "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel"));
-  place.replaceChildren(h("progress", {}), bar, cancel);
+  renew(place, h("progress", {}), bar, cancel);
   try {
     const found = await request;
-    place.replaceChildren();
+    renew(place);
     return found;
   } catch (error) {
     const text = error instanceof Cancelled ? t("Cancelled.") : (error as Error).message;
-    place.replaceChildren(h("span", { class: "error", role: "alert" }, text));
+    renew(place, h("span", { class: "error", role: "alert" }, text));
     return null;
   }
 }

@@ -93,7 +93,7 @@ def test_where_the_range_ends_the_page_says_it_as_the_library_does(tab, tmp_path
     assert low == pytest.approx(measures(FourBar(50, 70, 40, 70).linkage()).span.low, abs=1e-9)
     box = page.page.locator(".track").bounding_box()
     page.drag((box["x"] + 40, box["y"] + 17), (box["width"] - 50, 0))
-    assert page.page.locator(".message").inner_text() == end.message()
+    assert page.page.locator(".message span").inner_text() == end.message()
 
 
 PLOTTED = """(() => {
@@ -269,8 +269,8 @@ def test_a_server_that_goes_and_comes_back(tab, server):
     page = tab().open(server.address)
     page.until("gruebler.model.socket !== null")
     server.kill()
-    page.until("!gruebler.message.hidden")
-    assert "connection" in page.page.locator(".message").inner_text()
+    page.until("!gruebler.lost.hidden")
+    assert "connection" in page.page.locator(".lost").inner_text()
     page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, 10))
     sizes = page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")
     page.page.evaluate("void gruebler.ask('catalog', {words: 'wiper'}).then((found) => (window.late = found))")
@@ -283,7 +283,7 @@ def test_a_server_that_goes_and_comes_back(tab, server):
     page.until("window.given_up")  # though there is no server that could say so
     server.start()
     assert page.until("window.late")[0]["id"] == "wiper"
-    page.until("gruebler.message.hidden")
+    page.until("gruebler.lost.hidden")
     assert page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)") == sizes
     page.errors[:] = [e for e in page.errors if "WebSocket" not in e]
 

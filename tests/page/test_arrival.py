@@ -1,0 +1,136 @@
+"""How the page is arrived at: damaged links, a slow start, a phone."""
+
+import pytest
+
+from gruebler.cli import main
+
+ROOT = "document.querySelector('.gruebler-explorer').shadowRoot"
+
+
+@pytest.mark.parametrize(
+    ("link", "words"),
+    [
+        ("#1.AAAA.00000000", "damaged"),
+        ("#2.AAAA.00000000", "newer"),
+        ("#rubbish", "not complete"),
+    ],
+)
+def test_a_link_that_cannot_be_read_stays_in_the_address(tab, server, link, words):
+    page = tab().open(server.address + link)
+    page.until("gruebler.model.socket?.readyState === 1")
+    page.page.wait_for_timeout(500)
+    assert words in page.page.locator(".message").inner_text()
+    assert page.page.evaluate("location.hash") == link
+    page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, -15))
+    page.until("location.hash.startsWith('#1.') && location.hash.length > 100")
+    page.page.reload()
+    page.until("window.gruebler?.motion?.linkage !== undefined")
+    page.page.wait_for_timeout(300)
+    assert page.page.evaluate("gruebler.message.hidden") is True
+
+
+def test_a_link_without_a_mechanism_is_refused_in_a_sentence(tab, server):
+    page = tab().open(server.address)
+    link = page.page.evaluate("(async () => { await gruebler.write(); return gruebler.hash; })()")
+    assert link.startswith("#1.")
+    packed = """(async () => {
+        const bytes = new TextEncoder().encode('{"name": "empty"}');
+        const stream = new Blob([bytes]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+        return [...new Uint8Array(await new Response(stream).arrayBuffer())];
+    })()"""
+    import base64
+    import zlib
+
+    raw = bytes(page.page.evaluate(packed))
+    data = base64.urlsafe_b64encode(raw).rstrip(b"=").decode()
+    other = tab().open(f"{server.address}#1.{data}.{zlib.crc32(raw):08x}")
+    other.until("!gruebler.message.hidden")
+    assert "no mechanism" in other.page.locator(".message").inner_text()
+
+
+def test_a_message_is_closed_and_does_not_follow_into_other_views(tab, server):
+    page = tab().open(server.address + "#rubbish")
+    page.until("!gruebler.message.hidden")
+    page.page.locator('.message [aria-label="Close"]').click()
+    assert page.page.evaluate("gruebler.message.hidden") is True
+    page.page.evaluate("gruebler.say('something went wrong')")
+    page.page.click('[data-view="catalog"]')
+    assert page.page.evaluate("gruebler.message.hidden") is True
+
+
+def test_a_view_that_waits_says_so(tab, server):
+    """Until the first answer is there, which on a busy machine takes seconds."""
+    page = tab().open(server.address)
+    page.page.evaluate("gruebler.model.send = () => undefined")  # nobody answers
+    for view in ("structure", "catalog", "exercises"):
+        page.page.click(f'[data-view="{view}"]')
+        page.page.locator(f'[data-page="{view}"] [data-waiting]').wait_for(timeout=2000)
+
+
+@pytest.fixture(scope="module")
+def crank_rocker(tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "crank-rocker.html"
+    assert main(["explore", "crankrocker", "-o", str(path)]) == 0
+    return path.as_uri()
+
+
+def touches(tab):
+    """Send fingers at places: each call is one event with all that are down."""
+    session = tab.context.new_cdp_session(tab.page)
+
+    def send(kind: str, *places: tuple[float, float]) -> None:
+        points = [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(places)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    return send
+
+
+def test_two_fingers_enlarge_the_picture(tab, crank_rocker):
+    page = tab(width=390, height=844, touch=True).open(crank_rocker)
+    box = page.page.locator(".stage").bounding_box()
+    x, y = box["x"] + 60, box["y"] + box["height"] - 40
+    scale = "gruebler.motion.stage.viewport.scale"
+    before, sizes = page.page.evaluate(f"[{scale}, JSON.stringify(gruebler.motion.linkage.sizes.snapshot())]")
+    send = touches(page)
+    send("touchStart", (x, y))
+    send("touchStart", (x, y), (x + 60, y))
+    for k in range(1, 7):
+        send("touchMove", (x, y), (x + 60 + 10 * k, y))
+    send("touchEnd")
+    page.page.wait_for_timeout(100)
+    after, same = page.page.evaluate(f"[{scale}, JSON.stringify(gruebler.motion.linkage.sizes.snapshot())]")
+    assert after == pytest.approx(2 * before, rel=0.02)
+    assert same == sizes
+
+
+def test_a_finger_on_a_plot_scrolls_the_page(tab, crank_rocker):
+    page = tab(width=390, height=844, touch=True).open(crank_rocker)
+    plot = page.page.locator(".plot").first
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
+    x, y = box["x"] + 200, box["y"] + 100
+    send = touches(page)
+    before = plot.bounding_box()["y"]
+    send("touchStart", (x, y))
+    for k in range(1, 11):
+        send("touchMove", (x, y - 12 * k))
+        page.page.wait_for_timeout(16)
+    send("touchEnd")
+    page.page.wait_for_timeout(300)
+    assert plot.bounding_box()["y"] < before - 40
+    assert page.page.evaluate("gruebler.motion.linkage.drives[0]") == drive
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    page.page.touchscreen.tap(box["x"] + 200, box["y"] + 60)
+    assert page.page.evaluate("gruebler.motion.linkage.drives[0]") != drive
+
+
+@pytest.mark.parametrize("width", [390, 1024])
+def test_the_header_leaves_room(tab, server, width):
+    page = tab(width=width, height=800, touch=width < 500).open(server.address)
+    assert page.page.locator("header").bounding_box()["height"] < (115 if width < 500 else 60)
+    assert page.page.evaluate("document.documentElement.scrollWidth") <= width
+    if width < 500:
+        for button in page.page.locator("header button:visible").all():
+            assert button.bounding_box()["height"] >= 43.5

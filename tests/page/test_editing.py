@@ -1,0 +1,211 @@
+"""Sizes and points are changed in a browser: what was typed or dragged can be taken back, and nothing jumps."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+
+from gruebler.cli import main
+from gruebler.files import linkage_from_json
+
+ROOT = "document.querySelector('.gruebler-explorer').shadowRoot"
+ACTIVE = f"{ROOT}.activeElement"
+SIZES = "gruebler.motion.dragging.lengths().map((one) => one.value)"
+POINTS = "gruebler.motion.linkage.sizes.points"
+UNDOABLE = "gruebler.motion.undoable[0]"
+
+
+@pytest.fixture(scope="module")
+def crank_rocker(tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "crank-rocker.html"
+    assert main(["explore", "crankrocker", "-o", str(path)]) == 0
+    return path.as_uri()
+
+
+def test_a_point_beside_the_coupler_is_put_dragged_typed_and_named(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    x, y = page.middle('[data-link="coupler"] .bar')
+    page.page.mouse.dblclick(x, y - 70)
+    coupler = "gruebler.motion.linkage.model.links.indexOf('coupler')"
+    assert page.page.evaluate(f"[{POINTS}.length, {POINTS}[0].link === {coupler}]") == [1, True]
+    assert page.middle('[data-mark="K1"] .dot') == pytest.approx((x, y - 70), abs=1.5)
+    before = page.page.evaluate(SIZES)
+    page.drag((x, y - 70), (40, -20))
+    assert page.middle('[data-mark="K1"] .dot') == pytest.approx((x + 40, y - 90), abs=1.5)
+    assert page.page.evaluate(SIZES) == before
+    page.page.keyboard.press("Control+z")
+    assert page.middle('[data-mark="K1"] .dot') == pytest.approx((x, y - 70), abs=1.5)
+    page.page.locator('[data-panel="points"] summary').click()
+    page.page.locator('[data-field="point-x-0"]').fill("45")
+    page.page.locator('[data-field="point-x-0"]').press("Tab")
+    page.until(f"{ACTIVE}?.dataset.field === 'point-y-0'")
+    page.page.keyboard.press("Control+a")
+    page.page.keyboard.type("40.5")
+    page.page.keyboard.press("Enter")
+    page.until(f"{POINTS}[0].at[1] === 40.5")
+    page.page.locator('[data-field="point-name-0"]').fill("coupler")
+    page.page.locator('[data-field="point-name-0"]').press("Enter")
+    page.until("!gruebler.message.hidden")  # a link has this name
+    page.page.locator('[data-field="point-name-0"]').fill("tip")
+    page.page.locator('[data-field="point-name-0"]').press("Enter")
+    page.until(f"{POINTS}[0].name === 'tip'")
+    document = json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())"))
+    point = linkage_from_json(document).points["tip"]
+    assert (point.link, point.x, point.y) == ("coupler", 45, 40.5)
+
+
+def test_a_point_without_a_mouse(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    page.page.locator('[data-panel="points"] summary').press("Enter")
+    page.page.locator('[data-act="add-point"]').press("Enter")
+    assert page.page.evaluate(f"{POINTS}.length") == 1
+    before = page.middle('[data-mark="K1"] .dot')
+    page.page.locator('[data-mark="K1"]').press("ArrowUp")
+    after = page.middle('[data-mark="K1"] .dot')
+    assert after[1] < before[1]
+    assert after[0] == pytest.approx(before[0], abs=0.1)
+
+
+def test_a_drag_is_given_up(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    sizes = page.page.evaluate(SIZES)
+    joint = '[data-joint="R(coupler-rocker)"] .joint'
+    for keys in ("Escape", "Control+z"):
+        x, y = page.middle(joint)
+        page.page.mouse.move(x, y)
+        page.page.mouse.down()
+        page.page.mouse.move(x + 30, y - 20, steps=4)
+        page.until(f"JSON.stringify({SIZES}) !== '{json.dumps(sizes, separators=(',', ':'))}'")
+        page.page.keyboard.press(keys)
+        page.page.mouse.move(x + 60, y - 40, steps=4)
+        page.page.mouse.up()
+        page.page.wait_for_timeout(50)
+        assert page.page.evaluate(SIZES) == sizes
+        assert page.page.evaluate(UNDOABLE) is False
+    page.drag(page.middle(joint), (20, -10))
+    changed = page.page.evaluate(SIZES)
+    assert changed != sizes
+    x, y = page.middle(joint)
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    page.page.mouse.move(x + 30, y + 20, steps=4)
+    page.page.keyboard.press("Control+z")  # gives up this drag, not the one before
+    page.page.mouse.up()
+    assert page.page.evaluate(SIZES) == changed
+    page.page.keyboard.press("Control+z")
+    assert page.page.evaluate(SIZES) == sizes
+
+
+def test_the_focus_stays_and_the_panel_does_not_jump(tab, server):
+    page = tab(height=500).open(server.address)
+    note = f"{ROOT}.querySelector('[data-panel=\"measures\"] .note').textContent"
+    page.until(note)
+    fields = page.page.locator('[data-panel="sizes"] input')
+    fields.nth(1).scroll_into_view_if_needed()
+    top = fields.nth(1).bounding_box()["y"]
+    fields.nth(1).fill("26")
+    fields.nth(1).press("Tab")
+    assert page.page.evaluate(f"{ACTIVE}.id") == fields.nth(2).get_attribute("id")
+    tops = [fields.nth(1).bounding_box()["y"]]
+    for _ in range(12):
+        page.page.wait_for_timeout(60)
+        tops.append(fields.nth(1).bounding_box()["y"])
+    assert max(abs(one - top) for one in tops) < 60, tops  # less than three lines: a sentence may be longer
+    fields.nth(1).fill("27")
+    fields.nth(1).press("Enter")
+    assert page.page.evaluate(f"{ACTIVE}.id") == fields.nth(1).get_attribute("id")
+    side = f"{ROOT}.querySelector('.side').scrollTop"
+    page.page.evaluate(f"{side} = 200")
+    page.page.locator('[data-joint="R(coupler-rocker)"]').focus()
+    scrolled = page.page.evaluate(side)
+    assert scrolled > 50
+    page.page.keyboard.press("Control+z")
+    assert page.page.evaluate(f"{ACTIVE}.dataset.joint") == "R(coupler-rocker)"
+    assert page.page.evaluate(side) == pytest.approx(scrolled, abs=40)
+    page.page.locator('[data-view="catalog"]').press("Enter")
+    assert page.page.evaluate(f"{ACTIVE}.dataset.view") == "catalog"
+
+
+def test_opening_another_machine_loses_nothing(tab, server):
+    page = tab().open(server.address)
+    page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, -15))
+    sizes = page.page.evaluate(SIZES)
+    page.page.wait_for_timeout(400)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="wiper"]').click()
+    page.until("gruebler.motion.linkage.model.source === 'wiper'")
+    assert page.page.evaluate(UNDOABLE) is True
+    page.page.keyboard.press("Control+z")
+    assert page.page.evaluate("gruebler.motion.linkage.model.source") == "crankrocker"
+    assert page.page.evaluate(SIZES) == sizes
+    page.page.keyboard.press("Control+y")
+    assert page.page.evaluate("gruebler.motion.linkage.model.source") == "wiper"
+    page.page.wait_for_timeout(400)
+    page.page.go_back()
+    page.until("gruebler.view === 'catalog' && gruebler.motion.linkage.model.source === 'crankrocker'")
+    assert page.page.evaluate(SIZES) == pytest.approx(sizes, rel=1e-9)
+    page.page.go_back()
+    page.until("gruebler.view === 'motion'")
+    page.page.go_forward()
+    page.page.go_forward()
+    page.until("gruebler.motion.linkage.model.source === 'wiper'")
+
+
+def test_what_was_changed_is_not_called_by_its_old_name(tab, crank_rocker, tmp_path, monkeypatch, capsys):
+    """The commands that the page shows find the linkage that it shows, after a drag too."""
+    page = tab().open(crank_rocker)
+    page.page.locator('[data-panel="export"] summary').click()
+    commands = page.page.locator('[data-panel="export"] pre').nth(1)
+    assert commands.inner_text().startswith("gruebler analyse crankrocker\n")
+    page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, -15))
+    assert page.page.locator("header h1").inner_text().endswith(", changed")
+    assert page.page.title().startswith("Crank-rocker, changed")
+    with page.page.expect_download() as saved:
+        page.page.locator('[data-panel="export"] button:text-is("JSON")').click()
+    saved.value.save_as(tmp_path / saved.value.suggested_filename)
+    monkeypatch.chdir(tmp_path)
+    program, *words = commands.inner_text().splitlines()[0].split()
+    assert program == "gruebler"
+    capsys.readouterr()
+    assert main([*words, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    least = page.page.evaluate("gruebler.motion.found.least.mu") * 180 / np.pi
+    assert any(value == pytest.approx(least, abs=1e-6) for value in numbers_of(told)), told
+    namespace: dict = {}
+    exec(page.page.locator('[data-panel="export"] pre').nth(2).inner_text(), namespace)
+    wanted = page.page.evaluate(SIZES)
+    assert namespace["linkage"].length("crank", 0, 1) == pytest.approx(wanted[1], rel=1e-12)
+    page.page.keyboard.press("Control+z")
+    assert commands.inner_text().startswith("gruebler analyse crankrocker\n")
+
+
+def numbers_of(value) -> list[float]:
+    if isinstance(value, dict):
+        return [one for held in value.values() for one in numbers_of(held)]
+    if isinstance(value, list):
+        return [one for held in value for one in numbers_of(held)]
+    return [value] if isinstance(value, (int, float)) else []
+
+
+def test_names_are_readable_in_the_exported_picture(tab, crank_rocker, tmp_path):
+    """As dark where a name stands as the page itself; without `paint-order` its outline covers the letters."""
+    image = pytest.importorskip("PIL.Image", reason="pictures are compared with pillow")
+    page = tab().open(crank_rocker)
+    page.page.evaluate("gruebler.motion.shown.grid = false, gruebler.motion.redraw()")
+    name = page.page.locator(".stage text.name").first
+    box, board = name.bounding_box(), page.page.locator(".stage").bounding_box()
+    file = tmp_path / "picture.svg"
+    file.write_text(page.page.evaluate("gruebler.motion.picture()"), encoding="utf-8")
+    other = tab()
+    other.page.goto(file.as_uri())
+    other.page.set_viewport_size({"width": 1280, "height": 860})
+
+    def dark(tab, x: float, y: float) -> int:
+        clip = {"x": x, "y": y, "width": box["width"], "height": box["height"]}
+        pixels = image.open(io.BytesIO(tab.page.screenshot(clip=clip))).convert("L")
+        return sum(pixels.histogram()[:90])
+
+    shown = dark(page, box["x"], box["y"])
+    assert shown > 40
+    assert dark(other, box["x"] - board["x"], box["y"] - board["y"]) > 0.7 * shown
