@@ -58,6 +58,7 @@ BY_POSITION = {
     "FunctionTask": "inputs and outputs, as users write them",
     "GenevaWheel": "an element of a joint: x and y first, like all of them",
     "Linkage": "mechanism, elements and points, as users write them",
+    "Loads": "forces and moments, as users write them",
     "Mesh": "two wheels and their numbers of teeth, as users write them",
     "NonCircular": "an element of a joint: x and y first, like all of them",
     "PathTask": "points first, as users write them",

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.units import MILLIMETRES
 from gruebler.files import values as files
-from gruebler.files.measured_lengths import MILLIMETRES
 from gruebler.files.mjcf import mjcf_from_linkage
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import move

@@ -8,7 +8,7 @@ from math import hypot
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
-from gruebler.files.measured_lengths import MILLIMETRES
+from gruebler.base.units import MILLIMETRES
 from gruebler.files.pin_drawings import lower_linkage
 from gruebler.mechanics.linkages import Linkage
 

@@ -1,4 +1,4 @@
-"""Units of length, and lengths as a user writes them, with or without a unit: 15cm, 0.75 mm, 3."""
+"""Lengths as a user writes them, with or without a unit: 15cm, 0.75 mm, 3."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ import math
 import re
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.units import MILLIMETRES
 
-MILLIMETRES = {"mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
-"""How long each unit is, in millimetres; the only table of units of length."""
 _FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*")
 
 

@@ -18,7 +18,8 @@ from string import ascii_uppercase
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
-from gruebler.files.measured_lengths import MILLIMETRES, in_unit
+from gruebler.base.units import MILLIMETRES
+from gruebler.files.measured_lengths import in_unit
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.structure.chain import Chain, Joint

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.arrays import Flags, Reals
-from gruebler.mechanics.forces.loads import Rows
+from gruebler.mechanics.forces.acting import Rows
 
 _TOLERANCE = 1e-12  # of the largest force of a row: so far Newton's method goes
 _STEPS = 12  # of Newton's method, which doubles the digits; a longer way is another solution

@@ -10,7 +10,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.forces.loads import Wrench
+from gruebler.mechanics.forces.acting import Wrench
 from gruebler.mechanics.kinematics import Motion
 from gruebler.structure.chain.spaces import Space
 

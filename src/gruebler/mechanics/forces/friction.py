@@ -13,9 +13,9 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError, expect
 from gruebler.base.notebook import brief
+from gruebler.mechanics.forces.acting import Rows, Wrench
 from gruebler.mechanics.forces.coulomb import Branches, Contacts, continued
 from gruebler.mechanics.forces.equilibrium import Reactions, joint_connections, joint_of_connection, reactions
-from gruebler.mechanics.forces.loads import Rows, Wrench
 from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint

@@ -12,6 +12,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined, message
+from gruebler.mechanics.forces.acting import Rows, Wrench, loads_over_rows
 from gruebler.mechanics.forces.equilibrium import (
     JointConnection,
     Reactions,
@@ -21,7 +22,7 @@ from gruebler.mechanics.forces.equilibrium import (
     reactions,
 )
 from gruebler.mechanics.forces.friction import Friction, FrictionForces, PerJoint, as_friction, with_friction
-from gruebler.mechanics.forces.loads import Loads, Rows, Wrench, loads_over_rows
+from gruebler.mechanics.forces.loads import Loads
 from gruebler.mechanics.forces.motion_rates import drive_speed, with_velocities
 from gruebler.mechanics.kinematics import Motion
 

@@ -1,0 +1,146 @@
+"""Units of length and of mechanics: how long or how heavy each is, and quantities written with their unit."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple
+
+from gruebler.base.errors import GrueblerError, nearest
+
+MILLIMETRES = {"mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
+"""How long each unit is, in millimetres; the only table of units of length."""
+
+
+class DerivedUnit(NamedTuple):
+    """A unit as a product of kilograms, metres and seconds."""
+
+    factor: float
+    kilograms: int = 0
+    metres: int = 0
+    seconds: int = 0
+
+    def times(self, other: DerivedUnit, power: int = 1) -> DerivedUnit:
+        """The product with a power of another one.
+
+        >>> UNITS["N"].times(UNITS["m"], -1)
+        DerivedUnit(factor=1.0, kilograms=1, metres=0, seconds=-2)
+        """
+        return DerivedUnit(
+            self.factor * other.factor**power,
+            *(own + power * more for own, more in zip(self[1:], other[1:], strict=True)),
+        )
+
+
+_POUND = 0.45359237
+_GRAVITY = 9.80665
+UNITS = {
+    **{name: DerivedUnit(size / 1000, metres=1) for name, size in MILLIMETRES.items()},
+    "kg": DerivedUnit(1.0, 1),
+    "g": DerivedUnit(1e-3, 1),
+    "t": DerivedUnit(1e3, 1),
+    "lb": DerivedUnit(_POUND, 1),
+    "s": DerivedUnit(1.0, 0, 0, 1),
+    "ms": DerivedUnit(1e-3, 0, 0, 1),
+    "min": DerivedUnit(60.0, 0, 0, 1),
+    "N": DerivedUnit(1.0, 1, 1, -2),
+    "daN": DerivedUnit(10.0, 1, 1, -2),
+    "kN": DerivedUnit(1e3, 1, 1, -2),
+    "lbf": DerivedUnit(_POUND * _GRAVITY, 1, 1, -2),
+    "Pa": DerivedUnit(1.0, 1, -1, -2),
+    "kPa": DerivedUnit(1e3, 1, -1, -2),
+    "MPa": DerivedUnit(1e6, 1, -1, -2),
+    "bar": DerivedUnit(1e5, 1, -1, -2),
+    "rad": DerivedUnit(1.0),
+    "deg": DerivedUnit(math.pi / 180),
+    "°": DerivedUnit(math.pi / 180),
+    "rpm": DerivedUnit(math.pi / 30, 0, 0, -1),
+}
+"""Units by their names; those of an angle are numbers."""
+
+QUANTITIES: dict[str, tuple[DerivedUnit, int, str]] = {
+    "mass": (DerivedUnit(1.0, 1), 0, "250 g"),
+    "inertia": (DerivedUnit(1.0, 1, 2), 2, "800 kg mm2"),
+    "density": (DerivedUnit(1.0, 1, -3), -3, "7.85 g/cm3"),
+    "length": (DerivedUnit(1.0, 0, 1), 1, "35 mm"),
+    "force": (DerivedUnit(1.0, 1, 1, -2), 0, "20 N"),
+    "moment": (DerivedUnit(1.0, 1, 2, -2), 1, "3 N m"),
+    "stiffness": (DerivedUnit(1.0, 1, 0, -2), -1, "2 N/mm"),
+    "damping": (DerivedUnit(1.0, 1, 0, -1), -1, "0.1 N s/mm"),
+    "torsional stiffness": (DerivedUnit(1.0, 1, 2, -2), 1, "5 N m/rad"),
+    "torsional damping": (DerivedUnit(1.0, 1, 2, -1), 1, "0.2 N m s"),
+    "speed": (DerivedUnit(1.0, 0, 0, -1), 0, "3000 rpm"),
+    "angle": (DerivedUnit(1.0), 0, "30 deg"),
+    "acceleration": (DerivedUnit(1.0, 0, 1, -2), 0, "9.81 m/s2"),
+}
+"""Of each quantity: its unit, its power of the linkage's unit of length (forces stay newtons), an example."""
+_FORM = re.compile(r"\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?)\s*(.*?)\s*")
+_FACTOR = re.compile(r"([/*·]?)\s*(°|[A-Za-z]+)(?:\^?([0-9]|[²³]))?\s*")
+_SMALL = {"²": 2, "³": 3, None: 1}
+
+
+def metres_of(unit: str) -> float:
+    """How many metres a unit of length is; `GrueblerError` for one that is not known.
+
+    >>> metres_of("mm")
+    0.001
+    """
+    if unit not in MILLIMETRES:
+        raise GrueblerError(
+            "inertia needs to know how long the linkage's unit {unit!r} is; known are {units}",
+            unit=unit,
+            units=", ".join(MILLIMETRES),
+        )
+    return MILLIMETRES[unit] / 1000
+
+
+def quantity_of(name: str, word: str, quantity: str, unit: str) -> float:
+    """A quantity written with its unit, in kilograms, newtons, seconds, radians and a unit of length.
+
+    Args:
+        name: With which the sentence of an error begins.
+        word: Such as ``"2 N/mm"``.
+        quantity: A key of `QUANTITIES`.
+        unit: The linkage's unit of length.
+
+    Raises `GrueblerError` for a missing unit, or one of another quantity.
+
+    >>> quantity_of("mass", "250 g", "mass", "mm"), quantity_of("c", "2 kN/m", "stiffness", "mm")
+    (0.25, 2.0)
+    """
+    wanted, lengths, example = QUANTITIES[quantity]
+    form = _FORM.fullmatch(word)
+    if form is None or not form[2]:
+        raise GrueblerError(
+            "{name}: expected a number with its unit such as {example!r}, but found {found!r}",
+            name=name,
+            example=example,
+            found=word,
+        )
+    written = _unit_of(name, form[2], word)
+    if written[1:] != wanted[1:]:
+        raise GrueblerError(
+            "{name}: {found!r} has the unit of another quantity; expected one such as {example!r}",
+            name=name,
+            example=example,
+            found=word,
+        )
+    return float(f"{float(form[1]) * written.factor / (metres_of(unit) ** lengths if lengths else 1.0):.15g}")
+
+
+def _unit_of(name: str, text: str, word: str) -> DerivedUnit:
+    """A product of units with their powers; what follows a stroke divides."""
+    total, at = DerivedUnit(1.0), 0
+    while at < len(text):
+        factor = _FACTOR.match(text, at)
+        if factor is None or factor[2] not in UNITS:
+            raise GrueblerError(
+                "{name}: there is no unit {unit!r}{suggestion} in {found!r}",
+                name=name,
+                unit=text[at:] if factor is None else factor[2],
+                suggestion="" if factor is None else nearest(factor[2], UNITS),
+                found=word,
+            )
+        power = int(_SMALL.get(factor[3], factor[3]))
+        total, at = total.times(UNITS[factor[2]], -power if factor[1] == "/" else power), factor.end()
+    return total

@@ -1,0 +1,22 @@
+"""Forces in motion: the equations of motion of a linkage in the values of its drives, what drives and joints carry.
+
+docs/theory/dynamics.md.
+"""
+
+from gruebler.mechanics.dynamics.equations import (
+    EquationsOfMotion,
+    Influences,
+    ReducedEquations,
+    Terms,
+    influences_of,
+    reduced_equations,
+)
+
+__all__ = [
+    "EquationsOfMotion",
+    "Influences",
+    "ReducedEquations",
+    "Terms",
+    "influences_of",
+    "reduced_equations",
+]

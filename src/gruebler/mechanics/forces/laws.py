@@ -1,0 +1,276 @@
+"""Loads that are not constant: expressions, curves and motors, all of them functions of the state of the linkage."""
+
+from __future__ import annotations
+
+import ast
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import LinkageError, nearest
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class State:
+    """What a load may depend on, (rows,) each: lengths in the linkage's unit, angles in radians, times in seconds."""
+
+    time: Reals
+    drives: Reals
+    """(rows, drives)."""
+    speeds: Reals
+    """(rows, drives)."""
+    x: Reals
+    """Of the point where a force acts; of a moment the origin of its link."""
+    y: Reals
+    vx: Reals
+    vy: Reals
+    angle: Reals
+    """Of the link."""
+    omega: Reals
+    """Its angular velocity."""
+
+    @property
+    def drive(self) -> Reals:
+        """The first drive's value."""
+        return self.drives[:, 0]
+
+    @property
+    def speed(self) -> Reals:
+        """The first drive's speed."""
+        return self.speeds[:, 0]
+
+
+VARIABLES = ("time", "drive", "speed", "x", "y", "vx", "vy", "angle", "omega")
+"""What expressions and curves may depend on, by the names of `State`."""
+
+
+class Law(Protocol):
+    """A load as a function of the state: a function, `LoadFormula`, `Curve`, `Motor`."""
+
+    def __call__(self, state: State, /) -> Any:
+        """A number, or one for each row, (rows,)."""
+
+
+_FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "atan2": np.arctan2,
+    "sqrt": np.sqrt,
+    "exp": np.exp,
+    "log": np.log,
+    "abs": np.abs,
+    "sign": np.sign,
+    "floor": np.floor,
+    "tanh": np.tanh,
+    "min": np.minimum,
+    "max": np.maximum,
+    "where": np.where,
+}
+_CONSTANTS = {"pi": math.pi, "deg": math.pi / 180}
+_OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
+    ast.Add: np.add,
+    ast.Sub: np.subtract,
+    ast.Mult: np.multiply,
+    ast.Div: np.divide,
+    ast.Pow: np.power,
+    ast.Mod: np.mod,
+    ast.USub: np.negative,
+    ast.UAdd: np.positive,
+    ast.Lt: np.less,
+    ast.LtE: np.less_equal,
+    ast.Gt: np.greater,
+    ast.GtE: np.greater_equal,
+}
+_LONGEST = 500
+
+
+@door_that_raises(LinkageError)
+@dataclass(frozen=True)
+class LoadFormula:
+    """A load as a formula of `VARIABLES`, such as ``-200*where(vx < 0, 1, 0)``; angles are in radians.
+
+    It knows + - * / ** % < <= > >=, the functions sin, cos, tan, atan2, sqrt, exp, log, abs, sign, floor, tanh, min,
+    max and where(condition, then, otherwise), and the numbers pi and deg (a degree).
+
+    >>> LoadFormula("2*drive + time").names
+    ('drive', 'time')
+    """
+
+    text: str
+
+    def __post_init__(self) -> None:
+        assert self._code is not None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What it depends on, sorted."""
+        names = {node.id for node in ast.walk(self._code) if isinstance(node, ast.Name)}
+        return tuple(sorted(names & set(VARIABLES)))
+
+    def __call__(self, state: State, /) -> Any:
+        """Its value, or one for each row."""
+        with np.errstate(all="ignore"):
+            return _value(self._code, state)
+
+    @cached_property
+    def _code(self) -> ast.expr:
+        if len(self.text) > _LONGEST:
+            raise LinkageError("an expression has at most {count} characters", count=_LONGEST)
+        try:
+            code = ast.parse(self.text.strip().replace("^", "**"), mode="eval").body
+            _check(code, self.text)
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            if isinstance(error, LinkageError):
+                raise
+            raise LinkageError("{text!r} is not an expression that can be read", text=self.text) from None
+        return code
+
+
+def _check(node: ast.AST, text: str) -> None:
+    """`LinkageError` for what an expression may not have."""
+    match node:
+        case ast.Constant(value=bool() | str() | bytes() | complex()):
+            pass
+        case ast.Constant(value=int() | float() as value) if abs(value) < 1e100:
+            return
+        case ast.Name(id=name) if name in VARIABLES or name in _CONSTANTS:
+            return
+        case ast.Name(id=name):
+            known = (*VARIABLES, *_CONSTANTS)
+            raise LinkageError(
+                "{text!r}: there is no {name!r}{suggestion}; known are {known}",
+                text=text,
+                name=name,
+                suggestion=nearest(name, known),
+                known=", ".join(known),
+            )
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
+            _check(left, text)
+            _check(right, text)
+            return
+        case ast.UnaryOp(op=op, operand=operand) if type(op) in _OPERATORS:
+            _check(operand, text)
+            return
+        case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in _OPERATORS:
+            _check(left, text)
+            _check(right, text)
+            return
+        case ast.Call(func=ast.Name(id=name), args=parts, keywords=[]) if name in _FUNCTIONS:
+            wanted = {"where": 3, "min": 2, "max": 2, "atan2": 2}.get(name, 1)
+            if len(parts) != wanted:
+                raise LinkageError("{text!r}: {name} takes {count} values", text=text, name=name, count=wanted)
+            for part in parts:
+                _check(part, text)
+            return
+    raise LinkageError(
+        "{text!r}: {part!r} is not allowed; functions are {functions}",
+        text=text,
+        part=ast.unparse(node),
+        functions=", ".join(_FUNCTIONS),
+    )
+
+
+def _value(node: ast.expr, state: State) -> Any:
+    match node:
+        case ast.Constant(value=value):
+            return float(value)  # type: ignore[arg-type]
+        case ast.Name(id=name):
+            return _CONSTANTS[name] if name in _CONSTANTS else getattr(state, name)
+        case ast.BinOp(left=left, op=op, right=right) | ast.Compare(left=left, ops=[op], comparators=[right]):
+            return _OPERATORS[type(op)](_value(left, state), _value(right, state))
+        case ast.UnaryOp(op=op, operand=operand):
+            return _OPERATORS[type(op)](_value(operand, state))
+        case ast.Call(func=ast.Name(id=name), args=parts):
+            return _FUNCTIONS[name](*(_value(part, state) for part in parts))
+    raise AssertionError(node)
+
+
+@door_that_raises(LinkageError)
+@dataclass(frozen=True)
+class Curve:
+    """A load as a table of one of `VARIABLES`, linear between its points, constant outside them; or repeated.
+
+    >>> Curve([(0, 0), (1, 10)]).value(np.array([0.5, 2.0])).tolist()
+    [5.0, 10.0]
+    >>> Curve([(0, 0), (1, 10)], period=2).value(np.array([2.5])).tolist()
+    [5.0]
+    """
+
+    points: Sequence[tuple[float, float]]
+    """(x, y), x increasing."""
+    of: str = "drive"
+    period: float | None = None
+    """After which the table begins again, as 2 pi for a crank."""
+
+    def __post_init__(self) -> None:
+        points = tuple((float(x), float(y)) for x, y in self.points)
+        ways = [x for x, _ in points]
+        if len(points) < 2 or not np.isfinite(points).all() or any(b <= a for a, b in itertools.pairwise(ways)):
+            raise LinkageError("a curve has two points or more, finite, whose first numbers increase")
+        if self.of not in (*VARIABLES, "length"):
+            raise LinkageError(
+                "a curve is one of {known}, not of {found!r}{suggestion}",
+                known=", ".join(VARIABLES),
+                found=self.of,
+                suggestion=nearest(self.of, VARIABLES),
+            )
+        if self.period is not None and not (
+            0 < self.period < 1e100 and ways[-1] - ways[0] <= self.period * (1 + 1e-12)
+        ):
+            raise LinkageError(
+                "the period of a curve is at least as long as its table, not {period:g}", period=self.period
+            )
+        object.__setattr__(self, "points", points)
+
+    def __call__(self, state: State, /) -> Reals:
+        """Its value in each row."""
+        return self.value(getattr(state, self.of))
+
+    def value(self, at: Any) -> Reals:
+        """The value at numbers of what it is a curve of."""
+        x, y = np.array(self.points).T
+        return np.asarray(np.interp(at, x, y, period=self.period))
+
+    def area(self, at: Any) -> Reals:
+        """The integral from the first point; beyond the last one of a constant."""
+        x, y = np.array(self.points).T
+        at = np.asarray(at, np.float64)
+        sums = np.concatenate([[0.0], np.cumsum(np.diff(x) * (y[1:] + y[:-1]) / 2)])
+        k = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 1)
+        return np.asarray(sums[k] + (at - x[k]) * (self.value(at) + y[k]) / 2)
+
+
+@door_that_raises(LinkageError)
+@dataclass(frozen=True)
+class Motor:
+    """A motor whose torque falls in a straight line from standstill to the speed at which it idles.
+
+    >>> Motor(12.0, 100.0).at(np.array([0.0, 50.0])).tolist()
+    [12.0, 6.0]
+    """
+
+    stall: float
+    """The torque at standstill: force times the linkage's unit; the force of a driven slide."""
+    idle_speed: float
+    """Radians a second; of a slide the linkage's unit a second."""
+
+    def __post_init__(self) -> None:
+        if not (0 < self.stall < 1e100 and 0 < abs(self.idle_speed) < 1e100):
+            raise LinkageError("a motor has a positive torque at standstill and a speed at which it idles, not 0")
+
+    def __call__(self, state: State, /) -> Reals:
+        """The torque in each row."""
+        return self.at(state.speed)
+
+    def at(self, speed: Any) -> Reals:
+        """The torque at a speed, in the sense of the idle speed."""
+        sense = math.copysign(1.0, self.idle_speed)
+        return np.asarray(self.stall * sense * (1 - np.asarray(speed) / self.idle_speed))
