@@ -138,3 +138,15 @@ def test_what_make_and_ci_run_is_there():
     words = set(re.findall(r"tests/[\w/.]+", made + (root / ".ci/run").read_text(encoding="utf-8")))
     assert {"tests/mechanics", "tests/structure/mobility", "tests/files/test_dxf.py"} <= words
     assert sorted(word for word in words if not (root / word).exists()) == []
+
+
+def test_what_the_workflows_make_stands_in_the_makefile():
+    root = FOLDER.parent
+    if not (root / ".github").is_dir():
+        pytest.skip("the workflows are not part of a source distribution")
+    known = re.findall(r"^([a-z-]+):", (root / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+    texts = [path.read_text(encoding="utf-8") for path in sorted((root / ".github" / "workflows").glob("*.yml"))]
+    called = {name for text in texts for name in re.findall(r"- run: make ([a-z-]+)", text)}
+    called |= {name for text in texts for row in re.findall(r"target: \[(.+)\]", text) for name in row.split(", ")}
+    assert len(called) > 5
+    assert called <= {*known}

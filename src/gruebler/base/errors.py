@@ -9,7 +9,7 @@ import re
 import reprlib
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextvars import ContextVar
 from difflib import get_close_matches
 from typing import Any, ParamSpec, Protocol, TypeVar
@@ -251,6 +251,17 @@ def _slips(word: str, other: str) -> int:
             following.append(slips)
         before, row = row, following
     return row[-1]
+
+
+def check_method(method: str, known: Sequence[str], error: type[GrueblerError]) -> None:
+    """Refuse the name of a method that is not known, with those that are."""
+    if method not in known:
+        raise error(
+            "there is no method {method!r}{suggestion}; there are {known}",
+            method=method,
+            suggestion=nearest(method, known),
+            known=", ".join(known),
+        )
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

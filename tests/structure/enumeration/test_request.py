@@ -44,6 +44,8 @@ def test_the_list_agrees_with_the_count(asked):
     assert counted.joint_orbits == sum(len(one.joint_orbits) for one in orbits)
     plain = count_chains(**asked)
     assert (plain.chains, plain.inversions, plain.drives) == (counted.chains, None, None)
+    assert count_chains(**asked, method="list") == count_chains(**asked, method="both") == plain
+    assert count_chains(**asked, method="list", orbits=True) == counted
     if "assortment" in asked:
         wanted = asked["assortment"]
         assert all(assortment(chain) == tuple(wanted)[: len(assortment(chain))] for chain in found)
@@ -60,6 +62,17 @@ def test_orbits_are_those_of_the_mechanisms(asked):
     assert counted.inversions == sum(len(inversions(chain)) for chain in found)
     assert counted.drives == sum(sum(1 for _ in driven_mechanisms(chain)) for chain in found)
     assert counted.drives == sum(_orbits(chain)[2] for chain in found)
+
+
+def test_methods_that_differ_are_no_count(monkeypatch):
+    from gruebler.structure.enumeration import work_units
+
+    real = work_units.list_piece
+    monkeypatch.setattr(work_units, "list_piece", lambda piece: real(piece)[1:])
+    with pytest.raises(GrueblerError, match="the methods differ: 2 chains counted, 1 listed"):
+        count_chains(6, method="both")
+    with pytest.raises(GrueblerError, match=r"no method 'lst' \(did you mean 'list'\?\); there are count, list, both"):
+        count_chains(6, method="lst")
 
 
 def test_json_of_a_count():

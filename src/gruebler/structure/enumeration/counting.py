@@ -91,7 +91,7 @@ def count_simple_chains(
         executor: runs the pieces of the work; by default this process.
 
     Definition and proofs: docs/theory/enumeration.md. Cost on one core: 0.02 s for 14 links, 0.25 s for 16,
-    10 s for 18, besides 0.5 s to load the kernels (once 15 s to compile them).
+    10 s for 18.
 
     Raises:
         GrueblerError: links < 1, mobility < 0, or more loops than can be worked on.

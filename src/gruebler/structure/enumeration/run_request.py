@@ -35,6 +35,7 @@ def run_count(
     request: Request,
     *,
     orbits: bool = False,
+    listed: bool = False,
     executor: Executor | Callable[[], Executor] | None = None,
     checkpoint: Path | None = None,
     progress: Callable[[Progress], None] | None = None,
@@ -45,6 +46,7 @@ def run_count(
     Args:
         request: the request.
         orbits: whether to count inversions, driven mechanisms and joint orbits too.
+        listed: whether every chain is built, also where its number alone is found faster.
         executor: see `worker_pool.run_work`.
         checkpoint: a directory for finished pieces; a run with the same request resumes there.
         progress: called after every piece.
@@ -82,7 +84,7 @@ def run_count(
 
     size = _COUNTED_LONG if (loop_count(request.links, request.mobility) or 0) > 7 else _COUNTED
     results = run_work(
-        PieceCounter(request, orbits), work_units(request, size=size), executor, known=known, finished=finished
+        PieceCounter(request, orbits, listed), work_units(request, size=size), executor, known=known, finished=finished
     )
     count = add_tallies(request, orbits, results)
     if store is not None:

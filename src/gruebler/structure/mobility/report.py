@@ -10,7 +10,7 @@ from typing import Any
 
 from gruebler.base import notebook
 from gruebler.base.doors import door
-from gruebler.base.errors import ChainError, nearest
+from gruebler.base.errors import ChainError, check_method
 from gruebler.base.notebook import brief
 from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, arity, joined, message
@@ -194,13 +194,7 @@ def mobility_report(
     still = chain.links[0] if frame is None else frame
     chain.index(still)
     number = count_freedoms(chain, b)
-    if method not in _METHODS:
-        raise ChainError(
-            "there is no method {method!r}{suggestion}; there are {known}",
-            method=method,
-            suggestion=nearest(method, _METHODS),
-            known=", ".join(_METHODS),
-        )
+    check_method(method, _METHODS, ChainError)
     game = None if method == "rank" else pebble_mobility(chain)
     rank = generic(chain, large=large)
     if method == "both" and game != rank.mobility:
