@@ -30,7 +30,6 @@ def test_json_is_valid_on_every_output(encoding):
     assert [one["name"] for one in found] == [CHAIN, "R(a-😀) R(😀-c) R(c-d) R(d-a)"]
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -41,12 +40,13 @@ def test_json_is_valid_on_every_output(encoding):
     ],
     ids=lambda arguments: arguments[0],
 )
-def test_pictures_are_valid_on_every_output(encoding, arguments):
+def test_pictures_are_valid_on_every_output(arguments):
     """The same picture, letter for letter, as XML reads it."""
     expected = ElementTree.fromstring(run("utf-8", *arguments))
-    found = ElementTree.fromstring(run(encoding, *arguments))
-    assert "".join(found.itertext()) == "".join(expected.itertext())
-    assert [one.attrib for one in found.iter()] == [one.attrib for one in expected.iter()]
+    for encoding in ("ascii", "latin-1"):
+        found = ElementTree.fromstring(run(encoding, *arguments))
+        assert "".join(found.itertext()) == "".join(expected.itertext())
+        assert [one.attrib for one in found.iter()] == [one.attrib for one in expected.iter()]
     assert any(not letter.isascii() for letter in "".join(expected.itertext()))
 
 

@@ -259,6 +259,7 @@ def test_a_six_bar_curve_comes_back_wherever_it_lies(number, angle, scale, mirro
     assert best < 5e-3
 
 
+@pytest.mark.slow
 def test_a_six_bar_follows_a_figure_eight_better_than_a_four_bar():
     s = np.linspace(0, 2 * np.pi, 24, endpoint=False)
     task = PathTask([(float(x), float(y)) for x, y in zip(np.sin(s), 0.5 * np.sin(2 * s), strict=True)], closed=True)

@@ -151,6 +151,7 @@ def reduced(points):
     return parameters(others / np.abs(others).mean(), np.array([]))
 
 
+@pytest.mark.slow
 def test_points_symmetric_about_a_line_are_resolved_to_the_last_path():
     """Some paths go to infinity, some end at singular solutions: none is left over, whatever the order of points."""
     found = solutions(NINE, reduced(MIRROR))
