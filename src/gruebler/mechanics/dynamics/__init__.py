@@ -11,12 +11,15 @@ from gruebler.mechanics.dynamics.equations import (
     influences_of,
     reduced_equations,
 )
+from gruebler.mechanics.dynamics.inverse import InverseDynamics, inverse_dynamics
 
 __all__ = [
     "EquationsOfMotion",
     "Influences",
+    "InverseDynamics",
     "ReducedEquations",
     "Terms",
     "influences_of",
+    "inverse_dynamics",
     "reduced_equations",
 ]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Flags, Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
@@ -270,7 +271,14 @@ class Statics:
 
 
 @door_that_raises(LinkageError)
-def statics(motion: Motion, loads: Loads, *, friction: Friction | PerJoint | None = None) -> Statics:
+def statics(
+    motion: Motion,
+    loads: Loads,
+    *,
+    friction: Friction | PerJoint | None = None,
+    times: ArrayLike = 0.0,
+    besides: tuple[Wrench, ...] = (),
+) -> Statics:
     """Drive efforts and joint forces that hold the loads at every row of a motion, by two independent methods.
 
     Equilibrium of every link gives all forces; the drives' efforts also come from virtual work, with the velocities of
@@ -282,6 +290,8 @@ def statics(motion: Motion, loads: Loads, *, friction: Friction | PerJoint | Non
         friction: Coulomb friction, solved together with the joint forces: a coefficient for all slides, coefficients
             by joint, or `Friction` with radii of pins and guides. Where it locks, forces are NaN and `Statics.message`
             says so.
+        times: At which loads are taken that depend on the time; (rows,) or one.
+        besides: Further forces and moments, such as those of inertia.
 
     Returns:
         `Statics`: (rows, drives) efforts of the drives (N, or N times the unit of length), (rows, 2) forces of the
@@ -319,7 +329,7 @@ def statics(motion: Motion, loads: Loads, *, friction: Friction | PerJoint | Non
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released or joints_left_out(motion):
         raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on their stiffness")
-    wrenches = loads_over_rows(motion, loads)
+    wrenches = (*loads_over_rows(motion, loads, times), *besides)
     if not len(motion):
         raise LinkageError("the motion has no rows. {reason}", reason=motion.reason)
     work = _virtual_work(motion, wrenches)

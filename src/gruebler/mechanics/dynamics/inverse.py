@@ -1,0 +1,154 @@
+"""Inverse dynamics: what drives and joints carry in a given motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import LinkageError
+from gruebler.base.notebook import brief
+from gruebler.mechanics.dynamics.equations import EquationsOfMotion, ReducedEquations, reduced_equations, speeds_of
+from gruebler.mechanics.forces.acting import Wrench
+from gruebler.mechanics.forces.friction import Friction, PerJoint
+from gruebler.mechanics.forces.loads import Loads
+from gruebler.mechanics.forces.solution import Statics, statics
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.linkages import LinkPoint
+
+
+@compared_by_value
+@brief
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class InverseDynamics:
+    """Efforts of the drives and forces of the joints in a motion, masses included, at each row."""
+
+    statics: Statics
+    """All joint forces and drive efforts, from the equilibrium of every link with the forces of its inertia."""
+    equations: ReducedEquations
+    inertia: tuple[Wrench, ...]
+    """The forces and moments of inertia: - m a at each centre, - J alpha on each link."""
+    motion_effort: Reals
+    """(rows, drives): M q'' + h - Q, without friction: the second way to the drives' efforts."""
+
+    @property
+    def motion(self) -> Motion:
+        """The motion."""
+        return self.statics.motion
+
+    @property
+    def drive(self) -> Reals:
+        """The torque of a driven joint, or the force of a driven slide, by equilibrium; (rows, drives)."""
+        return self.statics.drive
+
+    @cached_property
+    def disagreement(self) -> float:
+        """The largest difference between equilibrium and the equations of motion, by the largest effort or load.
+
+        Both without friction; NaN if no row has both answers.
+        """
+        rubbing = self.statics.friction
+        first = self.statics.drive if rubbing is None else rubbing.frictionless
+        both = np.isfinite(first) & np.isfinite(self.motion_effort)
+        if not both.any():
+            return float("nan")
+        apart = np.where(both, first - self.motion_effort, 0.0) / self.statics.load
+        largest = np.abs(np.where(both, first, 0.0) / self.statics.load).max()
+        return float(np.abs(apart).max() / max(largest, 1.0))
+
+    @cached_property
+    def power(self) -> Reals:
+        """The power of each drive, in newtons times the linkage's unit a second; (rows, drives)."""
+        return np.asarray(self.drive * speeds_of(self.motion))
+
+    @cached_property
+    def shaking_force(self) -> Reals:
+        """The force of inertia of all links together, which shakes the foundation, in newtons; (rows, 2)."""
+        total = sum((wrench.force for wrench in self.inertia), np.zeros(len(self.motion), np.complex128))
+        return np.stack([total.real, total.imag], axis=1)
+
+    def shaking_moment(self, about: tuple[float, float] = (0.0, 0.0)) -> Reals:
+        """The moment of inertia forces about a place of the frame, in newtons times the linkage's unit; (rows,)."""
+        moment, origin = np.zeros(len(self.motion)), self._frame_point(about)
+        for wrench in self.inertia:
+            arm = self.motion.complex_point(wrench.place) - origin
+            moment += (np.conj(arm) * wrench.force).imag + wrench.moment
+        return moment
+
+    @cached_property
+    def peak(self) -> Reals:
+        """The largest size of each drive's effort; (drives,)."""
+        return np.asarray(np.nanmax(np.abs(self.drive), axis=0))
+
+    @cached_property
+    def root_mean_square(self) -> Reals:
+        """The effective effort of each drive, each row counted alike; (drives,): by it motors are chosen for heat."""
+        return np.asarray(np.sqrt(np.nanmean(self.drive**2, axis=0)))
+
+    def _frame_point(self, about: tuple[float, float]) -> Complexes:
+        frame = self.motion.linkage.mechanism.frame
+        return self.motion.complex_point(LinkPoint(frame, *map(float, about)))
+
+
+@door_that_raises(LinkageError)
+def inverse_dynamics(
+    motion: Motion, loads: Loads, *, times: ArrayLike = 0.0, friction: Friction | PerJoint | None = None
+) -> InverseDynamics:
+    """What drives and joints carry in a motion, by two independent methods.
+
+    Equilibrium of every link, with its forces of inertia, gives all forces; the equations of motion, M q'' + h - Q,
+    know nothing of joints and give the drives' efforts once more. Error: that of the poses times the condition of the
+    pose.
+
+    Args:
+        motion: Solved with speeds and accelerations: ``move(linkage, drives, speed=...)``.
+        loads: What acts, and the masses; motors are not asked, since their effort is what is looked for.
+        times: At which loads are taken that depend on the time; (rows,) or one.
+        friction: As in `statics`.
+
+    Returns:
+        `InverseDynamics`: ``drive`` (rows, drives) in N times the unit of length (N of slides), ``statics`` with all
+        joint forces, ``shaking_force`` (rows, 2), ``power``, ``disagreement`` of the two methods.
+
+    Raises:
+        LinkageError: a motion without accelerations, loads on points that are not there, an unknown unit of length.
+
+    Cost:
+        That of `statics`, and the motion once more for each drive.
+
+    Example:
+        >>> from gruebler.mechanics.forces import RigidBody
+        >>> from gruebler.mechanics.fourbar import SliderCrank
+        >>> from gruebler.mechanics.kinematics import move
+        >>> engine = move(SliderCrank(30, 50).linkage(), np.radians([0.0]), speed=100.0)
+        >>> run = inverse_dynamics(engine, Loads(bodies={"slider": RigidBody(2.0)}))
+        >>> run.shaking_force.round(6).tolist()  # m r w² (1 + r/l) = 2 · 0.03 · 10⁴ · 1.6 N
+        [[960.0, 0.0]]
+
+    See Also:
+        `statics`, `reduced_equations`, `Loads`
+
+    Theory:
+        docs/theory/dynamics.md
+    """
+    motion.check_order(2)
+    equations = EquationsOfMotion(motion.linkage, motion.links, loads)
+    acting = equations.acting
+    none = np.zeros(len(motion))
+    weights = equations.metres * acting.masses(len(motion))
+    inertia = [
+        Wrench(spot, -weights[:, k] * motion.complex_point(spot, 2), none)
+        for k, spot in enumerate(acting.spots[acting.heavy])
+    ]
+    for link in loads.bodies:
+        moment = -equations.metres * loads.bodies[link].inertia * motion.angular(link, 2)
+        inertia.append(Wrench(LinkPoint(link, 0.0, 0.0), none.astype(np.complex128), moment))
+    held = statics(motion, loads, friction=friction, times=times, besides=tuple(inertia))
+    reduced = reduced_equations(motion, loads, times=times)
+    assert motion.speeds is not None  # it has accelerations
+    effort = np.einsum("rfg,rg->rf", reduced.mass, motion.speeds[1]) + reduced.bias - reduced.force
+    return InverseDynamics(statics=held, equations=reduced, inertia=tuple(inertia), motion_effort=effort)
