@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 INSTALLED := $(VENV)/.installed
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest core test-core core-sanitize torture mutants bench clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest page core test-core core-sanitize torture mutants bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -22,6 +22,7 @@ help:
 	@echo "make core        the C++ kernels alone, compiled where they changed, see core/README.md"
 	@echo "make test-core   the tests of the C++ kernels, against plain Python and against print"
 	@echo "make core-sanitize  the C++ kernels with address and undefined-behaviour sanitizers, without Python"
+	@echo "make page        core/page/motion.wasm.gz from the kernels, and the built page; needs node"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 
 # Reinstalled only when pyproject.toml or the C++ sources change: repeated calls start at once. What did not change is not
@@ -134,6 +135,12 @@ core: $(VENV)/.core
 		-DCORE_FOLDER=$(CURDIR)/src/gruebler >/dev/null
 	$(CORE) --build build/core
 	$(CORE) --install build/core >/dev/null
+
+# The compiler is needed by who changes the kernels of the page only, so no extra asks for it.
+page: $(READY)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check ziglang==0.17.1
+	$(BIN)/python core/page/build.py
+	cd explorer && npm ci --no-audit --no-fund --ignore-scripts && npm run build
 
 test-core: $(READY)
 	$(BIN)/python -m pytest -q tests/core

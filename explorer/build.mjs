@@ -17,5 +17,5 @@ await build({
   minify: true,
   charset: "utf8",
   legalComments: "none",
-  loader: { ".css": "text" },
+  loader: { ".css": "text", ".gz": "binary" },
 });

@@ -2,8 +2,7 @@
  *
  * As `gruebler.mechanics.kinematics.reference_pose` reads them. */
 
-import { unwoundAngle } from "./closure";
-import type { Rows } from "./kernel";
+import { type Rows, unwoundAngle } from "./kernel";
 import type { Linkage } from "./linkage";
 import { Code, Kind } from "./program";
 import { direction, origin, type Pair, place, putOrigin, putTurn, turn } from "./rows";

@@ -7,19 +7,19 @@ export type Pair = [number, number];
 
 /** The origin of a link in a row, or its velocity (1) or acceleration (2). */
 export function origin(rows: Rows, row: number, link: number, k = 0): Pair {
-  const at = ((row * (rows.order + 1) + k) * rows.links + link) * 2;
+  const at = 2 * ((k * rows.links + link) * countOf(rows) + row);
   return [rows.places[at]!, rows.places[at + 1]!];
 }
 
 /** Cosine and sine of the angle of a link in a row. */
 export function turn(rows: Rows, row: number, link: number): Pair {
-  const at = (row * rows.links + link) * 2;
+  const at = 2 * (link * countOf(rows) + row);
   return [rows.turns[at]!, rows.turns[at + 1]!];
 }
 
 /** The angular velocity (1) or acceleration (2) of a link in a row. */
 export function rate(rows: Rows, row: number, link: number, k = 1): number {
-  return rows.rates[(row * rows.order + k - 1) * rows.links + link]!;
+  return rows.rates[((k - 1) * rows.links + link) * countOf(rows) + row]!;
 }
 
 /** A point of a link in a row, or its velocity (1) or acceleration (2). */
@@ -39,22 +39,22 @@ export function direction(rows: Rows, row: number, link: number, [x, y]: Pair): 
   return [c * x - s * y, c * y + s * x];
 }
 
-/** Put the origin of a link to a place in the first row. */
-export function putOrigin(rows: Rows, link: number, x: number, y: number): void {
-  rows.places[2 * link] = x;
-  rows.places[2 * link + 1] = y;
+/** Put the origin of a link to a place in a pose, one row. */
+export function putOrigin(pose: Rows, link: number, x: number, y: number): void {
+  pose.places[2 * link] = x;
+  pose.places[2 * link + 1] = y;
 }
 
-/** Move a link in the first row. */
-export function move(rows: Rows, link: number, dx: number, dy: number): void {
-  rows.places[2 * link]! += dx;
-  rows.places[2 * link + 1]! += dy;
+/** Move a link in a pose. */
+export function move(pose: Rows, link: number, dx: number, dy: number): void {
+  pose.places[2 * link]! += dx;
+  pose.places[2 * link + 1]! += dy;
 }
 
-/** Turn a link in the first row; cosine and sine are given. */
-export function putTurn(rows: Rows, link: number, c: number, s: number): void {
-  rows.turns[2 * link] = c;
-  rows.turns[2 * link + 1] = s;
+/** Turn a link in a pose; cosine and sine are given. */
+export function putTurn(pose: Rows, link: number, c: number, s: number): void {
+  pose.turns[2 * link] = c;
+  pose.turns[2 * link + 1] = s;
 }
 
 /** How many rows there are, those that were not reached included. */
@@ -64,47 +64,52 @@ function countOf(rows: Rows): number {
 
 /** Signs of the dyads and unknowns of the larger groups in a row. */
 export function stateAt(rows: Rows, row: number): State {
-  const count = countOf(rows);
-  const dyads = rows.roots.length / count;
-  const unknowns = rows.unknowns.length / count;
-  return {
-    signs: rows.roots.slice(row * dyads, (row + 1) * dyads).map((root) => (root < 0 ? -1 : 1)),
-    unknowns: rows.unknowns.slice(row * unknowns, (row + 1) * unknowns),
-  };
+  const { roots, unknowns } = selected([[rows, row]]);
+  return { signs: roots.map((root) => (root < 0 ? -1 : 1)), unknowns };
 }
 
 /** How far a row is from a change point or limit of a dyad: at most 1. */
 export function leastRoot(rows: Rows, row: number): number {
-  const dyads = rows.roots.length / countOf(rows);
+  const count = countOf(rows);
   let out = 1;
-  for (let m = 0; m < dyads; m++) out = Math.min(out, Math.abs(rows.roots[row * dyads + m]!));
+  for (let at = row; at < rows.roots.length; at += count) out = Math.min(out, Math.abs(rows.roots[at]!));
   return out;
 }
 
-const WIDE = ["places", "turns", "rates", "roots", "unknowns"] as const;
+/** How many numbers of a row stand side by side. */
+const WIDTHS = { places: 2, turns: 2, rates: 1, roots: 1, unknowns: 1 } as const;
+
+type Columns = Pick<Rows, keyof typeof WIDTHS>;
+
+/** The columns of some rows, each out of one motion or another of the same linkage. */
+function selected(wanted: readonly (readonly [Rows, number])[]): Columns {
+  const [model] = wanted[0]!;
+  const made = (key: keyof Columns) => {
+    const width = WIDTHS[key];
+    const columns = model[key].length / (width * countOf(model));
+    const out = new Float64Array(width * columns * wanted.length);
+    for (const [row, [source, from]] of wanted.entries()) {
+      const step = width * countOf(source);
+      for (let column = 0; column < columns; column++)
+        for (let part = 0; part < width; part++)
+          out[width * (column * wanted.length + row) + part] = source[key][column * step + width * from + part]!;
+    }
+    return out;
+  };
+  const [places, turns, rates] = [made("places"), made("turns"), made("rates")];
+  return { places, turns, rates, roots: made("roots"), unknowns: made("unknowns") };
+}
 
 /** One row of others, as a pose of its own. */
 export function oneRow(rows: Rows, row: number): Rows {
-  const count = countOf(rows);
-  const out = { ...rows, status: Status.DONE, reached: 1, at: 0 };
-  for (const key of WIDE) {
-    const wide = rows[key].length / count;
-    out[key] = rows[key].slice(row * wide, (row + 1) * wide);
-  }
-  return out;
+  return { ...rows, status: Status.DONE, reached: 1, at: 0, ...selected([[rows, row]]) };
 }
 
 /** Some rows of others; `at` is a place between the rows asked for. */
 export function picked(rows: Rows, asked: number[], all: number[], values: Float64Array): Rows {
   const count = all.length;
   const reached = asked.filter((row) => row < rows.reached).length;
-  const out = { ...rows, reached };
-  for (const key of WIDE) {
-    const wide = rows[key].length / count;
-    const made = new Float64Array(wide * asked.length);
-    for (const [k, row] of asked.entries()) made.set(rows[key].subarray(row * wide, (row + 1) * wide), k * wide);
-    out[key] = made;
-  }
+  const out = { ...rows, reached, ...selected(asked.map((row) => [rows, row])) };
   if (rows.status !== Status.DONE) {
     const low = Math.min(Math.floor(rows.at), count - 1);
     const high = Math.min(low + 1, count - 1);
@@ -118,15 +123,8 @@ export function picked(rows: Rows, asked: number[], all: number[], values: Float
 
 /** Rows that go down from a pose, turned round, then those that go up; the pose itself once. */
 export function joined(down: Rows, up: Rows): Rows {
-  const out = { ...up, reached: down.reached - 1 + up.reached, status: Status.DONE };
-  const count = countOf(up);
-  for (const key of WIDE) {
-    const wide = up[key].length / count;
-    const made = new Float64Array(wide * out.reached);
-    for (let row = 1; row < down.reached; row++)
-      made.set(down[key].subarray(row * wide, (row + 1) * wide), (down.reached - 1 - row) * wide);
-    made.set(up[key].subarray(0, up.reached * wide), (down.reached - 1) * wide);
-    out[key] = made;
-  }
-  return out;
+  const below = Array.from({ length: Math.max(0, down.reached - 1) }, (_, k) => [down, down.reached - 1 - k] as const);
+  const above = Array.from({ length: up.reached }, (_, row) => [up, row] as const);
+  const wanted = [...below, ...above];
+  return { ...up, reached: wanted.length, status: Status.DONE, ...selected(wanted) };
 }

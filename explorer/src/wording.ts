@@ -27,5 +27,6 @@ export function stopText(linkage: Linkage, stop: Stop): string {
     return t("With these sizes {form} {{links}} cannot be assembled at {drives}; nothing was changed.", values);
   if (stop.status === Status.SINGULAR)
     return t("The motion ends at {drives}: there two assembly modes of {form} {{links}} meet.", values);
+  if (stop.status === Status.GIVEN_UP) return t("The motion was given up at {drives}: it is too long.", { drives });
   return t("The motion ends at {drives}: there {form} {{links}} can no longer be assembled.", values);
 }

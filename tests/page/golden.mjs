@@ -21,6 +21,17 @@ function apart(mine, theirs, width, unit, trusted) {
   return most;
 }
 
+/** Row by row, and what is no number as NaN; `at` says where the numbers of a link are. */
+function ordered(array, orders, links, width, count, at) {
+  const out = new Float64Array(count * orders * links * width);
+  for (let row = 0; row < count; row++)
+    for (let k = 0; k < orders; k++)
+      for (let link = 0; link < links; link++)
+        for (let part = 0; part < width; part++)
+          out[((row * orders + k) * links + link) * width + part] = array[at(k, link, row) * width + part] ?? NaN;
+  return out;
+}
+
 for await (const line of createInterface({ input: createReadStream(process.argv[3]) })) {
   const record = JSON.parse(line);
   const kernel = new Kernel(programOf(record.program));
@@ -31,16 +42,12 @@ for await (const line of createInterface({ input: createReadStream(process.argv[
     record.speeds.map((s) => Float64Array.from(s)),
   );
   const { linkCount: links, dyads, size } = record.program;
-  // Python: places (order, row, link), rates (order, row, link); here: row first
-  const count = record.reached;
-  const places = new Float64Array(count * 6 * links), rates = new Float64Array(count * 2 * links);
-  for (let k = 0; k < 3; k++)
-    for (let row = 0; row < count; row++)
-      for (let m = 0; m < 2 * links; m++)
-        places[(row * 3 + k) * 2 * links + m] = record.places[(k * count + row) * 2 * links + m] ?? NaN;
-  for (let k = 0; k < 2; k++)
-    for (let row = 0; row < count; row++)
-      for (let m = 0; m < links; m++) rates[(row * 2 + k) * links + m] = record.rates[(k * count + row) * links + m] ?? NaN;
+  // Python: places (order, row, link), rates (order, row, link); the page: a column for each number; here: row first
+  const count = record.reached, all = rows.turns.length / (2 * links);
+  const theirs = (array, orders, width) => ordered(array, orders, links, width, count, (k, link, row) => (k * count + row) * links + link);
+  const mine = (array, orders, width) => ordered(array, orders, links, width, count, (k, link, row) => (k * links + link) * all + row);
+  const places = theirs(record.places, 3, 2), rates = theirs(record.rates, 2, 1), turns = theirs(record.turns, 1, 2);
+  const found = { places: mine(rows.places, 3, 2), rates: mine(rows.rates, 2, 1), turns: mine(rows.turns, 1, 2) };
   const least = (row) => {
     let out = 1;
     for (let m = 0; m < dyads; m++) out = Math.min(out, Math.abs(record.roots[row * dyads + m]));
@@ -54,14 +61,14 @@ for await (const line of createInterface({ input: createReadStream(process.argv[
   const near = (r) => (row) => least(row) > r;
   console.log(JSON.stringify({
     status: rows.status, reached: rows.reached, at: rows.at, fault: rows.fault,
-    turns: apart(rows.turns, record.turns, 2 * links, 1, near(1e-6)),
-    places: apart(pick(rows.places, 0), pick(places, 0), 2 * links, size, near(1e-6)),
+    turns: apart(found.turns, turns, 2 * links, 1, near(1e-6)),
+    places: apart(pick(found.places, 0), pick(places, 0), 2 * links, size, near(1e-6)),
     velocities: Math.max(
-      apart(pick(rows.places, 1), pick(places, 1), 2 * links, size, near(1e-3)),
-      apart(turn(0, rows.rates), turn(0, rates), links, 1, near(1e-3))),
+      apart(pick(found.places, 1), pick(places, 1), 2 * links, size, near(1e-3)),
+      apart(turn(0, found.rates), turn(0, rates), links, 1, near(1e-3))),
     accelerations: Math.max(
-      apart(pick(rows.places, 2), pick(places, 2), 2 * links, size, near(1e-2)),
-      apart(turn(1, rows.rates), turn(1, rates), links, 1, near(1e-2))),
+      apart(pick(found.places, 2), pick(places, 2), 2 * links, size, near(1e-2)),
+      apart(turn(1, found.rates), turn(1, rates), links, 1, near(1e-2))),
     rows: count,
     trusted: Array.from({ length: count }, (_, row) => least(row)).filter((r) => r > 1e-3).length,
   }));

@@ -1,5 +1,8 @@
 """The built front end is what its sources give; its German is complete; its lock file names no registry."""
 
+import base64
+import gzip
+import importlib.util
 import json
 import re
 import shutil
@@ -45,6 +48,21 @@ def test_the_built_file_is_what_the_sources_give(tmp_path):
     assert (tmp_path / "explorer.js").read_text(encoding="utf-8") == BUILT.read_text(encoding="utf-8"), (
         "run `npm ci && npm run build` in explorer/ and commit src/gruebler/page/static/explorer.js"
     )
+
+
+def test_the_module_of_the_kernels_is_made_of_these_sources():
+    """It is committed, as the built page is, since compiling it takes a compiler of its own."""
+    spec = importlib.util.spec_from_file_location("page_build", ROOT / "core/page/build.py")
+    assert spec is not None
+    assert spec.loader is not None
+    build = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(build)
+    packed = build.TARGET.read_bytes()
+    module = gzip.decompress(packed)
+    assert module.startswith(b"\0asm\1\0\0\0")
+    assert module.endswith(build.SECTION + build.digest()), "run `make page` and commit what it makes"
+    assert base64.b64encode(packed).decode() in BUILT.read_text(encoding="utf-8")
+    assert b"wasi_snapshot" not in module  # it asks nothing of its host
 
 
 def test_the_lock_file_names_no_address():

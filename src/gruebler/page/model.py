@@ -1,7 +1,7 @@
 """A linkage as the page takes it: its document, the flattened solving plan, and a pose to start from.
 
-The page executes the plan by the same rules as `gruebler.mechanics.kinematics` (explorer/src/kernel.ts), so that
-dragging needs no round trip. docs/theory/explorer.md says what may be changed there without a new plan.
+The page executes the plan by the same kernels (core/src/motion, compiled to WebAssembly), so that dragging needs no
+round trip. docs/theory/explorer.md says what may be changed there without a new plan.
 """
 
 from __future__ import annotations

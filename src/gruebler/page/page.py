@@ -46,7 +46,7 @@ def single_file(model: Mapping[str, Any], lang: str = "") -> str:
         model: what `gruebler.page.model.model_of` returns.
         lang: the language in which it opens, the browser's if empty; the reader may choose another.
 
-    The policy in the file allows its own script, by the script's digest, and nothing else.
+    The policy in the file allows its own script, by the script's digest, and the WebAssembly in it, and nothing else.
 
     >>> from gruebler.page.model import model_of
     >>> from gruebler.mechanics.fourbar import FourBar
@@ -62,7 +62,7 @@ def single_file(model: Mapping[str, Any], lang: str = "") -> str:
         "file",
         values,
         script_element(script, "module"),
-        policy_element(script, styles=False),
+        policy_element(script, styles=False, webassembly=True),
     )
 
 

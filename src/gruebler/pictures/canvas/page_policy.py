@@ -12,17 +12,20 @@ def script_element(script: str, kind: str = "") -> str:
     return f"<script{typed}>{_closed(script)}</script>"
 
 
-def policy_element(*scripts: str, styles: bool = True) -> str:
+def policy_element(*scripts: str, styles: bool = True, webassembly: bool = False) -> str:
     r"""The element of a page's head that lets it run these scripts, by their digests, and load nothing at all.
 
     Args:
         scripts: as given to `script_element`.
         styles: whether the page has style sheets and styles of elements.
+        webassembly: whether its scripts compile WebAssembly that they hold; texts as code stay forbidden.
 
     >>> policy_element()[:77]
     '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; style'
     """
     allowed = [f"'sha256-{_digest(script)}'" for script in scripts]
+    if webassembly:
+        allowed.append("'wasm-unsafe-eval'")
     rules = [
         "default-src 'none'",
         *([f"script-src {' '.join(allowed)}"] if allowed else []),

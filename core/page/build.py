@@ -1,0 +1,94 @@
+"""Compiles what the page needs of the kernels into `motion.wasm.gz` beside this file, by the clang of `ziglang`.
+
+    python core/page/build.py            # needs the package `ziglang`; some minutes the first time, then half a minute
+
+The module tells which sources it was made of, so that a test can say whether it belongs to those that are here.
+"""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).parent
+CORE = HERE.parent
+TARGET = HERE / "motion.wasm.gz"
+SECTION = b"gruebler sources"
+"""A custom section of the module: engines pass over it."""
+
+UNITS = (
+    "page/door.cpp",
+    *(
+        f"src/motion/{name}.cpp"
+        for name in ("closure", "closure_rates", "dyads", "newton", "placing", "plan", "sweep", "swept", "walk")
+    ),
+)
+EXPORTS = ("reserve", "run", "unwound")
+OPTIONS = (
+    "--target=wasm32-wasi",  # nothing of the system remains in it, see door.cpp
+    "-mexec-model=reactor",
+    "-std=c++20",
+    "-O3",
+    "-msimd128",
+    "-mbulk-memory",
+    "-ffp-contract=off",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-fno-exceptions",
+    "-fno-rtti",
+    "-fno-threadsafe-statics",
+    "-fvisibility=hidden",
+    "-Wall",
+    "-Wextra",
+    "-Wno-inline-namespace-reopened-noninline",
+    "-Werror=pass-failed",  # a hot loop that is not vectorised
+    "-g0",
+    "-Wl,--strip-all",
+    "-Wl,--gc-sections",
+    *(f"-Wl,--export={name}" for name in EXPORTS),
+)
+
+
+def sources() -> list[Path]:
+    """The units and all that they include of the core, and this file, which holds the options."""
+    found: dict[Path, None] = {}
+    waiting = [CORE / unit for unit in UNITS]
+    while waiting:
+        file = waiting.pop()
+        if file in found:
+            continue
+        found[file] = None
+        waiting += [CORE / "src" / name for name in re.findall(r'#include "(.+)"', file.read_text(encoding="utf-8"))]
+    return [*sorted(found), Path(__file__)]
+
+
+def digest() -> bytes:
+    """Of the names and the texts of all sources."""
+    made = hashlib.sha256()
+    for file in sources():
+        made.update(file.relative_to(CORE).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
+    return made.hexdigest().encode()
+
+
+def with_digest(module: bytes) -> bytes:
+    """A module with one more section; lengths below 128 are one byte."""
+    content = bytes([len(SECTION)]) + SECTION + digest()
+    return module + bytes([0, len(content)]) + content
+
+
+def compiled() -> bytes:
+    """The module as the linker makes it."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder) / "motion.wasm"
+        command = [sys.executable, "-m", "ziglang", "c++", *OPTIONS, f"-I{CORE / 'src'}", "-o", str(made)]
+        subprocess.run([*command, *(str(CORE / unit) for unit in UNITS)], check=True)
+        return made.read_bytes()
+
+
+if __name__ == "__main__":
+    TARGET.write_bytes(gzip.compress(with_digest(compiled()), 9, mtime=0))
