@@ -176,7 +176,7 @@ MISTAKES = [
     (lambda: gr.measures(CRANK_ROCKER, sped=1), "measures has no option 'sped' (did you mean 'speed'?)"),
     (lambda: gr.animate(CHAIN), "values of type Chain have no moving picture"),
     (lambda: gr.plot(CRANK_ROCKER, "transmision"), "there is no plot 'transmision' (did you mean 'transmission'?)"),
-    (lambda: gr.draw(CRANK_ROCKER).save("x.bmp"), "end it with .svg, .png or .pdf"),
+    (lambda: gr.draw(CRANK_ROCKER).save("x.bmp"), "end it with .svg, .png, .pdf or .tex"),
     (lambda: gr.write("x.toml", CRANK_ROCKER), "the value comes first, then 'x.toml'"),
     (lambda: gr.write(CRANK_ROCKER, 7), "path: expected a text or PathLike, but found 7"),
     (lambda: gr.write(7, "x.toml"), "values of type int cannot be written"),

@@ -233,7 +233,7 @@ def test_a_motion_that_ends_says_so_and_one_without_poses_shows_its_structure():
     assert "Die Bewegung endet" in draw_motion(move(rocker, from_degrees(0, 120, 5)), lang="de").description
     nothing = draw_motion(move(rocker, from_degrees(100, 120, 5)))
     assert "At the start" in nothing.description
-    assert styled(nothing, "hatch")
+    assert styled(nothing, "hatch-bar")
 
 
 def test_a_motion_shows_itself_in_notebooks():

@@ -347,8 +347,10 @@ def test_what_is_not_there_is_said(capsys):
     assert "Shown: dead centres." in drawn(capsys, "wiper", show=["dead-centres"], output="rocker1")
 
 
-def test_entries_are_drawn_to_scale_when_asked(capsys):
-    assert "To scale" not in drawn(capsys, "watt_axle")
+def test_entries_are_drawn_to_scale(capsys):
+    assert "To scale" in drawn(capsys, "watt_axle")
+    assert "To scale" not in drawn(capsys, "watt_axle", structure=True)
+    assert "To scale" not in drawn(capsys, "susp_5link")  # screws alone are no sizes of a picture
     text = drawn(capsys, "watt_axle", curve=["F"], lang="de", labels=True)
     assert "Bahnkurve von F" in text
     assert "Karosserie (Gestell)" in text

@@ -171,7 +171,8 @@ def test_signs_of_joints():
     frames = Mechanism(Chain.parse("R(0-1) R(1-2) R(2-3) P(3-0)"), "0", [3])
     classes = Counter(shape["class"] for shape in map(dict, _attributes(draw_structure(frames))))
     assert classes["gr-rail"] == classes["gr-block"] == classes["gr-head"] == 1
-    assert classes["gr-hatch"] == 3
+    assert classes["gr-hatch"] == 2
+    assert classes["gr-hatch-bar"] == 1
 
 
 def _attributes(figure):
@@ -198,7 +199,7 @@ def test_files_by_suffix(tmp_path):
     assert picture_bytes(figure, "png").startswith(b"\x89PNG")
     assert picture_bytes(figure, "pdf").startswith(b"%PDF")
     assert picture_bytes(figure, "png") == picture_bytes(figure, "png")
-    with pytest.raises(GrueblerError, match=r"end it with \.svg, \.png or \.pdf"):
+    with pytest.raises(GrueblerError, match=r"end it with \.svg, \.png, \.pdf or \.tex"):
         suffix_of(tmp_path / "x.gif")
 
 

@@ -1,7 +1,6 @@
 """`gruebler draw`: the structure picture of a chain or mechanism, its graph, contracted graph or loops; or a linkage.
 
-Files and lengths such as four-bar:25,70,40,70 are drawn to scale; catalog entries when an option asks for a pose, a
-curve or something else of the motion.
+Files, lengths such as four-bar:25,70,40,70 and catalog entries with dimensions are drawn to scale.
 """
 
 from __future__ import annotations
@@ -28,6 +27,7 @@ from gruebler.files.structures import is_structure_text
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas import Figure
 from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
+from gruebler.pictures.canvas.textbook import textbook
 from gruebler.pictures.structure import (
     draw_block,
     draw_contracted,
@@ -59,8 +59,8 @@ def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="Draw the structure of a chain or mechanism: links as bodies, joints by their symbols, the frame "
-        "hatched, drives as arrows. Linkages, and catalog entries with --at, --curve, --show or --ghosts, are drawn to "
-        "scale.",
+        "hatched, drives as arrows. Linkages and catalog entries with dimensions are drawn to scale; with --structure "
+        "entries are not.",
         epilog="Examples: gruebler draw geartrain -o geartrain.svg; gruebler draw four-bar:25,70,40,70 --at 30 --show "
         "poles. Without -o, the SVG goes to standard output, on a "
         "terminal into a new file. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
@@ -95,6 +95,9 @@ def add(parser: Parser) -> None:
             "planes",
             "dimensions",
             "scale",
+            "joints",
+            "angles",
+            "lengths",
         ),
         help="also draw this (repeatable)",
     )
@@ -105,15 +108,24 @@ def add(parser: Parser) -> None:
         --branch
         """
     )
-    parser.add_out(help="the picture: .svg, .png or .pdf")
+    parser.add_out(help="the picture: .svg, .png, .pdf, or .tex for TikZ")
     parser.add_argument(
         "--space", choices=("planar", "spherical", "spatial"), help="space of the chain (default: planar)"
     )
     parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
     parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint (repeatable)")
     parser.add_argument("--labels", action="store_true", help="label the links")
+    parser.add_argument("--names", choices=("joints",), help="joints: letters A₀, A, B, B₀ at the joints of a linkage")
+    parser.add_argument("--angles", action="store_true", help="mark the angles φ, ψ and μ of a linkage")
+    parser.add_argument(
+        "--lengths", choices=("letters", "values"), help="write the lengths of a linkage as letters or as dimensions"
+    )
+    parser.add_argument(
+        "--style", choices=("colour", "textbook"), default="colour", help="textbook: black, lines of 0.7 and 0.35 mm"
+    )
     parser.add_argument("--dark", action="store_true", help="dark background for PNG and PDF")
     view = parser.add_mutually_exclusive_group()
+    view.add_argument("--structure", action="store_true", help="draw the structure of a catalog entry with dimensions")
     view.add_argument("--graph", action="store_true", help="draw the link graph instead")
     view.add_argument("--contracted", action="store_true", help="draw the contracted graph instead")
     view.add_argument("--loops", action="store_true", help="draw the independent loops instead")
@@ -127,6 +139,8 @@ def run(arguments: argparse.Namespace) -> int:
     arguments.out = picture_path(arguments.out, arguments.chain, *view)
     suffix = picture_suffix(arguments.out, arguments.dark)
     figure = _figure(arguments)
+    if arguments.style == "textbook":
+        figure = textbook(figure)
     write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
     return 0
 
@@ -174,6 +188,7 @@ def write_picture(figure: Figure, path: Path | None, suffix: str, dark: bool, la
 
 def _figure(arguments: argparse.Namespace) -> Figure:
     moving = {key: getattr(arguments, key) for key in _OF_MOTION}
+    moving["show"] = [*moving["show"], *_letters(arguments)]
     view = next((_VIEWS[key] for key in _VIEWS if getattr(arguments, key)), None)
     asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
     if view is draw_block:
@@ -190,7 +205,7 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     if moving["output"] is not None and view is not draw_block and not set(moving["show"]) & set(_OF_A_LINK):
         raise GrueblerError("--output needs --show {views} or --block", views=joined(_OF_A_LINK, ", "))
     has_sizes = _has_sizes(arguments.chain)
-    if view is None and (has_sizes or asked):
+    if view is None and not arguments.structure and (has_sizes or asked or _is_sized_entry(arguments)):
         return _to_scale(arguments, moving)
     record = entry_of(arguments.chain, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
@@ -207,6 +222,20 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     return draw_structure(
         thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names
     )
+
+
+def _letters(arguments: argparse.Namespace) -> list[str]:
+    """The layers that --names, --angles and --lengths stand for."""
+    lengths = {"letters": ["lengths"], "values": ["dimensions"]}.get(arguments.lengths, [])
+    angles = ["angles", "transmission"] if arguments.angles else []
+    return [*angles, *lengths, *["joints"] * (arguments.names == "joints")]
+
+
+def _is_sized_entry(arguments: argparse.Namespace) -> bool:
+    """Whether a catalog entry is drawn as its machine: it has dimensions, and no option changes its roles."""
+    record = entry_of(arguments.chain, arguments.lang)
+    changed = arguments.space or arguments.frame or arguments.drive
+    return record is not None and record.dimensions is not None and not changed
 
 
 def _block(

@@ -15,6 +15,7 @@ from gruebler.base.errors import GrueblerError, nearest, to_be_read
 from gruebler.base.text import Message, message
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.files import picture_bytes, suffix_of
+from gruebler.pictures.canvas.textbook import textbook
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -40,8 +41,12 @@ class Picture:
         """The picture as SVG."""
         return self.figure.svg()
 
+    def textbook(self) -> Picture:
+        """The picture in black, one line of 0.7 mm a link, all others 0.35 mm wide."""
+        return Picture(textbook(self.figure))
+
     def save(self, path: Path | str, *, dark: bool = False) -> Path:
-        """Write it into a ``.svg``, ``.png`` or ``.pdf`` file, complete or not at all; returns the path.
+        """Write it into a ``.svg``, ``.png``, ``.pdf`` or ``.tex`` file (TikZ), or not at all; returns the path.
 
         Raises `GrueblerError` for another ending, or if PNG or PDF need matplotlib and it is missing.
         """
@@ -154,7 +159,8 @@ def draw(
         between: of a linkage: drive values of its range, for curves and the size of the picture.
         curves: of a linkage: points or joints whose paths are drawn.
         show: of a linkage: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``,
-            ``centrodes``, ``inflection``, ``planes``, ``dimensions``, ``scale``.
+            ``centrodes``, ``inflection``, ``planes``, ``dimensions``, ``scale``; as letters ``joints``, ``angles``,
+            ``lengths``.
         output: of a linkage: the link of dead centres and transmission angle.
         outputs: of a chain or mechanism: links that get a double arrow.
         ghost: of a linkage: the number of thinly drawn positions, at most 60.

@@ -13,14 +13,14 @@ from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.canvas.styles import COLOURS
 from gruebler.pictures.canvas.svg import style_sheet
 
-CONSTRUCTION_SUFFIXES = ("html", "pdf", "svg", "png")
+CONSTRUCTION_SUFFIXES = ("html", "pdf", "svg", "png", "tex")
 
 
 def construction_bytes(whole: Construction, suffix: str, lang: str = "en", *, step: int | None = None) -> bytes:
     """The content of a file: all steps, or one of them (from 1; not with ``html``).
 
-    ``html`` is one page with a slider, ``pdf`` has one page for each step; ``svg`` and ``png`` show the pictures side
-    by side. `GrueblerError` if there is no such step, or if matplotlib is needed and missing.
+    ``html`` is one page with a slider, ``pdf`` has one page for each step; ``svg``, ``png`` and ``tex`` show the
+    pictures side by side. `GrueblerError` if there is no such step, or if matplotlib is needed and missing.
     """
     if step is not None:
         return picture_bytes(whole.figure(step, lang), "svg" if suffix == "html" else suffix)

@@ -8,8 +8,9 @@ from pathlib import Path
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or
 from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.tikz import tikz_file
 
-SUFFIXES = ("svg", "png", "pdf")
+SUFFIXES = ("svg", "png", "pdf", "tex")
 
 
 def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
@@ -25,12 +26,14 @@ def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
 
 
 def picture_bytes(figure: Figure, suffix: str, *, dark: bool = False) -> bytes:
-    """The content of an ``svg``, ``png`` or ``pdf`` file; `GrueblerError` if matplotlib is needed and missing.
+    """The content of a file (``tex`` is TikZ); `GrueblerError` if matplotlib is needed and missing.
 
     PNG and PDF are on light or dark ground; SVG is on that of the reader.
     """
     if suffix == "svg":
         return figure.svg().encode("utf-8")
+    if suffix == "tex":
+        return tikz_file(figure).encode("utf-8")
     from gruebler.pictures.canvas.matplotlib_files import save_figure
 
     memory = io.BytesIO()

@@ -59,6 +59,7 @@ STYLES = {
     "frame": Style(fill="frame", stroke="frame", width=BAR),
     "frame-bar": Style(stroke="frame", width=BAR),
     "hatch": Style(stroke="ink", width=0.9),
+    "hatch-bar": Style(stroke="ink", width=0.9),
     "joint": Style(fill="paper", stroke="ink", width=1.6),
     "ring": Style(stroke="ink", width=1.6),
     "rail": Style(stroke="ink", width=2.6),

@@ -13,7 +13,7 @@ _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 65534, 65535, *ran
 
 def style_sheet(used: list[str] | None = None) -> str:
     """The rules of these styles, or of all, on light and dark ground; every class begins with ``gr``."""
-    names = list(STYLES) if used is None else used
+    names = [name for name in STYLES if not name.startswith("textbook-")] if used is None else used
     rules = [".gr{stroke-linecap:round;stroke-linejoin:round;font-family:sans-serif}"]
     rules += [f".gr-{name}{{{_declarations(STYLES[name], 0)}}}" for name in names]
     dark = "".join(f".gr-{name}{{{_declarations(STYLES[name], 1)}}}" for name in names)

@@ -22,6 +22,7 @@ _BLOCK = Point(12.5, 7.0)
 _GUIDE = Point(20.0, 10.0)
 _DISC = 8.0
 _HATCH = 6.0
+_STEEP = 0.35  # of 1: hatching leaves its line at this angle's sine at least
 
 
 @dataclass(frozen=True, slots=True)
@@ -355,7 +356,7 @@ def _bar_hatching(points: Sequence[Point]) -> Polylines:
         for k in range(number):
             foot = a.plus(u, (k + 0.5) * along.length / number)
             strokes.append((foot.plus(v, half).plus(u, -half / 2), foot.plus(v, -half).plus(u, half / 2)))
-    return Polylines(tuple(strokes), "hatch")
+    return Polylines(tuple(strokes), "hatch-bar")
 
 
 def hatching(corners: Sequence[Point]) -> Polylines:
@@ -388,8 +389,15 @@ def ticks(a: Point, b: Point, outward: Point) -> Polylines:
     along = b.minus(a)
     number = max(2, round(along.length / _HATCH))
     places = [a.plus(along, (k + 0.5) / number) for k in range(number)]
-    lean = outward.plus(along.unit, -0.7)
-    return Polylines(tuple((p.plus(outward, 1.3), p.plus(lean, 6.0)) for p in places), "hatch")
+    lean = _slant(outward.unit)
+    return Polylines(tuple((p.plus(outward, 1.3), p.plus(outward, 1.3).plus(lean, 6.5)) for p in places), "hatch")
+
+
+def _slant(outward: Point) -> Point:
+    """The direction of hatching: one for all lines, at 45 degrees, except for lines that nearly have it themselves."""
+    rising, falling = Point(-1.0, 1.0).unit, Point(1.0, 1.0).unit
+    slant = rising if abs(outward.dot(rising)) > _STEEP else falling
+    return slant if outward.dot(slant) > 0 else Point(-slant.x, -slant.y)
 
 
 def widest_gap(angles: Sequence[float]) -> float:

@@ -32,6 +32,7 @@ from gruebler.pictures.linkage.bodies import BodyPart, corners_of, in_link, shap
 from gruebler.pictures.linkage.dimensions import dimension_lines
 from gruebler.pictures.linkage.instant_centres import pole_marks
 from gruebler.pictures.linkage.layer_context import Layer, LayerContext
+from gruebler.pictures.linkage.letters import angle_marks, joint_names, length_letters
 from gruebler.pictures.linkage.poles import centrode_lines, inflection_lines
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
@@ -268,6 +269,9 @@ LAYERS: Mapping[str, Layer] = {
     "planes": _planes,
     "dimensions": dimension_lines,
     "scale": _later,
+    "joints": joint_names,
+    "angles": angle_marks,
+    "lengths": length_letters,
 }
 BELOW = ("dead-centres", "centrodes", "inflection")
 """Layers below the bodies, except their marks and texts."""

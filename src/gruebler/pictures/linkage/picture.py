@@ -57,6 +57,9 @@ _LAYER_NAMES = {
     "planes": message("planes of the links"),
     "dimensions": message("dimensions"),
     "scale": message("scale"),
+    "joints": message("letters of the joints"),
+    "angles": message("angles of drive and output"),
+    "lengths": message("letters of the lengths"),
 }
 _MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
@@ -87,7 +90,7 @@ def draw_linkage(
         between: drive values of its range, for curves and the size of the picture; by default the full range.
         curves: points or joints whose paths are drawn.
         show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
-            ``inflection``, ``planes``, ``dimensions``, ``scale``.
+            ``inflection``, ``planes``, ``dimensions``, ``scale``, ``joints``, ``angles``, ``lengths`` (letters).
         output: the link of dead centres and transmission angle, by default the linkage's own output; also
             that of centrodes and inflection circle, by default a link that is no neighbour of the frame.
         ghost: the number of thinly drawn positions, evenly through the range of the drive; at most 60.

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import base64
-import math
 from collections.abc import Callable, Iterator
 from html import escape
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or
-from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.page_policy import policy_element
-from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
-from gruebler.pictures.canvas.styles import COLOURS, STYLES
+from gruebler.pictures.canvas.shapes import split_subscripts
 from gruebler.pictures.canvas.svg import style_sheet
+from gruebler.pictures.canvas.tikz import colour_definitions, latex_text, tikz
 from gruebler.teaching.worksheets.blocks import (
     AnswerLines,
     Block,
@@ -151,75 +149,18 @@ def _markdown_block(block: Block) -> Iterator[str]:
 # --- LaTeX -------------------------------------------------------------------------------------------
 
 _LATEX_WIDTH = 620.0  # of the lines on A4 with margins of 20 mm
-_SPECIAL = {
-    **{sign: f"\\{sign}" for sign in "&%$#_{}"},
-    "\\": r"\textbackslash{}",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-}
-_GREEK = (
-    "alpha beta gamma delta varepsilon zeta eta theta iota kappa lambda mu nu xi o pi rho varsigma sigma tau upsilon \
-varphi chi psi omega"
-)
-_MATHS = {
-    **{chr(0x3B1 + k): rf"$\{name}$" if name != "o" else "$o$" for k, name in enumerate(_GREEK.split())},
-    **{sign: f"$^{k}$" for k, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")},
-    **{chr(0x2080 + k): f"$_{k}$" for k in range(10)},
-    **{
-        "⁻": "$^-$",
-        "ᵢ": "$_i$",
-        "ẋ": r"$\dot x$",
-        "ẏ": r"$\dot y$",
-        "µ": r"$\mu$",
-        "√": r"$\surd$",
-        "°": r"$^\circ$",
-        "−": "$-$",
-        "≤": r"$\leq$",
-        "≥": r"$\geq$",
-        "≈": r"$\approx$",
-        "≠": r"$\neq$",
-        "·": r"$\cdot$",
-        "×": r"$\times$",
-        "±": r"$\pm$",
-        "∓": r"$\mp$",
-        "∩": r"$\cap$",
-        "→": r"$\to$",
-        "′": "$'$",
-        "″": "$''$",
-        "∞": r"$\infty$",
-        "Γ": r"$\Gamma$",
-        "Σ": r"$\Sigma$",
-        "Δ": r"$\Delta$",
-        "Φ": r"$\Phi$",
-        "Ψ": r"$\Psi$",
-        "Ω": r"$\Omega$",
-        "…": r"\dots{}",
-        "\u00a0": "~",
-    },
-}
-_SIGNS = str.maketrans({**_SPECIAL, **_MATHS})
-
-
-def _latex_text(text: str) -> str:
-    """Text for LaTeX, with subscripts and signs of mathematics."""
-    return "".join(
-        rf"\textsubscript{{{piece.translate(_SIGNS)}}}" if low else piece.translate(_SIGNS)
-        for piece, low in split_subscripts(text)
-    )
 
 
 def _latex(document: Document) -> bytes:
     babel = {"de": "ngerman"}.get(document.lang, "english")
-    colours = "\n".join(
-        rf"\definecolor{{gr{role}}}{{HTML}}{{{light[1:].upper()}}}" for role, (light, _) in COLOURS.items()
-    )
+    colours = "\n".join(colour_definitions())
     body = "\n".join(part for block in document.blocks for part in _latex_block(block))
     return (
         "\\documentclass[a4paper,11pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n"
         f"\\usepackage[{babel}]{{babel}}\n\\usepackage[margin=20mm]{{geometry}}\n\\usepackage{{tikz}}\n"
         "\\usepackage{longtable}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{6pt}\n"
-        f"{colours}\n\\begin{{document}}\n\\section*{{{_latex_text(document.title)}}}\n"
-        f"{{\\small {_latex_text(document.subtitle)}}}\n\n{body}\n\\end{{document}}\n"
+        f"{colours}\n\\begin{{document}}\n\\section*{{{latex_text(document.title)}}}\n"
+        f"{{\\small {latex_text(document.subtitle)}}}\n\n{body}\n\\end{{document}}\n"
     ).encode()
 
 
@@ -229,17 +170,17 @@ def _latex_block(block: Block) -> Iterator[str]:
             command = {1: "section", 2: "subsection", 3: "subsubsection"}[level]
             # Pages end before headings if they can.
             label = f"\\label{{{key}}}" if key else ""
-            yield f"\\filbreak\n\\{command}*{{{_latex_text(text)}}}{label}"
+            yield f"\\filbreak\n\\{command}*{{{latex_text(text)}}}{label}"
         case Paragraph(text, small):
-            lines = r"\\ ".join(map(_latex_text, text.split("\n")))
+            lines = r"\\ ".join(map(latex_text, text.split("\n")))
             yield f"{{\\small {lines}\\par}}\n" if small else f"{lines}\\par\n"
         case Pictures(figures, captions):
             scales = block.scales(_LATEX_WIDTH)
             every = sum(scale * figure.width for scale, figure in zip(scales, figures, strict=True))
             for k, (figure, scale) in enumerate(zip(figures, scales, strict=True)):
-                caption = rf"\\ {{\footnotesize {_latex_text(captions[k])}}}" if k < len(captions) else ""
+                caption = rf"\\ {{\footnotesize {latex_text(captions[k])}}}" if k < len(captions) else ""
                 wide = 0.98 * scale * figure.width / every
-                picture = _tikz(figure, scale)
+                picture = tikz(figure, scale)
                 yield f"\\begin{{minipage}}[b]{{{wide:.2f}\\linewidth}}{picture}{caption}\\end{{minipage}}%"
             yield "\\par\n"
         case Rows(headers, rows):
@@ -247,65 +188,19 @@ def _latex_block(block: Block) -> Iterator[str]:
             columns = "".join(r"p{0.5\linewidth}" if k == widest else "l" for k in range(len(headers)))
             yield f"\\begin{{longtable}}[l]{{@{{}}{columns}@{{}}}}"
             for number, row in enumerate([headers, *rows]):
-                yield " & ".join(map(_latex_text, row)) + r" \\" + (r" \hline" if number == 0 else "")
+                yield " & ".join(map(latex_text, row)) + r" \\" + (r" \hline" if number == 0 else "")
             yield "\\end{longtable}\n"
         case Contents(headers, rows):
             paragraphs = r"p{0.4\linewidth}" * (len(headers) - 2)
             yield f"\\begin{{longtable}}[l]{{@{{}}l{paragraphs}r@{{}}}}"
-            yield " & ".join(map(_latex_text, headers)) + r" \\ \hline"
-            yield from (" & ".join(map(_latex_text, row)) + rf" & \pageref{{{row[0]}}} \\" for row in rows)
+            yield " & ".join(map(latex_text, headers)) + r" \\ \hline"
+            yield from (" & ".join(map(latex_text, row)) + rf" & \pageref{{{row[0]}}} \\" for row in rows)
             yield "\\end{longtable}\n"
         case AnswerLines(asked, space):
             yield f"\\vspace{{{space * 0.75:.0f}pt}}\n"
-            yield from (f"{_latex_text(name)}\\enspace\\underline{{\\hspace{{40mm}}}}\\par\n" for name in asked)
+            yield from (f"{latex_text(name)}\\enspace\\underline{{\\hspace{{40mm}}}}\\par\n" for name in asked)
         case PageBreak():
             yield "\\newpage"
-
-
-def _tikz(figure: Figure, scale: float) -> str:
-    """The picture in TikZ."""
-    unit = 0.75 * scale
-    commands = "\n".join(part for shape in figure.shapes for part in _tikz_shape(shape, unit))
-    return (
-        f"\\begin{{tikzpicture}}[x={unit:.3f}pt,y=-{unit:.3f}pt,line cap=round,line join=round]\n"
-        f"\\useasboundingbox (0,0) rectangle ({figure.width:.1f},{figure.height:.1f});\n"
-        f"{commands}\n\\end{{tikzpicture}}"
-    )
-
-
-def _tikz_shape(shape: Shape, unit: float) -> Iterator[str]:
-    style = STYLES[shape.style]
-    if isinstance(shape, TextShape):
-        anchor = {"start": "west", "middle": "center", "end": "east"}[shape.anchor]
-        size = style.size * unit
-        text = _latex_text(shape.text)
-        yield (
-            f"\\node[anchor={anchor},inner sep=0,text=gr{style.fill},font=\\fontsize{{{size:.1f}}}{{{size * 1.2:.1f}}}"
-            f"\\selectfont] at {_place(shape.at)} {{{text}}};"
-        )
-        return
-    options = []
-    if style.stroke:
-        options.append(f"draw=gr{style.stroke},line width={style.width * unit:.2f}pt")
-    if style.fill:
-        options.append(f"fill=gr{style.fill}")
-    if style.dash:
-        pairs = zip(style.dash[::2], style.dash[1::2], strict=True)
-        options.append("dash pattern=" + " ".join(f"on {on * unit:.1f}pt off {off * unit:.1f}pt" for on, off in pairs))
-    path = f"\\path[{','.join(options)}]"
-    match shape:
-        case Polylines(parts, _, closed):
-            for part in parts:
-                yield f"{path} {' -- '.join(map(_place, part))}{' -- cycle' if closed else ''};"
-        case CircleShape(at, radius):
-            yield f"{path} {_place(at)} circle [radius={radius * unit:.2f}pt];"
-        case ArcShape():
-            steps = max(2, math.ceil(abs(shape.extent) / 0.05))
-            yield f"{path} {' -- '.join(_place(shape.place(k / steps)) for k in range(steps + 1))};"
-
-
-def _place(at: Point) -> str:
-    return f"({at.x:.1f},{at.y:.1f})"
 
 
 _WRITERS: dict[str, Callable[[Document], bytes]] = {"pdf": _pdf, "html": _html, "tex": _latex, "md": _markdown}

@@ -1,0 +1,113 @@
+"""Letters as in a textbook: joints A₀, A, B, B₀, lengths a, b, c, d, and the angles of drive and output."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from string import ascii_lowercase, ascii_uppercase
+
+from gruebler.mechanics.analysis.outputs import find_output
+from gruebler.mechanics.linkages import LinkPoint
+from gruebler.pictures.canvas.labels import note_near
+from gruebler.pictures.canvas.shapes import ArcShape, Point, Polylines, Shape
+from gruebler.pictures.canvas.symbols import arrow_head
+from gruebler.pictures.linkage.layer_context import LayerContext
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+
+_ARCS = (30.0, 38.0)  # pixels of the radius of an angle of the drive and of the output
+_BEYOND = 14.0  # pixels by which the line from which an angle is measured extends beyond its arc
+_SHORT = 0.15  # radians: a smaller angle has no arrow head
+
+
+def joint_letters(posed: PosedLinkage) -> dict[int, str]:
+    """A letter for each turning joint, by number: X₀ on the frame, X the other joint of the link that turns about it.
+
+    The driven joint is A₀. Names of points are not used again.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> from gruebler.pictures.linkage.posed_linkage import posed_linkage
+    >>> sorted(joint_letters(posed_linkage(FourBar(25, 70, 40, 70).linkage())).values())
+    ['A', 'A_0', 'B', 'B_0']
+    """
+    mechanism = posed.lower.mechanism
+    joints = mechanism.chain.joints
+    turning = [k for k, joint in enumerate(joints) if joint.pair.is_turning]
+    driven = [drive.joint for drive in mechanism.drives]
+    fixed = sorted((k for k in turning if mechanism.frame in joints[k].links), key=lambda k: k not in driven)
+    free = [k for k in turning if k not in fixed]
+    spare = iter([*(a for a in ascii_uppercase if a not in posed.lower.points), *(f"G{k}" for k in turning)])
+    letters: dict[int, str] = {}
+    for k in fixed:
+        letter = next(spare)
+        letters[k] = f"{letter}_0"
+        beside = [other for other in free if other not in letters and set(joints[other].links) & set(joints[k].links)]
+        letters |= dict.fromkeys(beside[:1], letter)
+    return letters | {k: next(spare) for k in free if k not in letters}
+
+
+def joint_names(context: LayerContext) -> list[Shape]:
+    """The letters beside their joints."""
+    posed, shapes = context.posed, list(context.drawn)
+    texts: list[Shape] = []
+    for number, letter in joint_letters(posed).items():
+        texts.append(note_near(_pin(posed, number), letter, "name", [*shapes, *texts]))
+    return texts
+
+
+def length_letters(context: LayerContext) -> list[Shape]:
+    """A letter at each link between its pins, the driven link first, the frame last; at its sides with an index."""
+    posed, mechanism = context.posed, context.posed.lower.mechanism
+    driven = [link for drive in mechanism.drives for link in mechanism.chain.joints[drive.joint].links]
+    links = sorted(mechanism.chain.links, key=lambda link: (link == mechanism.frame, link not in driven))
+    letters = iter([*ascii_lowercase, *(f"l{k}" for k in range(len(links)))])
+    shapes: list[Shape] = []
+    for link in links:
+        sides = list(_sides(posed, link))
+        letter = next(letters) if sides else ""
+        if link == mechanism.frame:
+            shapes += [Polylines((side,), "dead") for side in sides]
+        for k, (p, q) in enumerate(sides, 1):
+            text = letter if len(sides) == 1 else f"{letter}_{k}"
+            shapes.append(note_near(p.plus(q.minus(p), 0.5), text, "name", [*context.drawn, *shapes]))
+    return shapes
+
+
+def angle_marks(context: LayerContext) -> list[Shape]:
+    """φ of the driven link and ψ of the output at their joints with the frame, measured from its x-axis."""
+    posed, mechanism = context.posed, context.posed.lower.mechanism
+    joints = mechanism.chain.joints
+    turning = [k for k, joint in enumerate(joints) if joint.pair.is_turning and mechanism.frame in joint.links]
+    output = find_output(posed.linkage, context.output).link
+    driven = [drive.joint for drive in mechanism.drives if drive.joint in turning]
+    asked = [("φ", k, link) for k in driven[:1] for link in joints[k].links if link != mechanism.frame][:1]
+    asked += [("ψ", k, output) for k in turning if output in joints[k].links and k not in driven][:1]
+    shapes: list[Shape] = []
+    for (letter, number, link), radius in zip(asked, _ARCS, strict=False):
+        at = _pin(posed, number)
+        others = [p for side in _sides(posed, link) for p in side if p.minus(at).length > 1.0]
+        if not others:
+            continue
+        along = others[0].minus(at)
+        turn = math.atan2(-along.y, along.x) % (2 * math.pi)
+        arc = ArcShape(at, radius=radius, begin=0.0, extent=-turn, style="measure")
+        line = Polylines(((at, at.plus(Point(1.0, 0.0), radius + _BEYOND)),), "dead")
+        head = [arrow_head(arc)] if turn > _SHORT else []
+        shapes += [line, arc, *(Polylines(shape.parts, "dot", closed=True) for shape in head)]
+        shapes.append(note_near(arc.place(0.5), letter, "name", [*context.drawn, *shapes]))
+    return shapes
+
+
+def _pin(posed: PosedLinkage, number: int) -> Point:
+    link = posed.lower.mechanism.chain.joints[number].links[0]
+    element = posed.lower.elements[number, link]
+    return posed.place(LinkPoint(link, element.x, element.y))
+
+
+def _sides(posed: PosedLinkage, link: str) -> Iterator[tuple[Point, Point]]:
+    """From pin to pin of a link, in the order of its joints; once around where there are three or more."""
+    pins = [LinkPoint(link, e.x, e.y) for (_, owner), e in posed.lower.elements.items() if owner == link and e.is_pin]
+    places = [posed.place(pin) for pin in dict.fromkeys(pins)]
+    yield from pairwise(places)
+    if len(places) > 2:
+        yield places[-1], places[0]

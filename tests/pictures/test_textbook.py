@@ -1,0 +1,113 @@
+"""Pictures for a textbook: widths of lines, letters, TikZ."""
+
+import re
+from itertools import combinations
+from math import hypot
+
+import pytest
+
+import gruebler as gr
+from gruebler.cli import main
+from gruebler.pictures.canvas.shapes import Polylines, TextShape
+from gruebler.pictures.canvas.styles import STYLES
+from gruebler.pictures.canvas.textbook import PREFIX
+from gruebler.pictures.linkage.letters import joint_letters
+from gruebler.pictures.linkage.posed_linkage import posed_linkage
+
+MILLIMETRE = 96 / 25.4
+FOUR_BAR = gr.FourBar(30, 70, 50, 80)
+LETTERS = ["angles", "transmission", "lengths", "joints"]
+
+
+def shapes_of(value, **options):
+    return gr.draw(value, **options).textbook().figure.shapes
+
+
+def test_lines_have_the_widths_of_iso_128():
+    """0.35 and 0.7 mm are neighbours by the factor 2 in the series of ISO 128-2; what is white only separates."""
+    rows = {name.removeprefix(PREFIX): style for name, style in STYLES.items() if name.startswith(PREFIX)}
+    widths = {style.width / MILLIMETRE for name, style in rows.items() if style.stroke == "ink" and name != "slot-rim"}
+    assert sorted(widths) == pytest.approx([0.35, 0.7])
+
+
+def test_nothing_is_coloured_and_each_bar_is_one_line():
+    shapes = shapes_of(FOUR_BAR, curves=[(45, 40)], show=["velocities", "centrodes"])
+    used = {STYLES[shape.style] for shape in shapes}
+    assert {role for style in used for role in (style.fill, style.stroke)} <= {"", "ink", "paper"}
+    bars = [s for s in shapes if s.style == "textbook-outline-bar"]
+    assert len(bars) == 3
+    assert not any("body" in shape.style for shape in shapes)
+
+
+def test_letters_of_the_four_bar_are_those_of_the_books():
+    """As in Luck/Modler: the driven crank turns about A0, the rocker about B0."""
+    texts = {shape.text: shape.at for shape in shapes_of(FOUR_BAR, show=LETTERS) if isinstance(shape, TextShape)}
+    assert set(texts) - {"μ = 69.1°"} == {"A_0", "A", "B", "B_0", "a", "b", "c", "d", "φ", "ψ"}
+    assert texts["A_0"].x < texts["B_0"].x
+    assert texts["A"].y < texts["A_0"].y
+
+
+@pytest.mark.parametrize(
+    ("linkage", "letters"),
+    [
+        (gr.SliderCrank(20, 50), {"A_0", "A", "B"}),
+        (gr.InvertedSliderCrank(30, 50), {"A_0", "A", "B_0"}),
+        (gr.read("wiper"), {"A_0", "A", "B_0", "B", "C_0", "C", "D"}),
+    ],
+)
+def test_letters_of_other_linkages(linkage, letters):
+    whole = linkage if isinstance(linkage, gr.Linkage) else linkage.linkage()
+    assert set(joint_letters(posed_linkage(whole)).values()) == letters
+
+
+@pytest.mark.parametrize("value", [FOUR_BAR, gr.SliderCrank(20, 50, 5), gr.InvertedSliderCrank(30, 50)])
+@pytest.mark.parametrize("at", [0.5, 1.0, 2.0, 4.0])
+def test_letters_stand_beside_lines_and_apart(value, at):
+    """No letter touches a link, and no two letters each other: by distances from the middles of the texts."""
+    shapes = shapes_of(value, at=at, show=LETTERS)
+    texts = [shape for shape in shapes if isinstance(shape, TextShape) and "=" not in shape.text]
+    bars = [part for s in shapes if isinstance(s, Polylines) and s.style == "textbook-outline-bar" for part in s.parts]
+    assert len(texts) >= 4
+    assert min(distance(text.at, *bar) for text in texts for bar in bars) > 5.0
+    assert min(p.at.minus(q.at).length for p, q in combinations(texts, 2)) > 8.0
+
+
+def distance(at, p, q):
+    """From a point to the line from p to q."""
+    part = min(1.0, max(0.0, at.minus(p).dot(q.minus(p)) / hypot(q.x - p.x, q.y - p.y) ** 2))
+    return p.plus(q.minus(p), part).minus(at).length
+
+
+def test_hatching_has_one_direction():
+    """The strokes of rails that are level, upright and upside down are parallel."""
+    slopes = {
+        round((q.y - p.y) / (q.x - p.x), 3)
+        for value in (gr.SliderCrank(20, 50), gr.read("lambda"))
+        for shape in shapes_of(value)
+        if shape.style == "textbook-hatch"
+        for p, q in shape.parts
+    }
+    assert slopes == {-1.0}
+
+
+def test_tikz_is_balanced_and_sets_signs_as_mathematics(tmp_path):
+    path = gr.draw(FOUR_BAR, show=LETTERS).textbook().save(tmp_path / "bar.tex")
+    text = path.read_text(encoding="utf-8")
+    assert text.count("{") == text.count("}")
+    assert text.count("\\begin{tikzpicture}") == text.count("\\end{tikzpicture}") == 1
+    assert text.isascii()
+    assert r"A\textsubscript{0}" in text
+    assert r"$\varphi$" in text
+    assert all(line.endswith(";") for line in text.splitlines() if line.startswith((r"\path", r"\node")))
+    assert set(re.findall(r"line width=([\d.]+)bp", text)) == {"0.99", "1.98"}
+
+
+def test_command(tmp_path, capsys):
+    """Entries with dimensions are machines, with --structure chains."""
+    machine, chain = tmp_path / "machine.svg", tmp_path / "chain.svg"
+    assert main(["draw", "wiper", "--style", "textbook", "--names", "joints", "-o", str(machine)]) == 0
+    assert main(["draw", "wiper", "--structure", "-o", str(chain)]) == 0
+    assert "To scale" in machine.read_text(encoding="utf-8")
+    assert "To scale" not in chain.read_text(encoding="utf-8")
+    assert "textbook-outline-bar" in machine.read_text(encoding="utf-8")
+    capsys.readouterr()
