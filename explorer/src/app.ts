@@ -1,5 +1,6 @@
 /** The page: its header, its views, its language and theme, the link that is its document. */
 
+import { BuildView } from "./build";
 import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
 import { ExercisesView } from "./exercises";
@@ -57,6 +58,7 @@ export class App implements Page {
     this.views = { motion: this.motion };
     if (this.backend.present) {
       this.views = {
+        build: new BuildView(this),
         structure: new StructureView(this),
         motion: this.motion,
         synthesis: new SynthesisView(this),
@@ -147,6 +149,12 @@ export class App implements Page {
     this.show(name);
   }
 
+  /** The view whose changes are undone: one that draws, else the motion. */
+  private get undoing(): View {
+    const view = this.views[this.view];
+    return view?.undoable ? view : this.motion;
+  }
+
   /** A new place in the history of the browser; the one before keeps its view and its linkage. */
   private remember(view: string): void {
     if (!this.linkable) return;
@@ -172,6 +180,7 @@ export class App implements Page {
   private arrangeHeader(): void {
     this.host.lang = currentLanguage();
     const names: Record<string, string> = {
+      build: t("Draw"),
       structure: t("Structure"),
       motion: t("Motion"),
       synthesis: t("Synthesis"),
@@ -198,7 +207,7 @@ export class App implements Page {
               ),
             ),
           );
-    const [back, forth] = this.motion.undoable;
+    const [back, forth] = this.undoing.undoable!;
     const tool = (sign: string, title: string, act: () => void, disabled = false) =>
       h("button", { class: "quiet", title, "aria-label": title, onclick: act, disabled }, sign);
     const language = h(
@@ -223,8 +232,8 @@ export class App implements Page {
       h("h1", {}, "gruebler ", h("small", {}, this.name)),
       ...(tabs ? [tabs] : []),
       h("span", { class: "spring" }),
-      tool("↶", t("Undo"), () => this.motion.undo(), !back),
-      tool("↷", t("Redo"), () => this.motion.redo(), !forth),
+      tool("↶", t("Undo"), () => this.undoing.undo?.(), !back),
+      tool("↷", t("Redo"), () => this.undoing.redo?.(), !forth),
       tool("⤴", t("Copy the link"), () => void this.share()),
       tool("◐", t("Light or dark"), () => {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
@@ -365,8 +374,8 @@ export class App implements Page {
     if ((event.key === "Escape" || undo) && this.motion.stage.cancelDrag()) return event.preventDefault();
     if (/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range") return;
     if (event.ctrlKey || event.metaKey) {
-      if (event.key === "z" && !event.shiftKey) this.motion.undo();
-      else if (event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey)) this.motion.redo();
+      if (event.key === "z" && !event.shiftKey) this.undoing.undo?.();
+      else if (event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey)) this.undoing.redo?.();
       else return;
       event.preventDefault();
       return;

@@ -9,6 +9,10 @@ export interface View {
   arrange(): void;
   /** It has come to sight. */
   appeared?(): void;
+  /** What it undoes by itself. */
+  readonly undoable?: [boolean, boolean];
+  undo?(): void;
+  redo?(): void;
 }
 
 /** The page as its views see it. */

@@ -82,6 +82,14 @@ class DescribeStructure(_Params):
     """How a reader calls the links, as far as they are in the chain."""
 
 
+class DescribeDrawing(_Params):
+    """A chain that is drawn: its joints as text, its frame, the numbers of the joints that are driven."""
+
+    joints: ChainText
+    frame: Word
+    drives: Annotated[list[Number], msgspec.Meta(max_length=20)] = []
+
+
 class ListModes(_Params):
     """A linkage at values of its drives, in radians or lengths."""
 
@@ -254,6 +262,12 @@ def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, An
     return structure_record(asked.text, lang, at_frame=asked.at_frame, linkage=linkage, names=asked.names)
 
 
+def _drawing(asked: DescribeDrawing, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.page.drawings import drawing_record
+
+    return drawing_record(asked.joints, asked.frame, asked.drives, lang)
+
+
 def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
     """Every assembly mode with the linkage in it."""
     from gruebler.files import linkage_from_json, linkage_to_json
@@ -411,6 +425,7 @@ REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] =
     "open": (CatalogId, _open),
     "open_document": (OpenDocument, _open_document),
     "structure": (DescribeStructure, _structure),
+    "drawing": (DescribeDrawing, _drawing),
     "modes": (ListModes, _modes),
     "chains": (ListChains, _chains),
     "realise": (Realise, _realise),

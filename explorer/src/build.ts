@@ -1,0 +1,533 @@
+/** The view in which a mechanism is drawn on an empty plane; its mobility is told while it grows. */
+
+import { gridStep } from "./canvas";
+import { h, renew, svg } from "./dom";
+import {
+  counted,
+  type Drawing,
+  documentOfDrawing,
+  driven,
+  EMPTY,
+  joined,
+  jointName,
+  jointsOf,
+  linksOf,
+  moved,
+  renamed,
+  type Spot,
+  split,
+  withDyad,
+  withGround,
+  withLink,
+  without,
+  withoutLink,
+  withSlider,
+} from "./drawing";
+import { History } from "./history";
+import { convexHull, toHull } from "./hull";
+import { number, t } from "./language";
+import type { Model } from "./model";
+import type { Pair } from "./rows";
+import type { Page, View } from "./view";
+import { Viewport } from "./viewport";
+import { moment } from "./waiting";
+
+type Tool = "move" | "ground" | "link" | "slider" | "dyad";
+const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3 };
+const KEYS: Record<string, Tool> = { v: "move", g: "ground", l: "link", s: "slider", d: "dyad" };
+const WAYS: Record<string, Pair> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const GRIP = 16; // pixels
+const KEPT = "gruebler-drawing";
+
+interface Offer {
+  kind: "drive" | "undrive" | "bar" | "remove";
+  joint?: number;
+  links?: string[];
+  generic: number;
+}
+
+interface Told {
+  counted: number;
+  generic: number;
+  lines: string[];
+  offers: Offer[];
+}
+
+export class BuildView implements View {
+  readonly element = h("div", { class: "view motion", "data-page": "build" });
+  drawing: Drawing = kept();
+  readonly viewport = new Viewport();
+  private tool: Tool = "link";
+  private spots: Spot[] = [];
+  private chosen: { knot: number } | { link: string } | null = null;
+  private cursor: Pair = [0, 0];
+  private snapping = true;
+  private readonly history = new History<Drawing>();
+  private readonly root = svg("svg", { role: "application", tabindex: 0, class: "drawing" });
+  private readonly tools = h("div", { class: "transport" });
+  private readonly side = h("div", { class: "side" });
+  private readonly mobility = h("div", { role: "status", "data-place": "mobility" });
+  private readonly choice = h("div", {});
+  private asked = 0;
+
+  constructor(private readonly page: Page) {
+    this.viewport.scale = 4;
+    const stage = h("div", { class: "stage" }, this.root);
+    this.element.append(stage, this.side, this.tools);
+    this.root.addEventListener("pointerdown", (event) => this.down(event));
+    this.root.addEventListener("pointermove", (event) => this.hover(event));
+    this.root.addEventListener("keydown", (event) => this.key(event));
+    this.root.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.viewport.zoom(Math.exp(-event.deltaY * 0.0015), ...this.pixel(event));
+        this.draw();
+      },
+      { passive: false },
+    );
+    new ResizeObserver(() => this.resize()).observe(stage);
+  }
+
+  private resize(): void {
+    const { width, height } = this.root.getBoundingClientRect();
+    if (!width) return;
+    const first = this.viewport.width < 2;
+    Object.assign(this.viewport, { width, height });
+    this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    if (first) this.viewport.fit({ left: -60, right: 140, bottom: -50, top: 90 }, 1);
+    this.draw();
+  }
+
+  arrange(): void {
+    const tool = (key: Tool, text: string, letter: string) =>
+      h(
+        "button",
+        {
+          class: key === this.tool ? "key" : "plain",
+          "data-tool": key,
+          "aria-pressed": String(key === this.tool),
+          onclick: () => this.take(key),
+        },
+        `${text} (${letter})`,
+      );
+    renew(
+      this.tools,
+      tool("move", t("Move"), "V"),
+      tool("ground", t("Ground"), "G"),
+      tool("link", t("Link"), "L"),
+      tool("slider", t("Slider"), "S"),
+      tool("dyad", t("Dyad"), "D"),
+    );
+    const snap = h("input", {
+      type: "checkbox",
+      checked: this.snapping,
+      onchange: () => (this.snapping = snap.checked),
+    });
+    renew(
+      this.side,
+      h("section", { class: "panel" }, h("h2", {}, t("Mobility")), this.mobility),
+      h("section", { class: "panel" }, h("h2", {}, t("What is chosen")), this.choice),
+      h(
+        "section",
+        { class: "panel options" },
+        h("label", {}, snap, t("Snap to the grid")),
+        h(
+          "p",
+          { class: "note" },
+          t(
+            "Ground, slider: one click. Link: two clicks. Dyad: end, middle, end. Ends meet what is near them. " +
+              "With Shift links are level or upright. Keys: arrows and Enter.",
+          ),
+        ),
+        h("button", { class: "plain", "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
+      ),
+    );
+    this.root.setAttribute("aria-label", t("Plane to draw on"));
+    this.changed();
+  }
+
+  appeared(): void {
+    this.resize();
+  }
+
+  private take(tool: Tool): void {
+    this.tool = tool;
+    this.spots = [];
+    this.arrange();
+  }
+
+  // --- changes -------------------------------------------------------------------------------------------------------
+
+  change(next: Drawing | null, text = t("A link cannot meet itself.")): void {
+    if (!next) return this.page.say(text);
+    this.history.add(this.drawing);
+    this.drawing = next;
+    this.chosen = null;
+    this.page.say("");
+    this.changed();
+    this.page.changed();
+  }
+
+  get undoable(): [boolean, boolean] {
+    return this.history.possible;
+  }
+
+  undo(): void {
+    this.goTo(this.history.undo(this.drawing));
+  }
+
+  redo(): void {
+    this.goTo(this.history.redo(this.drawing));
+  }
+
+  private goTo(old: Drawing | undefined): void {
+    if (!old) return;
+    this.drawing = old;
+    this.spots = [];
+    this.chosen = null;
+    this.changed();
+    this.page.changed();
+  }
+
+  private changed(): void {
+    try {
+      localStorage.setItem(KEPT, JSON.stringify(this.drawing));
+    } catch {
+      // what cannot be kept lasts as long as the page
+    }
+    this.draw();
+    this.showChoice();
+    void this.tell();
+  }
+
+  /** What a click, a tap or Enter does at a place. */
+  private put(spot: Spot): void {
+    const { drawing, spots, tool } = this;
+    spots.push(spot);
+    if (spots.length < NEEDED[tool]) return this.draw();
+    this.spots = [];
+    const [one, two, three] = spots as [Spot, Spot, Spot];
+    if (tool === "ground") this.change(withGround(drawing, one));
+    else if (tool === "slider") this.change(withSlider(drawing, one));
+    else if (tool === "link") this.change(same(one, two) ? null : withLink(drawing, one, two));
+    else if (tool === "dyad")
+      this.change(same(one, two) || same(two, three) ? null : withDyad(drawing, one, two, three));
+  }
+
+  // --- the pointer ---------------------------------------------------------------------------------------------------
+
+  private pixel(event: MouseEvent): Pair {
+    const box = this.root.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  /** What is at a pixel: a knot, a link, else a place, on the grid if that is wanted. */
+  private spot([x, y]: Pair, upright: boolean, but = -1): Spot {
+    const { drawing, viewport } = this;
+    let [knot, least]: [number | null, number] = [null, GRIP];
+    drawing.knots.forEach(({ at }, k) => {
+      const [px, py] = viewport.screen(...at);
+      if (k !== but && Math.hypot(px - x, py - y) < least) [knot, least] = [k, Math.hypot(px - x, py - y)];
+    });
+    let [u, v] = viewport.world(x, y);
+    const step = this.step / 5;
+    if (this.snapping) [u, v] = [step * Math.round(u / step), step * Math.round(v / step)];
+    const last = this.spots.at(-1);
+    if (upright && last) {
+      if (Math.abs(u - last.at[0]) > Math.abs(v - last.at[1])) v = last.at[1];
+      else u = last.at[0];
+    }
+    if (knot !== null) return { at: drawing.knots[knot]!.at, knot, link: null };
+    const link = linksOf(drawing).find(
+      (one) => one !== drawing.frame && toHull(convexHull(this.cornersOf(one)), x, y) < GRIP / 2,
+    );
+    return { at: [u, v], knot: null, link: link ?? null };
+  }
+
+  private cornersOf(link: string): Pair[] {
+    return this.drawing.knots
+      .filter(({ links, slide }) => links.includes(link) && slide === undefined)
+      .map(({ at }) => this.viewport.screen(...at));
+  }
+
+  private get step(): number {
+    return gridStep(70 / this.viewport.scale);
+  }
+
+  private hover(event: PointerEvent): void {
+    if (this.tool === "move") return;
+    this.cursor = this.spot(this.pixel(event), event.shiftKey).at;
+    this.draw();
+  }
+
+  private down(event: PointerEvent): void {
+    if (event.button > 0) return;
+    event.preventDefault();
+    this.root.focus({ preventScroll: true });
+    const spot = this.spot(this.pixel(event), event.shiftKey);
+    if (this.tool !== "move") return this.put(spot);
+    this.choose(spot);
+    this.root.setPointerCapture(event.pointerId);
+    const before = this.drawing;
+    let last = this.pixel(event);
+    const moves = (next: PointerEvent) => {
+      const now = this.pixel(next);
+      if (spot.knot === null) this.viewport.pan(now[0] - last[0], now[1] - last[1]);
+      else this.drawing = moved(before, spot.knot, this.spot(now, false, spot.knot).at);
+      last = now;
+      this.draw();
+    };
+    const up = (next: PointerEvent) => {
+      this.root.removeEventListener("pointermove", moves);
+      this.root.removeEventListener("pointerup", up);
+      this.root.removeEventListener("pointercancel", up);
+      if (spot.knot === null || this.drawing === before) return;
+      const target = this.spot(this.pixel(next), false, spot.knot).knot;
+      const placed = this.drawing;
+      this.drawing = before;
+      this.change((target !== null && joined(before, spot.knot, target)) || placed);
+    };
+    this.root.addEventListener("pointermove", moves);
+    this.root.addEventListener("pointerup", up);
+    this.root.addEventListener("pointercancel", up);
+  }
+
+  private choose(spot: Spot): void {
+    this.chosen = null;
+    if (spot.knot !== null) this.chosen = { knot: spot.knot };
+    else if (spot.link !== null) this.chosen = { link: spot.link };
+    this.draw();
+    this.showChoice();
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey) return;
+    const way = WAYS[event.key];
+    const tool = KEYS[event.key.toLowerCase()];
+    if (way) {
+      const step = event.shiftKey ? this.step / 5 : this.step;
+      this.cursor = [this.cursor[0] + step * way[0], this.cursor[1] + step * way[1]];
+      this.draw();
+    } else if (event.key === "Enter" || event.key === " ") {
+      const spot = this.spot(this.viewport.screen(...this.cursor), false);
+      if (this.tool === "move") this.choose(spot);
+      else this.put(spot);
+    } else if (event.key === "Delete" || event.key === "Backspace") this.remove();
+    else if (event.key === "Escape") {
+      this.spots = [];
+      this.draw();
+    } else if (tool) this.take(tool);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  private remove(): void {
+    const { chosen, drawing } = this;
+    if (!chosen) return;
+    this.change("knot" in chosen ? without(drawing, chosen.knot) : withoutLink(drawing, chosen.link));
+  }
+
+  // --- the picture ---------------------------------------------------------------------------------------------------
+
+  private draw(): void {
+    const { drawing, viewport } = this;
+    const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
+    const path = (corners: readonly Pair[]) =>
+      corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+    const links = bodies.flatMap((link) => {
+      const hull = convexHull(this.cornersOf(link));
+      const chosen = this.chosen && "link" in this.chosen && this.chosen.link === link ? " chosen" : "";
+      const d = path(hull) + (hull.length > 2 ? "Z" : "");
+      const [x, y] = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
+      return [
+        svg("path", { class: `outline${chosen}`, d, "data-link": link }),
+        svg("path", { class: "bar", d }),
+        svg("text", { x: x + 9, y: y - 9 }, link),
+      ];
+    });
+    const knots = drawing.knots.map((knot, k) => this.knotElement(k, knot.at));
+    const waiting = [...this.spots.map(({ at }) => at), this.cursor].map((at) => viewport.screen(...at));
+    const [cx, cy] = waiting.at(-1)!;
+    renew(
+      this.root,
+      ...this.grid(),
+      ...links,
+      ...knots,
+      ...(waiting.length > 1 ? [svg("path", { class: "pending", d: path(waiting) })] : []),
+      svg("path", { class: "crosshair", d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
+    );
+  }
+
+  private knotElement(k: number, at: Pair): SVGElement {
+    const { drawing } = this;
+    const { links, slide } = drawing.knots[k]!;
+    const [x, y] = this.viewport.screen(...at);
+    const classes = ["pin", "free"];
+    if (this.chosen && "knot" in this.chosen && this.chosen.knot === k) classes.push("chosen");
+    const element = svg("g", {
+      class: classes.join(" "),
+      "data-knot": String(k),
+      transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
+    });
+    const ground = drawing.frame !== null && links.includes(drawing.frame);
+    if (slide !== undefined) {
+      const turned = svg("g", { transform: `rotate(${-slide})` });
+      turned.append(
+        svg("path", { class: "rail", d: "M-46 10H46" }),
+        svg("path", { class: "rail-hatch", d: "M-46 15H46" }),
+      );
+      turned.append(svg("rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3 }));
+      element.append(turned);
+    } else if (ground) element.append(svg("path", { class: "support", d: "M0 0 L-11 17 H11 Z M-17 17 H17" }));
+    if (slide === undefined) element.append(svg("circle", { class: "joint", r: links.length > 1 || ground ? 5 : 3.2 }));
+    if (drawing.drives.includes(k)) element.append(svg("circle", { class: "driven", r: 12 }));
+    return element;
+  }
+
+  /** Lines with their numbers, and a bar as long as a step. */
+  private grid(): SVGElement[] {
+    const { viewport, step } = this;
+    const { width, height } = viewport;
+    const [left, top] = viewport.world(0, 0);
+    const [right, bottom] = viewport.world(width, height);
+    const out: SVGElement[] = [];
+    for (let k = Math.ceil(left / step); k * step <= right; k++) {
+      const [x] = viewport.screen(k * step, 0);
+      out.push(svg("path", { class: "mesh", d: `M${x} 0V${height}` }));
+      out.push(svg("text", { class: "tick", x: x + 3, y: height - 5 }, number(k * step)));
+    }
+    for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
+      const [, y] = viewport.screen(0, k * step);
+      out.push(svg("path", { class: "mesh", d: `M0 ${y}H${width}` }));
+      out.push(svg("text", { class: "tick", x: 4, y: y - 3 }, number(k * step)));
+    }
+    const long = step * viewport.scale;
+    const d = `M${width - 20 - long} 24v6h${long}v-6`;
+    const text = svg("text", { class: "tick", x: width - 20 - long / 2, y: 22, "text-anchor": "middle" });
+    text.append(`${number(step)} mm`);
+    return [...out, svg("path", { class: "scale", d }), text];
+  }
+
+  // --- beside it -----------------------------------------------------------------------------------------------------
+
+  private showChoice(): void {
+    const { chosen, drawing } = this;
+    const button = (key: string, text: string, act: () => void) =>
+      h("button", { class: "plain", "data-act": key, onclick: act }, text);
+    const removing = button("remove", t("Remove"), () => this.remove());
+    if (!chosen)
+      return renew(this.choice, h("p", { class: "note" }, t("Nothing. Take Move and click on a joint or a link.")));
+    if ("link" in chosen) {
+      const { link } = chosen;
+      const name = h("input", {
+        value: link,
+        "aria-label": t("Name"),
+        "data-field": "link-name",
+        onchange: () =>
+          this.change(
+            renamed(drawing, link, name.value.trim()),
+            t("Expected a name that nothing else has, without spaces and brackets."),
+          ),
+      });
+      const frame = button("frame", t("Hold as frame"), () => this.change({ ...drawing, frame: link, drives: [] }));
+      return renew(this.choice, h("div", { class: "form" }, name, frame, removing));
+    }
+    const { links } = drawing.knots[chosen.knot]!;
+    const parts: HTMLElement[] = [removing];
+    if (links.length > 1) {
+      const is = drawing.drives.includes(chosen.knot);
+      parts.unshift(
+        button("drive", is ? t("Not driven") : t("Drive"), () => this.change(driven(drawing, chosen.knot))),
+        button("split", t("Split"), () => this.change(split(drawing, chosen.knot, this.step / 2))),
+      );
+    }
+    renew(this.choice, h("p", { class: "note" }, links.join(" – ")), h("div", { class: "form" }, ...parts));
+  }
+
+  /** The mobility by the count at once, then what the library says, with offers to mend it. */
+  private async tell(): Promise<void> {
+    const asked = ++this.asked;
+    const { drawing } = this;
+    const count = h("p", { class: "mobility", "data-fact": "drawn" }, `F = ${counted(drawing)}`);
+    const { frame } = drawing;
+    if (frame === null || linksOf(drawing).length < 3) {
+      const text = frame === null ? t("Put a ground: key G.") : t("Draw links: a mechanism has at least three.");
+      return renew(this.mobility, ...(linksOf(drawing).length ? [count] : []), h("p", { class: "note" }, text));
+    }
+    if (!this.mobility.querySelector('[data-fact="freedoms"]')) renew(this.mobility, count, moment());
+    const numbers = jointsOf(drawing);
+    const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
+    const drives = drawing.drives.map((k) => numbers.indexOf(k));
+    try {
+      const told = await this.page.ask<Told>("drawing", { joints, frame, drives });
+      if (asked !== this.asked) return;
+      const good = told.generic > 0 && told.generic === drives.length;
+      const text = t("{generic} freedoms, {drives} drives", { generic: told.generic, drives: drives.length });
+      const offers = told.offers.map((offer) => this.offer(offer, numbers));
+      const move = h("button", { class: "key", "data-act": "move", onclick: () => void this.open() }, t("Move it"));
+      renew(
+        this.mobility,
+        count,
+        h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, text),
+        h("div", { class: "form" }, ...offers, ...(good ? [move] : [])),
+        h("details", {}, h("summary", {}, t("Why")), h("p", { class: "note" }, told.lines.join(" "))),
+      );
+    } catch (error) {
+      if (asked === this.asked) renew(this.mobility, count, h("p", { class: "note" }, (error as Error).message));
+    }
+  }
+
+  private offer({ kind, joint, links, generic }: Offer, numbers: number[]): HTMLElement {
+    const { drawing } = this;
+    const knot = joint === undefined ? -1 : numbers[joint]!;
+    const [one, two] = (links ?? []) as [string, string];
+    const [text, act] = {
+      drive: [t("Drive {joint}", { joint: knot < 0 ? "" : jointName(drawing, knot) }), () => driven(drawing, knot)],
+      undrive: [
+        t("Let {joint} free", { joint: knot < 0 ? "" : jointName(drawing, knot) }),
+        () => driven(drawing, knot),
+      ],
+      bar: [t("A link between {one} and {two}: F = {generic}", { one, two, generic }), () => this.barred(one, two)],
+      remove: [t("Without {one}: F = {generic}", { one, generic }), () => withoutLink(drawing, one)],
+    }[kind] as [string, () => Drawing];
+    return h("button", { class: "plain", "data-offer": kind, onclick: () => this.change(act()) }, text);
+  }
+
+  /** A link between two others: from an open end if there is one, to a place beside. */
+  private barred(one: string, two: string): Drawing {
+    const { drawing, step } = this;
+    const place = (link: string, aside: number): Spot => {
+      const end = drawing.knots.findIndex(({ links }) => links.length === 1 && links[0] === link);
+      if (end >= 0) return { at: drawing.knots[end]!.at, knot: end, link: null };
+      const mine = drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
+      const mean = (axis: 0 | 1) => mine.reduce((sum, at) => sum + at[axis], 0) / mine.length;
+      return { at: [mean(0) + aside * step, mean(1) + 0.4 * aside * step], knot: null, link };
+    };
+    return withLink(drawing, place(one, 1), place(two, 2));
+  }
+
+  private async open(): Promise<void> {
+    try {
+      const document = documentOfDrawing(this.drawing, "mm");
+      this.page.open(await this.page.ask<Model>("open_document", { document, name: t("A drawn mechanism") }));
+    } catch (error) {
+      this.page.say((error as Error).message);
+    }
+  }
+}
+
+function same(one: Spot, two: Spot): boolean {
+  return one.at[0] === two.at[0] && one.at[1] === two.at[1];
+}
+
+/** The drawing that was kept when the page was left. */
+function kept(): Drawing {
+  try {
+    const found = JSON.parse(localStorage.getItem(KEPT) ?? "null") as Drawing | null;
+    return found && Array.isArray(found.knots) && Array.isArray(found.drives) ? found : EMPTY;
+  } catch {
+    return EMPTY;
+  }
+}

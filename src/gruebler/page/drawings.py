@@ -1,0 +1,89 @@
+"""What the page says of a mechanism while it is drawn: its mobility with the reason, and what would mend it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from gruebler.base.errors import ChainError
+from gruebler.structure.chain import Chain, Joint
+from gruebler.structure.mobility import mobility_report
+
+_MOST_OFFERS = 4
+_MOST_BARS = 2
+
+
+def drawing_record(joints: str, frame: str, drives: list[int], lang: str) -> dict[str, Any]:
+    """Mobility, reason and offers of a chain that is drawn, as plain data.
+
+    Joints are given by their numbers in the text. An offer is a change after which as many drives as there are give a
+    definite motion, or a step towards it. Each that changes the chain was tried: its generic mobility stands beside it.
+
+    Raises `GrueblerError` for a text that is no chain.
+
+    >>> record = drawing_record("R(0-1) R(1-2) R(2-3) R(3-0)", "0", [], "en")
+    >>> record["generic"], [offer["joint"] for offer in record["offers"]]
+    (1, [0, 3])
+    """
+    chain = Chain.parse(joints)
+    report = mobility_report(chain, frame=frame)
+    return {
+        "counted": report.counted,
+        "generic": report.generic,
+        "lines": report.explain(lang).splitlines()[1:],
+        "immobile": list(report.immobile_joints),
+        "offers": list(_offers(chain, frame, drives, report.generic))[:_MOST_OFFERS],
+    }
+
+
+def _offers(chain: Chain, frame: str, drives: list[int], generic: int) -> Iterator[dict[str, Any]]:
+    if generic < 1:
+        yield from _removals(chain, frame)
+        return
+    if len(drives) > generic:
+        for number in drives:
+            yield {"kind": "undrive", "joint": number, "generic": generic}
+        return
+    if len(drives) == generic:
+        return
+    if generic > 1:
+        yield from _bars(chain, frame, generic)
+    for number, joint in enumerate(chain.joints):
+        if number not in drives and frame in joint.links and len(joint.links) == 2:
+            yield {"kind": "drive", "joint": number, "generic": generic}
+
+
+def _bars(chain: Chain, frame: str, generic: int) -> Iterator[dict[str, Any]]:
+    """Two links between which a further one takes a freedom; first links with one joint, and the frame."""
+    joined: Mapping[str, int] = {link: sum(link in joint.links for joint in chain.joints) for link in chain.links}
+    near = {frozenset((a, b)) for joint in chain.joints for a in joint.links for b in joint.links}
+    new = next(str(k) for k in range(1, chain.n + 2) if str(k) not in chain.links)
+    order = sorted((link for link in chain.links if link != frame), key=lambda link: joined[link])
+    pairs = [(link, frame) for link in order] + [(a, b) for a in order for b in order if a < b]
+    offered = 0
+    for first, second in pairs:
+        if frozenset((first, second)) in near or offered == _MOST_BARS:
+            continue
+        mended = Chain.parse(f"{chain.text()} R({first}-{new}) R({new}-{second})")
+        if (after := mobility_report(mended).generic) == generic - 1:
+            offered += 1
+            yield {"kind": "bar", "links": [first, second], "generic": after}
+
+
+def _removals(chain: Chain, frame: str) -> Iterator[dict[str, Any]]:
+    """Links without which the rest moves."""
+    for link in chain.links:
+        if link == frame:
+            continue
+        rest = [
+            Joint(joint.pair, kept)
+            for joint in chain.joints
+            for kept in [tuple(other for other in joint.links if other != link)]
+            if len(kept) > 1
+        ]
+        try:
+            mended = Chain(rest, links=[other for other in chain.links if other != link], space=chain.space)
+        except ChainError:
+            continue  # what is left falls apart, or is no chain
+        if (after := mobility_report(mended).generic) > 0:
+            yield {"kind": "remove", "links": [link], "generic": after}

@@ -1,0 +1,139 @@
+"""A mechanism is drawn on an empty plane in a browser, and what is said of it while it grows."""
+
+import json
+
+import pytest
+
+from gruebler.files import linkage_from_json
+from gruebler.mechanics.analysis.measuring import measures
+from gruebler.page.drawings import drawing_record
+from gruebler.structure.chain import Chain
+from gruebler.structure.mobility import mobility_report
+
+FOUR_BAR = "R(0-1) R(1-2) R(2-3) R(3-0)"
+FREEDOMS = '[data-fact="freedoms"]'
+
+
+def test_what_is_offered_mends_it():
+    """The mobility beside each offer is that of the chain which it leads to, written by hand."""
+    assert [offer["joint"] for offer in drawing_record(FOUR_BAR, "0", [], "en")["offers"]] == [0, 3]
+    assert drawing_record(FOUR_BAR, "0", [0], "en")["offers"] == []
+    assert [offer["kind"] for offer in drawing_record(FOUR_BAR, "0", [0, 3], "en")["offers"]] == ["undrive", "undrive"]
+    five = drawing_record("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)", "0", [0], "en")
+    assert five["generic"] == 2
+    bar = next(offer for offer in five["offers"] if offer["kind"] == "bar")
+    one, other = bar["links"]
+    closed = Chain.parse(f"R(0-1) R(1-2) R(2-3) R(3-4) R(4-0) R({one}-9) R(9-{other})")
+    assert bar["generic"] == mobility_report(closed).generic == 1
+    stiff = drawing_record(FOUR_BAR + " R(1-4) R(4-3)", "0", [0], "de")
+    assert stiff["generic"] == 0
+    removed = {offer["links"][0]: offer["generic"] for offer in stiff["offers"]}
+    assert removed["4"] == 1  # the four-bar again
+    assert set(stiff["offers"][0]) == {"kind", "links", "generic"}
+
+
+@pytest.fixture
+def plane(tab, server):
+    page = tab().open(server.address)
+    page.page.click('[data-view="build"]')
+    page.page.locator(".drawing").wait_for()
+    return page
+
+
+def click(page, *places: tuple[float, float]) -> None:
+    """Click at places of the plane."""
+    for x, y in places:
+        u, v = page.page.evaluate(f"gruebler.views.build.viewport.screen({x}, {y})")
+        box = page.page.locator(".drawing").bounding_box()
+        page.page.mouse.click(box["x"] + u, box["y"] + v)
+
+
+def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
+    view = plane.page
+    assert "ground" in view.locator('[data-place="mobility"]').inner_text()
+    view.keyboard.press("g")  # keys work where the plane has the focus
+    view.click('[data-tool="ground"]')
+    click(plane, (0, 0))
+    view.keyboard.press("l")
+    click(plane, (0, 0), (0, 20))
+    view.keyboard.press("d")
+    click(plane, (0, 20), (60, 40), (70, 0))
+    view.locator(FREEDOMS).wait_for()
+    assert view.locator('[data-fact="drawn"]').inner_text() == "F = 3"  # 3(4 - 1) - 2·3: an open chain
+    view.keyboard.press("g")
+    click(plane, (70, 0))
+    view.locator('[data-offer="drive"]').first.wait_for()
+    assert view.locator('[data-fact="drawn"]').inner_text() == "F = 1"
+    view.locator('[data-offer="drive"]').first.click()
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.motion.linkage.model.joints.length === 4 && gruebler.view === 'motion'")
+    linkage = linkage_from_json(json.loads(view.evaluate("JSON.stringify(gruebler.motion.document())")))
+    assert linkage.mechanism.chain.text() == "R(frame-1) R(1-2) R(2-3) R(frame-3)"
+    assert linkage.length("1", 0, 1) == pytest.approx(20, abs=1e-9)
+    assert measures(linkage).span.full  # 20 + 70 < 63.2 + 41.2
+    view.go_back()
+    plane.until("gruebler.view === 'build'")
+    view.click('[data-tool="dyad"]')
+    click(plane, (30, 30), (40, 80), (110, 60))  # from the coupler
+    view.keyboard.press("g")
+    click(plane, (110, 60))
+    plane.until("gruebler.views.build.mobility.textContent.includes('1 freedoms, 1 drives')")
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.motion.linkage.model.joints.length === 7")
+    view.go_back()
+    plane.until("gruebler.view === 'build'")
+    view.keyboard.press("Control+z")
+    assert view.evaluate("gruebler.views.build.drawing.knots.length") == 7
+    view.reload()
+    plane.until("window.gruebler?.views?.build?.drawing.knots.length === 7")  # it was kept
+    view.evaluate("localStorage.clear()")
+
+
+def test_a_slider_crank_is_drawn_by_keys_alone(plane):
+    view = plane.page
+    view.locator(".drawing").focus()
+    view.keyboard.press("g")
+    view.keyboard.press("Enter")
+    view.keyboard.press("l")
+    view.keyboard.press("Enter")
+    view.keyboard.press("ArrowUp")
+    view.keyboard.press("Enter")
+    view.keyboard.press("Enter")
+    for _ in range(4):
+        view.keyboard.press("ArrowRight")
+    view.keyboard.press("ArrowDown")
+    view.keyboard.press("Enter")
+    view.keyboard.press("s")
+    view.keyboard.press("Enter")
+    plane.until("gruebler.views.build.mobility.textContent.includes('1 freedoms, 0 drives')")
+    assert view.evaluate("gruebler.views.build.drawing.knots.map((knot) => knot.links.join('-'))") == [
+        "frame-1",
+        "1-2",
+        "2-3",
+        "frame-3",
+    ]
+
+
+def test_joints_are_joined_split_named_and_removed(plane):
+    view = plane.page
+    view.click('[data-tool="link"]')
+    click(plane, (0, 0), (40, 0), (60, 20), (100, 20))
+    view.keyboard.press("v")
+    screen = "gruebler.views.build.viewport.screen"
+    (x, y), (u, v) = view.evaluate(f"[{screen}(60, 20), {screen}(40, 0)]")
+    box = view.locator(".drawing").bounding_box()
+    plane.drag((box["x"] + x, box["y"] + y), (u - x, v - y))
+    knots = "gruebler.views.build.drawing.knots.map((knot) => knot.links.join('-')).sort()"
+    assert view.evaluate(knots) == ["1", "1-2", "2"]
+    click(plane, (40, 0))
+    view.click('[data-act="split"]')
+    assert view.evaluate(knots) == ["1", "1", "2", "2"]
+    view.keyboard.press("Control+z")
+    assert view.evaluate(knots) == ["1", "1-2", "2"]
+    click(plane, (20, 0))
+    view.locator('[data-field="link-name"]').fill("crank")
+    view.locator('[data-field="link-name"]').press("Enter")
+    assert view.evaluate(knots) == ["2", "crank", "crank-2"]
+    click(plane, (20, 0))
+    view.click('[data-act="remove"]')
+    assert view.evaluate(knots) == ["2", "2"]
