@@ -12,14 +12,23 @@ from gruebler.mechanics.dynamics.equations import (
     reduced_equations,
 )
 from gruebler.mechanics.dynamics.inverse import InverseDynamics, inverse_dynamics
+from gruebler.mechanics.dynamics.simulating import simulate
+from gruebler.mechanics.dynamics.simulation import Simulation
+from gruebler.mechanics.dynamics.small_motions import Equilibria, Linearised, equilibria, linearised
 
 __all__ = [
     "EquationsOfMotion",
+    "Equilibria",
     "Influences",
     "InverseDynamics",
+    "Linearised",
     "ReducedEquations",
+    "Simulation",
     "Terms",
+    "equilibria",
     "influences_of",
     "inverse_dynamics",
+    "linearised",
     "reduced_equations",
+    "simulate",
 ]

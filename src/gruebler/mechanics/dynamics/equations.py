@@ -98,9 +98,17 @@ class EquationsOfMotion:
     ) -> Terms:
         """M, h and Q in rows of drive values and speeds, (rows, drives) each."""
         moving = influences.moving(time, drives, speeds)
+        mass, bias = self.inertia(influences, moving)
+        force = self.generalised(influences, moving)
+        if motors:
+            force += self.acting.motor_efforts(moving)
+        return Terms(mass, bias, force)
+
+    def inertia(self, influences: Influences, moving: MovingLinks) -> tuple[Reals, Reals]:
+        """M (rows, drives, drives) and h (rows, drives)."""
         at = self._turned(influences)
         unit, spin = self._unit(influences, at), influences.unit_rates
-        weight, inertia = self._weights(len(drives))
+        weight, inertia = self._weights(len(moving.time))
         heavy = self.acting.heavy
         drift = self._drift(influences, moving, at)[:, heavy]
         moved = unit[:, :, heavy]
@@ -108,11 +116,14 @@ class EquationsOfMotion:
         mass += np.einsum("l,frl,grl->rfg", inertia, spin, spin)
         bias = np.einsum("rs,frs,rs->rf", weight, np.conj(moved), drift).real
         bias += np.einsum("l,frl,rl->rf", inertia, spin, influences.drift_rates)
-        force = np.einsum("frs,rs->rf", np.conj(unit), self.acting.forces_at(moving)).real
-        force += np.einsum("frl,rl->rf", spin, self.acting.moments_on(moving))
-        if motors:
-            force += self.acting.motor_efforts(moving)
-        return Terms(mass, bias, force)
+        return mass, bias
+
+    def generalised(self, influences: Influences, moving: MovingLinks) -> Reals:
+        """Q (rows, drives) of all loads but motors."""
+        unit = self._unit(influences, self._turned(influences))
+        force: Reals = np.einsum("frs,rs->rf", np.conj(unit), self.acting.forces_at(moving)).real
+        force += np.einsum("frl,rl->rf", influences.unit_rates, self.acting.moments_on(moving))
+        return force
 
     def kinetic(self, influences: Influences, speeds: Reals) -> Reals:
         """The kinetic energy; (rows,)."""

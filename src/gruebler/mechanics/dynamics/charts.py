@@ -1,0 +1,278 @@
+"""Poses of a linkage with one drive as functions of that drive, piece by piece, through exact change points too.
+
+A chart is a piece of one branch as Chebyshev series of the drive. It is found from poses that the kernel walks to; one
+round a change point from poses on both sides, behind it with the other signs. docs/theory/free-motion.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev, polynomial
+
+from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.mechanics.kinematics.kernel_calls import SolvedRows, run_rows
+from gruebler.mechanics.kinematics.plan import Plan
+from gruebler.mechanics.kinematics.reference_pose import ReferencePose
+
+_DEGREE = 17
+_NODES = 24  # of an ordinary chart
+_BOTH_SIDES = 48  # of a chart round a change point, less those in its middle
+_GAP = 0.25  # of the half width: so near to a change point no pose is taken
+_WIDTHS = (0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.007, 0.003)  # radians or sizes: of ordinary charts, tried in turn
+_HALF_WIDTHS = (1.0, 0.5, 0.25, 0.12, 0.06)  # of charts round a change point
+_USED = 0.7  # the part of a chart round a change point that is used: beyond it ordinary charts go on
+_FIT = 1e-11  # of the largest value: an ordinary chart must fit all its poses and derivatives so well
+_FIT_AT_CHANGE = 1e-10  # likewise round a change point: that both sides lie on one polynomial is the proof
+_SOUND = 1e-2  # a pose with a smaller root is not walked on from: signs read next to a change point lose the branch
+_FLIPS = 1e-2  # a root that comes so near to zero in the change point goes through it
+_LOOKED = 0.05  # radians or sizes between the poses from which a zero of a root is foretold
+_FORETOLD = 0.6  # so far it is
+_PERIOD = 2 * np.pi
+_SAME = 1e-9  # in sizes: poses that differ by less are one
+
+
+class Blocked(Exception):
+    """The drives cannot get there."""
+
+
+class Jets(NamedTuple):
+    """A pose, and for each row of drive speeds (without accelerations) how it moves."""
+
+    places: Complexes
+    """(3, rows, links): origins, velocities, accelerations."""
+    turns: Complexes
+    """(links,)"""
+    rates: Reals
+    """(2, rows, links): angular velocities and accelerations."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Chart:
+    """Poses on a piece of a branch."""
+
+    low: float
+    high: float
+    """The part of the drive's axis on which it is used."""
+    middle: float
+    half: float
+    """Where its series lie in [-1, 1]."""
+    series: Complexes
+    """(degree + 1, 6 links): origins and their first two derivatives in sizes; turns, first and second rates."""
+    starts: tuple[ReferencePose, ReferencePose]
+    """Sound poses at or near both ends, from which the kernel walks on."""
+
+
+class Charts:
+    """All poses that a drive reaches on one branch from a start, found where they are asked for."""
+
+    def __init__(self, plan: Plan, start: ReferencePose) -> None:
+        self.plan = plan
+        self.links = len(plan.lower.mechanism.chain.links)
+        self.scale = 1.0 if plan.linkage.mechanism.drives[0].turning else plan.lower.size
+        self._branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+        self._charts: list[Chart] = []  # side by side along the drive
+        self._now: Chart | None = None
+        self._closed: float | None = None  # the low end of a whole turn, once it is known that it comes back
+        self._blocked = set[int]()  # the sides, 1 and -1, on which the branch ends
+        self._start = start
+
+    def jets(self, q: float) -> Jets:
+        """The pose and its derivatives by the drive. Raises `Blocked` where the branch does not lead."""
+        at, chart = self._reduced(q), self._now
+        if chart is None or not chart.low <= at <= chart.high:
+            chart = self._now = self._found(q)
+            at = self._reduced(q)
+        basis = np.cos(np.arange(_DEGREE + 1) * np.arccos(min(max((at - chart.middle) / chart.half, -1.0), 1.0)))
+        six = (basis @ chart.series).reshape(6, self.links)
+        return Jets(six[:3, None] * self.plan.lower.size, six[3] / np.abs(six[3]), six[4:, None].real)
+
+    def _reduced(self, q: float) -> float:
+        """The drive less whole turns, if a turn leads back to the same pose."""
+        return q if self._closed is None else self._closed + (q - self._closed) % _PERIOD
+
+    def _found(self, q: float) -> Chart:
+        """The chart on which the drive lies; charts are put beside charts until one reaches there."""
+        if not np.isfinite(q):
+            raise Blocked
+        self._charts = self._charts or [self._first()]
+        while True:
+            at = self._reduced(q)
+            for chart in self._charts:
+                if chart.low <= at <= chart.high:
+                    return chart
+            side = 1 if at > self._charts[-1].high else -1
+            if side in self._blocked:
+                raise Blocked
+            self._charts.insert(len(self._charts) if side > 0 else 0, self._next(side))
+            if self._closed is None and self._comes_back():
+                self._closed = self._charts[0].low
+
+    def _comes_back(self) -> bool:
+        """Whether the charts make a whole turn at whose ends the linkage lies alike; then they are all."""
+        low, high = self._charts[0].low, self._charts[-1].high
+        if not self.plan.linkage.mechanism.drives[0].turning or self.plan.wheels or high - low < _PERIOD:
+            return False
+        again = next(chart for chart in self._charts if chart.low <= low + _PERIOD <= chart.high)
+        gap = _pose_on(self._charts[0], low) - _pose_on(again, low + _PERIOD)
+        return bool(np.abs(gap).max() < _SAME)
+
+    # --- finding them --------------------------------------------------------------------------------
+
+    def _rows(self, path: Reals, start: ReferencePose) -> SolvedRows | None:
+        """Poses along a path of the drive, walked to from a start; None unless all are reached with their rates."""
+        whole = np.concatenate([start.drives, path])[:, None]
+        speeds = np.zeros((2, *whole.shape))
+        speeds[0] = 1.0
+        rows = run_rows(self.plan.program, self.plan, whole, speeds, 2, start.signs.copy(), start.unknowns.copy())
+        good = rows.reached == len(whole) and np.isfinite(rows.rates[:, 1:]).all()
+        return rows if good and np.isfinite(rows.places[:, 1:]).all() else None
+
+    def _numbers(self, rows: SolvedRows) -> Complexes:
+        size = self.plan.lower.size
+        parts = [rows.places[:, 1:] / size, rows.turns[None, 1:], rows.rates[:, 1:] + 0j]
+        return np.concatenate(parts).swapaxes(0, 1).reshape(len(rows.turns) - 1, -1)
+
+    def _least(self, rows: SolvedRows) -> Reals:
+        return np.asarray(np.abs(rows.roots[1:, self._branching]).min(axis=1, initial=1.0))
+
+    def _state(self, rows: SolvedRows, row: int, q: float) -> ReferencePose:
+        return ReferencePose(np.array([q]), np.where(rows.roots[row] < 0, -1.0, 1.0), rows.unknowns[row])
+
+    def _first(self) -> Chart:
+        """The chart round the start."""
+        start = self._start
+        q = float(start.drives[0])
+        beside = self._rows(np.array([q]), start)
+        if beside is not None and self._least(beside)[0] > _SOUND:
+            for width in _WIDTHS:
+                chart = self._ordinary(q - width * self.scale / 2, q + width * self.scale / 2, start)
+                if chart is not None:
+                    return chart
+        chart = self._round_change(start, q, 1.0)  # the signs are those on the way forward
+        if chart is None:
+            raise Blocked
+        return chart
+
+    def _next(self, side: int) -> Chart:
+        """The chart beside the last one on a side."""
+        last = self._charts[-1 if side > 0 else 0]
+        edge, start = (last.high, last.starts[1]) if side > 0 else (last.low, last.starts[0])
+        for tried, width in enumerate(_WIDTHS):
+            low, high = sorted((edge, edge + side * width * self.scale))
+            chart = self._ordinary(low, high, start)
+            if chart is not None:
+                return chart
+            if tried == 0:
+                chart = self._round_change(start, edge, -float(side))
+                if chart is not None and (chart.high if side > 0 else -chart.low) > side * edge:
+                    return replace(chart, low=edge) if side > 0 else replace(chart, high=edge)
+        self._blocked.add(side)
+        raise Blocked
+
+    def _ordinary(self, low: float, high: float, start: ReferencePose) -> Chart | None:
+        """A chart of poses that the kernel walks to without passing a change point."""
+        middle, half = (low + high) / 2, (high - low) / 2
+        nodes = np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)  # from the high end to the low one
+        down = bool(start.drives[0] > middle)
+        nodes = nodes if down else -nodes
+        rows = self._rows(middle + half * nodes, start)
+        if rows is None or (self._least(rows) < _SOUND).any():
+            return None
+        signs = np.sign(rows.roots[:, self._branching])
+        if (signs != signs[0]).any():
+            return None
+        series = _fitted(nodes, self._numbers(rows), _FIT)
+        if series is None:
+            return None
+        ends = [self._state(rows, row, middle + half * nodes[row - 1]) for row in (1, len(nodes))]
+        starts = (ends[1], ends[0]) if down else (ends[0], ends[1])
+        return Chart(low=low, high=high, middle=middle, half=half, series=series, starts=starts)
+
+    def _round_change(self, start: ReferencePose, edge: float, back: float) -> Chart | None:
+        """A chart round an exact change point near a place, if there is one, and one polynomial fits both sides of it.
+
+        It is not walked through: behind it the dyads whose roots go through zero have the other sign. ``back`` is the
+        way away from it, 1 or -1.
+        """
+        change = self._zero(start, edge, back)
+        if change is not None:
+            middle, flips, near = change
+            for half in _HALF_WIDTHS:
+                chart = self._both_sides(near, middle, half * self.scale, back, flips)
+                if chart is not None:
+                    return chart
+        return None
+
+    def _zero(self, start: ReferencePose, edge: float, back: float) -> tuple[float, Flags, ReferencePose] | None:
+        """Where a root goes through zero near a place, which roots do, and a sound pose beside it."""
+        if not self._branching:
+            return None
+        steps = back * _LOOKED * self.scale * np.arange(8)
+        origin = edge + 2 * steps[1]
+        zero = 0.0
+        for _ in range(3):  # where it is foretold from afar it is looked for again, from nearer by
+            rows = self._rows(origin + steps, start)
+            if rows is None or (self._least(rows) < _SOUND).any():
+                return None
+            fits = polynomial.polyfit(steps, rows.roots[1:, self._branching], 7)
+            zeros = [
+                z.real
+                for column in fits.T
+                for z in polynomial.polyroots(column)
+                if abs(z.imag) < 1e-3 * self.scale and -z.real * back > -steps[1] * back
+            ]
+            zero = min(zeros, key=abs, default=np.inf)
+            if not abs(zero) < _FORETOLD * self.scale:
+                return None
+            start = self._state(rows, 1, float(origin))
+            middle = origin + zero
+            if abs(zero) < 3.5 * abs(steps[1]):
+                break
+            origin = middle + 3 * steps[1]
+        flips = np.zeros(len(self.plan.dyads), bool)
+        flips[self._branching] = np.abs(polynomial.polyval(zero, fits)) < _FLIPS
+        return float(middle), flips, start
+
+    def _both_sides(self, start: ReferencePose, middle: float, half: float, back: float, flips: Flags) -> Chart | None:
+        nodes = back * np.cos(np.pi * (np.arange(_BOTH_SIDES) + 0.5) / _BOTH_SIDES)  # from here to the other side
+        nodes = nodes[np.abs(nodes) > _GAP]
+        count = len(nodes) // 2
+        path = middle + half * nodes
+        here = self._rows(path[:count], start)
+        if here is None:
+            return None
+        signs = np.where(here.roots[count] < 0, -1.0, 1.0)
+        across = ReferencePose(path[count : count + 1], np.where(flips, -signs, signs), here.unknowns[count])
+        there = self._rows(path[count:], across)
+        if there is None:
+            return None
+        values = np.concatenate([self._numbers(here), self._numbers(there)])
+        series = _fitted(nodes, values, _FIT_AT_CHANGE)
+        if series is None:
+            return None
+        ends = [self._state(here, 1, float(path[0])), self._state(there, count, float(path[-1]))]
+        first, last = ends if back < 0 else ends[::-1]
+        low, high = middle - _USED * half, middle + _USED * half
+        return Chart(low=low, high=high, middle=middle, half=half, series=series, starts=(first, last))
+
+
+def _pose_on(chart: Chart, q: float) -> Complexes:
+    """Origins and turns."""
+    six = chebyshev.chebval((q - chart.middle) / chart.half, chart.series).reshape(6, -1)
+    return np.concatenate([six[0], six[3]])
+
+
+def _fitted(nodes: Reals, values: Complexes, within: float) -> Complexes | None:
+    """Chebyshev series through values by least squares; None if they do not fit.
+
+    What each order of derivatives misses is compared with the largest of that order.
+    """
+    basis = chebyshev.chebvander(nodes, _DEGREE)
+    series = np.linalg.lstsq(basis, values)[0].astype(np.complex128)
+    gaps, sizes = (
+        np.abs(array).reshape(len(nodes), 2, 3, -1).max(axis=(0, 1, 3)) for array in (basis @ series - values, values)
+    )
+    return series if (gaps < within * sizes).all() else None

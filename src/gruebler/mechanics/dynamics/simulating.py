@@ -1,0 +1,280 @@
+"""Free motion: a linkage left to its masses, loads, springs and motors."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import DOP853, Radau
+from scipy.optimize import brentq
+
+from gruebler.base.arrays import Reals
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import LinkageError
+from gruebler.base.text import Message, message
+from gruebler.mechanics.dynamics.charts import Blocked
+from gruebler.mechanics.dynamics.events import Watch, watched_ends, watched_motors, why_not_started
+from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instant
+from gruebler.mechanics.dynamics.simulation import Simulation
+from gruebler.mechanics.dynamics.starts import starting_pose
+from gruebler.mechanics.forces.loads import Loads
+from gruebler.mechanics.kinematics.messages import drive_values
+from gruebler.mechanics.kinematics.plan import Plan
+from gruebler.mechanics.kinematics.solve import cached_plan
+from gruebler.mechanics.linkages.branch import Branch
+from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
+
+_ROWS = 401
+_ABSOLUTE = 0.1  # of the tolerance: what is allowed of values near zero, in their usual size
+_FINEST, _COARSEST = 1e-13, 1e-2
+_LOOKS = 4  # in each step, at what may end the motion
+
+
+@door_that_raises(LinkageError)
+def simulate(
+    linkage: LinkageLike,
+    loads: Loads,
+    *,
+    until: float,
+    branch: Branch = None,
+    at: ArrayLike | None = None,
+    speed: ArrayLike = 0.0,
+    times: ArrayLike | None = None,
+    ends: Mapping[str, tuple[float, float]] | None = None,
+    tolerance: float = 1e-10,
+    stiff: bool = False,
+) -> Simulation:
+    """How a linkage moves by itself under loads, springs, weights and motors.
+
+    Args:
+        linkage: Whose drives are coordinates of the start; they are free unless they have a motor.
+        loads: What acts, and the masses that are moved.
+        until: The time to which the motion is followed, in seconds.
+        branch: The assembly mode at the start; without it the one of the reference pose. In a change point it is that
+            of the way on which the drive grows.
+        at: The drives at the start, in radians or the linkage's unit; without it those of the reference pose.
+        speed: Their speeds at the start.
+        times: The rows, in seconds; without them 401 evenly spaced ones.
+        ends: By joint the range in which it may move; the motion ends where one leaves it.
+        tolerance: Of each step, relative.
+        stiff: Whether an implicit method is used, for springs or dampers that are far faster than the motion.
+
+    Returns:
+        `Simulation`: times (rows,), poses, speeds and accelerations of all links, energies, how far these are from
+        being kept, and why it ended if it did before its time.
+
+    Raises:
+        LinkageError: Drives that do not fix the motion, nothing that has mass, loads on points that are not there,
+            numbers that are not usable, a start that cannot be assembled.
+
+    Cost:
+        Some 0.2 ms for each evaluation of the forces, 12 evaluations a step; a crank takes 20 to 60 steps a turn.
+
+    Example:
+        >>> from gruebler.mechanics.forces import RigidBody
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> loads = Loads(bodies={"coupler": RigidBody(0.5, (35, 0), 200.0)})
+        >>> fall = simulate(FourBar(25, 70, 40, 70), loads, at=1.0, until=0.5)
+        >>> len(fall), fall.complete, bool(fall.defect < 1e-6)
+        (401, True, True)
+
+    See Also:
+        `equilibria`, `linearised`, `inverse_dynamics`, `move`
+
+    Theory:
+        docs/theory/free-motion.md
+    """
+    solving = cached_plan(as_linkage(linkage))
+    if not 0 < until < 1e100:
+        raise LinkageError("until: expected a time in seconds after 0, but found {until!r}", until=until)
+    if not _FINEST <= tolerance <= _COARSEST:
+        raise LinkageError("a tolerance lies between 1e-13 and 0.01; this one is {tolerance!r}", tolerance=tolerance)
+    drives, start = starting_pose(solving, branch, at)
+    free = FreeLinkage(solving, loads, start)
+    run = _Run(free, until, _times(times, until), tolerance, stiff)
+    return run.followed(drives, _speeds(solving, speed), ends or {})
+
+
+def _speeds(plan: Plan, speed: ArrayLike) -> Reals:
+    try:
+        speeds = np.broadcast_to(np.asarray(speed, np.float64), (len(plan.linkage.mechanism.drives),)).copy()
+    except (TypeError, ValueError):
+        speeds = np.array([np.nan])
+    if not (np.abs(speeds) < 1e100).all():
+        raise LinkageError("speed: expected a finite number for each drive, but found {speed!r}", speed=speed)
+    return speeds
+
+
+def _times(times: ArrayLike | None, until: float) -> Reals:
+    if times is None:
+        return np.linspace(0.0, until, _ROWS)
+    try:
+        rows = np.array(times, np.float64, ndmin=1)
+    except (TypeError, ValueError):
+        rows = np.array([np.nan])
+    if rows.ndim != 1 or not len(rows) or not (np.diff(rows) > 0).all() or not 0 <= rows[0] <= rows[-1] <= until:
+        raise LinkageError("times: expected increasing times between 0 and {until:g} s", until=until)
+    return rows
+
+
+_NO_WAY = message(
+    "The motion cannot be followed beyond {time:.6g} s, {values}: there the linkage branches, or nothing serves as a "
+    "coordinate."
+)
+
+
+class _Row(NamedTuple):
+    instant: Instant
+    acceleration: Reals
+    work: float
+
+
+class _Run:
+    """A free motion while it is followed."""
+
+    def __init__(self, free: FreeLinkage, until: float, times: Reals, tolerance: float, stiff: bool) -> None:
+        self.free, self.until, self.times, self.tolerance = free, until, times, tolerance
+        self.method = Radau if stiff else DOP853
+        self.rows: list[_Row] = []
+        self.steps = 0
+        self.reason: Message | None = None
+        self.count = free.coordinates.count
+        self.watched: list[Watch] = []
+        self.used = [(0.0, free.plan.linkage.mechanism.drive_names())]
+
+    def followed(self, q: Reals, v: Reals, ends: Mapping[str, tuple[float, float]]) -> Simulation:
+        """The motion from values and speeds of the drives."""
+        free = self.free
+        try:
+            first = free.instant(0.0, q, v)
+        except Blocked:
+            values = drive_values(free.plan.linkage, tuple(map(float, q)))
+            raise LinkageError(
+                "at {values} the linkage branches: say with branch= on which way it moves on", values=values
+            ) from None
+        free.keep(first)
+        free.check(first)
+        self.watched = [*watched_ends(free, first, ends), *watched_motors(free, first)]
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")  # of steps that lead where the linkage cannot be assembled
+            self._follow(first, np.concatenate([q, v, [0.0]]))
+        return self._simulation()
+
+    def _follow(self, first: Instant, y: Reals) -> None:
+        acceleration = self.free.acceleration(first)
+        if self.times[0] == 0:
+            self.rows.append(_Row(first, acceleration, 0.0))
+        self.reason = why_not_started(self.free, first, acceleration)
+        if self.reason is not None:
+            return
+        solver = self._solver(0.0, y, acceleration)
+        while solver.status == "running":
+            solver.step()
+            self.steps += 1
+            if solver.status == "failed" or not np.isfinite(solver.y).all():
+                self.reason = self._no_way(solver.t_old or 0.0)
+                return
+            path = solver.dense_output()
+            end = self._event(path, solver.t_old, solver.t)
+            self._write(path, solver.t_old, end[0] if end else solver.t)
+            if end:
+                self.reason = end[1]
+                return
+            now = self._at(solver.t, solver.y)
+            other = self.free.sets.exchanged(self.free.coordinates, *self._parts(solver.y))
+            if other is not None:
+                self.free.coordinates, q, v = other
+                self.used.append((solver.t, self.free.coordinates.plan.linkage.mechanism.drive_names()))
+                y = np.concatenate([q, v, solver.y[-1:]])
+                now = self._at(solver.t, y)
+                if solver.t < self.until:
+                    solver = self._solver(solver.t, y, self.free.acceleration(now), solver.h_abs)
+            self.free.keep(now)
+
+    def _solver(self, t: float, y: Reals, acceleration: Reals, step: float | None = None) -> DOP853 | Radau:
+        """An integrator; what is small is measured by the size of the coordinates and the time the motion takes."""
+        free, count = self.free, self.count
+        usual = free.coordinates.scale
+        speeds = np.abs(y[count : 2 * count]) + np.sqrt(np.abs(acceleration) * usual) + usual / self.until
+        kinetic, _ = free.energies(self._at(t, y))
+        least = np.concatenate([usual, speeds, [kinetic + float(np.abs(acceleration) @ usual) or 1.0]])
+        options = {} if step is None else {"first_step": min(step, self.until - t)}
+        return self.method(
+            self._rate, t, y, self.until, rtol=self.tolerance, atol=_ABSOLUTE * self.tolerance * least, **options
+        )
+
+    def _parts(self, y: Reals) -> tuple[Reals, Reals]:
+        return y[: self.count], y[self.count : 2 * self.count]
+
+    def _at(self, t: float, y: Reals) -> Instant:
+        return self.free.instant(t, *self._parts(y))
+
+    def _rate(self, t: float, y: Reals) -> Reals:
+        """Y' of (q, q', work); NaN where the linkage does not go, so that the step is taken shorter."""
+        try:
+            now = self._at(t, y)
+            return np.concatenate([now.speeds, self.free.acceleration(now), [self.free.power(now)]])
+        except (Blocked, np.linalg.LinAlgError):
+            return np.full(len(y), np.nan)
+
+    def _write(self, path: Callable[[float], Reals], begin: float, end: float) -> None:
+        """The rows asked for in a step; the last one of a motion that ends is where it ends."""
+        stops = [t for t in self.times.tolist() if begin < t <= end] if begin < self.times[-1] else []
+        for t in stops:
+            y = path(t)
+            now = self._at(t, y)
+            self.rows.append(_Row(now, self.free.acceleration(now), float(y[-1])))
+
+    def _simulation(self) -> Simulation:
+        """The rows as arrays."""
+        free, rows = self.free, self.rows
+        instants = [row.instant for row in rows]
+        moved = [row.instant.derivatives(row.acceleration) for row in rows]
+        turns = np.array([now.jets.turns for now in instants])
+        angles = np.array([now.angles for now in instants])
+        energies = np.array([free.energies(now) for now in instants])
+        return Simulation(
+            linkage=free.plan.linkage,
+            plan=free.plan,
+            times=np.array([now.time for now in instants]),
+            drives=np.array([now.moving.drives[0] for now in instants]),
+            speeds=np.array([now.moving.speeds[0] for now in instants]),
+            accelerations=np.array([free.own_acceleration(row.instant, row.acceleration) for row in rows]),
+            places=np.stack([places for places, _ in moved], axis=1),
+            turns=turns,
+            rates=np.stack([rates for _, rates in moved], axis=1),
+            whole=np.round((angles - np.angle(turns)) / (2 * np.pi)).astype(np.int32),
+            kinetic=energies[:, 0],
+            potential=energies[:, 1],
+            work=np.array([row.work for row in rows]),
+            coordinates=tuple(self.used),
+            steps=self.steps,
+            evaluations=free.evaluations,
+            reason=self.reason,
+        )
+
+    def _no_way(self, t: float) -> Message:
+        last = self.free.last
+        drives = last.moving.drives[0] if last is not None else self.free.coordinates.near
+        return _NO_WAY.filled(time=t, values=drive_values(self.free.plan.linkage, tuple(drives.tolist())))
+
+    # --- events --------------------------------------------------------------------------------------
+
+    def _event(self, path: Callable[[float], Reals], begin: float, end: float) -> tuple[float, Message] | None:
+        """The first event in a step: when, and what it means for the motion."""
+        events = []
+        for watch in self.watched:
+
+            def gap(t: float, watch: Watch = watch) -> float:
+                return watch.gap(self._at(t, path(t)))
+
+            looks = np.linspace(begin, end, _LOOKS + 1)
+            gaps = [gap(t) for t in looks]
+            if min(gaps) < 0:
+                k = int(np.argmax(np.array(gaps) < 0))
+                t = float(looks[0]) if k == 0 else float(brentq(gap, looks[k - 1], looks[k], xtol=1e-14 * self.until))
+                events.append((t, watch.met(self._at(t, path(t)))))
+        return min(events, key=lambda event: event[0], default=None)

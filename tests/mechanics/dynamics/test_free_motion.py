@@ -1,0 +1,292 @@
+"""Free motion: against exact forms, other formulations and published benchmarks; energy is a witness everywhere."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from gruebler.base.errors import LinkageError
+from gruebler.mechanics.dynamics import EquationsOfMotion, equilibria, influences_of, linearised, simulate
+from gruebler.mechanics.forces import Loads, Motor, RigidBody, Spring
+from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.structure.mechanism import Mechanism
+
+
+def turned(angle):
+    return np.exp(1j * angle)
+
+
+def xy(z):
+    return (z.real, z.imag)
+
+
+def windows(n):
+    """IFToMM benchmark A02: n + 1 cranks and n couplers of 1 m and 1 kg, upright; all cranks stay parallel."""
+    pins = [f"k{i}" + (f"-c{i - 1}" if i else "") + (f"-c{i}" if i < n else "") for i in range(n + 1)]
+    joints = [f"R(0-k{i})" for i in range(n + 1)] + [f"R({p})" for p in pins]
+    mechanism = Mechanism.parse(" ".join(joints) + "; frame=0; drive=R(0-k0)")
+    places = {joint: (float(k % (n + 1)), float(k > n)) for k, joint in enumerate(joints)}
+    bodies = {link: RigidBody(1.0, (0.5, 0.0), 1 / 12) for link in mechanism.chain.links if link != "0"}
+    return Linkage.from_drawing(mechanism, places, unit="m"), Loads(bodies=bodies, gravity=(0, -9.81))
+
+
+def exact_windows(n, time):
+    """Angle from upright and its speed: one pendulum, J = (n + 1)/3 + n, G = 9.81 ((n + 1)/2 + n)."""
+    ratio = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
+    return solve_ivp(
+        lambda _, y: [y[1], ratio * np.sin(y[0])], (0, time), [0, 1], method="DOP853", rtol=3e-14, atol=1e-15
+    ).y[:, -1]
+
+
+@pytest.mark.parametrize(
+    ("n", "time"),
+    [
+        (2, 2.0),
+        pytest.param(2, 10.0, marks=pytest.mark.slow),
+        pytest.param(10, 10.0, marks=pytest.mark.slow),
+        pytest.param(40, 20.0, marks=pytest.mark.slow),
+    ],
+)
+def test_windows_pass_their_change_points_as_one_pendulum(n, time):
+    linkage, loads = windows(n)
+    fall = simulate(linkage, loads, speed=-1.0, until=time, times=[0, time], tolerance=1e-12)
+    angle, speed = exact_windows(n, time)
+    assert fall.complete
+    assert fall.drives[-1, 0] == pytest.approx(np.pi / 2 - angle, abs=1e-9)
+    assert fall.speeds[-1, 0] == pytest.approx(-speed, abs=1e-9)
+    assert fall.defect < 1e-10
+
+
+def test_windows_at_ten_seconds_as_printed():
+    # the scalar form gives what Exudyn's example prints at h = 1.25e-4: (0.3284573768, 0.9445187937), to its 7e-7
+    angle, _ = exact_windows(2, 10.0)
+    assert (np.sin(angle), np.cos(angle)) == pytest.approx((0.3284573768, 0.9445187937), abs=1e-6)
+
+
+def squeezer():
+    """Andrews' squeezing mechanism, data of the test set for IVP solvers (Mazzia, Magherini), m, kg, s."""
+    a, b, c = -0.06934 - 0.00227j, -0.03635 + 0.03273j, 0.014 + 0.072j
+    beta, gamma = -0.0617138900142764496358948458001, 0.455279819163070380255912382449
+    phi, delta = 0.222668390165885884674473185609, 0.487364979543842550225598953530
+    omega, epsilon = -phi, 1.23054744454982119249735015568
+    k1 = 0.007 * turned(beta)
+    p = k1 - 0.028 * turned(beta)
+    g, h = a + 0.04 * turned(delta), a - 0.04j * turned(epsilon)
+    centres = {
+        "K1": 92e-5 * turned(beta),
+        "K2": k1 - 0.0115 * turned(beta),
+        "K3": b + (0.01874 - 0.01043j) * turned(gamma),
+        "K4": g - 1j * (0.02 - 0.01421) * turned(phi + delta),
+        "K5": a + (0.02308 + 0.00916j) * turned(delta),
+        "K6": h + (0.02 - 0.01421) * turned(omega + epsilon),
+        "K7": a + (-0.01228j + 0.00449) * turned(epsilon),
+    }
+    mechanism = Mechanism.parse(
+        "R(0-K1) R(K1-K2) R(K2-K3-K4-K6) R(0-K3) R(K4-K5) R(K6-K7) R(0-K5-K7); frame=0; drive=R(0-K1)"
+    )
+    points = {"c" + link: (link, *xy(z)) for link, z in centres.items()}
+    points["D"] = ("K3", *xy(b + (0.02 - 0.018j) * turned(gamma)))
+    places = [0j, k1, p, b, g, h, a]
+    linkage = Linkage.from_drawing(
+        mechanism, dict(zip(mechanism.chain.joint_names(), map(xy, places), strict=True)), points, unit="m"
+    )
+    masses = [0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498]
+    inertias = [2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5]
+    at = {link: linkage.points["c" + link] for link in centres}
+    bodies = {
+        link: RigidBody(m, (at[link].x, at[link].y), j) for link, m, j in zip(centres, masses, inertias, strict=True)
+    }
+    spring = Spring(("D", LinkPoint("0", *xy(c))), stiffness=4530, free_length=0.07785)
+    return linkage, Loads(bodies=bodies, springs=(spring,), moments={"K1": 0.033}, gravity=(0, 0)), beta
+
+
+def test_andrews_squeezer():
+    # at 0.03 s by two methods: these equations, and seven angles with six multipliers (both 1e-12 or better); the
+    # values that the test set prints (beta 15.81077119629904) are themselves off by 1.2e-9
+    linkage, loads, beta = squeezer()
+    run = simulate(linkage, loads, at=beta, until=0.03, times=[0, 0.03], tolerance=1e-12)
+    assert run.accelerations[0, 0] == pytest.approx(14222.4439199541138705911625887, rel=1e-12)
+    assert run.drives[-1, 0] == pytest.approx(15.81077119515, abs=1e-10)
+    assert run.drives[-1, 0] == pytest.approx(15.81077119629904, abs=2e-9)
+    assert run.speeds[-1, 0] == pytest.approx(1139.9203022590, rel=1e-10)
+    assert run.accelerations[-1, 0] == pytest.approx(-24631.76312, rel=1e-9)
+    assert run.rates[1, -1, run.link_index("K5")] == pytest.approx(16743.6354184, rel=1e-9)
+    assert run.defect < 1e-11
+
+
+def double_rocker():
+    linkage = FourBar(a=0.4, b=0.35, c=0.45, d=0.9).linkage()
+    mechanism = linkage.mechanism
+    by_link = {
+        link: {k: e for (k, owner), e in linkage.elements.items() if owner == link} for link in mechanism.chain.links
+    }
+    bodies = {
+        "crank": RigidBody(2, (0.2, 0), 0.03),
+        "coupler": RigidBody(3, (0.17, 0.05), 0.04),
+        "rocker": RigidBody(1.5, (0.22, 0), 0.03),
+    }
+    return Linkage(mechanism, by_link, unit="m"), Loads(bodies=bodies, gravity=(0, -9.81))
+
+
+def test_a_double_rocker_swings_through_the_limits_of_every_joint_and_back():
+    linkage, loads = double_rocker()
+    there = simulate(linkage, loads, branch="+", at=0.6, speed=5.0, until=0.6, times=[0, 0.6], tolerance=1e-11)
+    assert len(there.coordinates) > 3
+    assert there.defect < 1e-9
+    # time reversed: from the end with the other speed back to the start
+    pose = {k: tuple(v) for k, v in there.pose(-1).items()}
+    back = simulate(
+        linkage.with_reference_pose(pose), loads, speed=-there.speeds[-1], until=0.6, times=[0, 0.6], tolerance=1e-11
+    )
+    assert np.abs(back.turns[-1] - there.turns[0]).max() < 1e-8
+    assert back.speeds[-1, 0] == pytest.approx(-5.0, abs=1e-7)
+
+
+def test_two_freedoms_exchange_their_coordinates_at_stretched_limits():
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
+    places = dict(
+        zip(mechanism.chain.joint_names(), [(0, 0), (-0.1, 0.2), (0.15, 0.45), (0.4, 0.2), (0.3, 0)], strict=True)
+    )
+    linkage = Linkage.from_drawing(mechanism, places, unit="m")
+    loads = Loads(bodies={link: RigidBody(1.0, (0.1, 0), 0.01) for link in "1234"}, gravity=(0, -9.81))
+    fine, coarse = (
+        simulate(linkage, loads, until=0.5, times=[0, 0.5], tolerance=tolerance) for tolerance in (1e-11, 1e-9)
+    )
+    assert len(fine.coordinates) > 1
+    assert fine.defect < 1e-10
+    assert np.abs(fine.turns[-1] - coarse.turns[-1]).max() < 1e-6
+
+
+def test_double_pendulum():
+    # two unit masses on rods of 1 m: the equations in absolute angles, by hand
+    mechanism = Mechanism.parse("R(0-1) R(1-2); frame=0; drive=R(0-1); drive=R(1-2)")
+    linkage = Linkage.from_drawing(mechanism, {"R(0-1)": (0, 0), "R(1-2)": (1, 0)}, {"E": ("2", 2.0, 0.0)}, unit="m")
+    loads = Loads(masses={LinkPoint("1", 1.0, 0.0): 1.0, "E": 1.0}, gravity=(0, -9.81))
+
+    def by_hand(_, y):
+        a, b, w, u = y
+        mass = np.array([[2, np.cos(a - b)], [np.cos(a - b), 1]])
+        right = -np.array(
+            [
+                np.sin(a - b) * u**2 + 2 * 9.81 * np.cos(a),
+                -np.sin(a - b) * w**2 + 9.81 * np.cos(b),
+            ]
+        )
+        return [w, u, *np.linalg.solve(mass, right)]
+
+    a, b, *_ = solve_ivp(by_hand, (0, 1), [0.3, 0.5, 0, 0], method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+    swing = simulate(linkage, loads, at=[0.3, 0.2], until=1.0, times=[0, 1.0], tolerance=1e-12)
+    assert swing.drives[-1] == pytest.approx([a, b - a], abs=1e-10)
+
+
+def test_explicit_and_implicit_agree_and_the_work_of_motor_and_damper_is_kept_account_of():
+    rocker = {"rocker": RigidBody(0.1, (20, 0), 20.0)}
+    loads = Loads(
+        bodies={"crank": RigidBody(0.2, (12, 0), 30.0), **rocker},
+        springs=(Spring(("frame:100,60", "R(coupler-rocker)"), stiffness=1.0, free_length=40.0, damping=0.01),),
+        motors={"R(frame-crank)": Motor(1000.0, 20.0)},
+    )
+    explicit, implicit = (
+        simulate(FourBar(25, 70, 40, 70), loads, at=0.3, branch="+", until=0.1, times=[0, 0.1], **options)
+        for options in ({"tolerance": 1e-11}, {"tolerance": 1e-8, "stiff": True})
+    )
+    assert explicit.drives[-1, 0] == pytest.approx(implicit.drives[-1, 0], abs=1e-6)
+    assert abs(explicit.work[-1]) > 1
+    assert explicit.defect < 1e-9
+    # forward undoes inverse: the equations hold in the row that was found
+    influences = influences_of(explicit.motion)
+    terms = EquationsOfMotion(explicit.linkage, explicit.links, loads).terms(
+        influences, explicit.times, explicit.drives, explicit.speeds, motors=True
+    )
+    first = terms.mass[0, 0, 0] * explicit.accelerations[0, 0] + terms.bias[0, 0] - terms.force[0, 0]
+    assert abs(first) < 1e-9 * abs(terms.force[0, 0])
+
+
+def test_a_start_in_a_change_point_needs_its_branch():
+    linkage, loads = windows(2)
+    with pytest.raises(LinkageError, match="branch"):
+        simulate(linkage, loads, at=0.0, until=0.1)
+    fall = simulate(linkage, loads, at=0.0, branch="--", until=0.3, times=[0, 0.3])
+    cranks = [fall.angle(link)[-1] for link in ("k0", "k1", "k2")]
+    assert np.ptp(cranks) < 1e-9  # the parallel branch
+    ratio = 9.81 * 3.5 / 3.0  # as in `exact_windows`
+    exact = solve_ivp(lambda _, y: [y[1], -ratio * np.cos(y[0])], (0, 0.3), [0, 0], rtol=1e-12, atol=1e-13).y[0, -1]
+    assert cranks[0] == pytest.approx(exact, abs=1e-8)
+
+
+def test_motors_that_do_not_start_and_ends_that_are_reached():
+    heavy = {"coupler": RigidBody(2.5, (35, 0), 200.0)}
+    stuck = simulate(
+        FourBar(25, 70, 40, 70),
+        Loads(bodies=heavy, motors={"R(frame-crank)": Motor(1.0, 20.0)}),
+        at=0.3,
+        branch="+",
+        until=1.0,
+    )
+    assert len(stuck) == 1
+    assert "does not start" in stuck.message()
+    assert "läuft nicht an" in stuck.message("de")
+    swing = simulate(
+        FourBar(25, 70, 40, 70),
+        Loads(bodies=heavy, motors={"R(frame-crank)": Motor(1000.0, 20.0)}),
+        at=0.3,
+        branch="+",
+        until=1.0,
+        ends={"R(frame-rocker)": (0.0, 2.0)},
+    )
+    assert not swing.complete
+    assert swing.times[-1] < 0.2
+    assert "end of its range" in swing.message()
+    assert swing.explain().splitlines()[0].startswith("From R(frame-crank) = 17.19° at 0 s")
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"until": -1.0}, "until"),
+        ({"until": 1.0, "tolerance": 1e-20}, "tolerance"),
+        ({"until": 1.0, "times": [0.5, 0.1]}, "times"),
+        ({"until": 1.0, "speed": "fast"}, "speed"),
+        ({"until": 1.0, "at": None}, "at="),
+        ({"until": 1.0, "loads": Loads()}, "mass"),
+        ({"until": 1.0, "ends": {"R(frame-crank)": (2.0, 3.0)}}, "range"),
+        ({"until": 1.0, "ends": {"R(frame-crank)": (1.0, 0.0)}}, "two numbers"),
+    ],
+)
+def test_wrong_calls(changed, words):
+    given = {"loads": Loads(bodies={"coupler": RigidBody(1.0)}), "at": 0.3} | changed
+    with pytest.raises(LinkageError, match=words):
+        simulate(FourBar(25, 70, 40, 70), **given)
+
+
+def test_pendulum_equilibria_and_frequencies():
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+    # a parallelogram: its coupler only shifts, so that it is a pendulum with J = 2 (1/3) + 1, G = 9.81 (1 + 1)
+    linkage = Linkage.from_drawing(
+        mechanism, dict(zip(mechanism.chain.joint_names(), [(0, 0), (0, 1), (2, 1), (2, 0)], strict=True)), unit="m"
+    )
+    rod = RigidBody(1.0, (0.5, 0), 1 / 12)
+    loads = Loads(bodies={"1": rod, "2": RigidBody(1.0, (1.0, 0), 0.5), "3": rod}, gravity=(0, -9.81))
+    up, down = sorted(equilibria(linkage, loads), key=lambda found: found.stable)
+    assert (up.stable, down.stable) == (False, True)
+    assert np.cos([up.drives[0], down.drives[0]]) == pytest.approx([0, 0], abs=1e-12)
+    assert down.frequencies == pytest.approx([np.sqrt(9.81 * 2 / (5 / 3)) / (2 * np.pi)], rel=1e-10)
+    assert up.eigenvalues.real.max() == pytest.approx(np.sqrt(9.81 * 2 / (5 / 3)), rel=1e-10)
+
+
+def test_four_bar_with_diagonal_spring_by_two_ways():
+    loads = Loads(
+        bodies={"crank": RigidBody(1.0, (12, 0), 60.0), "coupler": RigidBody(2.0, (35, 5), 800.0)},
+        springs=(Spring(("R(frame-crank)", "R(coupler-rocker)"), stiffness=0.5, free_length=60.0, damping=0.002),),
+    )
+    found = equilibria(FourBar(25, 70, 40, 70), loads)
+    assert len(found) >= 2
+    for one in found:
+        other = linearised(FourBar(25, 70, 40, 70), loads, branch="+", at=one.drives)
+        gaps = np.abs(np.sort_complex(one.eigenvalues) - np.sort_complex(other.eigenvalues))
+        assert gaps.max() < 1e-9 * np.abs(one.eigenvalues).max()
+        assert np.abs(other.force).max() < 1e-10 * np.abs(other.stiffness).max()
+
+
+def test_a_balanced_slider_crank_rests_everywhere():
+    assert equilibria(SliderCrank(20, 50), Loads(bodies={"slider": RigidBody(1.0)})).everywhere
