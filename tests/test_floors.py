@@ -50,7 +50,7 @@ WINGS = {
         {"fourbar"},
         {"kinematics"},
         {"analysis", "screws", "forces"},
-        {"dynamics", "geometry"},
+        {"dynamics", "geometry", "space"},
     ],
     "design": [{"realisation"}, {"synthesis"}],
     "files": [{"files"}],

@@ -64,6 +64,7 @@ BY_POSITION = {
     "PathTask": "points first, as users write them",
     "PositionTask": "positions first, as users write them",
     "Requirements": "links and mobility first, all others by keyword",
+    "SpatialLinkage": "mechanism and joints, as users write them",
     "SchemaColumn": "a row of the table of columns, which reads like one",
     "Wheel": "an element of a joint: x and y first, like all of them",
 }

@@ -102,6 +102,7 @@ GOOD = {
     "SliderCrank.from_dead_centres": {"inner": 40, "outer": 90},
     "SliderCrank.from_stroke": {"stroke": 50, "ratio": 0.3},
     "SpatialLinkage": {"mechanism": SQUARE, "joints": PLACES},
+    "SpatialLinkage.from_dh": {"rows": [(np.pi / 2, 0, 1, 0)] * 4},
     "Train": {"meshes": [Mesh("sun", "planet", 24, 18, "arm"), Mesh("planet", "ring", 18, -60, "arm")]},
     "animate": {"value": LENGTHS, "seconds": 0.1, "drives": None, "curves": (), **PICTURE},
     "assembly_modes": {"linkage": LENGTHS, "drives": 1.0},

@@ -160,8 +160,18 @@ class ReferenceScrews(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
 
     unit: str
     joints: dict[str, Any]
+    points: dict[str, Any] = {}
     assumed: bool = False
     source: str = ""
+    drive: str | tuple[str, ...] | None = None
+    """The driven joints of the example, where the entry's own drives do not fix the motion."""
+    range: tuple[float, float] | None = None
+    """Drive values between which it moves, in degrees or in the unit."""
+
+    @property
+    def shown_drives(self) -> tuple[str, ...]:
+        """The driven joints of the example; empty where the machine names its own."""
+        return (self.drive,) if isinstance(self.drive, str) else self.drive or ()
 
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -213,8 +223,10 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
         if self.screws is not None:
             chain = self.chain()
-            screws = ScrewsRecord(unit=self.screws.unit, joints=self.screws.joints)
-            return spatial_linkage_from_record(screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
+            screws = ScrewsRecord(unit=self.screws.unit, joints=self.screws.joints, points=self.screws.points)
+            drives = self.screws.shown_drives or self.drives
+            mechanism = Mechanism(chain, self.frame or chain.links[0], drives)
+            return spatial_linkage_from_record(screws, mechanism, self.outputs)
         linkage = None if self.dimensions is None else self.linkage()
         return linkage if linkage is not None and has_only_lower_pairs(linkage) else None
 
@@ -229,7 +241,7 @@ def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
 _NO_NUMBER = message("none")
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
     "dimensions": ("elements", "reference_pose", "places", "points", "drive"),
-    "screws": ("joints",),
+    "screws": ("joints", "points", "drive"),
     "claims": ("idle", "motion", "travel", "dead_centres"),
 }
 

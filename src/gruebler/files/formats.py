@@ -101,11 +101,16 @@ def _chain(path: Path, document: Any) -> Chain:
 def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None:
     from gruebler.design.synthesis import Task
     from gruebler.mechanics.linkages import Linkage
+    from gruebler.mechanics.screws import SpatialLinkage
     from gruebler.structure.chain import Chain
 
     del left_out
     suffix = path.suffix.lower()
-    if isinstance(value, Linkage):
+    if isinstance(value, SpatialLinkage):
+        from gruebler.files.screws import write_screws
+
+        write_screws(path, value)
+    elif isinstance(value, Linkage):
         from gruebler.files import write_linkage
 
         write_linkage(path, value)
@@ -365,7 +370,7 @@ FORMATS: tuple[Format, ...] = (
         name="toml",
         suffixes=(".toml",),
         title=message("gruebler, TOML"),
-        carries=message("linkages, tasks, joint screws, gear trains (read), completely"),
+        carries=message("linkages in plane and space, tasks, gear trains (read), completely"),
         read=_own_document,
         write=_write_own_document,
         lengths=_WITH_UNIT,
@@ -374,7 +379,7 @@ FORMATS: tuple[Format, ...] = (
         name="json",
         suffixes=(".json",),
         title=message("gruebler, JSON; JSON of other programs is recognised"),
-        carries=message("linkages, tasks, chains, joint screws (read), completely"),
+        carries=message("linkages in plane and space, tasks, chains, completely"),
         read=_own_document,
         write=_write_own_document,
         lengths=_WITH_UNIT,

@@ -155,26 +155,28 @@ def linkage_to_toml(linkage: Linkage) -> str:
     document = linkage_to_json(linkage)
     tables = {
         "points": document.pop("points"),
-        **{f"elements.{_key(link)}": elements for link, elements in document.pop("elements").items()},
+        **{f"elements.{toml_key(link)}": elements for link, elements in document.pop("elements").items()},
         "reference_pose": document.pop("reference_pose", {}),
     }
-    lines = [f"{key} = {_value(value)}" for key, value in document.items()]
+    lines = [f"{key} = {toml_value(value)}" for key, value in document.items()]
     for name, table in tables.items():
         if table:
-            lines += ["", f"[{name}]", *(f"{_key(key)} = {_value(value)}" for key, value in table.items())]
+            lines += ["", f"[{name}]", *(f"{toml_key(key)} = {toml_value(value)}" for key, value in table.items())]
     return "\n".join(lines) + "\n"
 
 
-def _key(key: str) -> str:
+def toml_key(key: str) -> str:
+    """A key as TOML writes it."""
     bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
-    return key if bare else _value(key)
+    return key if bare else toml_value(key)
 
 
-def _value(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """A value in one line, as TOML writes it."""
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items()) + " }"
+        return "{ " + ", ".join(f"{toml_key(key)} = {toml_value(item)}" for key, item in value.items()) + " }"
     if isinstance(value, list):
-        return "[" + ", ".join(map(_value, value)) + "]"
+        return "[" + ", ".join(map(toml_value, value)) + "]"
     return json.dumps(value, ensure_ascii=False)
 
 

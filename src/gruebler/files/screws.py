@@ -5,16 +5,19 @@ Angles are in degrees, the advance of a screw for a whole turn; docs/theory/free
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
 
+from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, infinities_as_words, load_document
 from gruebler.base.errors import GrueblerError, LinkageError
-from gruebler.files.linkages import linkage_from_json
+from gruebler.files.linkage_records import PointRecord
+from gruebler.files.linkages import check_linkage_path, linkage_from_json, toml_key, toml_value
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import JointPlace, SpatialLinkage
 from gruebler.structure.chain import Chain
@@ -41,6 +44,8 @@ class ScrewsRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_o
 
     unit: str
     joints: dict[str, Any]
+    points: dict[str, Any] = {}
+    """Named points of links, their coordinates in that position."""
 
 
 class SpatialRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -49,11 +54,15 @@ class SpatialRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_
     joints: str
     screws: ScrewsRecord
     space: str | None = None
+    links: tuple[str, ...] | None = None
     frame: str | None = None
     drives: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
 
 
-def spatial_linkage_from_record(screws: ScrewsRecord, mechanism: Mechanism) -> SpatialLinkage:
+def spatial_linkage_from_record(
+    screws: ScrewsRecord, mechanism: Mechanism, outputs: Sequence[str] = ()
+) -> SpatialLinkage:
     """The linkage of a mechanism with these screws; `LinkageError` names the first key that does not fit."""
     spherical = mechanism.chain.space is Space.SPHERICAL
     places: dict[str | int, object] = {}
@@ -69,7 +78,11 @@ def spatial_linkage_from_record(screws: ScrewsRecord, mechanism: Mechanism) -> S
         if spherical and "radii" in given:
             given["radii"] = [math.radians(r) for r in given["radii"]]
         places[name] = given
-    return SpatialLinkage(mechanism, places, screws.unit)
+    points = {}
+    for name, raw in screws.points.items():
+        point = convert_document(raw, PointRecord, LinkageError, f"screws.points.{name}")
+        points[name] = (point.link, *point.at)
+    return SpatialLinkage(mechanism, places, screws.unit, points=points, outputs=outputs)
 
 
 def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
@@ -83,27 +96,52 @@ def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
     record = convert_document(document, SpatialRecord, LinkageError)
     try:
         chain = Chain.parse(record.joints, record.space)
+        if record.links is not None:
+            chain = Chain(chain.joints, links=record.links, space=chain.space)
         mechanism = Mechanism(chain, chain.links[0] if record.frame is None else record.frame, record.drives)
     except GrueblerError as error:
-        raise LinkageError("joints, frame or drives: {error}", error=error) from None
-    return spatial_linkage_from_record(record.screws, mechanism)
+        raise LinkageError("joints, links, frame or drives: {error}", error=error) from None
+    return spatial_linkage_from_record(record.screws, mechanism, record.outputs)
 
 
 def screws_to_json(linkage: SpatialLinkage) -> dict[str, Any]:
     """Plain data for `json.dumps`; `spatial_from_json` takes it back, angles to rounding."""
-    mechanism = linkage.mechanism
-    names = mechanism.chain.joint_names()
-    angles = mechanism.chain.space is Space.SPHERICAL
+    mechanism, chain = linkage.mechanism, linkage.mechanism.chain
+    names = chain.joint_names()
+    angles = chain.space is Space.SPHERICAL
+    written = Chain.parse(chain.text(), str(chain.space))
+    links = {} if written.links == chain.links else {"links": list(chain.links)}
     return {
-        "joints": mechanism.chain.text(),
-        "space": str(mechanism.chain.space),
+        "joints": chain.text(),
+        **links,
+        "space": str(chain.space),
         "frame": mechanism.frame,
         "drives": list(mechanism.drive_names()),
+        "outputs": list(linkage.outputs),
         "screws": {
             "unit": linkage.unit,
             "joints": {name: _plain(place, angles) for name, place in zip(names, linkage.places, strict=True)},
+            "points": {name: {"link": link, "at": list(at)} for name, (link, at) in linkage.points.items()},
         },
     }
+
+
+def write_screws(path: Path, linkage: SpatialLinkage) -> None:
+    """Write a linkage into a ``.toml`` or ``.json`` file, complete or not at all; `read_any_linkage` takes it back."""
+    check_linkage_path(path)
+    document = screws_to_json(linkage)
+    if path.suffix.lower() == ".json":
+        text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+    else:
+        screws = document.pop("screws")
+        lines = [f"{key} = {toml_value(value)}" for key, value in document.items()]
+        lines += ["", "[screws]", f"unit = {toml_value(screws['unit'])}"]
+        for name in ("joints", "points"):
+            lines += ["", f"[screws.{name}]"]
+            lines += [f"{toml_key(key)} = {toml_value(value)}" for key, value in screws[name].items()]
+        text = "\n".join(lines) + "\n"
+    with atomic_file(path, durable=False) as file:
+        file.write(text.encode("utf-8"))
 
 
 def _plain(place: JointPlace, angles: bool) -> dict[str, Any]:

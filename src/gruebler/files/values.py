@@ -149,10 +149,11 @@ def _check_kind(value: object) -> None:
     from gruebler.design.synthesis import Task
     from gruebler.mechanics.kinematics.motion import Motion
     from gruebler.mechanics.linkages import Linkage
+    from gruebler.mechanics.screws import SpatialLinkage
     from gruebler.structure.chain import Chain
 
     chains = isinstance(value, Sequence) and value and all(isinstance(item, Chain) for item in value)
-    if not (chains or isinstance(value, Chain | Linkage | Task | Motion | Table)):
+    if not (chains or isinstance(value, Chain | Linkage | SpatialLinkage | Task | Motion | Table)):
         raise GrueblerError(
             "values of type {kind} cannot be written; linkages, tasks, motions, tables, chains and lists of chains can",
             kind=type(value).__name__,

@@ -115,7 +115,7 @@ unit = "mm"
         ("x = [0, 0, 1]", "z = [0, 0, 1]", "a prismatic joint needs its x axis"),
         ('unit = "mm"', "", "the key 'unit' is missing"),
         ('"P(frame-nut)" =', '"P(frame-drum)" =', "is not one of the joints"),
-        ("spatial: ", "spatial: R(a-b) ", "joints, frame or drives"),
+        ("spatial: ", "spatial: R(a-b) ", "joints, links, frame or drives"),
         ("[screws.joints]", "[screws.joints.joints]", "is not one of the joints|unknown key"),
     ],
 )

@@ -13,6 +13,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.plan import Plan
+from gruebler.structure.mechanism import Mechanism
 
 _ROUNDING = 1e-12  # of a number of steps: its error by two roundings, with room
 _LAST = 1e-9  # of a step: an end that is missed by less is reached
@@ -97,7 +98,11 @@ def in_rpm(speed: float) -> float:
 
 def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     """(rows, drives) values, checked."""
-    wanted = len(plan.linkage.mechanism.drives)
+    return path_of_values(drives, len(plan.linkage.mechanism.drives))
+
+
+def path_of_values(drives: ArrayLike, wanted: int) -> Reals:
+    """(rows, wanted) values, checked."""
     path = _real(drives)
     if path is None:
         raise LinkageError("drives: expected numbers (radians, or lengths), but found {drives!r}", drives=drives)
@@ -139,7 +144,11 @@ def _is_real(value: object) -> bool:
 
 def warn_of_path(plan: Plan, path: Reals) -> None:
     """`UnitWarning` if the values of a turning drive, (rows, drives), look like degrees."""
-    mechanism = plan.linkage.mechanism
+    warn_of_angles(plan.linkage.mechanism, path)
+
+
+def warn_of_angles(mechanism: Mechanism, path: Reals) -> None:
+    """`UnitWarning` as of `warn_of_path`."""
     for k, drive in enumerate(mechanism.drives):
         if drive.turning and doubt_of_angles(path[:, k], path=True) is not None:
             warn_of_degrees(mechanism.drive_names()[k], path[:, k], path=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import degrees
+from typing import Protocol
 
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.linkages import Linkage
@@ -49,7 +50,19 @@ def stop_message(
     return _STOPS[reason].filled(drives=at, form=form_message(form), links=", ".join(links))
 
 
-def drive_values(linkage: Linkage, values: tuple[float, ...]) -> Message:
+class Driven(Protocol):
+    """What has drives and a unit of length."""
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """Frame and drives."""
+
+    @property
+    def unit(self) -> str:
+        """The unit of lengths."""
+
+
+def drive_values(linkage: Driven, values: tuple[float, ...]) -> Message:
     """Drive values with the names of their joints, turning ones in degrees."""
     mechanism = linkage.mechanism
     parts = []

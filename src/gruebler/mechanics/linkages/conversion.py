@@ -38,7 +38,7 @@ def as_linkage(value: object) -> Linkage:
     kind = type(value).__name__
     if kind == "SpatialLinkage":
         raise LinkageError(
-            "expected a planar linkage, but found a SpatialLinkage: gr.mechanics.screws moves and judges it"
+            "expected a planar linkage, but found a SpatialLinkage: gr.move moves it, gr.freedoms judges it"
         )
     if kind in ("Chain", "Mechanism"):
         raise LinkageError("a {kind} has no dimensions: realise(mechanism) finds some", kind=kind)

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import isfinite
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
-from gruebler.base.errors import LinkageError
+from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axes, read_place
+from gruebler.mechanics.screws.rigid_motions import exponential
+from gruebler.structure.chain import Chain
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
+_LEAST = 1e-300
 _ORTHOGONAL = 1e-9  # by how much a rotation matrix may miss its transpose as inverse: nine digits were written
 
 
@@ -32,10 +37,12 @@ class SpatialLinkage(Immutable):
         joints: for each joint, by number or text, a `JointPlace`, a mapping with its keys, or a point alone where that
             is enough.
         unit: the unit of lengths; a name only.
+        points: named points (link, x, y, z), their coordinates in the reference pose.
+        outputs: the links whose motion is wanted.
 
     Raises:
         LinkageError: a joint without a place, an axis that its pair needs and that is missing, numbers that are not
-            finite.
+            finite, a point or output on no link.
 
     >>> winch = Mechanism.parse("spatial: R(frame-spindle) H(spindle-nut) P(frame-nut)")
     >>> axis = {"z": (0, 0, 1)}
@@ -47,6 +54,9 @@ class SpatialLinkage(Immutable):
     places: tuple[JointPlace, ...]
     """The joints in the reference pose, in the order of the chain."""
     unit: str
+    points: Mapping[str, tuple[str, Vector]]
+    """The link of each named point and its coordinates in the reference pose."""
+    outputs: tuple[str, ...]
 
     @door_that_raises(LinkageError)
     def __init__(
@@ -54,6 +64,9 @@ class SpatialLinkage(Immutable):
         mechanism: Mechanism,
         joints: Mapping[str | int, object] | tuple[JointPlace, ...],
         unit: str = "mm",
+        *,
+        points: Mapping[str, Sequence[object]] | None = None,
+        outputs: Iterable[str] = (),
     ) -> None:
         chain = mechanism.chain
         names = chain.joint_names()
@@ -65,7 +78,71 @@ class SpatialLinkage(Immutable):
             if number not in raw:
                 raise LinkageError("{name} has no place", name=name)
         places = tuple(read_place(raw[k], joint.pair, chain.space, names[k]) for k, joint in enumerate(chain.joints))
-        settle(self, mechanism=mechanism, places=places, unit=unit)
+        named = {name: _point(mechanism, name, point) for name, point in (points or {}).items()}
+        wanted = tuple(outputs)
+        for link in wanted:
+            _check_link(mechanism, link)
+        settle(self, mechanism=mechanism, places=places, unit=unit, points=MappingProxyType(named), outputs=wanted)
+
+    @classmethod
+    @door_that_raises(LinkageError)
+    def from_dh(
+        cls, rows: Sequence[Sequence[float]], *, links: Sequence[str] = (), drive: int = 0, unit: str = "mm"
+    ) -> SpatialLinkage:
+        """The loop of turning joints of Denavit-Hartenberg rows (θ, d, a, α) in a closed position.
+
+        Joint k turns link k against the one before about its z axis by θ; d along z, then a along x and α about x lead
+        to the next joint. The frame is link 0, named ``0`` unless there are other names.
+
+        Raises `LinkageError` if the loop is open there, with the gap.
+
+        >>> quarter = np.pi / 2
+        >>> SpatialLinkage.from_dh([(quarter, 0, 1, 0)] * 4)  # a square
+        <spatial linkage spatial: R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1); (0, 0, 0) (...>
+        """
+        whole = len(rows) >= 3 and all(len(row) == 4 for row in rows)
+        numbers = np.array(rows, float) if whole else np.zeros((0, 4))
+        if not len(numbers) or not np.isfinite(numbers).all():
+            raise LinkageError("expected rows of four numbers θ, d, a, α, at least three, but found {rows}", rows=rows)
+        names = tuple(links) or tuple(map(str, range(len(numbers))))
+        if len(names) != len(numbers):
+            raise LinkageError("expected {count} links, but found {found}", count=len(numbers), found=", ".join(names))
+        frame, places = np.eye(4), []
+        for theta, d, a, alpha in numbers:
+            places.append(JointPlace(_vector(frame[:3, 3]), z=_vector(frame[:3, 2])))
+            turn = exponential([0, 0, theta, 0, 0, d]) @ exponential([alpha, 0, 0, a, 0, 0])
+            frame = frame @ turn
+        scale = max(float(abs(numbers[:, 1:3]).max()), _LEAST)
+        gap = float(max(abs(frame[:3, :3] - np.eye(3)).max(), abs(frame[:3, 3]).max() / scale))
+        if gap > _ORTHOGONAL:
+            raise LinkageError("the loop is open by {gap:.1e} of its size", gap=gap)
+        text = " ".join(f"R({first}-{second})" for first, second in zip(names, (*names[1:], names[0]), strict=True))
+        mechanism = Mechanism(Chain.parse(f"spatial: {text}"), names[0], [drive])
+        return cls(mechanism, tuple(places), unit)
+
+    def point(self, name: str | tuple[str, float, float, float]) -> tuple[str, Vector]:
+        """Link and place, in the reference pose, of a named point, of a joint, or of (link, x, y, z).
+
+        A joint is a point of its first link that is not the frame.
+
+        Raises `LinkageError` for what names no point, with the nearest name.
+        """
+        chain = self.mechanism.chain
+        if not isinstance(name, str):
+            return _point(self.mechanism, str(name), name)
+        if name in self.points:
+            return self.points[name]
+        number = chain.find_joint(name)
+        if number is None:
+            known = [*self.points, *chain.joint_names()]
+            raise LinkageError(
+                "there is no point {name!r}{suggestion}; known are {known}",
+                name=name,
+                suggestion=nearest(name, known),
+                known=", ".join(known),
+            )
+        link = next(link for link in chain.joints[number].links if link != self.mechanism.frame)
+        return link, self.places[number].at
 
     @cached_property
     def centre(self) -> Reals:
@@ -105,7 +182,8 @@ class SpatialLinkage(Immutable):
             replace(p, at=_vector(m[:3, :3] @ p.at + shift), x=turned(p.x), y=turned(p.y), z=turned(p.z))
             for p in self.places
         ]
-        return SpatialLinkage(self.mechanism, tuple(places), self.unit)
+        points = {n: (link, *(m[:3, :3] @ at + shift).tolist()) for n, (link, at) in self.points.items()}
+        return self._changed(tuple(places), points)
 
     def scaled(self, factor: float) -> SpatialLinkage:
         """Every length times a positive factor."""
@@ -119,14 +197,52 @@ class SpatialLinkage(Immutable):
         places = [
             replace(p, at=_vector(factor * np.array(p.at)), pitch=factor * p.pitch, radii=radii(p)) for p in self.places
         ]
-        return SpatialLinkage(self.mechanism, tuple(places), self.unit)
+        points = {n: (link, *(factor * np.array(at)).tolist()) for n, (link, at) in self.points.items()}
+        return self._changed(tuple(places), points)
+
+    def with_points(self, points: Mapping[str, Sequence[object]]) -> SpatialLinkage:
+        """The same linkage with these named points (link, x, y, z) besides its own."""
+        own = {name: (link, *at) for name, (link, at) in self.points.items()}
+        return self._changed(self.places, own | dict(points))
+
+    def with_drives(self, drives: Iterable[int | str]) -> SpatialLinkage:
+        """The same linkage with other drives."""
+        mechanism = Mechanism(self.mechanism.chain, self.mechanism.frame, drives)
+        own = {name: (link, *at) for name, (link, at) in self.points.items()}
+        return SpatialLinkage(mechanism, self.places, self.unit, points=own, outputs=self.outputs)
+
+    def _changed(self, places: tuple[JointPlace, ...], points: Mapping[str, Sequence[object]]) -> SpatialLinkage:
+        return SpatialLinkage(self.mechanism, places, self.unit, points=points, outputs=self.outputs)
 
     def _identity(self) -> tuple[object, ...]:
-        return self.mechanism, self.places, self.unit
+        return self.mechanism, self.places, self.unit, tuple(sorted(self.points.items())), self.outputs
 
     def __repr__(self) -> str:
         places = ("(" + ", ".join(f"{number:.6g}" for number in place.at) + ")" for place in self.places)
         return f"<{self.mechanism.chain.space} linkage {self.mechanism.text()}; {' '.join(places)}>"
+
+
+def _check_link(mechanism: Mechanism, link: str) -> None:
+    links = mechanism.chain.links
+    if link not in links:
+        raise LinkageError(
+            "there is no link {link!r}{suggestion}; the links are {links}",
+            link=link,
+            suggestion=nearest(link, links),
+            links=", ".join(links),
+        )
+
+
+def _point(mechanism: Mechanism, name: str, raw: Sequence[object]) -> tuple[str, Vector]:
+    given = list(raw) if isinstance(raw, Sequence) and not isinstance(raw, str) else [None]
+    link, *at = given
+    if not isinstance(link, str) or len(at) != 3:
+        raise LinkageError("{name}: expected a link and three coordinates, but found {raw!r}", name=name, raw=raw)
+    _check_link(mechanism, link)
+    numbers = [float(x) for x in at if isinstance(x, int | float | np.number) and isfinite(x)]
+    if len(numbers) != 3:
+        raise LinkageError("{name}: a point has finite coordinates, not {raw!r}", name=name, raw=raw)
+    return link, (numbers[0], numbers[1], numbers[2])
 
 
 def _vector(v: Reals) -> Vector:

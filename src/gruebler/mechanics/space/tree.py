@@ -1,0 +1,345 @@
+"""A spatial linkage cut open: a tree of joints, each a few turns and shifts, and rows that close what was cut."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Reals
+from gruebler.base.errors import LinkageError
+from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.mechanics.screws.rigid_motions import inverse_motion
+from gruebler.mechanics.space.wheels import GearRow, gear_rows, is_gear
+from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.spaces import Freedom, Space
+from gruebler.structure.mechanism.model import Drive
+
+OFFSET, ACROSS, LENGTH = range(3)
+"""Kinds of rows: a point offset along an axis of the first frame, an axis at right angles to an axis of the first
+frame, the distance of two balls."""
+
+
+class Tie(NamedTuple):
+    """A joint between two of its links; rods between two balls are a tie of their own, without freedoms."""
+
+    joint: int
+    first: int
+    second: int
+
+
+class Rod(NamedTuple):
+    """A link that only holds the distance of two balls: link, neighbours, joints."""
+
+    link: int
+    first: int
+    second: int
+    joints: tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TreeNode:
+    """One turn, shift or screw of a joint in the tree."""
+
+    parent: int
+    still: Reals
+    """The frame (4, 4) before it moves, seen from its parent's."""
+    axis: int
+    """0, 1, 2 for x, y, z."""
+    turn: float
+    """1 if it turns; 0."""
+    travel: float
+    """How far it shifts along its axis, in sizes for a unit of its value."""
+    sign: float
+
+
+class FrameOn(NamedTuple):
+    """A frame on a link: the node that carries it, and where it is seen from there."""
+
+    node: int
+    at: Reals
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ClosingRow:
+    """A closing condition between frames on two links."""
+
+    kind: int
+    first: FrameOn
+    second: FrameOn
+    axis: int = 0
+    other: int = 0
+    length: float = 0.0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ClosureTree:
+    """The nodes and rows of a linkage; lengths in units of its size, from its centre. TreeNode 0 is the frame."""
+
+    linkage: SpatialLinkage
+    nodes: tuple[TreeNode, ...]
+    rows: tuple[ClosingRow, ...]
+    gears: tuple[GearRow, ...]
+    links: tuple[FrameOn | None, ...]
+    """Where each link is; None for a rod."""
+    rods: tuple[Rod, ...]
+    unknown: dict[tuple[int, str], int]
+    """The unknown of each freedom (joint, direction) in the tree, of the joint's first other link."""
+    folds: tuple[int, ...]
+    """The first nodes of balls and free bodies: three turns that are counted from where the path is."""
+    drives: tuple[int, ...]
+    """The unknowns of the drives."""
+    signs: Reals
+    """(drives,) 1, or -1 where the frame is the second link of the drive's joint."""
+
+    @property
+    def unknowns(self) -> int:
+        """How many values the tree has."""
+        return len(self.nodes) - 1
+
+    @property
+    def scale(self) -> float:
+        """The length of a unit."""
+        return self.linkage.size
+
+
+@lru_cache(maxsize=64)
+def closure_tree(linkage: SpatialLinkage) -> ClosureTree:
+    """The tree of a linkage, in which drives, wheels and screws stay and joints with many freedoms are cut.
+
+    Raises `LinkageError` for contacts that roll or slide without being wheels on one carrier, and for drives of joints
+    that no tree holds together.
+
+    Cost O(joints²).
+    """
+    return _Builder(linkage).tree()
+
+
+def motions(pair: Pair, space: Space) -> tuple[Freedom, ...]:
+    """The freedoms of a pair in the order in which they follow each other from the first link to the second.
+
+    Shifts are those along axes of the first link and come first; a pair with a body between its links has them one
+    axis after the other.
+    """
+    free = pair.freedoms[space]
+    if pair.has_body_between:
+        return tuple(sorted(free, key=lambda freedom: freedom.axis))
+    turns = tuple(freedom for freedom in free if freedom.turns)
+    return tuple(freedom for freedom in free if freedom.travels) + turns
+
+
+class _Builder:
+    """Makes a tree; used once."""
+
+    def __init__(self, linkage: SpatialLinkage) -> None:
+        mechanism = linkage.mechanism
+        self.linkage, self.mechanism, self.chain = linkage, mechanism, mechanism.chain
+        self.space = self.chain.space
+        self.frames = linkage.frames.copy()
+        if self.space is not Space.SPHERICAL:
+            self.frames[:, :3, 3] = (self.frames[:, :3, 3] - linkage.centre) / linkage.size
+        self.gears = gear_rows(linkage)
+        self.rods = tuple(_rods(linkage))
+        self.nodes: list[TreeNode] = [TreeNode(parent=-1, still=np.eye(4), axis=0, turn=0.0, travel=0.0, sign=1.0)]
+        self.places: list[FrameOn | None] = [None] * self.chain.n
+        self.unknown: dict[tuple[int, str], int] = {}
+        self.folds: list[int] = []
+
+    def tree(self) -> ClosureTree:
+        kept, cut = self._split()
+        frame = self.chain.index(self.mechanism.frame)
+        self.places[frame] = FrameOn(0, np.eye(4))
+        self._grow(kept)
+        rows = [row for tie in cut for row in self._closing(tie)]
+        rows += [self._length(rod) for rod in self.rods]
+        drives = [self._driven(drive) for drive in self.mechanism.drives]
+        return ClosureTree(
+            linkage=self.linkage,
+            nodes=tuple(self.nodes),
+            rows=tuple(rows),
+            gears=self.gears,
+            links=tuple(self.places),
+            rods=self.rods,
+            unknown=self.unknown,
+            folds=tuple(self.folds),
+            drives=tuple(unknown for unknown, _ in drives),
+            signs=np.array([sign for _, sign in drives]),
+        )
+
+    # --- what is cut -----------------------------------------------------------------------------------------------
+
+    def _ties(self) -> list[Tie]:
+        left_out = {rod.link for rod in self.rods}
+        ties = []
+        for number, joint in enumerate(self.chain.joints):
+            if is_gear(self.linkage, number):
+                continue
+            first = self.chain.index(joint.links[0])
+            for name in joint.links[1:]:
+                second = self.chain.index(name)
+                if not left_out & {first, second}:
+                    ties.append(Tie(number, first, second))
+        return ties
+
+    def _split(self) -> tuple[list[Tie], list[Tie]]:
+        """The ties of the tree, and those that are cut (Kruskal's method)."""
+        held = {drive.joint for drive in self.mechanism.drives}
+        held |= {joint for gear in self.gears for joint, _ in gear.turns}
+
+        def cost(tie: Tie) -> tuple[bool, bool, int]:
+            pair = self.chain.joints[tie.joint].pair
+            return tie.joint not in held, not pair.has_pitch, pair.f(self.space)
+
+        group = list(range(self.chain.n))
+        kept: list[Tie] = []
+        cut: list[Tie] = []
+        for tie in sorted(self._ties(), key=cost):
+            a, b = group[tie.first], group[tie.second]
+            (cut if a == b else kept).append(tie)
+            group = [a if g == b else g for g in group]
+        for tie in cut:
+            if tie.joint in held:
+                raise LinkageError(
+                    "{joint}: the drives and the bearings of wheels make a loop of their own; one of them follows from "
+                    "the others",
+                    joint=self.chain.joint_title(tie.joint),
+                )
+        return kept, cut
+
+    # --- the tree --------------------------------------------------------------------------------------------------
+
+    def _grow(self, kept: list[Tie]) -> None:
+        left = list(kept)
+        rod_links = {rod.link for rod in self.rods}
+        while True:
+            while True:
+                reached = [t for t in left if (self.places[t.first] is None) != (self.places[t.second] is None)]
+                if not reached:
+                    break
+                left.remove(reached[0])
+                self._join(reached[0])
+            free = [k for k, place in enumerate(self.places) if place is None and k not in rod_links]
+            if not free:
+                return
+            self._float(free[0])
+
+    def _join(self, tie: Tie) -> None:
+        forward = self.places[tie.first] is not None
+        base = self.places[tie.first if forward else tie.second]
+        assert base is not None
+        end = self._moved(tie.joint, FrameOn(base.node, base.at @ self.frames[tie.joint]), forward, known=True)
+        at = end.at @ inverse_motion(self.frames[tie.joint])
+        self.places[tie.second if forward else tie.first] = FrameOn(end.node, at)
+
+    def _moved(self, joint: int, start: FrameOn, forward: bool, known: bool) -> FrameOn:
+        """Nodes for the freedoms of a joint; the frame that they carry."""
+        pair = self.chain.joints[joint].pair
+        steps = motions(pair, self.space)
+        pitch = self.linkage.places[joint].pitch / self.linkage.size
+        node, still = start.node, start.at
+        for freedom in steps if forward else steps[::-1]:
+            travel = 1.0 if freedom.travels else pitch if freedom.has_pitch else 0.0
+            self.nodes.append(
+                TreeNode(
+                    parent=node,
+                    still=still,
+                    axis="xyz".index(freedom.axis),
+                    turn=float(freedom.turns),
+                    travel=travel,
+                    sign=1.0 if forward else -1.0,
+                )
+            )
+            node, still = len(self.nodes) - 1, np.eye(4)
+            if known:
+                self.unknown.setdefault((joint, str(freedom)), node - 1)
+        if pair.is_ball:
+            self.folds.append(node - 2)
+        return FrameOn(node, still)
+
+    def _float(self, link: int) -> None:
+        """A body that only rods hold: free, from where it is."""
+        joints = [k for k, joint in enumerate(self.chain.joints) if self.chain.links[link] in joint.links]
+        at = np.eye(4)
+        at[:3, 3] = np.mean(self.frames[joints, :3, 3], axis=0)
+        still, node = at, 0
+        for axis, turn in ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)):
+            self.nodes.append(
+                TreeNode(parent=node, still=still, axis=axis, turn=float(turn), travel=1.0 - turn, sign=1.0)
+            )
+            node, still = len(self.nodes) - 1, np.eye(4)
+        self.folds.append(node - 2)
+        self.places[link] = FrameOn(node, inverse_motion(at))
+
+    # --- rows ------------------------------------------------------------------------------------------------------
+
+    def _on(self, link: int, joint: int) -> FrameOn:
+        place = self.places[link]
+        assert place is not None  # every link but the rods is in the tree
+        return FrameOn(place.node, place.at @ self.frames[joint])
+
+    def _closing(self, tie: Tie) -> Iterable[ClosingRow]:
+        pair = self.chain.joints[tie.joint].pair
+        first, second = self._on(tie.first, tie.joint), self._on(tie.second, tie.joint)
+        free = pair.freedoms[self.space]
+        if pair.has_pitch or pair.has_body_between:  # their values are unknowns, and then nothing may move
+            first, free = self._moved(tie.joint, first, True, known=False), ()
+        turns = ["xyz".index(freedom.axis) for freedom in free if freedom.turns]
+        shifts = {"xyz".index(freedom.axis) for freedom in free if freedom.travels}
+        if not turns:
+            across = [(0, 1), (0, 2), (1, 2)]
+        elif len(turns) == 1:
+            across = [(axis, turns[0]) for axis in range(3) if axis != turns[0]]
+        else:
+            across = [(turns[0], turns[1])] if len(turns) == 2 else []
+        for axis, other in across:
+            yield ClosingRow(kind=ACROSS, first=first, second=second, axis=axis, other=other)
+        if self.space is not Space.SPHERICAL:
+            for axis in range(3):
+                if axis not in shifts:
+                    yield ClosingRow(kind=OFFSET, first=first, second=second, axis=axis)
+
+    def _length(self, rod: Rod) -> ClosingRow:
+        first, second = self._on(rod.first, rod.joints[0]), self._on(rod.second, rod.joints[1])
+        length = float(np.linalg.norm(self.frames[rod.joints[1], :3, 3] - self.frames[rod.joints[0], :3, 3]))
+        return ClosingRow(kind=LENGTH, first=first, second=second, length=length)
+
+    # --- drives ----------------------------------------------------------------------------------------------------
+
+    def _driven(self, drive: Drive) -> tuple[int, float]:
+        joint = self.chain.joints[drive.joint]
+        unknown = self.unknown.get((drive.joint, drive.direction))
+        if unknown is None or joint.count > 1:
+            raise LinkageError(
+                "{joint}: only a joint of two links that is no rod's ball and no contact is driven in space",
+                joint=self.chain.joint_title(drive.joint),
+            )
+        return unknown, -1.0 if joint.links[1] == self.mechanism.frame else 1.0
+
+
+def _rods(linkage: SpatialLinkage) -> Iterable[Rod]:
+    """Links with two balls and nothing else, whose neighbours are other links than themselves and no rods."""
+    mechanism, chain = linkage.mechanism, linkage.mechanism.chain
+    driven = {drive.joint for drive in mechanism.drives}
+    taken: set[int] = set()
+    for number, link in enumerate(chain.links):
+        joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+        ends = [chain.joints[k] for k in joints]
+        if link == mechanism.frame or len(joints) != 2 or driven & {*joints} or chain.space is not Space.SPATIAL:
+            continue
+        if not all(end.pair.is_ball and len(end.links) == 2 for end in ends):
+            continue
+        first, second = (chain.index(next(name for name in end.links if name != link)) for end in ends)
+        apart = np.linalg.norm(np.subtract(linkage.places[joints[0]].at, linkage.places[joints[1]].at))
+        if first == second or taken & {first, second} or apart == 0:
+            continue
+        taken.add(number)
+        yield Rod(number, first, second, (joints[0], joints[1]))
+
+
+def whole_numbers(values: Sequence[int]) -> NDArray[np.intp]:
+    """Whole numbers as an index."""
+    return np.array(values, np.intp)

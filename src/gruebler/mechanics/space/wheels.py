@@ -1,0 +1,117 @@
+"""Wheels on a common carrier: how their turns go together, as a row that is linear in the values of their bearings.
+
+Pitch circles (on a sphere pitch cones) roll on each other: r₁ α + r₂ β = 0 for the turns against the carrier, α about
+the axis of the first wheel and β about that of the second, on the sphere with the sines of the cones' angles.
+"""
+
+from __future__ import annotations
+
+from math import sin
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.base.errors import LinkageError
+from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.structure.chain.spaces import Space
+
+_SAME = 1e-9  # sizes and cosines: axes that differ by more are not those of the wheels
+
+
+class GearRow(NamedTuple):
+    """A sum of weights times the values of turning joints that stays 0."""
+
+    joint: int
+    turns: tuple[tuple[int, float], ...]
+
+
+def is_gear(linkage: SpatialLinkage, joint: int) -> bool:
+    """Whether a joint is the contact of two wheels that do not slip."""
+    pair, place = linkage.mechanism.chain.joints[joint].pair, linkage.places[joint]
+    return pair.has_contours and (pair.rolls or place.pressure is not None)
+
+
+def gear_rows(linkage: SpatialLinkage) -> tuple[GearRow, ...]:
+    """A row for each contact of wheels; `LinkageError` for wheels without a common carrier, and for other contacts."""
+    chain = linkage.mechanism.chain
+    rows = []
+    for number, joint in enumerate(chain.joints):
+        if not joint.pair.has_contours:
+            continue
+        title = chain.joint_title(number)
+        if not is_gear(linkage, number):
+            raise LinkageError(
+                "{joint}: contours that slide on each other are not moved in space; wheels need the pressure angle of "
+                "their teeth",
+                joint=title,
+            )
+        if chain.space is Space.SPATIAL:
+            raise LinkageError("{joint}: wheels are moved in a plane or on a sphere", joint=title)
+        bearings = _bearings(linkage, number)
+        if not bearings:
+            raise LinkageError(
+                "{joint}: no link carries the axes of both wheels, directly or by joints on the same axes", joint=title
+            )
+        rows.append(GearRow(number, bearings))
+    return tuple(rows)
+
+
+def _bearings(linkage: SpatialLinkage, contact: int) -> tuple[tuple[int, float], ...]:
+    """The turning joints between both wheels and their carrier, with their weights; none without a carrier."""
+    chain, place = linkage.mechanism.chain, linkage.places[contact]
+    assert place.radii is not None  # checked with the linkage
+    radii = [sin(r) if chain.space is Space.SPHERICAL else r / linkage.size for r in place.radii]
+    if not np.isfinite(radii).all():
+        return ()
+    ways = [
+        _coaxial_ways(linkage, wheel, axis, radius)
+        for wheel, axis, radius in zip(chain.joints[contact].links, _axes(linkage, contact), radii, strict=True)
+    ]
+    arms = [arm for arm in ways[0] if arm in ways[1]]
+    if not arms:
+        return ()
+    arm = min(arms, key=lambda link: len(ways[0][link]) + len(ways[1][link]))
+    return (*ways[0][arm], *ways[1][arm])
+
+
+def _coaxial_ways(
+    linkage: SpatialLinkage, wheel: str, axis: Reals, weight: float
+) -> dict[str, tuple[tuple[int, float], ...]]:
+    """For each link that joints on the axis of a wheel lead to: their numbers, weighted by the turn against it."""
+    chain = linkage.mechanism.chain
+    along = {k: _along(linkage, k, axis) for k, joint in enumerate(chain.joints) if joint.pair.is_turning}
+    ways: dict[str, tuple[tuple[int, float], ...]] = {wheel: ()}
+    reached = [wheel]
+    for link in reached:
+        for k, joint in enumerate(chain.joints):
+            if not along.get(k) or link not in joint.links or len(joint.links) != 2:
+                continue
+            other = joint.links[joint.links[0] == link]
+            if other not in ways:
+                ways[other] = (*ways[link], (k, weight * along[k] * (1.0 if joint.links[1] == link else -1.0)))
+                reached.append(other)
+    del ways[wheel]
+    return ways
+
+
+def _axes(linkage: SpatialLinkage, contact: int) -> tuple[Reals, Reals]:
+    """Point and direction (2, 3) of each wheel's axis in the reference pose; on a sphere all meet in its centre."""
+    frame, radii = linkage.frames[contact], linkage.places[contact].radii
+    assert radii is not None
+    y, z = frame[:3, 1], frame[:3, 2]
+    if linkage.mechanism.chain.space is Space.SPHERICAL:
+        directions = z * np.cos(radii[0]) - y * np.sin(radii[0]), z * np.cos(radii[1]) + y * np.sin(radii[1])
+        return np.array([0 * z, directions[0]]), np.array([0 * z, directions[1]])
+    at = frame[:3, 3]
+    return np.array([at - radii[0] * y, z]), np.array([at + radii[1] * y, z])
+
+
+def _along(linkage: SpatialLinkage, joint: int, axis: Reals) -> int:
+    """1 if a turning joint has this axis, -1 if it points the other way, 0 if it lies elsewhere."""
+    frame = linkage.frames[joint]
+    point = frame[:3, 3] - axis[0]
+    aside = np.linalg.norm(point - (point @ axis[1]) * axis[1]) / linkage.size
+    cosine = float(frame[:3, 2] @ axis[1])
+    same = abs(abs(cosine) - 1) < _SAME and (linkage.mechanism.chain.space is Space.SPHERICAL or aside < _SAME)
+    return int(np.sign(cosine)) if same else 0
