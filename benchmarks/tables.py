@@ -18,7 +18,8 @@ from time import perf_counter
 import gruebler as gr
 from benchmarks.evidence import check_chains
 from gruebler.structure.assur import count_assur_groups
-from gruebler.structure.enumeration import Request
+from gruebler.structure.assur.modes import modes_of_trusses, sets_of_ends
+from gruebler.structure.enumeration import Request, edge_blocks
 from gruebler.structure.enumeration.counting import ChainCount
 from gruebler.structure.enumeration.epicyclic import count_epicyclic_trains
 from gruebler.structure.enumeration.run_request import run_count
@@ -97,6 +98,30 @@ def assur_groups(most: int | None = None) -> Rows:
         yield links, count_assur_groups(links)
 
 
+def assembly_modes(most: int | None = None) -> Rows:
+    """Complex assembly modes of the Baranov trusses: least, most and sum in the plane and on the sphere."""
+    yield "links", "trusses", "least", "most", "sum", "spherical_least", "spherical_most", "spherical_sum"
+    for links in range(3, min(13, most or 13) + 1, 2):
+        _, planar, spherical = zip(*_truss_modes(links), strict=True)
+        kinds = (planar, spherical)
+        yield links, len(planar), *(value for modes in kinds for value in (min(modes), max(modes), sum(modes)))
+
+
+def truss_modes(most: int | None = None) -> Rows:
+    """Every Baranov truss to 11 links with its assembly modes; joints as pairs of links."""
+    yield "links", "joints", "modes", "spherical_modes"
+    for links in range(3, min(11, most or 11) + 1, 2):
+        yield from ((links, *row) for row in _truss_modes(links))
+
+
+def _truss_modes(links: int) -> Iterator[tuple[str, int, int]]:
+    for block in edge_blocks(links, 0):
+        sets = sets_of_ends(block)
+        modes = (modes_of_trusses(links, sets, spherical=spherical).tolist() for spherical in (False, True))
+        for ends, planar, spherical in zip(block.tolist(), *modes, strict=True):
+            yield " ".join(f"{a}-{b}" for a, b in ends), planar, spherical
+
+
 def sliding(most: int | None = None) -> Rows:
     """Typed chains by the number of sliding joints, all other joints turning, all joints moving."""
     yield "mobility", "links", "sliding", "chains"
@@ -127,6 +152,8 @@ TABLES: dict[str, Callable[[int | None], Rows]] = {
         multiple_joints,
         sliding,
         assur_groups,
+        assembly_modes,
+        truss_modes,
         driven_by_class,
         epicyclic_trains,
         second_method,

@@ -26,6 +26,8 @@ def test_every_table_has_its_record():
         ("multiple_joints", 9),
         ("sliding", 6),
         ("assur_groups", 12),
+        ("assembly_modes", 11),
+        ("truss_modes", 11),
         ("driven_by_class", 10),
         ("epicyclic_trains", 6),
         pytest.param("second_method", 12, marks=pytest.mark.slow),

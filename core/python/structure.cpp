@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "doors.hpp"
+#include "structure/assembly_modes.hpp"
 #include "structure/groups.hpp"
 #include "structure/multiple_joints.hpp"
 #include "structure/sliding.hpp"
@@ -114,6 +115,41 @@ NewArray<std::int64_t> describe_groups(int n, const Array<std::uint8_t, -1, -1, 
     return hand_over<std::int64_t>(std::move(rows), {count, width});
 }
 
+// --- assembly modes
+
+NewArray<std::int64_t> count_modes(int n, const Array<std::int64_t, -1, -1>& trusses, bool spherical) {
+    expect(n >= 1 && n <= most_mode_links, "a truss has 1 to 21 links");
+    expect(trusses.shape(1) <= most_mode_joints, "a truss has at most 30 joints");
+    const std::size_t joints = trusses.shape(1);
+    for (std::size_t k = 0; k < trusses.shape(0); ++k) {
+        bool sound = true;
+        int held = 0;
+        for (std::size_t j = 0; j < joints; ++j) {
+            const std::int64_t joint = trusses.data()[k * joints + j];
+            const int links = joint > 0 ? bits::size(static_cast<bits::Word>(joint)) : 0;
+            sound = sound && joint < std::int64_t{1} << n && links >= 2;
+            held += 2 * (links - 1);
+        }
+        if (!sound || held != 3 * (n - 1))
+            throw nb::value_error(("truss " + std::to_string(k) + " has joints that are not sets of two or more of its links "
+                                   "or do not hold them by count").c_str());
+    }
+    std::vector<std::int64_t> modes;
+    run([&](Watch& watch) {
+        PlanarModes planar(spherical ? 1 : n);
+        for (std::size_t k = 0; k < trusses.shape(0); ++k) {
+            const std::int64_t* first = trusses.data() + k * joints;
+            const JointSets truss(first, first + joints);
+            const auto number = spherical ? count_spherical_modes(n, truss, watch) : planar.count(truss, watch);
+            if (!number) return false;
+            modes.push_back(*number);
+        }
+        return true;
+    });
+    const size_t count = modes.size();
+    return hand_over<std::int64_t>(std::move(modes), {count});
+}
+
 }  // namespace
 
 void add_structure(nb::module_& module) {
@@ -137,6 +173,10 @@ void add_structure(nb::module_& module) {
     module.def("describe_groups", describe_groups, nb::arg("n"), nb::arg("trusses").noconvert(),
                "The Assur groups of trusses of n links, each once: int64[m, 2 + 2 joints]: class, order, the joints in "
                "canonical order, 0 standing for a place outside.\n\ntrusses: uint8[k, joints, 2].");
+    module.def("count_modes", count_modes, nb::arg("n"), nb::arg("trusses").noconvert(), nb::arg("spherical"),
+               "The complex assembly modes of trusses of n links whose joints turn, at almost all dimensions, in the plane "
+               "or on the sphere: int64[k], 0 for a truss with an overconstrained part.\n\n"
+               "trusses: int64[k, joints], each joint a set of two links or more as bits.");
 }
 
 }  // namespace gruebler::doors

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "check.hpp"
+#include "structure/assembly_modes.hpp"
 #include "structure/groups.hpp"
 #include "structure/multiple_joints.hpp"
 #include "structure/sliding.hpp"
@@ -67,6 +68,18 @@ void assur_groups(Watch& watch) {
     expect(!rows.empty() && rows.size() % 14 == 0, "no groups of a truss");
 }
 
+// The triangle has two modes; 3-RR six in the plane (Hunt 1983), eight on the sphere (Gosselin 1994).
+void assembly_modes(Watch& watch) {
+    const JointSets triangle{3, 6, 5}, five{3, 5, 9, 18, 20, 24};
+    PlanarModes three(3), planar(5);
+    expect(three.count(triangle, watch) == 2 && count_spherical_modes(3, triangle, watch) == 2, "another triangle");
+    expect(planar.count(five, watch) == 6 && count_spherical_modes(5, five, watch) == 8, "other modes of 3-RR");
+    Watch impatient{never, nullptr, 1};
+    expect(!planar.count(five, impatient), "a count went on after it was to end");
+    Watch hurried{never, nullptr, 1};
+    expect(!count_spherical_modes(5, five, hurried), "a count went on after it was to end");
+}
+
 }  // namespace
 
 int main() {
@@ -74,5 +87,6 @@ int main() {
     multiple_joints(watch);
     sliding_joints(watch);
     assur_groups(watch);
-    std::printf("multiple joints, sliding joints, Assur groups\n");
+    assembly_modes(watch);
+    std::printf("multiple joints, sliding joints, Assur groups, assembly modes\n");
 }

@@ -15,7 +15,15 @@ FOUR_BAR = "R(0-1) R(1-2) R(2-3) R(3-0)"
 FIVE_BAR = "R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"
 
 DEFAULTS = {
-    assur: {"mechanism": None, "frame": None, "drive": [], "anywhere": False, "list": None, "count": False},
+    assur: {
+        "mechanism": None,
+        "frame": None,
+        "drive": [],
+        "anywhere": False,
+        "list": None,
+        "count": False,
+        "modes": False,
+    },
     extend: {"chain": None, "dyad": None, "coupler": None, "at_joints": False, "derivation": False, "count": False},
 }
 
@@ -181,3 +189,13 @@ def test_many_chains_are_summed_up_and_those_that_fail_are_named(capsys, tmp_pat
     assert lines[5] == "Chains: 51; --all lists them, --json has them."
     assert main(["check", str(path), "--all"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 52
+
+
+def test_assur_counts_modes(capsys):
+    """3-RR: six in the plane (Hunt 1983), eight on the sphere (Gosselin, Sefrioui and Richard 1994)."""
+    status, out = run(capsys, assur, list=4, modes=True, json=True)
+    assert status == 0
+    assert [(item["modes"], item["spherical_modes"]) for item in json.loads(out)["items"]] == [(6, 8), (6, 8)]
+    status, out = run(capsys, assur, mechanism="R(0-1) R(1-2) P(2-3) R(3-0); frame=0; drive=R(0-1)", modes=True)
+    assert status == 0
+    assert out.splitlines()[-1].split()[-2:] == ["-", "-"]

@@ -267,3 +267,29 @@ def test_any_trusses(core, n, data):
     rows = core.describe_groups(n, np.array([ends], np.uint8).reshape(1, -1, 2))
     assert 1 <= len(rows) <= n
     assert (rows[:, 2:] < n).all()
+
+
+@pytest.mark.parametrize(
+    ("n", "joints", "words"),
+    [
+        (0, [3], "1 to 21 links"),
+        (22, [3], "1 to 21 links"),
+        (3, [3, 6], "truss 0 has joints"),
+        (3, [3, 6, 8], "truss 0 has joints"),
+        (3, [3, 6, 1], "truss 0 has joints"),
+        (3, [3, 6, -3], "truss 0 has joints"),
+        (21, [3] * 31, "at most 30 joints"),
+    ],
+)
+def test_wrong_trusses_for_modes(core, n, joints, words):
+    with pytest.raises(ValueError, match=words):
+        core.count_modes(n, np.array([joints], np.int64), False)
+
+
+@given(st.sampled_from([3, 5, 7, 9]), st.booleans(), st.data())
+def test_any_joints_have_modes(core, n, spherical, data):
+    """Loose links and joints that stand there twice included."""
+    pairs = [1 << u | 1 << v for v in range(n) for u in range(v)]
+    joints = 3 * (n - 1) // 2
+    sets = data.draw(st.lists(st.sampled_from(pairs), min_size=joints, max_size=joints))
+    assert core.count_modes(n, np.array([sets], np.int64), spherical)[0] >= 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
@@ -13,9 +14,10 @@ from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_count, print_items
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.structure.assur import AssurGroup, Decomposition, SolvedGroup, decompose, drive_choices
+from gruebler.structure.assur import AssurGroup, Decomposition, SolvedGroup, count_modes, decompose, drive_choices
 from gruebler.structure.assur.forms import roman
 from gruebler.structure.assur.listing import GroupRow, count_assur_groups, expected_seconds_of_groups, group_rows
+from gruebler.structure.assur.modes import modes_of_rows
 from gruebler.structure.chain.pairs import Alphabet, pair
 from gruebler.structure.mechanism import Mechanism
 
@@ -28,7 +30,8 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="Decompose a mechanism into drives and Assur groups, in the order in which they are solved, with "
         "form, class and order. Without a drive, compare all drives. With --list, list all groups of a size.",
-        epilog="Examples: gruebler assur loader; gruebler assur --list 4 --count. Exit status: 0 the drives determine "
+        epilog="Examples: gruebler assur loader; gruebler assur --list 4 --count; gruebler assur --list 6 --modes. "
+        "Exit status: 0 the drives determine "
         "the motion, 1 they do not, 2 wrong usage or unreadable input.",
     )
     parser.take(
@@ -40,6 +43,7 @@ def add(parser: Parser) -> None:
         --anywhere  without a drive: also drives between moving links
         --list N int  list all groups with N links
         --count
+        --modes  also the number of assembly modes of each group, complex ones included, in the plane and on the sphere
         --yes
         """
     )
@@ -72,14 +76,42 @@ def run(arguments: argparse.Namespace) -> int:
     if not decomposition.complete:
         about["message"] = decomposition.message(arguments.lang)
     names = mechanism.chain.joint_names()
+    modes = [_modes_of(group.shape) for group in decomposition.groups] if arguments.modes else []
+
+    def show() -> None:
+        print_text(decomposition.explain(arguments.lang))
+        if modes:
+            print()
+            _show_modes(decomposition.groups, modes, arguments.lang)
+
+    keys = ("modes", "spherical_modes")
     print_items(
         arguments,
-        decomposition.groups,
-        lambda group: _item(group, names),
-        lambda: print_text(decomposition.explain(arguments.lang)),
+        list(enumerate(decomposition.groups)),
+        lambda item: _item(item[1], names) | (dict(zip(keys, modes[item[0]], strict=True)) if modes else {}),
+        show,
         about,
     )
     return int(not decomposition.complete)
+
+
+def _modes_of(group: AssurGroup) -> tuple[int | None, int | None]:
+    """In the plane and on the sphere; None where a joint does not turn."""
+    if not all(joint.pair.is_turning for joint in group.chain.joints):
+        return None, None
+    return count_modes(group), count_modes(group, spherical=True)
+
+
+def _show_modes(groups: Sequence[SolvedGroup], modes: list[tuple[int | None, int | None]], lang: str) -> None:
+    rows = [
+        (", ".join(group.links), *("-" if number is None else str(number) for number in numbers))
+        for group, numbers in zip(groups, modes, strict=True)
+    ]
+    print_table([translate("group", lang), *_mode_headers(lang)], rows, numbers=(1, 2))
+
+
+def _mode_headers(lang: str) -> list[str]:
+    return [translate("modes in the plane", lang), translate("modes on the sphere", lang)]
 
 
 def _verdict(decomposition: Decomposition) -> dict[str, Any]:
@@ -120,23 +152,33 @@ def _list_groups(arguments: argparse.Namespace) -> int:
         return 0
     ask_before(expected_seconds_of_groups(arguments.list), arguments.yes)
     rows = list(progress(group_rows(arguments.list), _PROGRESS.in_language(arguments.lang)))
+    modes: list[tuple[int, int]] = []
+    if arguments.modes:
+        modes = list(zip(modes_of_rows(rows), modes_of_rows(rows, spherical=True), strict=True))
+    keys = ("modes", "spherical_modes")
     print_items(
-        arguments, rows, lambda row: _group_item(row.group()), lambda: _list(rows, arguments.list, arguments.lang)
+        arguments,
+        list(enumerate(rows)),
+        lambda item: _group_item(item[1].group()) | (dict(zip(keys, modes[item[0]], strict=True)) if modes else {}),
+        lambda: _list(rows, modes, arguments.list, arguments.lang),
     )
     return 0
 
 
-def _list(groups: list[GroupRow], links: int, lang: str) -> None:
+def _list(groups: list[GroupRow], modes: list[tuple[int, int]], links: int, lang: str) -> None:
     alphabet = Alphabet.of_language(lang)
     symbol = pair("revolute").symbol(alphabet)
     rows = []
-    for group in groups:
+    for number, group in enumerate(groups):
         form = group.group() if links <= _NAMED else None
         named = "" if form is None or form.form == form.code else form.named(alphabet)
-        rows.append((named, roman(group.class_number), str(group.order), group.text(symbol)))
-    headers = [translate("form", lang), translate("class", lang), translate("order", lang), translate("group", lang)]
+        counted = map(str, modes[number]) if modes else ()
+        rows.append((named, roman(group.class_number), str(group.order), *counted, group.text(symbol)))
+    headers = [translate("form", lang), translate("class", lang), translate("order", lang)]
+    headers += [*(_mode_headers(lang) if modes else []), translate("group", lang)]
     first = 0 if any(form for form, *_ in rows) else 1  # groups of more than four links have no names
-    print_table(headers[first:], [row[first:] for row in rows], numbers=(2 - first,))
+    numbers = range(2 - first, len(headers) - first - 1)
+    print_table(headers[first:], [row[first:] for row in rows], numbers=numbers)
 
 
 def _compare(choices: list[Decomposition], lang: str) -> None:

@@ -18,6 +18,7 @@ from gruebler import _core
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.kernel_records import PIN, SLIDE, Conditions
+from gruebler.structure.assur.modes import MOST_JOINTS, MOST_LINKS, modes_of_trusses
 
 Row = tuple[int, int, int, complex, complex, complex, complex]
 Method = Literal["exact", "degenerate", "search"]
@@ -84,7 +85,7 @@ class AssemblyModes:
     """``exact``: these are all. ``search``: these were found. ``degenerate``: with these dimensions the conditions are
     dependent, or infinitely many poses satisfy them; the isolated ones found are listed."""
     bound: int | None = None
-    """No group of this kind has more, multiplicities and complex modes included; None if that is not known."""
+    """No group of this kind has more isolated ones, complex ones included; None if that is not known."""
     starts: int = 0
     """How often a search started."""
     hits: tuple[int, ...] = ()
@@ -322,7 +323,17 @@ def search_modes(group: GroupConditions, *, seed: int = 0, patience: int = 30, m
         poses=poses,
         multiplicities=multiplicities,
         method=method,
-        bound=None,
+        bound=_bound(group),
         starts=starts,
         hits=tuple(hits[k] for k in order),
     )
+
+
+def _bound(group: GroupConditions) -> int | None:
+    """The complex modes that almost all groups of these pins have; special ones have no more that are isolated."""
+    if (group.kinds == SLIDE).any():
+        return None
+    joints = (np.int64(1) << (group.owners + 1)).reshape(1, -1, 2).sum(axis=2)
+    if group.bodies >= MOST_LINKS or joints.size > MOST_JOINTS:
+        return None
+    return int(modes_of_trusses(group.bodies + 1, joints)[0]) or None
