@@ -17,7 +17,7 @@ inline constexpr int most_mode_joints = 30;  // on the sphere: two marks for eac
 using JointSets = std::vector<bits::Word>;
 
 // In the plane: points of a linear space and of the inverse of another one, by a recursion over minors of the matroid of
-// links. Memory of many such counts. Cost: 0.1 ms for 11 links, 0.4 ms for 13, 2 ms for 15.
+// links. Memory of many such counts. Cost: 0.3 ms for 11 links, 1.2 ms for 13.
 class PlanarModes {
 public:
     explicit PlanarModes(int links);
@@ -54,7 +54,7 @@ private:
 };
 
 // On the sphere: each joint has two marks on a conic, and the links hold cross-ratios of theirs; one link after another is
-// degenerated. Cost: 0.1 ms for 11 links. As for the plane.
+// degenerated. Cost: 0.3 ms for 11 links. As for the plane.
 std::optional<std::int64_t> count_spherical_modes(int links, const JointSets& joints, Watch& watch);
 
 }  // namespace gruebler::structure
