@@ -71,11 +71,13 @@ export class Bodies {
         const [x, y, r] = shape.circle;
         out.push(svg("circle", { class: style, cx: this.px(x), cy: this.px(-y), r: this.px(r) }));
       }
+      // one path, so that a ring is filled between its two lines
+      let d = "";
       for (const line of linesOf(sizes, shape)) {
-        let d = "M";
-        for (let k = 0; k + 1 < line.length; k += 2) d += `${k ? "L" : ""}${this.place(line[k]!, line[k + 1]!)}`;
-        out.push(svg("path", { class: shape.closed ? style : `${style} open`, d: shape.closed ? `${d}Z` : d }));
+        for (let k = 0; k + 1 < line.length; k += 2) d += `${k ? "L" : "M"}${this.place(line[k]!, line[k + 1]!)}`;
+        if (shape.closed) d += "Z";
       }
+      if (d) out.push(svg("path", { class: shape.closed ? style : `${style} open`, d }));
     }
     return out;
   }

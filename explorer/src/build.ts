@@ -464,7 +464,7 @@ export class BuildView implements View {
       const told = await this.page.ask<Told>("drawing", { joints, frame, drives });
       if (asked !== this.asked) return;
       const good = told.generic > 0 && told.generic === drives.length;
-      const text = t("{generic} freedoms, {drives} drives", { generic: told.generic, drives: drives.length });
+      const text = t("Mobility {generic}, drives: {drives}", { generic: told.generic, drives: drives.length });
       const offers = told.offers.map((offer) => this.offer(offer, numbers));
       const move = h("button", { class: "key", "data-act": "move", onclick: () => void this.open() }, t("Move it"));
       renew(

@@ -1,6 +1,7 @@
 /** A mechanism that is being drawn: places where links meet. Every change makes another drawing; nothing here knows the
  * browser. The library makes a linkage of its document. */
 
+import { t } from "./language";
 import type { LinkageDocument } from "./model";
 import type { Pair } from "./rows";
 
@@ -27,7 +28,6 @@ export interface Spot {
 }
 
 export const EMPTY: Drawing = { knots: [], frame: null, drives: [] };
-const GROUND = "frame";
 
 /** The links in the order in which they were drawn. */
 export function linksOf(drawing: Drawing): string[] {
@@ -88,13 +88,13 @@ export function withDyad(drawing: Drawing, from: Spot, middle: Spot, to: Spot): 
 
 /** The ground at a spot: what is there is joined to the frame. */
 export function withGround(drawing: Drawing, spot: Spot): Drawing {
-  const frame = drawing.frame ?? GROUND;
+  const frame = drawing.frame ?? t("frame");
   return reaching({ ...drawing, frame }, spot, frame);
 }
 
 /** A block at a spot that slides on the frame in a direction, in degrees. */
 export function withSlider(drawing: Drawing, spot: Spot, slide = 0): Drawing {
-  const frame = drawing.frame ?? GROUND;
+  const frame = drawing.frame ?? t("frame");
   const block = nextName(drawing);
   const made = reaching({ ...drawing, frame }, spot, block);
   const { at } = spot.knot === null ? spot : made.knots[spot.knot]!;

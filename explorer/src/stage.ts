@@ -15,6 +15,7 @@ import { type Box, Viewport } from "./viewport";
 /** What a style sheet says of an element, and a file on its own must. */
 const STYLES = [
   "fill",
+  "fill-rule",
   "stroke",
   "stroke-width",
   "stroke-linecap",

@@ -22,6 +22,7 @@ import {
   withoutLink,
   withSlider,
 } from "../src/drawing";
+import { setLanguage } from "../src/language";
 
 const place = (x: number, y: number): Spot => ({ at: [x, y], knot: null, link: null });
 const knot = (drawing: Drawing, number: number): Spot => ({ at: drawing.knots[number]!.at, knot: number, link: null });
@@ -111,4 +112,13 @@ test("open ends are points", () => {
     K1: { link: "1", at: [0, 0] },
     K2: { link: "1", at: [10, 0] },
   });
+});
+
+test("the ground has the name of the language in which it is drawn", () => {
+  setLanguage("de");
+  const drawn = withGround(EMPTY, place(0, 0));
+  setLanguage("en");
+  assert.equal(drawn.frame, "Gestell");
+  assert.equal(withGround(drawn, place(9, 0)).frame, "Gestell");
+  assert.equal(fourBar().frame, "frame");
 });

@@ -237,6 +237,21 @@ def test_every_planar_machine_plays_without_an_error(tab, single_file):
     assert len(machines) >= 61
 
 
+def test_a_ring_is_filled_between_its_lines(tab, single_file):
+    page = tab().open(single_file.as_uri())
+    page.page.evaluate("(model) => gruebler.open(model)", model_of(entries()["diff"].linkage()))
+    filled = page.page.evaluate(
+        """() => {
+        const ring = gruebler.motion.stage.root.querySelector('[data-link="sun2"] .shape.area');
+        const { x, y, width, height } = ring.getBBox();
+        // radii 60 and 62.08: the rim is 1.7 % of the width
+        const at = (part) => ring.isPointInFill(new DOMPoint(x + part * width, y + height / 2));
+        return [at(0.5), at(0.008), getComputedStyle(ring).fillRule, gruebler.motion.picture().includes('"evenodd"')];
+        }"""
+    )
+    assert filled == [False, True, "evenodd", True]
+
+
 def test_the_catalog_and_the_exercises(tab, server):
     page = tab(locale="de-DE").open(server.address)
     view = page.page
