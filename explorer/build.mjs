@@ -1,11 +1,22 @@
 // Builds the page into the folder given, else into the Python package: one ES module, no other files.
 
+import { readFile } from "node:fs/promises";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
-import { build } from "esbuild";
+import { build, transform } from "esbuild";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
+
+/** Style sheets become texts of the module: minified first, which esbuild leaves out for texts. */
+const styles = {
+  name: "styles",
+  setup: ({ onLoad }) =>
+    onLoad({ filter: /\.css$/ }, async ({ path: file }) => {
+      const { code } = await transform(await readFile(file, "utf8"), { loader: "css", charset: "utf8", minify: true });
+      return { contents: code.trim(), loader: "text" };
+    }),
+};
 
 await build({
   absWorkingDir: here,
@@ -17,5 +28,6 @@ await build({
   minify: true,
   charset: "utf8",
   legalComments: "none",
-  loader: { ".css": "text", ".gz": "binary" },
+  loader: { ".gz": "binary" },
+  plugins: [styles],
 });
