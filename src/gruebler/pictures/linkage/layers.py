@@ -195,10 +195,10 @@ def _transmission(context: LayerContext) -> list[Shape]:
     at, force, normal = min(pushed, key=lambda push: abs(cmath.phase(push[2] / push[1])))
     apex = posed.local(at)
     begin, extent = -cmath.phase(force), -cmath.phase(normal / force)
-    rays = [
-        (apex, ArcShape(apex, radius=_RAY, begin=begin, extent=extent, style="measure").place(part)) for part in (0, 1)
-    ]
-    arc = ArcShape(apex, radius=_ARC, begin=begin, extent=extent, style="measure")
+    inner, arc, outer = (
+        ArcShape(apex, radius=radius, begin=begin, extent=extent, style="measure") for radius in (RADIUS, _ARC, _RAY)
+    )
+    rays = [(inner.place(part), outer.place(part)) for part in (0, 1)]
     shapes: list[Shape] = [Polylines(tuple(rays), "measure"), arc]
     value = translate("μ = {angle:.1f}°", context.lang, angle=math.degrees(abs(extent)))
     return [*shapes, note_near(arc.place(0.5), value, "value", [*context.drawn, *shapes])]

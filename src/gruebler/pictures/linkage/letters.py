@@ -11,7 +11,7 @@ from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import ArcShape, Point, Polylines, Shape
-from gruebler.pictures.canvas.symbols import arrow_head
+from gruebler.pictures.canvas.symbols import RADIUS, arrow_head
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
@@ -66,7 +66,7 @@ def length_letters(context: LayerContext) -> list[Shape]:
         sides = list(_sides(posed, link))
         letter = next(letters) if sides else ""
         if link == mechanism.frame:
-            shapes += [Polylines((side,), "dead") for side in sides]
+            shapes += [Polylines((_between(*side),), "dead") for side in sides if _apart(*side)]
         for k, (p, q) in enumerate(sides, 1):
             text = letter if len(sides) == 1 else f"{letter}_{k}"
             shapes.append(note_near(p.plus(q.minus(p), 0.5), text, "name", [*context.drawn, *shapes]))
@@ -91,7 +91,7 @@ def angle_marks(context: LayerContext) -> list[Shape]:
         along = others[0].minus(at)
         turn = math.atan2(-along.y, along.x) % (2 * math.pi)
         arc = ArcShape(at, radius=radius, begin=0.0, extent=-turn, style="measure")
-        line = Polylines(((at, at.plus(Point(1.0, 0.0), radius + _BEYOND)),), "dead")
+        line = Polylines((_between(at, at.plus(Point(1.0, 0.0), radius + _BEYOND + RADIUS)),), "dead")
         head = [arrow_head(arc)] if turn > _SHORT else []
         shapes += [line, arc, *(Polylines(shape.parts, "dot", closed=True) for shape in head)]
         shapes.append(note_near(arc.place(0.5), letter, "name", [*context.drawn, *shapes]))
@@ -102,6 +102,17 @@ def _pin(posed: PosedLinkage, number: int) -> Point:
     link = posed.lower.mechanism.chain.joints[number].links[0]
     element = posed.lower.elements[number, link]
     return posed.place(LinkPoint(link, element.x, element.y))
+
+
+def _apart(p: Point, q: Point) -> bool:
+    """Whether there is a line between the circles of two joints."""
+    return q.minus(p).length > 2 * RADIUS
+
+
+def _between(p: Point, q: Point) -> tuple[Point, Point]:
+    """The line from one joint to another without what lies in their circles."""
+    share = RADIUS / q.minus(p).length
+    return p.plus(q.minus(p), share), p.plus(q.minus(p), 1 - share)
 
 
 def _sides(posed: PosedLinkage, link: str) -> Iterator[tuple[Point, Point]]:
