@@ -1,9 +1,13 @@
 """What the compiled module and its object files hold."""
 
 import ast
+import json
+import os
 import re
+import shlex
 import shutil
 import subprocess
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -86,3 +90,46 @@ def test_no_product_is_fused_with_a_sum(level):
     for file in files:
         code = subprocess.run(["objdump", "-d", file], capture_output=True, text=True, check=True).stdout
         assert not re.findall(r"\b(?:vfn?m(?:add|sub)|fn?m(?:add|sub|la|ls))\w*\s", code), file
+
+
+SWEEP = ROOT / "core" / "src" / "motion" / "sweep.cpp"
+
+
+def lane_loops():
+    """The line of each loop marked EACH_LANE, and how often it is compiled: templates for four orders."""
+    copies, found = 1, {}
+    for number, line in enumerate(SWEEP.read_text(encoding="utf-8").splitlines(), 1):
+        if line.startswith(("template", "}")):
+            copies = 4 if line.startswith("template <int order>") else 1
+        elif line.strip() == "EACH_LANE":
+            found[number + 1] = copies
+    return found
+
+
+def compilation(level):
+    """The command that compiles the sweep for a level, with the folder in which it is called; skips without it."""
+    try:
+        commands = json.loads((ROOT / "build" / "core" / "compile_commands.json").read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        pytest.skip("not built here")
+    for each in commands:
+        if Path(each["file"]) == SWEEP and f"/kernels{level}.dir/" in each["command"]:
+            return shlex.split(each["command"]), each["directory"]
+    pytest.skip("no such level here, or built from another folder")
+
+
+@pytest.mark.parametrize(("level", "width"), [("", 16), ("_v3", 32), ("_v4", 64)])
+def test_loops_of_the_sweep_are_vectorised(level, width):
+    """By the report of the compiler itself; a branch or a call too many in a lane, and they go one by one."""
+    command, folder = compilation(level)
+    version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=False).stdout
+    if "Free Software Foundation" not in version or "-O3" not in command:
+        pytest.skip("asks GCC, and what it optimises")
+    command[command.index("-o") + 1] = os.devnull
+    report = subprocess.run(
+        [*command, "-S", "-fopt-info-vec-optimized"], cwd=folder, capture_output=True, text=True, check=True
+    ).stderr
+    seen = Counter(re.findall(rf"sweep\.cpp:(\d+):\d+: optimized: +loop vectorized using {width} byte vectors", report))
+    loops = lane_loops()
+    assert loops
+    assert {line: copies for line, copies in loops.items() if seen[str(line)] < copies} == {}
