@@ -199,5 +199,5 @@ def test_the_front_door_is_light():
 
 
 def test_the_front_door_has_no_other_names():
-    with pytest.raises(AttributeError, match=r"attribute chian"):
+    with pytest.raises(AttributeError, match=r"attribute 'chian'"):
         gruebler.chian  # noqa: B018

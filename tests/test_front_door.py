@@ -51,6 +51,21 @@ def test_every_name_opens_and_is_listed_once():
     assert len([name for node in names_by_room() if node.module for name in node.names]) <= 54
 
 
+def test_another_name_says_which_was_meant():
+    for wrong, meant in {"synthesize": "synthesise", "mov": "move", "Fourbar": "FourBar"}.items():
+        with pytest.raises(AttributeError) as caught:
+            getattr(gr, wrong)
+        assert str(caught.value) == f"gruebler has no attribute {wrong!r} (did you mean {meant!r}?)"
+        assert caught.value.obj is None  # else Python adds its own suggestion
+    assert not hasattr(gr, "__wrapped__")
+
+
+def test_the_text_of_a_long_chain_is_read():
+    text = " ".join(f"R(link{k}-link{(k + 1) % 40})" for k in range(40))
+    assert len(text) > 255  # longer than the name of a file may be
+    assert gr.read(text) == gr.Chain.parse(text)
+
+
 @pytest.mark.parametrize("lengths", SHORTHANDS, ids=lambda lengths: type(lengths).__name__)
 def test_lengths_are_taken_wherever_a_linkage_is(lengths, tmp_path):
     linkage = lengths.linkage()
@@ -183,6 +198,11 @@ MISTAKES = [
     (lambda: gr.write(CHAIN, "x.toml"), "chains go to .json, .txt or .g6, not '.toml'"),
     (lambda: gr.read("four-bar:25,70,40,70:3"), "four-bar: expected numbers a,b,c,d, but found '25,70,40,70:3'"),
     (lambda: gr.read("four-bar"), "'four-bar' is no file and no entry of the catalog; lengths are written"),
+    (lambda: gr.read(""), "no file is named; expected a file, a catalog entry"),
+    (lambda: gr.read(".."), ".. is a folder; expected a file"),
+    (lambda: gr.read(Path()), ". is a folder; expected a file"),
+    (lambda: gr.write(CRANK_ROCKER, Path.cwd()), " is a folder; expected a file"),
+    (lambda: gr.read("a" * 5000), "is no file and no entry of the catalog"),
     (lambda: gr.read(7), "path: expected a text or PathLike, but found 7"),
     (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .txt, .g6,"),
     (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),

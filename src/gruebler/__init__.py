@@ -28,7 +28,18 @@ if TYPE_CHECKING:
     from gruebler.mechanics.kinematics.motion import Motion
 
 __version__ = "0.2.0"
-__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
+_opened, __dir__, __all__ = attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> Any:
+    """A name of the front door, loaded; of another one it is said which was meant."""
+    if name in __all__:
+        return _opened(name)
+    from gruebler.base.errors import nearest
+
+    suggestion = "" if name.startswith("_") else nearest(name, __all__)
+    # Without `obj`: with it Python would suggest the name a second time.
+    raise AttributeError(f"gruebler has no attribute {name!r}{suggestion}", name=name)
 
 
 def _picture(value: object) -> str:

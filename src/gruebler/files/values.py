@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
@@ -74,6 +75,7 @@ def read(path: str | PathLike[str], *, format_name: str | None = None, left_out:
     Raises `GrueblerError` that names the file and what does not fit. docs/theory/formats.md has every format.
     """
     path = Path(path)
+    refuse_folder(path)
     form = format_of(path, format_name)
     if form.read is None:
         raise GrueblerError("{path}: the format {name} is written only", path=path, name=form.name)
@@ -81,6 +83,12 @@ def read(path: str | PathLike[str], *, format_name: str | None = None, left_out:
     value = form.read(path, notes)
     _say(notes, left_out, message("{path}: not read: {items}", path=path, items=joined(notes, "; ")))
     return value  # type: ignore[no-any-return]
+
+
+def refuse_folder(path: Path) -> None:
+    """An error where a folder stands for a file."""
+    if os.path.isdir(path):  # noqa: PTH112  Path.is_dir refuses long names
+        raise GrueblerError("{path} is a folder; expected a file", path=path)
 
 
 def _say(notes: list[Message], left_out: list[Message] | None, text: Message) -> None:
@@ -134,6 +142,7 @@ def _written(value: object, path: str | PathLike[str], format_name: str | None, 
     from gruebler.mechanics.linkages.conversion import makes_linkage
 
     path = Path(path)
+    refuse_folder(path)
     if makes_linkage(value):
         value = value.linkage()
     _check_kind(value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -53,6 +54,8 @@ def read(
     Theory:
         docs/theory/formats.md
     """
+    if isinstance(path, str) and not path.strip():
+        raise GrueblerError("no file is named; expected a file, a catalog entry, lengths or a chain, not an empty text")
     if isinstance(path, str) and format_name is None and not _is_file(path):
         return _of_word(path)
     return values.read(path, format_name=format_name, left_out=left_out)
@@ -60,10 +63,11 @@ def read(
 
 def _is_file(word: str) -> bool:
     """Whether a word is the name of a file: one that is there, or by its ending or folder."""
+    there = os.path.isfile(word)  # noqa: PTH113  Path.is_file refuses long texts
+    if there or "(" in word or ":" in word or size_of(word) is not None:
+        return there
     path = Path(word)
-    if "(" in word or ":" in word or size_of(word) is not None:
-        return "\0" not in word and path.is_file()
-    return path.suffix != "" or len(path.parts) != 1 or path.is_file()
+    return path.suffix != "" or len(path.parts) != 1
 
 
 def _of_word(word: str) -> Value | Mechanism:
@@ -80,6 +84,7 @@ def _of_word(word: str) -> Value | Mechanism:
     if word not in known and ":" in word and " " in word:
         return read_train(word)
     if word not in known:
+        values.refuse_folder(Path(word))
         kind = word.partition(":")[0]
         raise GrueblerError(
             "{word!r} is no file and no entry of the catalog{suggestion}; lengths are written {forms}",
