@@ -71,9 +71,27 @@ QUANTITIES: dict[str, tuple[DerivedUnit, int, str]] = {
     "torsional damping": (DerivedUnit(1.0, 1, 2, -1), 1, "0.2 N m s"),
     "speed": (DerivedUnit(1.0, 0, 0, -1), 0, "3000 rpm"),
     "angle": (DerivedUnit(1.0), 0, "30 deg"),
+    "velocity": (DerivedUnit(1.0, 0, 1, -1), 1, "0.2 m/s"),
     "acceleration": (DerivedUnit(1.0, 0, 1, -2), 0, "9.81 m/s2"),
 }
 """Of each quantity: its unit, its power of the linkage's unit of length (forces stay newtons), an example."""
+_WRITTEN = {
+    "mass": "kg",
+    "inertia": "kg {unit}2",
+    "density": "kg/{unit}3",
+    "length": "{unit}",
+    "force": "N",
+    "moment": "N {unit}",
+    "stiffness": "N/{unit}",
+    "damping": "N s/{unit}",
+    "torsional stiffness": "N {unit}/rad",
+    "torsional damping": "N {unit} s",
+    "speed": "rad/s",
+    "angle": "rad",
+    "velocity": "{unit}/s",
+    "acceleration": "m/s2",
+}
+"""The unit in which each quantity is kept in a linkage whose unit of length is ``unit``."""
 _FORM = re.compile(r"\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?)\s*(.*?)\s*")
 _FACTOR = re.compile(r"([/*·]?)\s*(°|[A-Za-z]+)(?:\^?([0-9]|[²³]))?\s*")
 _SMALL = {"²": 2, "³": 3, None: 1}
@@ -125,7 +143,20 @@ def quantity_of(name: str, word: str, quantity: str, unit: str) -> float:
             example=example,
             found=word,
         )
-    return float(f"{float(form[1]) * written.factor / (metres_of(unit) ** lengths if lengths else 1.0):.15g}")
+    scale = written.factor / (metres_of(unit) ** lengths if lengths else 1.0)
+    number = float(form[1])
+    return number if scale == 1.0 else float(f"{number * scale:.15g}")  # what `quantity_text` writes comes back exactly
+
+
+def quantity_text(value: float, quantity: str, unit: str) -> str:
+    """A quantity as a text with its unit, from which `quantity_of` reads the same number.
+
+    >>> quantity_text(2.0, "stiffness", "mm"), quantity_text(0.25, "mass", "mm"), quantity_text(600.0, "inertia", "mm")
+    ('2.0 N/mm', '0.25 kg', '600.0 kg mm2')
+    """
+    if QUANTITIES[quantity][1]:
+        metres_of(unit)
+    return f"{float(value)!r} {_WRITTEN[quantity].format(unit=unit)}"
 
 
 def _unit_of(name: str, text: str, word: str) -> DerivedUnit:

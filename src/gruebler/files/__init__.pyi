@@ -1,5 +1,7 @@
 from .catalog_records import Case, ClaimedGroup, Claims, Entry, Exercise, read_entry, read_exercise
-from .linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage, write_linkage
+from .linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage, read_loads, write_linkage
+from .load_reading import loads_from_json
+from .load_writing import loads_to_json
 from .tasks import read_task, task_from_json, task_to_json, write_task
 from .values import convert, read, write
 
@@ -13,10 +15,13 @@ __all__ = [
     "linkage_from_json",
     "linkage_to_json",
     "linkage_to_toml",
+    "loads_from_json",
+    "loads_to_json",
     "read",
     "read_entry",
     "read_exercise",
     "read_linkage",
+    "read_loads",
     "read_task",
     "task_from_json",
     "task_to_json",

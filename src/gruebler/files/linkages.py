@@ -8,18 +8,22 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.files.element_records import write_element
 from gruebler.files.linkage_records import Dimensions, linkage_from_record
+from gruebler.files.load_records import LoadsRecord
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.elements import Line
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from gruebler.mechanics.forces.loads import Loads
 
 _LONGEST = 50_000  # characters of the joints; a linkage of a thousand links fits
 
@@ -32,6 +36,7 @@ class LinkageRecord(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only
     frame: str | None = None
     drives: tuple[str, ...] | None = None
     outputs: tuple[str, ...] | None = None
+    loads: LoadsRecord | None = None
 
 
 def read_linkage(path: Path | str) -> Linkage:
@@ -51,6 +56,21 @@ def read_linkage(path: Path | str) -> Linkage:
         )
     try:
         return linkage_from_json(data)
+    except LinkageError as error:
+        raise LinkageError("{path}: {error}", path=path, error=error) from None
+
+
+def read_loads(path: Path | str) -> Loads:
+    """The loads in the file of a linkage; none if it has no table ``[loads]``.
+
+    Raises `LinkageError` with file and key of the first thing that does not fit.
+    """
+    from gruebler.files.load_reading import loads_from_json
+
+    linkage, path = read_linkage(path), Path(path)
+    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    try:
+        return loads_from_json(data.get("loads", {}), linkage)
     except LinkageError as error:
         raise LinkageError("{path}: {error}", path=path, error=error) from None
 
@@ -104,8 +124,8 @@ def _driven(chain: Chain, frame: str, drives: tuple[str, ...]) -> Mechanism:
         raise LinkageError("drives: {error}", error=error) from None
 
 
-def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
-    """Plain data for `json.dumps`; `linkage_from_json` takes it back exactly."""
+def linkage_to_json(linkage: Linkage, loads: Loads | None = None) -> dict[str, Any]:
+    """Plain data for `json.dumps`; `linkage_from_json` takes it back exactly, `read_loads` the loads of a file."""
     mechanism = linkage.mechanism
     chain, names = mechanism.chain, mechanism.chain.joint_names()
     document: dict[str, Any] = {"unit": linkage.unit, "joints": chain.text()}
@@ -127,10 +147,14 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
         document["reference_pose"] = {
             link: write_element(Line(place.x, place.y, place.angle)) for link, place in linkage.reference_pose.items()
         }
+    if loads is not None:
+        from gruebler.files.load_writing import loads_to_json
+
+        document["loads"] = loads_to_json(loads, linkage)
     return document
 
 
-def linkage_to_toml(linkage: Linkage) -> str:
+def linkage_to_toml(linkage: Linkage, loads: Loads | None = None) -> str:
     """The text of a TOML file; `read_linkage` takes it back exactly.
 
     >>> from gruebler.mechanics.fourbar import FourBar
@@ -152,11 +176,15 @@ def linkage_to_toml(linkage: Linkage) -> str:
     "R(frame-rocker)" = [0.0, 0.0]
     <BLANKLINE>
     """
-    document = linkage_to_json(linkage)
+    document = linkage_to_json(linkage, loads)
+    acting = document.pop("loads", {})
+    inner = {f"loads.{key}": acting.pop(key) for key in tuple(acting) if isinstance(acting[key], dict)}
     tables = {
         "points": document.pop("points"),
         **{f"elements.{toml_key(link)}": elements for link, elements in document.pop("elements").items()},
         "reference_pose": document.pop("reference_pose", {}),
+        "loads": acting,
+        **inner,
     }
     lines = [f"{key} = {toml_value(value)}" for key, value in document.items()]
     for name, table in tables.items():
@@ -188,14 +216,14 @@ def check_linkage_path(path: Path) -> None:
         raise LinkageError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
-def write_linkage(path: Path | str, linkage: LinkageLike) -> None:
-    """Write a ``.toml`` or ``.json`` file; it appears whole or not at all."""
+def write_linkage(path: Path | str, linkage: LinkageLike, loads: Loads | None = None) -> None:
+    """Write a ``.toml`` or ``.json`` file, with loads if given; it appears whole or not at all."""
     path = Path(path)
     check_linkage_path(path)
     linkage = as_linkage(linkage)
     if path.suffix.lower() == ".toml":
-        text = linkage_to_toml(linkage)
+        text = linkage_to_toml(linkage, loads)
     else:
-        text = json.dumps(linkage_to_json(linkage), ensure_ascii=False, indent=2) + "\n"
+        text = json.dumps(linkage_to_json(linkage, loads), ensure_ascii=False, indent=2) + "\n"
     with atomic_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))
