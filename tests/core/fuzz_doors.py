@@ -1,0 +1,211 @@
+"""Calls of every door of the core that are wrong, senseless or huge, for test_doors.py.
+
+A door answers or raises TypeError, ValueError or MemoryError in words, and hears a signal. Each call is told
+before it is made, by the number of what is changed: after a crash the last line says which it was.
+"""
+
+import copy
+import resource
+import signal
+import sys
+import time
+import warnings
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+
+import gruebler as gr
+from gruebler import _core
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.kinematics.assembly_modes import GroupSolver, conditions
+from gruebler.mechanics.kinematics.kernel_records import Conditions
+from tests.samples import CLASS_III
+
+ROOM = 1 << 30  # bytes, beyond those that are taken: a call that wants more gets MemoryError
+PATIENCE = 0.02  # seconds of the processor until a call that is still at work gets a signal
+LATEST = 10.0  # seconds of the processor until it must have heard it, in a build with sanitizers too
+
+THETA = np.zeros((1, 16), np.int64)
+THETA[0, :2] = 3 << 4, 3
+RING = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+PAIRS = np.array([[3, 6, 12, 9]])
+PIN = Conditions(
+    np.zeros(1, np.int64), np.zeros((1, 8)), np.zeros((0, 14)), np.array([-1, 0]),
+    np.zeros((2, 1), complex), np.ones(2, complex), np.zeros((0, 3)), 1.0,
+)  # fmt: skip
+DYAD = GroupSolver(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))._conditions
+CURVE = np.zeros(4), np.zeros((4, 3)), np.eye(4, 3), np.zeros(4)
+ROWS = np.array([0, 2, 3]), np.array([0, 1, 1]), np.array([1, 2, 3])
+UNKNOWNS, TASK = np.ones((3, 8), complex), np.ones((4, 8), complex)
+
+
+def recorded(name, work):
+    """The arguments of the first call of a door while a function works."""
+    with mock.patch.object(_core, name, wraps=getattr(_core, name)) as door:
+        work()
+    return tuple(np.ascontiguousarray(a) if isinstance(a, np.ndarray) else a for a in door.call_args_list[0].args)
+
+
+def motion(linkage):
+    return recorded("run_path", lambda: gr.move(linkage, np.linspace(0.8, 1, 12), speed=1.0))
+
+
+def designs():
+    linkages = [FourBar(25, 70, 40, last).linkage() for last in (70, 71)]
+    return recorded("run_designs", lambda: gr.move_many(linkages, np.linspace(0.8, 1, 12), threads=1))
+
+
+def grow_joints(many, *arguments):
+    search = _core.MultipleJoints(*arguments)
+    search.next(many)
+    return search.next(many)
+
+
+def good_calls():
+    """A sound call of each door, by the name of the door."""
+    yield "level_names", ()
+    yield "take_census", (THETA, 2, 1, True)
+    yield "add_loop", (THETA, 2, 0, 100)
+    yield "list_chains", (THETA, 2, 1)
+    yield "list_graph6", (THETA, 2, 1)
+    yield "write_graph6", (RING[None].astype(np.uint8), 4)
+    yield "canonical_rows", (THETA[0],)
+    yield "find_automorphisms", (THETA[0],)
+    yield "canonical_form", (4, np.zeros(4, np.int64), RING.astype(np.int32), np.zeros(4, np.int32))
+    yield "canonical_bulk", (4, RING.astype(np.int32), np.array([0, 4]))
+    yield "run_path", motion(FourBar(25, 70, 40, 70).linkage())
+    yield "run_path", motion(CLASS_III)
+    yield "run_designs", designs()
+    yield "closing", (DYAD, np.zeros(6), np.zeros(6), np.zeros((6, 6)))
+    yield "newton", (DYAD, np.ones(6), 5)
+    yield "close_near_singular", (DYAD, np.ones(6))
+    yield "jacobian", (PIN, np.zeros(3))
+    yield "settle_on_curve", (PIN, np.zeros(3), np.eye(3)[2])
+    yield "trace_curve", (PIN, CURVE, 1, 0.1, 0.2, 1.0)
+    yield "evaluate_pose", (PIN, CURVE, np.zeros(1), np.zeros(1, np.int64), np.zeros((1, 3)), np.zeros((1, 3)))
+    yield "MultipleJoints", (9, 4, PAIRS, 0, 2, 9)
+    yield "count_sliding", (np.ones((2, 4, 3), np.int64), 4, np.arange(4), 1, np.arange(4)[None])
+    yield "describe_groups", (4, RING[None].astype(np.uint8))
+    yield "count_modes", (3, np.array([[3, 5, 6]]), False)
+    yield "count_modes", (3, np.array([[3, 5, 6]]), True)
+    yield "track", (UNKNOWNS, TASK, TASK * 2, 0, 8, 1e-3)
+    yield "refine_solutions", (UNKNOWNS, TASK, 0, 8)
+    yield "certify", (UNKNOWNS, TASK, 0, 8)
+    yield "evaluate_equations", (UNKNOWNS, TASK, 0, 8)
+    yield "eliminate", (*ROWS, 2, 1e9, 1e9)
+    yield "solve_back", (np.array([0]), np.array([0, 1]), np.array([1]), np.array([5]), np.ones((2, 1), np.int64))
+    yield "reduce", (np.arange(6).reshape(2, 3),)
+    layout = np.array([[0.0, 0], [1, 0], [0, 1]]), RING[:2], np.ones(2), np.array([[0, 2], [1, 0]])
+    yield "relax", (*layout, np.arange(3)[None], np.eye(2)[None], 2, 5)
+    yield "closest", (*layout[:2], layout[3])
+    yield "crossing_segments", layout[:2]
+    chain = np.zeros(1, np.int64), np.array([4]), RING[None].astype(np.int32), np.zeros((1, 4), np.int32)
+    ring = (4, 1, 1, *chain, np.frombuffer(b"RP", np.uint8))
+    yield "describe_chains", ring
+    _, ends, text, *_ = _core.describe_chains(*ring)
+    yield "list_mechanisms", (4, 4, text, ends, True)
+
+
+WHOLE = (-(2**63), -(2**31), -2, -1, 0, 1, 2, 3, 5, 9, 16, 33, 63, 64, 1000, 10**6, 2**31 - 1, 2**31, 2**62, 2**63 - 1)
+REAL = (0.0, -1.0, 0.5, 1e-320, 1e160, 1e308, np.inf, -np.inf, np.nan)
+KINDS = (np.int32, np.int64, np.uint8, np.uint64, np.float32, np.float64, np.complex128, object, "U3")
+
+
+def other_shapes(array):
+    yield from (array[None], array.ravel(), array[..., None], array[:0], array[:1], array[..., :0].copy())
+    yield from (array[..., :-1].copy(), array[..., ::-1], array.T, np.asfortranarray(array), array[()].copy()[None][:0])
+    for axis in range(array.ndim):
+        yield np.concatenate([array] * 2, axis)
+        yield np.repeat(array, 40, axis)
+    yield np.zeros((0,) * array.ndim, array.dtype)
+    if len(array):
+        yield np.broadcast_to(array[:1], (3, *array.shape[1:]))
+
+
+def other_numbers(array, random):
+    """The numbers all replaced, and one of them."""
+    limits = np.iinfo(array.dtype) if array.dtype.kind in "iu" else None
+    numbers = [k for k in WHOLE if limits.min <= k <= limits.max] if limits else REAL
+    for number in numbers:
+        yield np.full_like(array, number)
+        if array.size:
+            one = array.copy()
+            one.flat[random.integers(array.size)] = number
+            yield one
+
+
+def changes(value, random):
+    """What may stand in place of a value, wrong or not."""
+    yield from (None, "x", b"x", [], (), 1.5, {}, np.float64(2), object())
+    if isinstance(value, np.ndarray):
+        yield value.tolist()
+        with warnings.catch_warnings(action="ignore"):  # numbers are lost, so they shall be
+            yield from (value.astype(kind) for kind in KINDS)
+        yield from other_shapes(value)
+        yield from other_numbers(value, random)
+        locked = value.copy()
+        locked.setflags(write=False)
+        yield locked
+    elif isinstance(value, tuple):
+        yield from (tuple(value)[:-1], (*value, None), list(value))
+        for k, field in enumerate(value):
+            yield from ((*value[:k], other, *value[k + 1 :]) for other in changes(field, random))
+    elif isinstance(value, float):
+        yield from REAL
+    else:
+        yield from (*WHOLE, 2**63, 2**64, -(2**70), np.nan, True)
+
+
+class Heard(Exception):
+    """A signal came while a door was at work."""
+
+
+def hear(*_):
+    raise Heard
+
+
+def tried(door, arguments):
+    """How a call ended; anything but an answer, an error in words or a heard signal is raised."""
+    arguments = copy.deepcopy(arguments)
+    began = time.process_time()
+    try:
+        signal.setitimer(signal.ITIMER_PROF, PATIENCE, PATIENCE)
+        try:
+            door(*arguments)
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0)
+    except (TypeError, ValueError, MemoryError) as error:
+        return "refused" if str(error) else "without words"
+    except Heard:
+        assert time.process_time() - began < LATEST, "no signal was heard"
+        return "long"
+    return "answered"
+
+
+def main(pairs, *doors):
+    """Every change of one argument, and so many changes of two, at all doors or those named."""
+    random = np.random.default_rng(27)
+    signal.signal(signal.SIGPROF, hear)
+    calls = [(name, good) for name, good in good_calls() if name in doors or not doors]
+    taken = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (taken + ROOM, taken + ROOM))
+    for name, good in calls:
+        door = grow_joints if name == "MultipleJoints" else getattr(_core, name)
+        ends = {"answered": 0, "refused": 0, "long": 0}
+        alternatives = [list(changes(value, random)) for value in good]
+        tries = [{k: other} for k, others in enumerate(alternatives) for other in others]
+        for _ in range(pairs if len(good) > 1 else 0):
+            both = random.choice(len(good), 2, replace=False)
+            tries.append({k: alternatives[k][random.integers(len(alternatives[k]))] for k in both.tolist()})
+        for number, changed in enumerate(({}, *tries)):
+            print(f"  {name}, call {number}, other arguments {list(changed)}", flush=True)
+            end = tried(door, tuple(changed.get(k, value) for k, value in enumerate(good)))
+            assert end in ends, end
+            assert changed or end == "answered", "a sound call is refused"
+            ends[end] += 1
+        print(name, *(f"{count} {end}" for end, count in ends.items()), flush=True)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), *sys.argv[2:])
