@@ -97,7 +97,6 @@ void place_turn(const BodyRows& near_rows, BodyRows& far_rows, Complex near_poin
                 const double (*values)[lanes], int count) {
     alignas(64) double x[lanes], y[lanes];
     int small = 0;
-    EACH_LANE
     for (int i = 0; i < count; ++i) small += fabs(sign * values[0][i]) < reduced;
     if (small == count) {
         EACH_LANE
@@ -288,7 +287,6 @@ std::int64_t trusted(const double* roots, std::int64_t row, std::int64_t end) {
     const double* root = roots + row;
     const int count = static_cast<int>(end - row);
     int good = 0;
-    EACH_LANE
     for (int i = 0; i < count; ++i) good += goes_on(root[i], root[i - 1], root[i - 2]);
     if (good == count) return end;
     int i = 0;
@@ -304,7 +302,6 @@ std::int64_t near(const Path& path, const double* most, std::int64_t row, std::i
         const int count = static_cast<int>(end - row);
         constexpr double faster = 1.5;  // that of `steady`
         int good = 0;
-        EACH_LANE
         for (int i = 0; i < count; ++i) {
             const double change = now[i] - now[i - 1], past = now[i - 1] - now[i - 2];
             good += static_cast<int>(change * past >= 0) & static_cast<int>(fabs(change) <= faster * fabs(past)) &
@@ -322,7 +319,6 @@ std::int64_t near(const Path& path, const double* most, std::int64_t row, std::i
 
 void count_turns(const Complex* turns, std::int32_t* whole, int count) {
     int any = 0;
-    EACH_LANE
     for (int i = 0; i < count; ++i) {
         const Complex now = turns[i], last = turns[i - 1];
         any += static_cast<int>((now.y < 0) != (last.y < 0)) & static_cast<int>(now.x + last.x < 0);
