@@ -115,7 +115,7 @@ def test_the_focus_stays_and_the_panel_does_not_jump(tab, server):
     fields.nth(1).fill("27")
     fields.nth(1).press("Enter")
     assert page.page.evaluate(f"{ACTIVE}.id") == fields.nth(1).get_attribute("id")
-    side = f"{ROOT}.querySelector('.side').scrollTop"
+    side = f"""{ROOT}.querySelector('[data-panel="sizes"]').closest('.side').scrollTop"""
     page.page.evaluate(f"{side} = 200")
     page.page.locator('[data-joint="R(coupler-rocker)"]').focus()
     scrolled = page.page.evaluate(side)

@@ -412,13 +412,14 @@ def test_links_have_the_names_of_the_language(tab, server):
     """In the picture, the sizes, what the library says and in messages; the document keeps its own."""
     page = tab(locale="de-DE").open(server.address)
     root = "document.querySelector('.gruebler-explorer').shadowRoot"
-    page.until(f"{root}.querySelector('.side').textContent.includes('Der Abtrieb Schwinge schwingt')")
+    side = f"""{root}.querySelector('[data-panel="sizes"]').closest('.side')"""
+    page.until(f"{side}.textContent.includes('Der Abtrieb Schwinge schwingt')")
     names = page.page.locator(".stage text.name").all_text_contents()
     assert sorted(names) == ["Koppel", "Kurbel", "Schwinge"]
     assert "Schwinge Koppel – Gestell" in page.page.locator('[data-panel="sizes"]').inner_text()
     assert "rocker" in page.page.evaluate("JSON.stringify(gruebler.motion.document())")
     page.page.locator("header select").select_option("en")
-    page.until(f"{root}.querySelector('.side').textContent.includes('The output rocker swings')")
+    page.until(f"{side}.textContent.includes('The output rocker swings')")
     assert sorted(page.page.locator(".stage text.name").all_text_contents()) == ["coupler", "crank", "rocker"]
 
 

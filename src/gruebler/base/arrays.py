@@ -6,10 +6,12 @@ Shapes stand in second docstrings.
 from cmath import isnan
 from collections.abc import Mapping
 from dataclasses import fields
+from decimal import Decimal
+from numbers import Real
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 _Class = TypeVar("_Class", bound=type)
 
@@ -17,6 +19,20 @@ Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Integers = NDArray[np.int64]
 Flags = NDArray[np.bool_]
+
+
+def real_numbers(values: ArrayLike) -> Reals | None:
+    """A new array of real numbers; None for anything else, texts of numbers among them."""
+    try:
+        given = np.asarray(values)
+        numbers = given.dtype.kind in "iuf" or (given.dtype.kind == "O" and all(map(_is_real, given.ravel())))
+        return np.array(given, np.float64) if numbers or not given.size else None
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def _is_real(value: object) -> bool:
+    return isinstance(value, Real | Decimal) and not isinstance(value, bool)
 
 
 def scalar_product(a: Complexes | complex, b: Complexes | complex) -> Reals:

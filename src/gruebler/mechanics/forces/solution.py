@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.base.arrays import Flags, Reals, compared_by_value
+from gruebler.base.arrays import Flags, Reals, compared_by_value, real_numbers
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
@@ -327,6 +327,8 @@ def statics(
     """
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
+    if not _are_times(times, len(motion)):
+        raise LinkageError("times: expected seconds, one number or one a row, but found {times!r}", times=times)
     if motion.plan.released or joints_left_out(motion):
         raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on their stiffness")
     wrenches = (*loads_over_rows(motion, loads, times), *besides)
@@ -337,6 +339,11 @@ def statics(
         return Statics(motion=motion, wrenches=wrenches, reactions=reactions(motion, [wrenches])[0], work=work)
     forces, rubbing = with_friction(motion, wrenches, as_friction(friction), work)
     return Statics(motion=motion, wrenches=wrenches, reactions=forces, work=work + rubbing.effort, friction=rubbing)
+
+
+def _are_times(times: ArrayLike, rows: int) -> bool:
+    values = real_numbers(times)
+    return values is not None and values.shape in ((), (rows,)) and bool(np.isfinite(values).all())
 
 
 def _virtual_work(motion: Motion, wrenches: tuple[Wrench, ...]) -> Reals:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
-from numbers import Real
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.angles import doubt_of_angles, warn_of_degrees
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Reals, real_numbers
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.plan import Plan
@@ -103,7 +100,7 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
 
 def path_of_values(drives: ArrayLike, wanted: int) -> Reals:
     """(rows, wanted) values, checked."""
-    path = _real(drives)
+    path = real_numbers(drives)
     if path is None:
         raise LinkageError("drives: expected numbers (radians, or lengths), but found {drives!r}", drives=drives)
     if path.ndim == 0:
@@ -128,20 +125,6 @@ def path_of_values(drives: ArrayLike, wanted: int) -> Reals:
     return np.ascontiguousarray(path)
 
 
-def _real(values: ArrayLike) -> Reals | None:
-    """A new array of real numbers; None for anything else, texts of numbers among them."""
-    try:
-        given = np.asarray(values)
-        numbers = given.dtype.kind in "iuf" or (given.dtype.kind == "O" and all(map(_is_real, given.ravel())))
-        return np.array(given, np.float64) if numbers or not given.size else None
-    except (TypeError, ValueError, OverflowError):
-        return None
-
-
-def _is_real(value: object) -> bool:
-    return isinstance(value, Real | Decimal) and not isinstance(value, bool)
-
-
 def warn_of_path(plan: Plan, path: Reals) -> None:
     """`UnitWarning` if the values of a turning drive, (rows, drives), look like degrees."""
     warn_of_angles(plan.linkage.mechanism, path)
@@ -158,7 +141,7 @@ def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals
     """(order, rows, drives) rates, checked; one value may stand for all rows."""
     speeds = np.zeros((order, *path.shape))
     for k, (name, value) in enumerate(zip(("speed", "acceleration", "jerk"), given, strict=True)):
-        numbers = _real(value)
+        numbers = real_numbers(value)
         if numbers is None or not np.isfinite(numbers).all():
             raise LinkageError("{name}: expected finite numbers, but found {value!r}", name=name, value=value)
         if k >= order:

@@ -17,6 +17,7 @@ from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import inverse_motion
 from gruebler.mechanics.space.power_series import product
 from gruebler.mechanics.space.tree import motions
+from gruebler.structure.chain.spaces import Freedom
 
 _LIMIT = message("The motion ends at {drives}: there the drives stand at a limit, and {joints} would turn back.")
 _MEET = message("The motion ends at {drives}: there two assembly modes meet in {joints}.")
@@ -251,14 +252,15 @@ class SpatialMotion:
         first, second = (poses[:, :, chain.index(link)] @ frame for link in links[:2])
         back = inverse_of_series(first)
         e = product(back, second, np.matmul)
-        m = "xyz".index(direction[1])
-        if direction[0] == "T":
+        freedom = Freedom(direction)
+        m = "xyz".index(freedom.axis)
+        if not freedom.turns:
             return np.asarray(e[..., m, 3] * self._factorials[:, None])
         turns = [f.axis for f in chain.joints[number].pair.freedoms[chain.space] if f.turns]
         if len(turns) == 2:
-            n = "xyz".index(turns[1 - turns.index(direction[1])])
+            n = "xyz".index(turns[1 - turns.index(freedom.axis)])
             k, sign = 3 - m - n, 1.0 if (m + 1) % 3 == n else -1.0
-            first_turn = direction[1] == turns[0]  # it alone moves the other axis; the other one alone is seen from it
+            first_turn = freedom.axis == turns[0]  # it alone moves the other axis; the other one alone is seen from it
             c, s = e[..., n, n], sign * e[..., k, n] if first_turn else -sign * e[..., n, k]
         else:
             a, b = (m + 1) % 3, (m + 2) % 3
