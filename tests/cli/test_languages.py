@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,7 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries, exercises
 
 FOUR_BAR = "four-bar:25,70,40,70"
+ENGINE = str(Path(__file__).with_name("engine.toml"))
 QUAD = "R(0-1) R(1-2) R(2-3) R(3-0)"
 
 JSON = {
@@ -48,6 +50,8 @@ JSON = {
     "inversions": [["lambda"], ["lambda", "--drives", "--with-output"]],
     "realise": [["lambda"]],
     "sheet": [["list"]],
+    "dynamics": [[ENGINE, "--speed", "300", "--range", "0:90:30"]],
+    "simulate": [[ENGINE, "--until", "0.1", "--at", "10", "--speed", "300", "--rows", "3"]],
     "statics": [["lambda", "--load", "C=0,-10", "--moment", "rocker=5", "--range", "0:90:30"]],
     "synthesise": [["dead-centres", "--swing", "60", "--time-ratio", "1.2"]],
     "table": [["joints"], ["grashof"]],

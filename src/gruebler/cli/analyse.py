@@ -15,7 +15,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
-from gruebler.cli.drive_rows import given_rows, turning_drives
+from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_linkage, linkage_of_word, with_points
 from gruebler.cli.output import print_json, write_table
@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
     linkage = with_points(linkage, arguments.point)
     turning = turning_drives(linkage)
     plan = cached_plan(linkage)
-    speeds = _speeds(arguments, turning)
+    speeds = given_speeds(arguments.speed, turning, from_rest=bool(arguments.acceleration or arguments.jerk))
     accelerations = _higher("--acceleration", arguments.acceleration, speeds)
     jerks = _higher("--jerk", arguments.jerk, speeds)
     order = 3 if arguments.jerk else 2
@@ -140,21 +140,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 # --- what was asked for ----------------------------------------------------------------------------
-
-
-def _speeds(arguments: argparse.Namespace, turning: Sequence[bool]) -> list[float]:
-    """Of the drives, in radians a second, or lengths a second; given in revolutions a minute, or lengths a second."""
-    given, from_rest = arguments.speed, bool(arguments.acceleration or arguments.jerk)
-    if given and len(given) != len(turning):
-        raise GrueblerError(
-            "expected --speed once for each drive, {drives} times, but found it {count} times",
-            drives=len(turning),
-            count=len(given),
-        )
-    for speed in given:
-        if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1 and not from_rest):
-            raise GrueblerError("--speed: expected a number that is not 0, but found {speed:g}", speed=speed)
-    return [speed * math.pi / 30 if turns else speed for speed, turns in zip(given, turning, strict=bool(given))]
 
 
 def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> list[float]:

@@ -58,6 +58,10 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
                 "grashof", message("type and rotatability of a four-bar or slider-crank, and the limits of its lengths")
             ),
             Command("statics", message("drive torque and joint forces under loads")),
+            Command(
+                "dynamics", message("drive torque, power and joint forces of masses in motion, from a file with loads")
+            ),
+            Command("simulate", message("how a linkage moves by itself under its loads, springs, weights and motors")),
             Command("curve", message("the path of a point and its special points, straight parts, cognates")),
         ),
     ),

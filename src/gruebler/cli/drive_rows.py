@@ -59,6 +59,23 @@ def given_rows(spans: Sequence[str], at: Sequence[str], turning: Sequence[bool])
     return np.column_stack([np.broadcast_to(path, longest) for path in paths])
 
 
+def given_speeds(given: Sequence[float], turning: Sequence[bool], *, from_rest: bool = False) -> list[float]:
+    """Of --speed for each drive: radians a second, or lengths a second; given in revolutions a minute, or lengths.
+
+    A single drive has no speed 0, unless it starts from rest.
+    """
+    if given and len(given) != len(turning):
+        raise GrueblerError(
+            "expected --speed once for each drive, {drives} times, but found it {count} times",
+            drives=len(turning),
+            count=len(given),
+        )
+    for speed in given:
+        if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1 and not from_rest):
+            raise GrueblerError("--speed: expected a number that is not 0, but found {speed:g}", speed=speed)
+    return [speed * math.pi / 30 if turns else speed for speed, turns in zip(given, turning, strict=bool(given))]
+
+
 def driven_path(spans: Sequence[str], linkage: Linkage) -> Reals | None:
     """(rows, drives) of --range for a command that follows a straight path; None for the whole motion of one drive."""
     turning = turning_drives(linkage)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, translate
@@ -14,6 +15,9 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.length_texts import LENGTH_FORMS, LENGTH_KINDS, size_of
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.structure.chain import Chain
+
+if TYPE_CHECKING:
+    from gruebler.mechanics.forces import Loads
 
 
 def add_linkage(command: Parser) -> None:
@@ -96,6 +100,20 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
             sized=sized,
         )
     return record.linkage(), record.dimensions.range
+
+
+def loaded_linkage(word: str) -> tuple[Linkage, Loads]:
+    """The linkage in a file with the loads in its table ``[loads]``; `GrueblerError` if it has none."""
+    from gruebler.files.linkages import read_linkage, read_loads
+
+    linkage, loads = read_linkage(word), read_loads(word)
+    if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
+        raise GrueblerError(
+            "{path}: has no masses and no loads; a table [loads] has them, such as {example}",
+            path=word,
+            example='bodies = { crank = { mass = "250 g", bar = [[0, 0], [25, 0]] } }',
+        )
+    return linkage, loads
 
 
 def value_of_another_program(word: str, lang: str = "en") -> Linkage | Chain | list[Chain] | None:

@@ -1,8 +1,8 @@
 """Rates of any order of a closed linkage: its unknowns as power series in time, one matrix for every order.
 
 Put q = q_0 + q_1 t + q_2 t^2 + ... through the closing conditions: the coefficient of t^k is J q_k and what lower
-orders leave. So each order is one product with the same inverse of J, and no formula for accelerations or jerks is needed.
-All rows of a motion are taken at once.
+orders leave. So each order is one product with the same inverse of J, and no formula for accelerations or jerks is
+needed. All rows of a motion are taken at once.
 """
 
 from __future__ import annotations

@@ -1,0 +1,148 @@
+"""`gruebler dynamics`: drive torque, power and joint forces of a linkage whose masses are moved."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.base.columns import Column, shown
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import number, translate
+from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
+from gruebler.cli.link_names import language_of_names
+from gruebler.cli.linkage_inputs import loaded_linkage
+from gruebler.cli.output import print_json, write_table
+from gruebler.cli.parser import Parser
+from gruebler.cli.printed_file import is_table
+from gruebler.cli.tables import print_table
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
+from gruebler.mechanics.analysis.table import default_rows
+from gruebler.mechanics.dynamics import InverseDynamics, inverse_dynamics
+from gruebler.mechanics.dynamics.tables import dynamics_table
+from gruebler.mechanics.forces import component_table
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.kinematics.solve import move_quietly
+from gruebler.mechanics.linkages import Linkage
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="What the drives and joints of a linkage carry while its masses are moved: efforts by two methods, "
+        "the equilibrium of every link and the equations of motion; joint forces, power, shaking force and moment. "
+        "Masses and loads stand in the table [loads] of the file. Drives run at constant speed; torques are in N "
+        "times the unit of length.",
+        epilog="Example: gruebler dynamics press.toml --speed 300. Exit status: 0 success, 1 the linkage cannot move "
+        "through all rows, or in some its forces are undetermined, 2 wrong usage or unreadable input.",
+    )
+    parser.take(
+        """
+        file FILE  a .toml or .json file of a linkage with a table [loads]
+        --speed N float ...  speed of the drive in rpm, of a slide in lengths per second; repeat it for each drive
+        --range FROM:TO:STEP ...  drive values in degrees or the unit, once per drive (default: a full turn)
+        --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
+        --branch
+        """
+    )
+    parser.add_printed(help="print an object with columns and rows", table=True)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """A table over the rows; 1 if it stops or is not held somewhere."""
+    linkage, loads = loaded_linkage(arguments.file)
+    lang = arguments.lang
+    speeds = given_speeds(arguments.speed, turning_drives(linkage))
+    if not speeds:
+        raise GrueblerError("--speed is missing: the forces of inertia grow with its square")
+    motion = move_quietly(linkage, _rows(linkage, arguments), branch=arguments.branch, speed=speeds, order=2)
+    if not len(motion):
+        print(motion.message(lang))
+        return 1
+    result = inverse_dynamics(motion, loads, times=_times(motion, speeds))
+    table = dynamics_table(result, lang=language_of_names(arguments))
+    every = [*table, *component_table(result.statics, language_of_names(arguments))]
+    if is_table(arguments.out):
+        write_table(arguments.out, every, lang, decimal_comma=arguments.decimal_comma)
+    if arguments.json:
+        print_json(_document(result, every, lang))
+    elif not is_table(arguments.out):
+        _print(result, table.columns, lang)
+    return 0 if motion.complete and not result.statics.singular.any() else 1
+
+
+def _rows(linkage: Linkage, arguments: argparse.Namespace) -> Reals:
+    """The rows that were asked for, or a full turn."""
+    turning = turning_drives(linkage)
+    rows = given_rows(arguments.range, arguments.at, turning)
+    if rows is not None:
+        return rows
+    if len(turning) > 1:
+        raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
+    span = drive_cycle(linkage, branch=arguments.branch).span
+    if not span.full:
+        raise GrueblerError(
+            "the drive does not turn fully and cannot keep its speed at its limits: give --range or --at"
+        )
+    return default_rows(span, None, turning[0])
+
+
+def _times(motion: Motion, speeds: Sequence[float]) -> Reals:
+    """The time at each row: 0 at the first, by the first drive that moves."""
+    moving = next((k for k, speed in enumerate(speeds) if speed), None)
+    if moving is None:
+        return np.zeros(len(motion))
+    return np.asarray((motion.drives[:, moving] - motion.drives[0, moving]) / speeds[moving])
+
+
+def _print(result: InverseDynamics, table: Sequence[Column], lang: str) -> None:
+    motion, drives = result.motion, len(result.motion.linkage.mechanism.drives)
+    if len(motion) > 1:
+        for k, column in enumerate(table[drives : 2 * drives]):
+            if np.isfinite(column.values).any():
+                row = int(np.nanargmax(np.abs(column.values)))
+                print(
+                    translate(
+                        "Largest effort: {name} = {value:n} {unit} at {place}; effective (root mean square) {rms:n}.",
+                        lang,
+                        name=column.name,
+                        value=column.values[row],
+                        unit=column.unit,
+                        place=_place(table[0], row, lang),
+                        rms=float(result.root_mean_square[k]),
+                    )
+                )
+    if math.isfinite(result.disagreement):
+        print(
+            translate(
+                "Equilibrium and equations of motion agree to {part:.1e} of the largest load.",
+                lang,
+                part=result.disagreement,
+            )
+        )
+    print()
+    print_table([column.header for column in table], shown(table, lang), numbers=range(len(table)))
+    for text in (motion.message(lang), result.statics.message(lang)):
+        if text:
+            print(text)
+
+
+def _place(drive: Column, row: int, lang: str) -> str:
+    return f"{number(drive.values[row], lang, 'n')}{drive.unit if drive.unit == '°' else f' {drive.unit}'}"
+
+
+def _document(result: InverseDynamics, columns: Sequence[Column], lang: str) -> dict[str, object]:
+    rows = zip(*(column.values for column in columns), strict=True)
+    return {
+        "columns": [{"name": column.name, "unit": column.unit} for column in columns],
+        "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
+        "peak": [float(value) for value in result.peak],
+        "root_mean_square": [float(value) for value in result.root_mean_square],
+        "disagreement": result.disagreement if math.isfinite(result.disagreement) else None,
+        "singular": [int(row) for row in np.flatnonzero(result.statics.singular)],
+        "complete": result.motion.complete,
+        "message": " ".join(filter(None, (result.motion.message(lang), result.statics.message(lang)))),
+    }

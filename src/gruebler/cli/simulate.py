@@ -1,0 +1,92 @@
+"""`gruebler simulate`: how a linkage moves by itself."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from gruebler.base.columns import Column, shown
+from gruebler.base.errors import GrueblerError
+from gruebler.cli.drive_rows import given_speeds, pose_of, turning_drives
+from gruebler.cli.link_names import language_of_names
+from gruebler.cli.linkage_inputs import loaded_linkage
+from gruebler.cli.output import print_json, write_table
+from gruebler.cli.parser import Parser
+from gruebler.cli.printed_file import is_table
+from gruebler.cli.tables import print_table, print_text
+from gruebler.mechanics.dynamics import Simulation, simulate
+from gruebler.mechanics.dynamics.tables import simulation_table
+
+_MOST_ROWS = 100_000
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="How a linkage moves by itself under the loads, springs, weights and motors of the table "
+        "[loads] of its file: positions, velocities and energies by time. By how much energy is not kept says how "
+        "exact the motion is.",
+        epilog="Example: gruebler simulate pendulum.toml --until 2 --at 30. Exit status: 0 success, 1 the motion ends "
+        "before its time, 2 wrong usage or unreadable input.",
+    )
+    parser.take(
+        """
+        file FILE  a .toml or .json file of a linkage with a table [loads]
+        --until T float !  the time to which the motion is followed, in seconds
+        --at VALUE[,VALUE]  the drives at the start, in degrees or the unit (default: those of the file)
+        --speed N float ...  their speeds at the start in rpm, of a slide in lengths per second; repeat it for each
+            drive (default: at rest)
+        --rows N int =21  how many times there are in the table
+        --tolerance E float =1e-10  of each step, relative
+        --stiff  an implicit method, for springs or dampers far faster than the motion
+        --branch
+        """
+    )
+    parser.add_printed(help="print an object with columns and rows", table=True)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """A table over the times; 1 if the motion ends before."""
+    linkage, loads = loaded_linkage(arguments.file)
+    lang, turning = arguments.lang, turning_drives(linkage)
+    if not 2 <= arguments.rows <= _MOST_ROWS:
+        raise GrueblerError("--rows: expected a number from 2 to 100000, but found {count}", count=arguments.rows)
+    if not 0 < arguments.until < math.inf:
+        raise GrueblerError("--until: expected a time in seconds after 0, but found {until:g}", until=arguments.until)
+    result = simulate(
+        linkage,
+        loads,
+        until=arguments.until,
+        branch=arguments.branch,
+        at=None if arguments.at is None else pose_of(arguments.at, linkage.mechanism),
+        speed=given_speeds(arguments.speed, turning, from_rest=True) or 0.0,
+        times=np.linspace(0.0, arguments.until, arguments.rows),
+        tolerance=arguments.tolerance,
+        stiff=arguments.stiff,
+    )
+    table = simulation_table(result, lang=language_of_names(arguments))
+    if is_table(arguments.out):
+        write_table(arguments.out, list(table), lang, decimal_comma=arguments.decimal_comma)
+    if arguments.json:
+        print_json(_document(result, table.columns, lang))
+    elif not is_table(arguments.out):
+        print_text(result.explain(lang))
+        print()
+        print_table([column.header for column in table], shown(table.columns, lang), numbers=range(len(table.columns)))
+    return 0 if result.complete else 1
+
+
+def _document(result: Simulation, columns: Sequence[Column], lang: str) -> dict[str, object]:
+    rows = zip(*(column.values for column in columns), strict=True)
+    return {
+        "columns": [{"name": column.name, "unit": column.unit} for column in columns],
+        "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
+        "defect": result.defect,
+        "steps": result.steps,
+        "evaluations": result.evaluations,
+        "complete": result.complete,
+        "message": result.message(lang),
+    }
