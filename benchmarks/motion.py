@@ -115,13 +115,18 @@ def judged(name: str, judge: str, linkage: Linkage) -> list[Row]:
     ]
 
 
+def class_three() -> Linkage:
+    """A six-bar whose coupler is held by three links."""
+    places = {0: (0, 0), 1: (0.5, 0.3), 2: (2, 2), 3: (5, 0), 4: (4, 2.2), 5: (2, 5.5), 6: (3, 3.5)}
+    return Linkage.from_drawing(Mechanism.parse(CLASS_III), places)
+
+
 def run() -> list[Row]:
     four_bar = FourBar(25, 70, 40, 70).linkage()
     rows = judged("four-bar", "four-bar", four_bar)
     rows += judged("Jansen's leg", "leg", leg(LEG))
     rows += judged("Jansen's leg of 12 bars", "leg", leg(LEG_OF_BARS))
-    places = {0: (0, 0), 1: (0.5, 0.3), 2: (2, 2), 3: (5, 0), 4: (4, 2.2), 5: (2, 5.5), 6: (3, 3.5)}
-    six = Linkage.from_drawing(Mechanism.parse(CLASS_III), places)
+    six = class_three()
     way = np.radians(np.linspace(31, 95, ROWS))
     for order, text in ((0, "position"), (2, "with rates")):
         rows.append(Row(f"class III, {text}", nanoseconds(lambda order=order: move(six, way, order=order), runs=5)))
