@@ -5,12 +5,14 @@ import os
 from hypothesis import HealthCheck, settings
 
 # The fast tests try the same examples on every machine, so that a failure is one of the change at hand; `make slow`
-# draws new ones each time.
+# draws new ones each time, and more of them.
 # The load of the machine makes single examples slow now and then; slowness is not what these tests judge.
+new_examples = "GRUEBLER_NEW_EXAMPLES" in os.environ
 settings.register_profile(
     "gruebler",
     deadline=None,
-    derandomize="GRUEBLER_NEW_EXAMPLES" not in os.environ,
+    derandomize=not new_examples,
+    max_examples=100 if new_examples else 40,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],  # both depend on load and on luck
 )
 settings.load_profile("gruebler")

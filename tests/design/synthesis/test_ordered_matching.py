@@ -135,7 +135,7 @@ def near(seed, count, *, closed, noise):
     return wave, places, wave(places) + shift
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(seeds, counts, st.booleans(), st.floats(0, 1))
 def test_noise_of_a_size_gives_at_most_that_size(seed, count, closed, noise):
     """And points on the curve itself give nothing."""
@@ -143,7 +143,7 @@ def test_noise_of_a_size_gives_at_most_that_size(seed, count, closed, noise):
     assert wave.distance(targets).error <= noise + wave.rounding + 1e-9
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(seeds, counts, st.booleans(), st.integers(0, 11))
 def test_it_does_not_depend_on_the_sense_or_on_the_first_target_of_a_closed_curve(seed, count, closed, first):
     wave, _, targets = near(seed, count, closed=closed, noise=0.4)
@@ -154,7 +154,7 @@ def test_it_does_not_depend_on_the_sense_or_on_the_first_target_of_a_closed_curv
     assert wave.distance(targets).error == pytest.approx(plain, abs=3e-10)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(seeds, counts, st.booleans(), st.floats(-3, 3), st.floats(0.01, 100), st.booleans())
 def test_moved_and_scaled_together_it_is_scaled(seed, count, closed, angle, scale, mirror):
     wave, _, targets = near(seed, count, closed=closed, noise=0.4)
@@ -168,7 +168,7 @@ def test_moved_and_scaled_together_it_is_scaled(seed, count, closed, angle, scal
     assert match.error == pytest.approx(scale * plain, abs=1e-9 * scale)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(seeds, counts, st.booleans(), st.integers(0, 12), st.complex_numbers(max_magnitude=2))
 def test_another_target_never_lowers_it(seed, count, closed, place, target):
     wave, _, targets = near(seed, count, closed=closed, noise=0.4)
@@ -176,7 +176,7 @@ def test_another_target_never_lowers_it(seed, count, closed, place, target):
     assert wave.distance(more).error >= wave.distance(targets).error - 3e-10
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(seeds, counts, st.booleans(), st.integers(1, 119))
 def test_it_does_not_depend_on_where_a_closed_curve_begins(seed, count, mirror, begin):
     wave, _, targets = near(seed, count, closed=True, noise=0.4)

@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
@@ -233,7 +233,7 @@ def well_placed(seed: int) -> Linkage | None:
     return linkage if result.span.width > narrow else None
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+@settings(max_examples=20)
 @given(
     st.integers(0, 2**32 - 1),
     st.floats(-6, 6).map(lambda x: 10**x),

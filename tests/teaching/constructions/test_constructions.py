@@ -443,10 +443,10 @@ def test_forms():
 def drawn_points(shape):
     """Points on the lines and arcs of a shape, half a pixel apart."""
     if isinstance(shape, ArcShape):
-        return [shape.place(k / 200) for k in range(201)]
+        return [shape.place(k / 100) for k in range(101)]
     if not isinstance(shape, Polylines):
         return []
-    return [p.plus(q.minus(p), k / 400) for part in shape.parts for p, q in pairwise(part) for k in range(401)]
+    return [p.plus(q.minus(p), k / 100) for part in shape.parts for p, q in pairwise(part) for k in range(101)]
 
 
 @pytest.mark.parametrize("lengths", [(20, 50, 40, 50), (25, 70, 40, 70), (20, 70, 45, 55)])

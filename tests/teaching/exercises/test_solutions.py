@@ -402,7 +402,7 @@ def test_velocities_of_section_3_6_2(way, branch):
 LENGTHS = st.integers(10, 200).map(float)
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(a=LENGTHS, b=LENGTHS, e=st.integers(-60, 60).map(float))
 def test_any_slider_crank_is_solved_by_both_ways(a, b, e):
     assume(a + abs(e) < 0.98 * b)
@@ -412,7 +412,7 @@ def test_any_slider_crank_is_solved_by_both_ways(a, b, e):
     assert longer >= 2 * a * (1 - 1e-12)  # an eccentricity makes the stroke longer
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(a=st.integers(10, 60), more=st.tuples(st.integers(5, 100), st.integers(5, 100)), part=st.floats(0.02, 0.98))
 def test_any_crank_rocker_is_solved_by_both_ways(a, more, part):
     b, c = (a + x for x in more)
@@ -425,7 +425,7 @@ def test_any_crank_rocker_is_solved_by_both_ways(a, more, part):
     assert times.number("T_max") + times.number("T_min") == pytest.approx(1000)
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(a=LENGTHS, b=LENGTHS, phi=st.integers(-170, 170), e=st.integers(-5, 5).map(float))
 def test_any_slider_velocity_is_solved_by_both_ways(a, b, phi, e):
     assume(a + abs(e) < 0.95 * b)
