@@ -250,6 +250,10 @@ def at_a_limit(first: float) -> gr.Motion:
     return gr.move(crank, [first, limit, 1.2], speed=1.0)
 
 
+def weighing(k: int) -> gr.Loads:
+    return gr.Loads(bodies={"coupler": gr.RigidBody(0.5 + k, (35, 0), 200.0)})
+
+
 PAIRS = {
     "Cam": lambda k: gr.Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), 40.0 + k, Roller(10.0)),
     "Chain": lambda k: gr.Chain.parse(("R(0-1) R(1-2) R(2-0)", "R(0-1) R(1-2) P(2-0)")[k]),
@@ -262,27 +266,36 @@ PAIRS = {
     "FourBar": lambda k: gr.FourBar(25 + k, 70, 40, 70),
     "DriveRange": lambda k: gr.drive_range(gr.FourBar(65 + k, 70, 40, 70)),
     "Freedoms": lambda k: gr.freedoms(gr.FourBar(25 + k, 70, 40, 70).linkage()),
+    "Equilibria": lambda k: gr.equilibria(FOUR_BAR, weighing(k)),
+    "Gas": lambda k: gr.Gas(force=400.0 + k, extended=500.0, stroke=200.0),
     "Geneva": lambda k: gr.Geneva(4 + k),
     "GrueblerError": lambda k: LinkageError("there is no link {link!r}", link=("a", "b")[k]),
+    "InverseDynamics": lambda k: gr.inverse_dynamics(gr.move(FOUR_BAR, DRIVES, speed=10.0), weighing(k)),
     "InvertedSliderCrank": lambda k: gr.InvertedSliderCrank(25 + k, 60, 5),
     "Joint": lambda k: gr.Chain.parse("R(0-1) R(1-2) R(2-0)").joints[k],
+    "Linearised": lambda k: gr.linearised(FOUR_BAR, weighing(k), branch="+", at=1.0),
     "Linkage": lambda k: gr.FourBar(25 + k, 70, 40, 70).linkage(),
     "Loads": lambda k: gr.Loads(moments={"rocker": 3.0 + k}),
     "Measures": lambda k: gr.measures(gr.FourBar(25 + k, 70, 40, 70).linkage()),
     "Mechanism": lambda k: FOUR_BAR.linkage().mechanism.renamed({"crank": "ab"[k]}),
     "MobilityReport": lambda k: gr.mobility_report(gr.Chain.parse("R(0-1) R(1-2) R(2-3) " + ("R(3-0)", "P(3-0)")[k])),
+    "Motor": lambda k: gr.Motor(12.0 + k, 100.0),
     "Motion": lambda k: moved(0.9 + k),
     "Motion, stopped": lambda k: at_a_limit(0.1 + k / 10),
     "Motions": lambda k: gr.move_many(four_bars(25, [60 + k, 70], 40, 70), DRIVES),
     "Realisation": lambda k: gr.realise(FOUR_BAR.linkage().mechanism, seed=k, budget=20),
     "Requirements": lambda k: gr.Requirements(k + 1),
+    "RigidBody": lambda k: gr.RigidBody(2.0 + k, (30, 0), 600.0),
+    "Simulation": lambda k: gr.simulate(FOUR_BAR, weighing(k), until=0.01, branch="+", at=1.0),
     "SliderCrank": lambda k: gr.SliderCrank(25, 70 + k),
     "SpatialLinkage": lambda k: WINCH.scaled(k + 1),
+    "Spring": lambda k: gr.Spring(("frame:0,40", "R(crank-coupler)"), stiffness=2.0 + k),
     "Statics": lambda k: gr.statics(moved(0.9), gr.Loads(moments={"rocker": 3.0 + k})),
     "Stop": lambda k: at_a_limit(0.1 + k / 10).stop,
     "Symmetry": lambda k: gr.symmetry(gr.Chain.parse("R(0-1) R(1-2) R(2-3) " + ("R(3-0)", "P(3-0)")[k])),
     "SynthesisResult": lambda k: gr.synthesise(TASK, number=2 + k),
     "Table": lambda k: motion_table(moved(0.9 + k)),
+    "TorsionSpring": lambda k: gr.TorsionSpring(("frame", "crank"), stiffness=10.0 + k),
     "Train": lambda k: gr.Train((Mesh("sun", "planet", 24 + k, 18, "arm"),)),
     "TrainReading": lambda k: read_train(f"sun:{24 + k} planet:18 ring:-60 on arm"),
 }
@@ -341,6 +354,7 @@ def test_what_explains_itself():
     assert {kind for kind in PAIRS if hasattr(PAIRS[kind](0), "explain")} == set(PAIRS) - {
         *("Cam", "Chain", "Column", "DriveCycle", "GrueblerError", "Joint", "Loads", "Mechanism", "Requirements"),
         *("SpatialLinkage", "Table", "Train"),
+        *("Gas", "Motor", "RigidBody", "Spring", "TorsionSpring"),
     }
 
 

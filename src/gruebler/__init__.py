@@ -25,7 +25,6 @@ from gruebler.base import notebook
 
 if TYPE_CHECKING:
     from gruebler.base.columns import Table
-    from gruebler.mechanics.kinematics.motion import Motion
 
 __version__ = "0.2.0"
 _opened, __dir__, __all__ = attach_stub(__name__, __file__)
@@ -56,11 +55,21 @@ def _picture(value: object) -> str:
 notebook.svg_of = _picture
 
 
-def _table(motion: Motion, *options: Any, **named: Any) -> Table:
-    """The table of a motion."""
-    from gruebler.mechanics.analysis.table import motion_table
+_TABLES = {
+    "Motion": ("analysis.table", "motion_table"),
+    "Statics": ("forces.tables", "statics_table"),
+    "InverseDynamics": ("dynamics.tables", "dynamics_table"),
+    "Simulation": ("dynamics.tables", "simulation_table"),
+}
 
-    return motion_table(motion, *options, **named)
+
+def _table(value: object, *options: Any, **named: Any) -> Table:
+    """The table of a motion, of what is computed along it, or of a free motion."""
+    from importlib import import_module
+
+    room, name = _TABLES[type(value).__name__]
+    table: Table = getattr(import_module(f"gruebler.mechanics.{room}"), name)(value, *options, **named)
+    return table
 
 
 notebook.table_of = _table

@@ -12,7 +12,8 @@ from .machines.geneva import Geneva
 from .mechanics.analysis import drive_range, motion_roles
 from .mechanics.analysis.circuit_ranges import rotatability
 from .mechanics.analysis.measuring import Measures, measures
-from .mechanics.forces import Loads, Statics, statics
+from .mechanics.dynamics import equilibria, inverse_dynamics, linearised, simulate
+from .mechanics.forces import Gas, Loads, Motor, RigidBody, Spring, Statics, TorsionSpring, statics
 from .mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from .mechanics.geometry import coupler_curve
 from .mechanics.kinematics import Circuit, Motion, circuit, from_degrees, move_many
@@ -41,6 +42,7 @@ __all__ = [
     "Chain",
     "Circuit",
     "FourBar",
+    "Gas",
     "Geneva",
     "GrueblerError",
     "InvertedSliderCrank",
@@ -50,10 +52,14 @@ __all__ = [
     "Measures",
     "Mechanism",
     "Motion",
+    "Motor",
     "Requirements",
+    "RigidBody",
     "SliderCrank",
     "SpatialLinkage",
+    "Spring",
     "Statics",
+    "TorsionSpring",
     "Train",
     "UnitWarning",
     "animate",
@@ -72,13 +78,16 @@ __all__ = [
     "draw",
     "drive_range",
     "driven_mechanisms",
+    "equilibria",
     "explore",
     "extend",
     "files",
     "freedoms",
     "from_degrees",
+    "inverse_dynamics",
     "inversions",
     "is_isomorphic",
+    "linearised",
     "machines",
     "measures",
     "mechanics",
@@ -93,6 +102,7 @@ __all__ = [
     "realise",
     "rotatability",
     "rpm",
+    "simulate",
     "statics",
     "structure",
     "symmetry",

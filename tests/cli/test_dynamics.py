@@ -55,7 +55,7 @@ def test_what_it_prints(capsys):
     first, second = slopes(math.radians(30))
     torque = MASS * (300 * math.pi / 30) ** 2 * first * second / 1000
     assert status == 0
-    assert f"Largest effort: torque R(frame-crank) = {torque:.0f} N·mm at 30°; effective" in out
+    assert f"Largest effort: torque R(frame-crank) = {torque:.0f} N·mm at R(frame-crank) = 30°; effective" in out
     assert "Equilibrium and equations of motion agree to" in out
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
+from abc import ABC
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import count
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.base import notebook
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.notebook import ROWS_SHOWN, brief, html_table, text_table
@@ -166,6 +168,20 @@ class Table:
         """Headers and the first rows."""
         rows = shown(Column(c.name, c.unit, c.values[:ROWS_SHOWN], c.natural, c.noise) for c in self.columns)
         return [column.header for column in self.columns], rows
+
+
+class Tabled(ABC):  # noqa: B024 -- what it has is the same for all
+    """A value over rows that has a table."""
+
+    def table(self, *, lang: str = "en") -> Table:
+        """All its columns with their units, the headers in English or German (``de``)."""
+        assert notebook.table_of is not None  # set by the front door
+        table: Table = notebook.table_of(self, lang=lang)
+        return table
+
+    def to_dataframe(self) -> Any:
+        """The `table` as a `pandas.DataFrame`; needs pandas."""
+        return self.table().to_dataframe()
 
 
 def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:

@@ -17,7 +17,7 @@ svg_of: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
 
 table_of: Callable[..., Any] | None = None
-"""Makes the table of a motion; None until the front door has set it."""
+"""Makes the table of a motion, or of forces in it; None until the front door has set it."""
 
 
 def brief(cls: _Class) -> _Class:

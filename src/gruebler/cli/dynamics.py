@@ -11,14 +11,13 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import number, translate
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import loaded_linkage
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.table import default_rows
 from gruebler.mechanics.dynamics import InverseDynamics, inverse_dynamics
@@ -99,39 +98,9 @@ def _times(motion: Motion, speeds: Sequence[float]) -> Reals:
 
 
 def _print(result: InverseDynamics, table: Sequence[Column], lang: str) -> None:
-    motion, drives = result.motion, len(result.motion.linkage.mechanism.drives)
-    if len(motion) > 1:
-        for k, column in enumerate(table[drives : 2 * drives]):
-            if np.isfinite(column.values).any():
-                row = int(np.nanargmax(np.abs(column.values)))
-                print(
-                    translate(
-                        "Largest effort: {name} = {value:n} {unit} at {place}; effective (root mean square) {rms:n}.",
-                        lang,
-                        name=column.name,
-                        value=column.values[row],
-                        unit=column.unit,
-                        place=_place(table[0], row, lang),
-                        rms=float(result.root_mean_square[k]),
-                    )
-                )
-    if math.isfinite(result.disagreement):
-        print(
-            translate(
-                "Equilibrium and equations of motion agree to {part:.1e} of the largest load.",
-                lang,
-                part=result.disagreement,
-            )
-        )
+    print_text(result.explain(lang))
     print()
     print_table([column.header for column in table], shown(table, lang), numbers=range(len(table)))
-    for text in (motion.message(lang), result.statics.message(lang)):
-        if text:
-            print(text)
-
-
-def _place(drive: Column, row: int, lang: str) -> str:
-    return f"{number(drive.values[row], lang, 'n')}{drive.unit if drive.unit == '°' else f' {drive.unit}'}"
 
 
 def _document(result: InverseDynamics, columns: Sequence[Column], lang: str) -> dict[str, object]:

@@ -115,3 +115,19 @@ def test_a_crank_alone_shakes_with_m_r_w2():
 def test_forces_of_inertia_need_accelerations():
     with pytest.raises(LinkageError, match="solved up to order 0; for order 2"):
         inverse_dynamics(move(FourBar(25, 70, 40, 70), ANGLES), Loads())
+
+
+def test_a_run_has_a_table_and_says_its_largest_effort():
+    """A piston of 2 kg at r/l = 0.6 and 100 rad/s; at 30° by hand: M = m x'' x', as in tests/cli/test_dynamics.py."""
+    motion = move(SliderCrank(30, 50).linkage(), np.radians([0.0, 30.0]), speed=100.0)
+    run = inverse_dynamics(motion, Loads(bodies={"slider": RigidBody(2.0)}))
+    q = np.radians(30)
+    root = np.sqrt(2500 - 900 * np.sin(q) ** 2)
+    first = -30 * np.sin(q) - 450 * np.sin(2 * q) / root
+    second = -30 * np.cos(q) - 900 * np.cos(2 * q) / root - 450**2 * np.sin(2 * q) ** 2 / root**3
+    torque = 2 * 100**2 * first * second / 1000
+    assert run.table()["torque R(frame-crank)"][1] == pytest.approx(torque, rel=1e-12)
+    frame = run.to_dataframe()
+    assert frame["power R(frame-crank) [W]"][1] == pytest.approx(torque * 100 / 1000, rel=1e-12)
+    assert f"Largest effort: torque R(frame-crank) = {torque:.0f} N·mm at R(frame-crank) = 30°" in str(run)
+    assert "Größtwert: Antriebsmoment D(frame-crank)" in run.explain("de")

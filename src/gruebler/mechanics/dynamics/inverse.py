@@ -9,22 +9,29 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.columns import Tabled
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
+from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.equations import EquationsOfMotion, ReducedEquations, reduced_equations, speeds_of
 from gruebler.mechanics.forces.acting import Wrench
 from gruebler.mechanics.forces.friction import Friction, PerJoint
 from gruebler.mechanics.forces.loads import Loads
 from gruebler.mechanics.forces.solution import Statics, statics
 from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.kinematics.messages import drive_name, drive_values
 from gruebler.mechanics.linkages import LinkPoint
+
+_TORQUE, _FORCE = message("torque {joint}"), message("force {joint}")
+_LARGEST = message("Largest effort: {name} = {value:n} {unit} at {place}; effective (root mean square) {rms:n}.")
+_AGREE = message("Equilibrium and equations of motion agree to {part:.1e} of the largest load.")
 
 
 @compared_by_value
 @brief
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class InverseDynamics:
+class InverseDynamics(Tabled):
     """Efforts of the drives and forces of the joints in a motion, masses included, at each row."""
 
     statics: Statics
@@ -89,6 +96,27 @@ class InverseDynamics:
         """The effective effort of each drive, each row counted alike; (drives,): by it motors are chosen for heat."""
         return np.asarray(np.sqrt(np.nanmean(self.drive**2, axis=0)))
 
+    def explain(self, lang: str = "en") -> str:
+        """Each drive's largest effort and where, how well two methods agree, where forces are not determined."""
+        linkage, lines = self.motion.linkage, list[Message]()
+        for k, drive in enumerate(linkage.mechanism.drives):
+            if not np.isfinite(self.drive[:, k]).any():
+                continue
+            row = int(np.nanargmax(np.abs(self.drive[:, k])))
+            lines.append(
+                _LARGEST.filled(
+                    name=(_TORQUE if drive.turning else _FORCE).filled(joint=drive_name(linkage.mechanism, k)),
+                    value=float(self.drive[row, k]),
+                    unit=f"N·{linkage.unit}" if drive.turning else "N",
+                    place=drive_values(linkage, tuple(map(float, self.motion.drives[row]))),
+                    rms=float(self.root_mean_square[k]),
+                )
+            )
+        if np.isfinite(self.disagreement):
+            lines.append(_AGREE.filled(part=self.disagreement))
+        texts = [*(line.in_language(lang) for line in lines), self.motion.message(lang), self.statics.message(lang)]
+        return "\n".join(filter(None, texts))
+
     def _frame_point(self, about: tuple[float, float]) -> Complexes:
         frame = self.motion.linkage.mechanism.frame
         return self.motion.complex_point(LinkPoint(frame, *map(float, about)))
@@ -130,7 +158,7 @@ def inverse_dynamics(
         [[960.0, 0.0]]
 
     See Also:
-        `statics`, `reduced_equations`, `Loads`
+        `statics`, `simulate`, `move`, `Loads`
 
     Theory:
         docs/theory/dynamics.md

@@ -101,7 +101,7 @@ def simulate(
 def _speeds(plan: Plan, speed: ArrayLike) -> Reals:
     try:
         speeds = np.broadcast_to(np.asarray(speed, np.float64), (len(plan.linkage.mechanism.drives),)).copy()
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         speeds = np.array([np.nan])
     if not (np.abs(speeds) < 1e100).all():
         raise LinkageError("speed: expected a finite number for each drive, but found {speed!r}", speed=speed)
@@ -113,7 +113,7 @@ def _times(times: ArrayLike | None, until: float) -> Reals:
         return np.linspace(0.0, until, _ROWS)
     try:
         rows = np.array(times, np.float64, ndmin=1)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         rows = np.array([np.nan])
     if rows.ndim != 1 or not len(rows) or not (np.diff(rows) > 0).all() or not 0 <= rows[0] <= rows[-1] <= until:
         raise LinkageError("times: expected increasing times between 0 and {until:g} s", until=until)

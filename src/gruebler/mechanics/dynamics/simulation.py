@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gruebler.base import notebook
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.columns import Tabled
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief, explained
 from gruebler.base.text import Message, message
@@ -30,7 +31,7 @@ _ONE_EXCHANGE = message("Coordinates were exchanged once.")
 @compared_by_value
 @brief
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Simulation(LinkPoses):
+class Simulation(LinkPoses, Tabled):
     """A linkage that moves by itself, row by row in time; order 0 are poses, 1 velocities, 2 accelerations."""
 
     linkage: Linkage

@@ -24,6 +24,8 @@ def starting_pose(plan: Plan, branch: Branch, at: ArrayLike | None) -> tuple[Rea
         drives = pose_at_reference(plan, np.zeros(len(plan.linkage.mechanism.drives))).drives
     else:
         path = drive_path(plan, at)
+        if not (np.abs(path) < 1e100).all():
+            raise LinkageError("{name}: expected finite numbers, but found {value!r}", name="at", value=at)
         warn_of_path(plan, path)
         drives = path[0]
     try:

@@ -16,7 +16,12 @@ from gruebler.base.units import metres_of
 
 Place = tuple[float, float]
 
-_NAMES = {"mass": message("the mass"), "inertia": message("the moment of inertia"), "density": message("the density")}
+_NAMES = {
+    "mass": message("the mass"),
+    "inertia": message("the moment of inertia"),
+    "density": message("the density"),
+    "radius": message("the radius"),
+}
 
 
 @door_that_raises(LinkageError)
@@ -83,6 +88,12 @@ class RigidBody:
         >>> RigidBody.disc(2.0, 10.0).inertia
         100.0
         """
+        if not 0 <= radius < 1e100:
+            raise LinkageError(
+                "{name} must be a finite number that is not negative, not {value!r}",
+                name=_NAMES["radius"],
+                value=radius,
+            )
         return cls(mass, centre, mass * radius**2 / 2)
 
     @classmethod

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Flags, Reals, compared_by_value, real_numbers
+from gruebler.base.columns import Tabled
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
@@ -60,7 +61,7 @@ _NONE = 1e-13  # of the loads: a smaller effort is none
 @compared_by_value
 @brief
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Statics:
+class Statics(Tabled):
     """Drive efforts and joint forces of a linkage under loads, at each row of a motion.
 
     Torques are in force times the linkage's unit. Without inertia.

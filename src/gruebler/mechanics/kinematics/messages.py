@@ -67,7 +67,7 @@ def drive_values(linkage: Driven, values: tuple[float, ...]) -> Message:
     mechanism = linkage.mechanism
     parts = []
     for k, (drive, value) in enumerate(zip(mechanism.drives, values, strict=True)):
-        name = _drive_name(mechanism, k)
+        name = drive_name(mechanism, k)
         if drive.turning:
             parts.append(message("{name} = {value:n}°", name=name, value=degrees(value)))
         else:
@@ -75,5 +75,6 @@ def drive_values(linkage: Driven, values: tuple[float, ...]) -> Message:
     return joined(parts)
 
 
-def _drive_name(mechanism: Mechanism, drive: int) -> SymbolText:
+def drive_name(mechanism: Mechanism, drive: int) -> SymbolText:
+    """The name of a driven joint."""
     return in_alphabets(lambda alphabet: mechanism.drive_names(alphabet)[drive])
