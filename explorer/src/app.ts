@@ -237,7 +237,7 @@ export class App implements Page {
       tool("⤴", t("Copy the link"), () => void this.share()),
       tool("◐", t("Light or dark"), () => {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
-        this.motion.stage.draw();
+        this.motion.stage.recoloured();
       }),
       tool("?", t("Keys"), () => this.help()),
       language,

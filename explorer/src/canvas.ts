@@ -3,7 +3,7 @@
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import type { PointRecord } from "./model";
-import { origin, type Pair, place, turn } from "./rows";
+import { origin, type Pair, place, placesOf, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
 import type { Viewport } from "./viewport";
 
@@ -28,9 +28,8 @@ export class Painter {
     const { rows, values } = linkage.cycle;
     if (shown.curves)
       points.forEach((point, number) => {
-        this.trace(values.length, ownColour(number), 2, (row) =>
-          viewport.screen(...place(rows, row, point.link, ...point.at)),
-        );
+        const all = placesOf(rows, point.link, ...point.at);
+        this.trace(values.length, ownColour(number), 2, (row) => viewport.screen(all[2 * row]!, all[2 * row + 1]!));
       });
     if (rows.order < 1) return;
     if (shown.hodographs) this.paintHodographs(linkage);
@@ -43,6 +42,8 @@ export class Painter {
     pen.strokeStyle = this.colour(colour);
     pen.lineWidth = width;
     pen.beginPath();
+    // a step far beyond the picture leads through infinity, to the other end of an asymptote
+    const near = 2 * (viewport.width + viewport.height);
     let last: Pair | null = null;
     for (let row = 0; row < count; row++) {
       const here = at(row);
@@ -50,10 +51,9 @@ export class Painter {
         last = null;
         continue;
       }
-      // a step far beyond the picture leads through infinity, to the other end of an asymptote
-      const near = 2 * (viewport.width + viewport.height);
-      if (last && Math.hypot(here[0] - last[0], here[1] - last[1]) < near) pen.lineTo(...here);
-      else pen.moveTo(...here);
+      const [x, y] = here;
+      if (last && Math.hypot(x - last[0], y - last[1]) < near) pen.lineTo(x, y);
+      else pen.moveTo(x, y);
       last = here;
     }
     pen.stroke();

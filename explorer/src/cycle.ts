@@ -45,6 +45,8 @@ export interface Moved {
   readonly state: State;
   readonly pose: Rows;
   readonly wheels: boolean;
+  /** That of the sizes before, if there were any. */
+  readonly cycle?: Cycle;
   /** Rows along values of the drive, from a state at the first value. */
   runAlong(values: Float64Array, state: State, order: number): Rows;
 }
@@ -112,15 +114,20 @@ function fullTurns(
 ): { turns: number; values: Float64Array; rows: Rows } | { end: End | null } {
   const most = moved.wheels ? MOST_WITH_WHEELS : MOST_TURNS;
   const { span } = moved.sizes.model;
+  // without rates where they were of no use in the cycle before
+  const order = moved.cycle?.full === false ? 0 : 2;
   let turns = 1;
   while (turns <= most) {
     let steps = 360;
     if (turns > 1) steps = turns <= MOST_TURNS ? 120 : 60;
     const values = Float64Array.from({ length: turns * steps + 1 }, (_, k) => start + (k * TURN) / steps);
-    const rows = moved.runAlong(values, moved.state, 2);
+    let rows = moved.runAlong(values, moved.state, order);
     const end = endOf(moved, values, rows, TURN / steps);
     if (end) return { end: turns === 1 ? end : null };
-    if (same(moved.sizes, rows, turns * steps)) return { turns, values, rows };
+    if (same(moved.sizes, rows, turns * steps)) {
+      if (order < 2) rows = moved.runAlong(values, moved.state, 2);
+      return { turns, values, rows };
+    }
     if (turns === most) break;
     turns = turns === 1 && span.turns > 1 ? Math.min(span.turns, most) : turns + 1;
   }

@@ -138,10 +138,10 @@ export class Linkage {
 
   /** Rows along values of the active drive, from a state at the first value; a slide stops where it is shortest. */
   runAlong(values: Float64Array, state: State, order: number): Rows {
-    const D = this.program.drives;
+    const special = this.shortest();
+    if (special.length === 0) return this.runThrough(values, state, order);
     const rows: number[] = [];
     const asked: number[] = [];
-    const special = this.shortest();
     values.forEach((value, row) => {
       if (row > 0) {
         const last = values[row - 1]!;
@@ -151,12 +151,18 @@ export class Linkage {
       asked.push(rows.length);
       rows.push(value);
     });
-    const path = new Float64Array(rows.length * D);
-    rows.forEach((value, row) => {
-      for (let d = 0; d < D; d++) path[row * D + d] = d === this.active ? value : this.drives[d]!;
-    });
-    const found = this.kernel.run(path, state, order, this.speeds(rows.length));
+    const found = this.runThrough(rows, state, order);
     return asked.length === rows.length ? found : picked(found, asked, rows, values);
+  }
+
+  private runThrough(values: ArrayLike<number>, state: State, order: number): Rows {
+    const D = this.program.drives;
+    const path = new Float64Array(values.length * D);
+    for (let row = 0; row < values.length; row++) {
+      path.set(this.drives, row * D);
+      path[row * D + this.active] = values[row]!;
+    }
+    return this.kernel.run(path, state, order, order ? this.speeds(values.length) : []);
   }
 
   /** Where the driven slide brings the two joints of its body nearest; there steps could pass a limit unseen. */

@@ -54,17 +54,25 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number): [num
   ];
 }
 
-/** The output at rows of the cycle that follow one another. An angle has no jumps, and lies between -180° and 180°
- * where the cycle was found, as the library measures it from a reference pose. */
-export function outputAlong(linkage: Linkage, rows: number[]): Float64Array {
+/** The output and its first two derivatives by the drive, at rows of the cycle that follow one another. An angle has
+ * no jumps, and lies between -180° and 180° where the cycle was found, as the library measures it from a reference
+ * pose. */
+export function outputAlong(linkage: Linkage, rows: number[]): [Float64Array, Float64Array, Float64Array] {
   const { cycle, model } = linkage;
-  const values = Float64Array.from(rows, (row) => output(linkage, cycle.rows, row)[0]);
-  return model.outputs[0]?.joint === null ? unwrapped(values, rows.indexOf(cycle.home)) : values;
+  const [values, first, second] = [0, 1, 2].map(() => new Float64Array(rows.length)) as [
+    Float64Array,
+    Float64Array,
+    Float64Array,
+  ];
+  rows.forEach((row, k) => {
+    [values[k], first[k], second[k]] = output(linkage, cycle.rows, row);
+  });
+  const along = model.outputs[0]?.joint === null ? unwrapped(values, rows.indexOf(cycle.home)) : values;
+  return [along, first, second];
 }
 
-/** Whether the output keeps its angle, or its place on its guide, but for rounding. */
-export function outputStandsStill(linkage: Linkage, rows: number[]): boolean {
-  const values = outputAlong(linkage, rows);
+/** Whether the output, whose values over the cycle are given, keeps its angle or its place, but for rounding. */
+export function outputStandsStill(linkage: Linkage, values: Float64Array): boolean {
   const size = linkage.model.outputs[0]?.joint === null ? 1 : linkage.sizes.unit;
   return Math.max(...values) - Math.min(...values) < NOISE * size;
 }
@@ -73,7 +81,7 @@ export function outputStandsStill(linkage: Linkage, rows: number[]): boolean {
 export function unwrapped(values: Float64Array, home: number): Float64Array {
   let turns = 0;
   const laps = values.map((value, k) => {
-    turns -= k ? Math.round((value - values[k - 1]!) / TURN) : 0;
+    if (k) turns -= Math.round((value - values[k - 1]!) / TURN);
     return turns;
   });
   const first = laps[home] ?? 0;

@@ -4,7 +4,7 @@ import { type Cycle, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
-import { output, outputAlong, outputStandsStill, transmission } from "./measures";
+import { outputAlong, outputStandsStill, transmission } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
@@ -15,15 +15,23 @@ export interface Lap {
   rows: number[];
 }
 
+/** The lap of a cycle, and the output in its rows with two derivatives. */
+interface Plotted extends Lap {
+  cycle: Cycle;
+  outputs: [Float64Array, Float64Array, Float64Array];
+}
+
+type Making = (plotted: Plotted) => Series;
+
 const OF_OUTPUT = 3; // plots: its angle or place, two derivatives
 const SMALL = 40; // degrees: transmission angles below are shaded
 
 export class Plots {
   readonly element = h("div", {});
-  parts: { plot: Plot; make: (rows: number[]) => Series }[] = [];
+  parts: { plot: Plot; make: Making }[] = [];
   /** In place of the plots of an output that does not turn or travel. */
   private readonly still = h("p", { class: "note", "data-note": "still" });
-  private lap: { cycle: Cycle; drives: Float64Array; values: Float64Array } | null = null;
+  private last: Plotted | null = null;
 
   constructor(private readonly pick: (drive: number) => void) {}
 
@@ -33,7 +41,7 @@ export class Plots {
     const record = model.outputs[0];
     const series = record ? outputSeries(linkage, record) : [];
     for (const { name, link, at } of sizes.points)
-      series.push((rows) => ({
+      series.push(({ rows }) => ({
         title: t("Speed of {name} by the drive", { name }),
         colour: "--ink",
         values: along(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
@@ -56,14 +64,14 @@ export class Plots {
   draw(linkage: Linkage): void {
     const { active, cycle, drives, model } = linkage;
     if (cycle.values.length < 2) return;
-    const lap = lapOf(cycle);
+    const plotted = this.plotted(linkage);
     const record = model.outputs[0];
-    const still = record !== undefined && outputStandsStill(linkage, lap.rows);
+    const still = record !== undefined && outputStandsStill(linkage, plotted.outputs[0]);
     this.still.hidden = !still;
     for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
       plot.element.style.display = still ? "none" : "";
     for (const { plot, make } of this.parts) {
-      plot.show(lap.drives, make(lap.rows), cycle.full ? [0, TURN * cycle.turns] : [cycle.low, cycle.high]);
+      plot.show(plotted.drives, make(plotted), cycle.full ? [0, TURN * cycle.turns] : [cycle.low, cycle.high]);
       plot.at(wrapped(cycle, drives[active]!));
     }
   }
@@ -76,11 +84,8 @@ export class Plots {
   /** The angle of the output in the pose that is shown, in the lap in which it is plotted. */
   plottedAngle(linkage: Linkage, value: number): number {
     const { active, cycle } = linkage;
-    if (this.lap?.cycle !== cycle) {
-      const { drives, rows } = lapOf(cycle);
-      this.lap = { cycle, drives, values: outputAlong(linkage, rows) };
-    }
-    const { drives, values } = this.lap;
+    const { drives, outputs } = this.plotted(linkage);
+    const [values] = outputs;
     const drive = wrapped(cycle, linkage.drives[active] ?? 0);
     let low = 0;
     let high = drives.length - 1;
@@ -91,6 +96,14 @@ export class Plots {
     }
     return value + TURN * Math.round((values[low]! - value) / TURN);
   }
+
+  private plotted(linkage: Linkage): Plotted {
+    const { cycle } = linkage;
+    if (this.last?.cycle === cycle) return this.last;
+    const lap = lapOf(cycle);
+    this.last = { ...lap, cycle, outputs: outputAlong(linkage, lap.rows) };
+    return this.last;
+  }
 }
 
 /** The rows of full turns from 0 on, the first of them once more at the end; of a range as they are. */
@@ -98,10 +111,14 @@ export function lapOf(cycle: Cycle): Lap {
   const { full, turns, values } = cycle;
   const count = values.length;
   if (!full) return { drives: values, rows: Array.from({ length: count }, (_, row) => row) };
-  const at = (row: number) => wrapped(cycle, values[row]!);
-  const rows = Array.from({ length: count - 1 }, (_, row) => row).sort((a, b) => at(a) - at(b));
-  const first = rows[0]!;
-  return { drives: Float64Array.from([...rows.map(at), TURN * turns + at(first)]), rows: [...rows, first] };
+  const at = values.map((value) => wrapped(cycle, value));
+  let first = 0;
+  for (let row = 1; row < count - 1; row++) if (at[row]! < at[first]!) first = row;
+  // values grow, so that those of one lap follow the least one, then those before it
+  const rows = Array.from({ length: count }, (_, k) => (first + k) % (count - 1));
+  const drives = Float64Array.from(rows, (row) => at[row]!);
+  drives[count - 1]! += TURN * turns;
+  return { drives, rows };
 }
 
 function along(rows: number[], f: (row: number) => number): Float64Array {
@@ -112,26 +129,25 @@ function degrees(angle: number): number {
   return (angle * 360) / TURN;
 }
 
-function outputSeries(linkage: Linkage, record: OutputRecord): ((rows: number[]) => Series)[] {
+function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
   const turning = record.joint === null;
   const name = linkage.linkName(record.link);
-  const derivative = (rows: number[], k: 1 | 2) => along(rows, (row) => output(linkage, linkage.cycle.rows, row)[k]);
-  const angle: (rows: number[]) => Series = (rows) => ({
+  const angle: Making = ({ outputs }) => ({
     title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${linkage.model.unit}]`),
     colour: "--motion",
-    values: outputAlong(linkage, rows).map((value) => (turning ? degrees(value) : value)),
+    values: turning ? outputs[0].map(degrees) : outputs[0],
   });
-  const velocity: (rows: number[]) => Series = (rows) => ({
+  const velocity: Making = ({ outputs }) => ({
     title: t("Its velocity by the drive"),
     colour: "--green",
-    values: derivative(rows, 1),
+    values: outputs[1],
   });
-  const acceleration: (rows: number[]) => Series = (rows) => ({
+  const acceleration: Making = ({ outputs }) => ({
     title: t("Its acceleration by the drive"),
     colour: "--purple",
-    values: derivative(rows, 2),
+    values: outputs[2],
   });
-  const mu: (rows: number[]) => Series = (rows) => ({
+  const mu: Making = ({ rows }) => ({
     title: `${t("Transmission angle")} [°]`,
     colour: "--accent",
     floor: SMALL,

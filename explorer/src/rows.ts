@@ -33,6 +33,20 @@ export function place(rows: Rows, row: number, link: number, x: number, y: numbe
   return [ox - w * w * ax - a * ay, oy - w * w * ay + a * ax];
 }
 
+/** The places of a point of a link in all rows, x and y in turn. */
+export function placesOf(rows: Rows, link: number, x: number, y: number): Float64Array {
+  const { places, turns } = rows;
+  const count = 2 * countOf(rows);
+  const from = link * count;
+  const out = new Float64Array(count);
+  for (let k = 0; k < count; k += 2) {
+    const [c, s] = [turns[from + k]!, turns[from + k + 1]!];
+    out[k] = places[from + k]! + (c * x - s * y);
+    out[k + 1] = places[from + k + 1]! + (c * y + s * x);
+  }
+  return out;
+}
+
 /** A direction on a link, as it lies in the plane in a row. */
 export function direction(rows: Rows, row: number, link: number, [x, y]: Pair): Pair {
   const [c, s] = turn(rows, row, link);
@@ -64,8 +78,10 @@ function countOf(rows: Rows): number {
 
 /** Signs of the dyads and unknowns of the larger groups in a row. */
 export function stateAt(rows: Rows, row: number): State {
-  const { roots, unknowns } = selected([[rows, row]]);
-  return { signs: roots.map((root) => (root < 0 ? -1 : 1)), unknowns };
+  const count = countOf(rows);
+  const column = (all: Float64Array) =>
+    Float64Array.from({ length: all.length / count }, (_, k) => all[k * count + row]!);
+  return { signs: column(rows.roots).map((root) => (root < 0 ? -1 : 1)), unknowns: column(rows.unknowns) };
 }
 
 /** How far a row is from a change point or limit of a dyad: at most 1. */
@@ -88,12 +104,17 @@ function selected(wanted: readonly (readonly [Rows, number])[]): Columns {
     const width = WIDTHS[key];
     const columns = model[key].length / (width * countOf(model));
     const out = new Float64Array(width * columns * wanted.length);
-    for (const [row, [source, from]] of wanted.entries()) {
+    wanted.forEach(([source, from], row) => {
+      const all = source[key];
       const step = width * countOf(source);
-      for (let column = 0; column < columns; column++)
-        for (let part = 0; part < width; part++)
-          out[width * (column * wanted.length + row) + part] = source[key][column * step + width * from + part]!;
-    }
+      for (let part = 0; part < width; part++) {
+        let to = width * row + part;
+        for (let at = width * from + part; at < all.length; at += step) {
+          out[to] = all[at]!;
+          to += width * wanted.length;
+        }
+      }
+    });
     return out;
   };
   const [places, turns, rates] = [made("places"), made("turns"), made("rates")];

@@ -39,6 +39,15 @@ export class Stage implements Board {
   private readonly scene: Scene;
   private readonly pointer: Pointer;
   private readonly observer: ResizeObserver;
+  /** Values of variables of the style sheet. To ask for one makes the browser apply all of it. */
+  private readonly colours = new Map<string, string>();
+  private readonly colour = (name: string): string => {
+    const known = this.colours.get(name);
+    if (known) return known;
+    const found = getComputedStyle(this.element).getPropertyValue(name).trim();
+    this.colours.set(name, found);
+    return found;
+  };
 
   constructor(
     events: StageEvents,
@@ -125,9 +134,13 @@ export class Stage implements Board {
     this.scene.draw(this.linkage, this.shown);
     const pen = this.canvas.getContext("2d");
     if (!pen) return;
-    const style = getComputedStyle(this.element);
-    const colour = (name: string) => style.getPropertyValue(name).trim();
-    new Painter(pen, this.viewport, colour).paint(this.linkage, this.shown);
+    new Painter(pen, this.viewport, this.colour).paint(this.linkage, this.shown);
+  }
+
+  /** Draw in the colours of another theme. */
+  recoloured(): void {
+    this.colours.clear();
+    this.draw();
   }
 
   /** The picture as one SVG file, its colours written out. */
@@ -144,8 +157,7 @@ export class Stage implements Board {
       for (const name of STYLES) element.setAttribute(name, style.getPropertyValue(name));
       for (const name of ["class", "tabindex", "role", "style"]) element.removeAttribute(name);
     }
-    const style = getComputedStyle(this.element);
-    const colour = (name: string) => style.getPropertyValue(name).trim();
+    const { colour } = this;
     const { rows, values } = this.linkage!.cycle;
     const points = this.shown.curves ? this.linkage!.sizes.points : [];
     points.forEach((point, number) => {

@@ -1,7 +1,7 @@
 /** The curves as a table in CSV: the drive, the output and the points, with their derivatives. */
 
 import type { Linkage } from "./linkage";
-import { output, outputAlong, transmission } from "./measures";
+import { outputAlong, transmission } from "./measures";
 import { place } from "./rows";
 
 export function tableOf(linkage: Linkage): string {
@@ -12,13 +12,12 @@ export function tableOf(linkage: Linkage): string {
   const head = [turning ? "drive_deg" : `drive_${model.unit}`];
   if (record) head.push("output", "output_velocity", "output_acceleration", "transmission_angle_deg");
   for (const { name } of points) head.push(`${name}_x`, `${name}_y`, `${name}_vx`, `${name}_vy`);
-  const outputs = outputAlong(linkage, Array.from(cycle.values.keys()));
+  const [outputs, first, second] = outputAlong(linkage, Array.from(cycle.values.keys()));
   const lines = Array.from(cycle.values, (value, row) => {
     const line = [turning ? degrees(value) : value];
     if (record) {
-      const [, first, second] = output(linkage, cycle.rows, row);
       const psi = outputs[row]!;
-      line.push(record.joint === null ? degrees(psi) : psi, first, second);
+      line.push(record.joint === null ? degrees(psi) : psi, first[row]!, second[row]!);
       line.push(degrees(transmission(linkage, cycle.rows, row)));
     }
     for (const { link, at } of points)

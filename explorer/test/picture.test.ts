@@ -7,7 +7,7 @@ import { TURN } from "../src/cycle";
 import { convexHull, toHull } from "../src/hull";
 import { Linkage } from "../src/linkage";
 import { later } from "../src/player";
-import { plotRange } from "../src/plot";
+import { lineThrough, plotRange } from "../src/plot";
 import { lapOf } from "../src/plots";
 import { linesOf } from "../src/shapes";
 import { Sizes } from "../src/sizes";
@@ -94,6 +94,25 @@ test("a plot shows all values, but not how rates grow without bound", () => {
   const deep = plotRange(steep.map((value) => -value)); // the same downwards
   near([deep.low, deep.high, deep.wide], [-98 - 96, 0, 96]);
   assert.deepEqual(plotRange(new Float64Array(0)), { low: 0, high: 1, wide: 1 });
+});
+
+test("a line leaves out what is nearly straight, keeps corners and gaps", () => {
+  const x = Float64Array.from({ length: 41 }, (_, k) => k);
+  assert.equal(lineThrough(x, x), `M0 0${Array.from({ length: 10 }, (_, k) => `L${4 * k + 4} ${4 * k + 4}`).join("")}`);
+  const bent = x.map((value) => (value === 22 ? 9 : 0));
+  assert.ok(/L20 0L21 0L22 9L23 0L24 0/.test(lineThrough(x, bent)));
+  const gap = x.map((value) => (value === 22 ? NaN : 0));
+  assert.ok(/L20 0L21 0M23 0L24 0/.test(lineThrough(x, gap)));
+  const wave = x.map((value) => 50 * Math.sin(value / 20)); // as a plot: 0.125 pixels at its top from point to point
+  const kept = [...lineThrough(x, wave).matchAll(/[ML]([\d.]+) (-?[\d.]+)/g)].map(([, u, v]) => [Number(u), Number(v)]);
+  for (const value of x) {
+    const after = Math.max(
+      1,
+      kept.findIndex(([at]) => at! >= value),
+    );
+    const [[u, v], [p, q]] = [kept[after - 1], kept[after]] as [[number, number], [number, number]];
+    close(v + ((q - v) * (value - u)) / (p - u), 50 * Math.sin(value / 20), 0.25); // 0.05 more by rounding
+  }
 });
 
 test("full turns are plotted from 0 to 360 degrees", () => {
