@@ -138,7 +138,7 @@ core: $(VENV)/.core
 
 # The compiler is needed by who changes the kernels of the page only, so no extra asks for it.
 page: $(READY)
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check ziglang==0.17.1
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check ziglang==0.17.1 zopfli
 	$(BIN)/python core/page/build.py
 	cd explorer && npm ci --no-audit --no-fund --ignore-scripts && npm run build
 

@@ -65,6 +65,10 @@ def test_the_module_of_the_kernels_is_made_of_these_sources():
     assert b"wasi_snapshot" not in module  # it asks nothing of its host
 
 
+def test_the_page_stays_small():
+    assert len(BUILT.read_bytes()) <= 220_000
+
+
 def test_the_lock_file_names_no_address():
     lock = json.loads((SOURCES / "package-lock.json").read_text(encoding="utf-8"))
     assert "http" not in json.dumps(lock["packages"])
