@@ -7,6 +7,7 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
@@ -143,8 +144,13 @@ def _readable(error: str, prefix: str) -> Message:
     return message("{key}: {problem}", key=key, problem=problem) if key else message("{problem}", problem=problem)
 
 
+@cache
+def _fields(kind: type[msgspec.Struct]) -> dict[str, Any]:
+    return {field.name: field.type for field in msgspec.structs.fields(kind)}
+
+
 def _refuse_strange_keys(data: Mapping[str, Any], kind: type[msgspec.Struct], fail: Failing, prefix: str) -> None:
-    fields = {f.name: f.type for f in msgspec.structs.fields(kind)}
+    fields = _fields(kind)
     for key, value in data.items():
         if key not in fields:
             close = near_words(key, fields)

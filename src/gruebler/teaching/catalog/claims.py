@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import message, translate
 from gruebler.files.catalog_records import Claims
 from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.screws import Freedoms, SpatialLinkage, freedoms
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility import Count, MobilityReport, counted, mobility_report
+
+if TYPE_CHECKING:
+    from gruebler.mechanics.screws import Freedoms
 
 _NONE = message("none")
 
@@ -82,8 +86,10 @@ def check_claims(
         for key, value in derived.items()
         if getattr(claims, key) is not None and getattr(claims, key) != value
     ]
-    derived_freedoms = None
+    derived_freedoms: Freedoms | None = None
     if linkage is not None:
+        from gruebler.mechanics.screws import freedoms  # loaded for what has dimensions
+
         try:
             derived_freedoms = freedoms(linkage)
         except LinkageError as error:

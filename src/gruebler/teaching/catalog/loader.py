@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
 from gruebler.base.errors import CatalogError, near_words
-from gruebler.files.catalog_records import Entry, Exercise, Record, read_entry, read_exercise
+from gruebler.files.catalog_records import Entry, Exercise, read_entry, read_exercise
 from gruebler.structure.chain.pairs import PAIRS, Pair, pair
 from gruebler.structure.mobility import counted
 from gruebler.teaching.catalog.claims import CheckedEntry, WrongClaim, check_claims
+from gruebler.teaching.catalog.record_folders import RecordFolder
 
 
 def catalog_folder() -> Path:
@@ -26,40 +28,32 @@ def catalog_folder() -> Path:
 
 
 @cache
-def entries() -> dict[str, Entry]:
+def entries() -> Mapping[str, Entry]:
     """All machines by id, in alphabetical order.
 
     >>> entries()["vcomp"].name.en
     'Two-cylinder V-compressor'
     """
-    return {
-        path.stem: _named(read_entry(path), path) for path in sorted((catalog_folder() / "machines").glob("*.toml"))
-    }
+    return RecordFolder(catalog_folder() / "machines", read_entry)
 
 
 @cache
-def exercises() -> dict[str, Exercise]:
+def exercises() -> Mapping[str, Exercise]:
     """All exercises by id."""
-    paths = sorted((catalog_folder() / "exercises").glob("*.toml"))
-    records = {path.stem: _named(read_exercise(path), path) for path in paths}
-    for exercise in records.values():
-        for case in exercise.cases:
-            if case.machine not in entries():
-                raise CatalogError(
-                    "{exercise}: {case}: there is no machine {machine!r} in the catalog",
-                    exercise=exercise.id,
-                    case=case.id,
-                    machine=case.machine,
-                )
-    return records
+    return RecordFolder(catalog_folder() / "exercises", _exercise_of_known_machines)
 
 
-def _named(record: Record, path: Path) -> Record:
-    if record.id != path.stem:
-        raise CatalogError(
-            "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
-        )
-    return record
+def _exercise_of_known_machines(path: Path) -> Exercise:
+    exercise = read_exercise(path)
+    for case in exercise.cases:
+        if case.machine not in entries():
+            raise CatalogError(
+                "{exercise}: {case}: there is no machine {machine!r} in the catalog",
+                exercise=exercise.id,
+                case=case.id,
+                machine=case.machine,
+            )
+    return exercise
 
 
 def entry(id: str) -> Entry:

@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from functools import cache
 
 from gruebler.base.errors import CatalogError, nearest
 from gruebler.files import Exercise, read_exercise
 from gruebler.teaching.catalog import catalog_folder, exercises
+from gruebler.teaching.catalog.record_folders import RecordFolder
 from gruebler.teaching.exercises.generation import generated_from_id, is_generated
 
 
 @cache
-def all_exercises() -> dict[str, Exercise]:
+def all_exercises() -> Mapping[str, Exercise]:
     """Worked examples and exercises in the order of the text.
 
     >>> list(all_exercises())[:2], len(all_exercises())
     (['example-2.3', 'example-2.5'], 40)
     """
-    records = dict(exercises())
-    for path in sorted((catalog_folder() / "solved").glob("*.toml")):
-        record = read_exercise(path)
-        if record.id != path.stem:
-            raise CatalogError(
-                "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
-            )
-        records[record.id] = record
+    records = {**exercises(), **RecordFolder(catalog_folder() / "solved", read_exercise)}
     return {id: records[id] for id in sorted(records, key=_order)}
 
 

@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 
 from gruebler.base.errors import CatalogError, nearest
 from gruebler.teaching.catalog import catalog_folder
+from gruebler.teaching.catalog.record_folders import RecordFolder
 from gruebler.teaching.sheets.model import Sheet
 from gruebler.teaching.sheets.records import read_sheet
 
 
 @cache
-def sheets() -> dict[str, Sheet]:
+def sheets() -> Mapping[str, Sheet]:
     """All sheets by id, in alphabetical order.
 
     >>> sheets()["mzc"].features.drive_joints
     1
     """
-    records = {}
-    for path in sorted((catalog_folder() / "sheets").glob("*.toml")):
-        record = read_sheet(path)
-        if record.id != path.stem:
-            raise CatalogError(
-                "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
-            )
-        records[record.id] = Sheet(record)
-    return records
+    return {id: Sheet(record) for id, record in RecordFolder(catalog_folder() / "sheets", read_sheet).items()}
 
 
 def sheet(id: str) -> Sheet:
