@@ -1,6 +1,8 @@
 """The commands assur and extend through their run functions: text, JSON, counts, statuses, both languages."""
 
 import json
+import subprocess
+import sys
 from argparse import Namespace
 
 import pytest
@@ -199,3 +201,17 @@ def test_assur_counts_modes(capsys):
     status, out = run(capsys, assur, mechanism="R(0-1) R(1-2) P(2-3) R(3-0); frame=0; drive=R(0-1)", modes=True)
     assert status == 0
     assert out.splitlines()[-1].split()[-2:] == ["-", "-"]
+
+
+def test_a_chain_is_checked_without_the_solver_and_without_the_catalog():
+    """What asks for structure only waits neither for the solver nor for 70 machines to be read."""
+    script = (
+        "import sys; from gruebler.cli import main; from gruebler.files import catalog_records; "
+        "catalog_records.load_document = lambda *_: sys.exit('a file of the catalog was read'); "
+        "status = main(['check', 'R(0-1) R(1-2) R(2-3) R(3-0)']); "
+        "heavy = {'gruebler.mechanics.kinematics.plan', 'gruebler.mechanics.screws.mobility_report', 'scipy', "
+        "'networkx'} & set(sys.modules); sys.exit(', '.join(heavy) or status)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "constrained" in done.stdout

@@ -29,8 +29,8 @@ from gruebler.files.structures import (
     structures_of_lines,
 )
 from gruebler.mechanics.fourbar.length_texts import is_lengths
-from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.screws import SpatialLinkage, freedoms, has_only_lower_pairs
+from gruebler.mechanics.linkages import Linkage, has_only_lower_pairs
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility import mobility_report
 from gruebler.structure.mobility.report import verdict_word
@@ -227,7 +227,7 @@ def _complain(checked_entries: Iterable[CheckedEntry], lang: str) -> None:
 
 def _checked(word: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     """What one argument names: a chain, a catalog entry, an exercise or a file."""
-    if word in exercises() and not Path(word).is_file():
+    if not is_structure_text(word) and word in exercises() and not Path(word).is_file():
         yield from check_exercise(exercises()[word])
         return
     for structure in _structures(word, arguments.space, language_of_names(arguments)):
@@ -295,6 +295,8 @@ def _checked_structure(structure: Structure, arguments: argparse.Namespace) -> C
         checked = CheckedEntry(id=name, origin="", report=report, claims=Claims(), wrong=())
     if placed is None:
         return checked
+    from gruebler.mechanics.screws import freedoms  # loaded for what has dimensions
+
     at = None if arguments.at is None else pose_of(arguments.at, placed.mechanism)
     tolerance = 1e-8 if arguments.tolerance is None else arguments.tolerance
     return replace(checked, freedoms=freedoms(placed, at=at, branch=arguments.branch, tolerance=tolerance))

@@ -19,8 +19,8 @@ from gruebler.base.errors import CatalogError, ChainError, GrueblerError, Notati
 from gruebler.base.text import LANGUAGES, Message, Text, message, translate
 from gruebler.files.linkage_records import Dimensions, linkage_from_record
 from gruebler.files.screws import ScrewsRecord, spatial_linkage_from_record
-from gruebler.mechanics.linkages import Linkage
-from gruebler.mechanics.screws import SpatialLinkage, has_only_lower_pairs
+from gruebler.mechanics.linkages import Linkage, has_only_lower_pairs
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.notation import renamed_links
 from gruebler.structure.mechanism import Mechanism

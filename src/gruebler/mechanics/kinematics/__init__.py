@@ -5,36 +5,6 @@ all positions that are connected, all joints at once and without regard to the d
 what may err: docs/theory/kinematics.md, circuits.md, assembly-modes.md.
 """
 
-from gruebler.mechanics.kinematics.batch import (
-    Designs,
-    Motions,
-    designs,
-    four_bars,
-    inverted_slider_cranks,
-    move_many,
-    slider_cranks,
-)
-from gruebler.mechanics.kinematics.circuits import Circuit, MonotonePiece, circuit
-from gruebler.mechanics.kinematics.drive_rows import from_degrees
-from gruebler.mechanics.kinematics.motion import Motion, Stop
-from gruebler.mechanics.kinematics.poses import Poses
-from gruebler.mechanics.kinematics.solve import all_branches, move
+from lazy_loader import attach_stub
 
-__all__ = [
-    "Circuit",
-    "Designs",
-    "MonotonePiece",
-    "Motion",
-    "Motions",
-    "Poses",
-    "Stop",
-    "all_branches",
-    "circuit",
-    "designs",
-    "four_bars",
-    "from_degrees",
-    "inverted_slider_cranks",
-    "move",
-    "move_many",
-    "slider_cranks",
-]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -9,8 +11,10 @@ from gruebler.base.angles import doubt_of_angles, warn_of_degrees
 from gruebler.base.arrays import Reals, real_numbers
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.structure.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from gruebler.mechanics.kinematics.plan import Plan
 
 _ROUNDING = 1e-12  # of a number of steps: its error by two roundings, with room
 _LAST = 1e-9  # of a step: an end that is missed by less is reached

@@ -15,6 +15,11 @@ from gruebler.structure.chain.pairs import pair
 from gruebler.structure.mechanism import Drive, Mechanism
 
 
+def has_only_lower_pairs(linkage: Linkage) -> bool:
+    """Whether all its joints are pins and lines; others are given by their screws."""
+    return not any(element.is_round for element in linkage.elements.values())
+
+
 def with_lower_pairs(linkage: Linkage) -> Linkage:
     """The linkage with a further link for each pin in a slot and each double slide; the other links keep their names.
 

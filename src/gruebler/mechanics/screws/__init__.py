@@ -5,34 +5,6 @@ with their Jacobian. `freedoms` takes it, or a planar `Linkage`, and compares th
 sizes, at the pose, and finite. docs/theory/freedoms.md has the conventions, the theorems and what may err.
 """
 
-from gruebler.mechanics.screws.closed_poses import has_only_lower_pairs
-from gruebler.mechanics.screws.closing import Closing
-from gruebler.mechanics.screws.finite_mobility import Evidence, FiniteMobility
-from gruebler.mechanics.screws.following import follow_joint, joint_value
-from gruebler.mechanics.screws.instant_mobility import InstantMobility
-from gruebler.mechanics.screws.joint_geometry import Reason
-from gruebler.mechanics.screws.joint_places import JointPlace
-from gruebler.mechanics.screws.mobility_report import Freedoms, freedoms
-from gruebler.mechanics.screws.model import SpatialLinkage
-from gruebler.mechanics.screws.motion_groups import MotionGroup, common_group
-from gruebler.mechanics.screws.rigid_motions import adjoint, exponential, twist_matrix
+from lazy_loader import attach_stub
 
-__all__ = [
-    "Closing",
-    "Evidence",
-    "FiniteMobility",
-    "Freedoms",
-    "InstantMobility",
-    "JointPlace",
-    "MotionGroup",
-    "Reason",
-    "SpatialLinkage",
-    "adjoint",
-    "common_group",
-    "exponential",
-    "follow_joint",
-    "freedoms",
-    "has_only_lower_pairs",
-    "joint_value",
-    "twist_matrix",
-]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -48,11 +48,6 @@ def closed_pose(
     return closing, _centred(closing, _settled(closing, _reference_pose(linkage)))
 
 
-def has_only_lower_pairs(linkage: Linkage) -> bool:
-    """Whether all its joints are pins and lines; others are given by their screws."""
-    return not any(element.is_round for element in linkage.elements.values())
-
-
 def _planar(linkage: Linkage) -> Closing:
     chain, size = linkage.mechanism.chain, linkage.size
     ties = []
