@@ -89,7 +89,8 @@ def test_it_says_how_well_energy_is_kept(capsys):
         (["dynamics", ENGINE, "--speed", "0"], "--speed: expected a number that is not 0"),
         (["simulate", ENGINE, "--until", "-1"], "--until: expected a time in seconds after 0"),
         (["simulate", ENGINE, "--until", "1", "--rows", "1"], "--rows: expected a number from 2 to 100000"),
-        (["dynamics", "lambda", "--speed", "60"], "a linkage is in a .toml or .json file"),
+        (["dynamics", "lambda", "--speed", "60"], "the catalog entry 'lambda' has no masses and no loads; these have"),
+        (["dynamics", "lambada", "--speed", "60"], "a linkage is in a .toml or .json file"),
     ],
 )
 def test_absurd_input(capsys, arguments, sentence):
@@ -115,3 +116,16 @@ def test_a_drive_that_swings_needs_a_range(capsys, tmp_path):
     assert status == 2
     assert "cannot keep its speed at its limits" in err
     assert run_command(capsys, "dynamics", str(path), "--speed", "60", "--range", "40:60:10")[0] == 0
+
+
+def test_machines_of_the_catalog(capsys):
+    """Their usual speed is taken, their names are German in German, and they stop at the ends of their range."""
+    status, out, err = run_command(capsys, "dynamics", "compressor", "--range", "0:360:90")
+    assert (status, err) == (0, "")
+    assert "Largest effort: torque R(frame-crank)" in out
+    _, twice, _ = run_command(capsys, "dynamics", "compressor", "--range", "0:360:90", "--speed", "1450")
+    assert twice == out
+    assert "D(Kurbel-Pleuel)" in run_command(capsys, "dynamics", "compressor", "--at", "30", "--lang", "de")[1]
+    status, out, _ = run_command(capsys, "simulate", "hood", "--until", "3", "--at", "125", "--tolerance", "1e-5")
+    assert status == 1
+    assert "R(body-link1) reaches the end of its range" in out

@@ -179,6 +179,14 @@ def test_a_driven_slide_has_forces_and_velocities():
         ),
         ({"motors": {"R(crank-coupler)": {"stall": "1 N m", "idle_speed": "1 rpm"}}}, "R(crank-coupler) is not driven"),
         ({"motors": {DRIVE: {"stall": "0 N m", "idle_speed": "1 rpm"}}}, "a motor has a positive torque at standstill"),
+        (
+            {"moments": {"crank": {"unit": "N m", "curve": [[0, 0], [1, 1]], "of": "time", "of_unit": "ms"}}},
+            "loads.moments.crank.of_unit: goes with a curve of an angle, a length or a speed",
+        ),
+        (
+            {"moments": {"crank": {"unit": "N m", "curve": [[0, 0], [1, 1]], "of_unit": "mm"}}},
+            "loads.moments.crank.of_unit: ",
+        ),
         ({"gravity": ["-9.81 m/s2"]}, "loads.gravity: expected two components"),
     ],
 )
@@ -187,6 +195,20 @@ def test_what_does_not_fit_is_told_by_its_key(table, sentence):
         loads_from_json(table, FOUR_BAR)
     assert sentence in str(told.value)
     assert "\n" not in str(told.value)
+
+
+def test_curves_may_be_in_degrees_and_other_units():
+    degrees = {"curve": [[0, 0], [90, 3], [180, 0]], "of_unit": "deg", "period": 360, "unit": "N m"}
+    spring = {"between": ["frame:0,0", "crank:1,0"], "law": {"curve": [[1, 0], [2, 5]], "of_unit": "cm", "unit": "N"}}
+    twisted = {"between": ["frame", "crank"], "law": {"curve": [[0, 0], [60, 7]], "of_unit": "deg", "unit": "N mm"}}
+    loads = loads_from_json(
+        {"moments": {"crank": degrees}, "springs": [spring], "torsion_springs": [twisted]}, FOUR_BAR
+    )
+    crank, law, twist = loads.moments["crank"], loads.springs[0].law, loads.torsion_springs[0].law
+    assert crank.value(math.radians(45)) == pytest.approx(1500)
+    assert crank.period == pytest.approx(2 * math.pi)
+    assert law.value(15.0) == pytest.approx(2.5)  # mm
+    assert twist.value(math.radians(30)) == pytest.approx(3.5)
 
 
 @pytest.mark.parametrize(

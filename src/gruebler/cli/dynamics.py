@@ -13,7 +13,7 @@ from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import loaded_linkage
+from gruebler.cli.linkage_inputs import add_loaded, loaded_linkage
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
@@ -33,15 +33,17 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="What the drives and joints of a linkage carry while its masses are moved: efforts by two methods, "
         "the equilibrium of every link and the equations of motion; joint forces, power, shaking force and moment. "
-        "Masses and loads stand in the table [loads] of the file. Drives run at constant speed; torques are in N "
-        "times the unit of length.",
-        epilog="Example: gruebler dynamics press.toml --speed 300. Exit status: 0 success, 1 the linkage cannot move "
-        "through all rows, or in some its forces are undetermined, 2 wrong usage or unreadable input.",
+        "Masses and loads stand in the table [loads] of the file or the catalog entry. Drives run at constant speed; "
+        "torques are in N times the unit of length.",
+        epilog="Examples: gruebler dynamics compressor; gruebler dynamics press.toml --speed 300. "
+        "Exit status: 0 success, 1 the linkage cannot move through all rows, or in some its forces are undetermined, "
+        "2 wrong usage or unreadable input.",
     )
+    add_loaded(parser)
     parser.take(
         """
-        file FILE  a .toml or .json file of a linkage with a table [loads]
         --speed N float ...  speed of the drive in rpm, of a slide in lengths per second; repeat it for each drive
+            (default: that of the loads)
         --range FROM:TO:STEP ...  drive values in degrees or the unit, once per drive (default: a full turn)
         --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
         --branch
@@ -52,12 +54,12 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """A table over the rows; 1 if it stops or is not held somewhere."""
-    linkage, loads = loaded_linkage(arguments.file)
+    linkage, loads, usual, between = loaded_linkage(arguments.linkage, language_of_names(arguments))
     lang = arguments.lang
-    speeds = given_speeds(arguments.speed, turning_drives(linkage))
+    speeds = given_speeds(arguments.speed, turning_drives(linkage)) or ([] if usual is None else [usual])
     if not speeds:
         raise GrueblerError("--speed is missing: the forces of inertia grow with its square")
-    motion = move_quietly(linkage, _rows(linkage, arguments), branch=arguments.branch, speed=speeds, order=2)
+    motion = move_quietly(linkage, _rows(linkage, between, arguments), branch=arguments.branch, speed=speeds, order=2)
     if not len(motion):
         print(motion.message(lang))
         return 1
@@ -73,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0 if motion.complete and not result.statics.singular.any() else 1
 
 
-def _rows(linkage: Linkage, arguments: argparse.Namespace) -> Reals:
+def _rows(linkage: Linkage, between: tuple[float, float] | None, arguments: argparse.Namespace) -> Reals:
     """The rows that were asked for, or a full turn."""
     turning = turning_drives(linkage)
     rows = given_rows(arguments.range, arguments.at, turning)
@@ -82,11 +84,11 @@ def _rows(linkage: Linkage, arguments: argparse.Namespace) -> Reals:
     if len(turning) > 1:
         raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
     span = drive_cycle(linkage, branch=arguments.branch).span
-    if not span.full:
+    if not span.full and between is None:
         raise GrueblerError(
             "the drive does not turn fully and cannot keep its speed at its limits: give --range or --at"
         )
-    return default_rows(span, None, turning[0])
+    return default_rows(span, between, turning[0])
 
 
 def _times(motion: Motion, speeds: Sequence[float]) -> Reals:

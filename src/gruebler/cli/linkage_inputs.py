@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, translate
@@ -102,18 +102,51 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
     return record.linkage(), record.dimensions.range
 
 
-def loaded_linkage(word: str) -> tuple[Linkage, Loads]:
-    """The linkage in a file with the loads in its table ``[loads]``; `GrueblerError` if it has none."""
-    from gruebler.files.linkages import read_linkage, read_loads
+class Loaded(NamedTuple):
+    """A linkage with what acts on it."""
 
-    linkage, loads = read_linkage(word), read_loads(word)
+    linkage: Linkage
+    loads: Loads
+    speed: float | None
+    """At which its drive usually runs, in radians or the unit a second."""
+    range: tuple[float, float] | None
+    """Drive values between which a catalog entry shows it, in degrees or the unit."""
+
+
+def add_loaded(command: Parser) -> None:
+    """The argument for a linkage with loads, which `loaded_linkage` reads."""
+    command.add_argument(
+        "linkage",
+        metavar="FILE|ID",
+        help="a .toml or .json file of a linkage with a table [loads], or a catalog entry with loads",
+    )
+
+
+def loaded_linkage(word: str, lang: str = "en") -> Loaded:
+    """The linkage and the loads of a file or a catalog entry; `GrueblerError` if there are none.
+
+    The links of catalog entries have their names in the language.
+    """
+    from gruebler.files.linkages import read_loaded
+    from gruebler.teaching.catalog import entries
+
+    if not Path(word).is_file() and (record := entries().get(word)) is not None:
+        if record.loads is None:
+            raise GrueblerError(
+                "the catalog entry {word!r} has no masses and no loads; these have some: {loaded}",
+                word=word,
+                loaded=", ".join(each.id for each in entries().values() if each.loads is not None),
+            )
+        shown = record.dimensions.range if record.dimensions is not None else None
+        return Loaded(*record.in_language(lang).loaded(), shown)
+    linkage, loads, speed = read_loaded(word)
     if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
         raise GrueblerError(
             "{path}: has no masses and no loads; a table [loads] has them, such as {example}",
             path=word,
             example='bodies = { crank = { mass = "250 g", bar = [[0, 0], [25, 0]] } }',
         )
-    return linkage, loads
+    return Loaded(linkage, loads, speed, None)
 
 
 def value_of_another_program(word: str, lang: str = "en") -> Linkage | Chain | list[Chain] | None:

@@ -12,13 +12,14 @@ from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.cli.drive_rows import given_speeds, pose_of, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import loaded_linkage
+from gruebler.cli.linkage_inputs import add_loaded, loaded_linkage
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
 from gruebler.mechanics.dynamics import Simulation, simulate
 from gruebler.mechanics.dynamics.tables import simulation_table
+from gruebler.mechanics.linkages import Linkage
 
 _MOST_ROWS = 100_000
 
@@ -27,14 +28,14 @@ def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="How a linkage moves by itself under the loads, springs, weights and motors of the table "
-        "[loads] of its file: positions, velocities and energies by time. By how much energy is not kept says how "
-        "exact the motion is.",
+        "[loads] of its file or catalog entry: positions, velocities and energies by time. By how much energy is not "
+        "kept says how exact the motion is. A catalog entry stops at the ends of its range.",
         epilog="Example: gruebler simulate pendulum.toml --until 2 --at 30. Exit status: 0 success, 1 the motion ends "
         "before its time, 2 wrong usage or unreadable input.",
     )
+    add_loaded(parser)
     parser.take(
         """
-        file FILE  a .toml or .json file of a linkage with a table [loads]
         --until T float !  the time to which the motion is followed, in seconds
         --at VALUE[,VALUE]  the drives at the start, in degrees or the unit (default: those of the file)
         --speed N float ...  their speeds at the start in rpm, of a slide in lengths per second; repeat it for each
@@ -50,7 +51,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """A table over the times; 1 if the motion ends before."""
-    linkage, loads = loaded_linkage(arguments.file)
+    linkage, loads, _, between = loaded_linkage(arguments.linkage, language_of_names(arguments))
     lang, turning = arguments.lang, turning_drives(linkage)
     if not 2 <= arguments.rows <= _MOST_ROWS:
         raise GrueblerError("--rows: expected a number from 2 to 100000, but found {count}", count=arguments.rows)
@@ -64,6 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
         at=None if arguments.at is None else pose_of(arguments.at, linkage.mechanism),
         speed=given_speeds(arguments.speed, turning, from_rest=True) or 0.0,
         times=np.linspace(0.0, arguments.until, arguments.rows),
+        ends=_ends(linkage, between),
         tolerance=arguments.tolerance,
         stiff=arguments.stiff,
     )
@@ -77,6 +79,14 @@ def run(arguments: argparse.Namespace) -> int:
         print()
         print_table([column.header for column in table], shown(table.columns, lang), numbers=range(len(table.columns)))
     return 0 if result.complete else 1
+
+
+def _ends(linkage: Linkage, between: tuple[float, float] | None) -> dict[str, tuple[float, float]]:
+    """The range of a catalog entry as the ends of its drive."""
+    if between is None:
+        return {}
+    factor = math.pi / 180 if linkage.mechanism.drives[0].turning else 1.0
+    return {linkage.mechanism.drive_names()[0]: (factor * between[0], factor * between[1])}
 
 
 def _document(result: Simulation, columns: Sequence[Column], lang: str) -> dict[str, object]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import msgspec
 
@@ -18,12 +18,16 @@ from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
 from gruebler.base.text import LANGUAGES, Message, Text, message, translate
 from gruebler.files.linkage_records import Dimensions, linkage_from_record
+from gruebler.files.load_records import LoadsRecord
 from gruebler.files.screws import ScrewsRecord, spatial_linkage_from_record
 from gruebler.mechanics.linkages import Linkage, has_only_lower_pairs
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.notation import renamed_links
 from gruebler.structure.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from gruebler.mechanics.forces.loads import Loads
 
 _SOURCE_WORDS = (
     message("sections"),
@@ -194,6 +198,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     quantities: tuple[MotionQuantity, ...] = ()
     """What name and remark say of the motion, in numbers."""
     dimensions: Sizes | None = None
+    loads: LoadsRecord | None = None
+    """What acts on the machine, and its masses, as in the file of a linkage."""
     screws: ReferenceScrews | None = None
     """Where the joints lie in one position, for machines in space and for contacts: enough for their mobility."""
 
@@ -209,6 +215,23 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         chain = self.chain()
         mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
         return linkage_from_record(self.dimensions, mechanism, self.outputs)
+
+    def loaded(self) -> tuple[Linkage, Loads, float | None]:
+        """The machine, what acts on it, and the speed of its drive if one is usual.
+
+        Raises `CatalogError` if the entry has no loads.
+
+        >>> from gruebler.teaching.catalog import entry
+        >>> linkage, loads, speed = entry("compressor").loaded()
+        >>> sorted(loads.bodies)
+        ['conrod', 'crank', 'piston']
+        """
+        if self.loads is None:
+            raise CatalogError("the catalog entry {id!r} has no loads", id=self.id)
+        from gruebler.files.load_reading import loads_from_json, usual_speed
+
+        linkage, table = self.linkage(), msgspec.to_builtins(self.loads)
+        return linkage, loads_from_json(table, linkage), usual_speed(table, linkage)
 
     def in_language(self, lang: str) -> Entry:
         """The same entry, its links by their names in a language; the German ones are cut short where that is clear.
@@ -243,6 +266,7 @@ _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
     "dimensions": ("elements", "reference_pose", "places", "points", "drive"),
     "screws": ("joints", "points", "drive"),
     "claims": ("idle", "motion", "travel", "dead_centres"),
+    "loads": ("bodies", "masses", "forces", "moments", "springs", "torsion_springs", "motors"),
 }
 
 
@@ -368,6 +392,7 @@ def _check(entry: Entry, path: Path | str) -> None:
             entry.placed()
         except GrueblerError as error:
             raise CatalogError("{path}: {error}", path=path, error=error) from None
+    _check_loads(entry, path)
     if entry.dimensions is not None:
         _check_dimensions(entry, entry.dimensions, chain, path)
     sizes = entry.dimensions
@@ -375,6 +400,17 @@ def _check(entry: Entry, path: Path | str) -> None:
         raise CatalogError("{path}: claims.motion: needs dimensions and one drive", path=path)
     for number, claim in enumerate(entry.quantities, 1):
         _check_quantity(entry, claim, f"{path}: quantities {number}")
+
+
+def _check_loads(entry: Entry, path: Path | str) -> None:
+    if entry.loads is None:
+        return
+    if entry.loads.assumed == bool(entry.loads.source):
+        raise CatalogError("{path}: {key}: either assumed = true, or a source that prints them", path=path, key="loads")
+    try:
+        entry.loaded()
+    except GrueblerError as error:
+        raise CatalogError("{path}: {error}", path=path, error=error) from None
 
 
 _ALL_NUMBERS = tuple(dict.fromkeys(key for keys in MOTION_NUMBERS.values() for key in keys))

@@ -65,12 +65,18 @@ def read_loads(path: Path | str) -> Loads:
 
     Raises `LinkageError` with file and key of the first thing that does not fit.
     """
-    from gruebler.files.load_reading import loads_from_json
+    return read_loaded(path)[1]
+
+
+def read_loaded(path: Path | str) -> tuple[Linkage, Loads, float | None]:
+    """The linkage in a file, its loads, and the speed at which its drive usually runs, as for `read_loads`."""
+    from gruebler.files.load_reading import loads_from_json, usual_speed
 
     linkage, path = read_linkage(path), Path(path)
     data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    table = data.get("loads", {})
     try:
-        return loads_from_json(data.get("loads", {}), linkage)
+        return linkage, loads_from_json(table, linkage), usual_speed(table, linkage)
     except LinkageError as error:
         raise LinkageError("{path}: {error}", path=path, error=error) from None
 

@@ -113,18 +113,33 @@ class _Reader:
         record = convert_document(raw, LawRecord, LinkageError, where)
         return self.law(where, record, quantity)
 
-    def law(self, where: str, record: LawRecord, quantity: str) -> Law:
+    def law(self, where: str, record: LawRecord, quantity: str, of: str | None = None) -> Law:
+        """The law of a record; a curve without ``of`` is one of the drive, or of a spring's length or angle."""
         if (record.formula is None) == (record.curve is None):
             raise LinkageError("{where}: expected either formula or curve", where=where)
         factor = self.quantity(f"{where}.unit", f"1 {record.unit}", quantity)
         if (formula := record.formula) is not None:
-            if record.of is not None or record.period is not None:
-                raise LinkageError("{where}: of and period go with curve", where=where)
+            if record.of is not None or record.of_unit is not None or record.period is not None:
+                raise LinkageError("{where}: of, of_unit and period go with curve", where=where)
             text = formula if factor == 1 else f"{factor!r}*({formula})"
             return _told(f"{where}.formula", lambda: (LoadFormula(formula), LoadFormula(text))[1])
         assert record.curve is not None
-        points = [(x, factor * y) for x, y in record.curve]
-        return _told(f"{where}.curve", lambda: Curve(points, record.of or "drive", record.period))
+        of = record.of or ("drive" if of is None else of)
+        step = self.step(f"{where}.of_unit", of, record.of_unit)
+        points = [(step * x, factor * y) for x, y in record.curve]
+        period = None if record.period is None else step * record.period
+        return _told(f"{where}.curve", lambda: Curve(points, record.of or "drive", period))
+
+    def step(self, where: str, of: str, unit: str | None) -> float:
+        """What 1 is, in radians, seconds and the unit of length, of a variable written in a unit."""
+        drives = self.linkage.mechanism.drives
+        turning = bool(drives) and drives[0].turning
+        quantity = {"drive": "angle" if turning else "length", "speed": "speed" if turning else "velocity"} | _VARIABLES
+        if unit is None:
+            return 1.0
+        if of not in quantity:
+            raise LinkageError("{where}: goes with a curve of an angle, a length or a speed", where=where)
+        return self.quantity(where, f"1 {unit}", quantity[of])
 
     def force(self, point: str, raw: Any) -> tuple[Any, Any]:
         where = f"loads.forces.{point}"
@@ -191,7 +206,7 @@ class _Reader:
             raise LinkageError(
                 "{where}: the law of a spring is a curve of its length or angle, without of", where=where
             )
-        law = self.law(where, record, quantity)
+        law = self.law(where, record, quantity, "length" if quantity == "force" else "angle")
         assert isinstance(law, Curve)
         return law
 
@@ -209,6 +224,14 @@ class _Reader:
         idle = self.quantity(f"{where}.idle_speed", record.idle_speed, speed)
         return _told(where, lambda: Motor(stall, idle))
 
+
+_VARIABLES = {
+    **dict.fromkeys(("x", "y", "length"), "length"),
+    **dict.fromkeys(("vx", "vy"), "velocity"),
+    "angle": "angle",
+    "omega": "speed",
+}
+"""The quantities of variables, beside those of the drive."""
 
 Value = TypeVar("Value")
 
@@ -270,3 +293,18 @@ def loads_from_json(data: Any, linkage: Linkage) -> Loads:
         ),
         motors={joint: reader.motor(joint, raw) for joint, raw in record.motors.items()},
     )
+
+
+def usual_speed(data: Any, linkage: Linkage) -> float | None:
+    """The speed in ``[loads]`` of the only drive, in radians or the linkage's unit a second; None without one.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> usual_speed({"speed": "30 rpm"}, FourBar(25, 70, 40, 70).linkage())
+    3.141592653589793
+    """
+    speed, drives = convert_document(data, LoadsRecord, LinkageError, "loads").speed, linkage.mechanism.drives
+    if speed is None:
+        return None
+    if len(drives) != 1:
+        raise LinkageError("loads.speed: goes with one drive; the linkage has {count}", count=len(drives))
+    return _Reader(linkage).quantity("loads.speed", speed, "speed" if drives[0].turning else "velocity")

@@ -31,6 +31,7 @@ class LawRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only
     formula: str | None = None
     curve: list[tuple[float, float]] | None = None
     of: str | None = None
+    of_unit: str | None = None
     period: float | None = None
 
 
@@ -76,6 +77,12 @@ class MotorRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
 class LoadsRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The table ``[loads]``."""
 
+    assumed: bool = False
+    """Whether its numbers are chosen, not known."""
+    source: str = ""
+    """Where they are printed."""
+    speed: Any = None
+    """At which the drive usually runs."""
     gravity: list[Any] | None = None
     bodies: dict[str, Any] = {}
     masses: dict[str, Any] = {}
