@@ -36,6 +36,13 @@ class CrankRange(NamedTuple):
         """The angle from start to end."""
         return self.end - self.start
 
+    @property
+    def title(self) -> Message:
+        """From where to where, in degrees."""
+        if self.full:
+            return message("full turn")
+        return message("{start:n}°..{end:n}°", start=math.degrees(self.start), end=math.degrees(self.end))
+
     def __contains__(self, phi: object) -> bool:
         return self.full or (as_finite("phi", phi) - self.start) % TURN <= self.width
 

@@ -61,8 +61,7 @@ class Lengths(ABC):
         """
         lines = []
         if self.limits:
-            ranges = [_range(arc) for arc in self.limits]
-            lines.append(message("crank angle: {ranges}", ranges=joined_by_or(ranges)))
+            lines.append(message("crank angle: {ranges}", ranges=joined_by_or([arc.title for arc in self.limits])))
             if (centres := self.dead_centres) is not None:
                 lines.append(self._travel.filled(length=centres.travel, angle=degrees(centres.travel)))
                 lines.append(message("time ratio: {ratio:n}", ratio=centres.time_ratio))
@@ -77,9 +76,3 @@ class Lengths(ABC):
 
 STROKE = message("stroke of the output: {length:n}")
 SWING = message("swing of the output: {angle:n}°")
-
-
-def _range(arc: CrankRange) -> Message:
-    if arc.full:
-        return message("full turn")
-    return message("{start:n}°..{end:n}°", start=degrees(arc.start), end=degrees(arc.end))
