@@ -129,3 +129,39 @@ def test_machines_of_the_catalog(capsys):
     status, out, _ = run_command(capsys, "simulate", "hood", "--until", "3", "--at", "125", "--tolerance", "1e-5")
     assert status == 1
     assert "R(body-link1) reaches the end of its range" in out
+
+
+def test_friction_takes_its_power(capsys):
+    """What the drive gives more than without friction is friction times the speed of the piston, by the closed form."""
+    asked = ("dynamics", ENGINE, "--speed", "300", "--range", "25:335:45", "--friction", "P(frame-slider)=0.2")
+    status, found, columns = document(capsys, *asked)
+    assert (status, found["locked"]) == (0, [])
+    rubbing = np.abs(columns["friction P(frame-slider)"])
+    assert rubbing.min() > 0
+    first, _ = slopes(np.radians(columns["R(frame-crank)"]))
+    more = columns["torque R(frame-crank) with friction"] - columns["torque R(frame-crank)"]
+    assert more == pytest.approx(rubbing * np.abs(first), rel=1e-9)
+    assert run_command(capsys, "dynamics", ENGINE, "--speed", "300", "--pin-radius", "3")[0] == 2
+
+
+@pytest.mark.parametrize(
+    ("loads", "words"),
+    [
+        ('bodies = { slider = { mass = "-2 kg" } }', "the mass must be a finite number that is not negative"),
+        (
+            'bodies = { crank = { mass = "2 kg", centre = [9, 0], about = [0, 0], inertia = "1 kg mm2" } }',
+            "mass times distance squared, 162, not 1",
+        ),
+        ('forces = { "R(x-y)" = ["1 N", "0 N"] }', "R(x-y)"),
+        ('bodies = { slider = { mass = "2" } }', "loads.bodies.slider.mass: "),
+        ('springs = [{ between = ["frame:0,0", "crank:1,0"], free_length = -3 }]', "the free length"),
+    ],
+)
+def test_loads_that_cannot_be_are_one_sentence(loads, words, tmp_path, capsys):
+    path = tmp_path / "engine.toml"
+    path.write_text(f'unit = "mm"\nslider_crank = {{ a = 30, b = 50 }}\n[loads]\n{loads}\n', encoding="utf-8")
+    status, out, err = run_command(capsys, "dynamics", str(path), "--speed", "60")
+    assert (status, out) == (2, "")
+    assert err.startswith(f"{path}: ")
+    assert "\n" not in err
+    assert words in err

@@ -12,6 +12,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
+from gruebler.cli.friction_options import add_friction, friction_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_loaded, loaded_linkage
 from gruebler.cli.output import print_json, write_table
@@ -36,14 +37,19 @@ def add(parser: Parser) -> None:
         "Masses and loads stand in the table [loads] of the file or the catalog entry. Drives run at constant speed; "
         "torques are in N times the unit of length.",
         epilog="Examples: gruebler dynamics compressor; gruebler dynamics press.toml --speed 300. "
-        "Exit status: 0 success, 1 the linkage cannot move through all rows, or in some its forces are undetermined, "
-        "2 wrong usage or unreadable input.",
+        "Exit status: 0 success, 1 the linkage cannot move through all rows, or in some its forces are undetermined "
+        "or it is self-locking, 2 wrong usage or unreadable input.",
     )
     add_loaded(parser)
     parser.take(
         """
         --speed N float ...  speed of the drive in rpm, of a slide in lengths per second; repeat it for each drive
             (default: that of the loads)
+        """
+    )
+    add_friction(parser)
+    parser.take(
+        """
         --range FROM:TO:STEP ...  drive values in degrees or the unit, once per drive (default: a full turn)
         --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
         --branch
@@ -63,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not len(motion):
         print(motion.message(lang))
         return 1
-    result = inverse_dynamics(motion, loads, times=_times(motion, speeds))
+    result = inverse_dynamics(motion, loads, times=_times(motion, speeds), friction=friction_of(arguments))
     table = dynamics_table(result, lang=language_of_names(arguments))
     every = [*table, *component_table(result.statics, language_of_names(arguments))]
     if is_table(arguments.out):
@@ -72,7 +78,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(_document(result, every, lang))
     elif not is_table(arguments.out):
         _print(result, table.columns, lang)
-    return 0 if motion.complete and not result.statics.singular.any() else 1
+    return 0 if motion.complete and not (result.statics.singular | result.statics.locked).any() else 1
 
 
 def _rows(linkage: Linkage, between: tuple[float, float] | None, arguments: argparse.Namespace) -> Reals:
@@ -114,6 +120,7 @@ def _document(result: InverseDynamics, columns: Sequence[Column], lang: str) -> 
         "root_mean_square": [float(value) for value in result.root_mean_square],
         "disagreement": result.disagreement if math.isfinite(result.disagreement) else None,
         "singular": [int(row) for row in np.flatnonzero(result.statics.singular)],
+        "locked": [int(row) for row in np.flatnonzero(result.statics.locked)],
         "complete": result.motion.complete,
         "message": " ".join(filter(None, (result.motion.message(lang), result.statics.message(lang)))),
     }

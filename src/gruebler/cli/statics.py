@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.columns import Column, shown
-from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import given_rows, turning_drives
+from gruebler.cli.friction_options import add_friction, friction_of, numbers_of
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_linkage, linkage_of_word
 from gruebler.cli.output import print_json, write_table
@@ -24,7 +25,7 @@ from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.table import default_rows
-from gruebler.mechanics.forces import Friction, Loads, Statics, component_table, statics, statics_table
+from gruebler.mechanics.forces import Loads, Statics, component_table, statics, statics_table
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
@@ -52,15 +53,11 @@ def add(parser: Parser) -> None:
         --moment LINK=M ...  a moment on a link, counter-clockwise; repeatable
         --mass POINT=M ...  a mass of M kg with its weight; repeatable
         --gravity GX,GY  acceleration of gravity (default: 0,-9.80665)
-        --friction [JOINT=]MU ...  coefficient of friction of all joints, or of one; repeatable
-        --pin-radius [JOINT=]R ...  radius of the pins, in the linkage's unit; without it pins do not rub; repeatable
-        --guide-length [JOINT=]L ...  length of the guides, between the edges at which a tilted block bears (default:
-            long, blocks do not tilt); repeatable
-        --guide-height [JOINT=]H ...  distance of the two faces of the guides (default: 0); repeatable
-        --guide-on JOINT=LINK ...  the link with which the guide of a slide moves: the frame for a short bush through
-            which a rod runs (default: the link that moves); repeatable
-        --sleeve JOINT ...  a slide whose moving link surrounds the other one; matters with --guide-height; repeatable
-        --backward  friction while the drive goes backward
+        """
+    )
+    add_friction(parser)
+    parser.take(
+        """
         --range FROM:TO:STEP ...  drive values in degrees or the unit, once per drive (default: a full turn, or the
             whole range)
         --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
@@ -77,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     loads = _loads(arguments)
     if not (loads.forces or loads.moments or loads.masses):
         raise GrueblerError("no load is given: use --load, --moment or --mass")
-    friction = _friction(arguments)
+    friction = friction_of(arguments)
     motion = _motion(linkage, shown_range, turning, arguments)
     if not len(motion):
         print(motion.message(lang))
@@ -110,7 +107,7 @@ def _loads(arguments: argparse.Namespace) -> Loads:
     )
     if arguments.gravity is None:
         return Loads(forces, moments, masses=masses)
-    x, y = _numbers("--gravity", arguments.gravity, 2)
+    x, y = numbers_of("--gravity", arguments.gravity, 2)
     return Loads(forces, moments, masses=masses, gravity=(x, y))
 
 
@@ -133,79 +130,8 @@ def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float
             expected="POINT=FX,FY" if count == 2 else "NAME=NUMBER",
             found=text,
         )
-    numbers = _numbers(option, values, count)
+    numbers = numbers_of(option, values, count)
     return name.strip(), numbers if count > 1 else numbers[0]
-
-
-def _numbers(option: str, text: str, count: int) -> list[float]:
-    try:
-        numbers = [float(part) for part in text.split(",")]
-    except ValueError:
-        numbers = []
-    if len(numbers) != count or not all(map(math.isfinite, numbers)):
-        raise GrueblerError(
-            "{option}: expected {expected}, but found {found!r}",
-            option=option,
-            expected=message("two numbers X,Y") if count == 2 else message("a number"),
-            found=text,
-        )
-    return numbers
-
-
-def _friction(arguments: argparse.Namespace) -> Friction | None:
-    """What is said of friction; None if nothing is."""
-    options = {
-        "--pin-radius": arguments.pin_radius,
-        "--guide-length": arguments.guide_length,
-        "--guide-height": arguments.guide_height,
-        "--guide-on": arguments.guide_on,
-        "--sleeve": arguments.sleeve,
-        "--backward": arguments.backward,
-    }
-    if not arguments.friction:
-        for option, given in options.items():
-            if given:
-                raise GrueblerError("{option} needs --friction", option=option)
-        return None
-    sizes = {
-        name: _by_joint(option, options[option])
-        for name, option in (
-            ("pin_radius", "--pin-radius"),
-            ("guide_length", "--guide-length"),
-            ("guide_height", "--guide-height"),
-        )
-        if options[option]
-    }
-    try:
-        return Friction(
-            _by_joint("--friction", arguments.friction),
-            **sizes,
-            guide_on=dict(_pair("--guide-on", text) for text in arguments.guide_on),
-            sleeves=tuple(arguments.sleeve),
-            backward=arguments.backward,
-        )
-    except LinkageError as error:
-        key = error.values.get("name")
-        option = "--friction" if key == "coefficient" else f"--{str(key).replace('_', '-')}"
-        raise LinkageError(error.text, **{**error.values, "name": option}) from None
-
-
-def _by_joint(option: str, given: Sequence[str]) -> dict[str, float]:
-    """Numbers by joint, that of all others as ``*``; the last one for each joint counts."""
-    numbers = {}
-    for text in given:
-        name, equals, value = text.rpartition("=")
-        numbers[name.strip() if equals else "*"] = _numbers(option, value, 1)[0]
-    return numbers
-
-
-def _pair(option: str, text: str) -> tuple[str, str]:
-    joint, equals, link = text.rpartition("=")
-    if not equals:
-        raise GrueblerError(
-            "{option}: expected {expected}, but found {found!r}", option=option, expected="JOINT=LINK", found=text
-        )
-    return joint.strip(), link.strip()
 
 
 def _motion(
