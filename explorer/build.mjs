@@ -4,17 +4,26 @@ import { readFile } from "node:fs/promises";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { build, transform } from "esbuild";
+import { gzipSync, strToU8 } from "fflate";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
 
-/** Style sheets become texts of the module: minified first, which esbuild leaves out for texts. */
-const styles = {
-  name: "styles",
+/** Style sheets, minified, and tables of texts stand in the module packed; by a packer that does the same everywhere. */
+const texts = {
+  name: "texts",
   setup: ({ onLoad }) =>
-    onLoad({ filter: /\.css$/ }, async ({ path: file }) => {
-      const { code } = await transform(await readFile(file, "utf8"), { loader: "css", charset: "utf8", minify: true });
-      return { contents: code.trim(), loader: "text" };
+    onLoad({ filter: /\.(css|json)$/ }, async ({ path: file }) => {
+      const text = await readFile(file, "utf8");
+      const table = file.endsWith(".json");
+      const code = table
+        ? JSON.stringify(JSON.parse(text))
+        : (await transform(text, { loader: "css", charset: "utf8", minify: true })).code.trim();
+      const data = Buffer.from(gzipSync(strToU8(code), { level: 9, mtime: 0 })).toString("base64");
+      const unpacked = `await textOf(${JSON.stringify(data)})`;
+      const value = table ? `JSON.parse(${unpacked})` : unpacked;
+      const contents = `import { textOf } from "./packed";\nexport default ${value};`;
+      return { contents, loader: "js", resolveDir: path.join(here, "src") };
     }),
 };
 
@@ -29,5 +38,5 @@ await build({
   charset: "utf8",
   legalComments: "none",
   loader: { ".gz": "binary" },
-  plugins: [styles],
+  plugins: [texts],
 });

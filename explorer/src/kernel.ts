@@ -3,6 +3,7 @@
  * core/page/door.cpp is the other side of the door and says what lies where in the block of memory between them. */
 
 import packed from "../../core/page/motion.wasm.gz";
+import { unpackedBytes } from "./packed";
 import type { Program } from "./program";
 
 export const enum Status {
@@ -51,8 +52,7 @@ interface Core {
 }
 
 async function loaded(): Promise<Core> {
-  const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const { instance } = await WebAssembly.instantiate(await new Response(bytes).arrayBuffer());
+  const { instance } = await WebAssembly.instantiate(await unpackedBytes(packed));
   return instance.exports as unknown as Core;
 }
 
