@@ -9,7 +9,7 @@ import { gzipSync, strToU8 } from "fflate";
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
 
-/** Style sheets, minified, and tables of texts stand in the module packed; by a packer that does the same everywhere. */
+/** Style sheets, minified, and tables of texts stand packed in the module; the packer does the same everywhere. */
 const texts = {
   name: "texts",
   setup: ({ onLoad }) =>

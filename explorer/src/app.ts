@@ -5,6 +5,7 @@ import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
 import { ExercisesView } from "./exercises";
 import { Backend, type HostModel } from "./host";
+import { type Icon, icon } from "./icons";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
 import { BadLink, packed, unpacked } from "./link";
 import type { LinkageDocument, Model } from "./model";
@@ -23,6 +24,17 @@ interface Shared {
   /** Whether it has other sizes than what its name and its source stand for. */
   changed?: boolean;
 }
+
+/** What a file held. */
+interface Opened {
+  model?: Model;
+  text?: string;
+  points?: [number, number][];
+  closed?: boolean;
+  note: string;
+}
+
+const LARGEST_FILE = 280_000; // bytes: in base64 they fit into a message
 
 export class App implements Page {
   readonly backend: Backend;
@@ -77,6 +89,11 @@ export class App implements Page {
     );
     // a page of its own listens everywhere, a cell of a notebook to itself
     (this.linkable ? document : this.root).addEventListener("keydown", (event) => this.key(event as KeyboardEvent));
+    this.host.addEventListener("dragover", (event) => event.preventDefault());
+    this.host.addEventListener("drop", (event) => {
+      event.preventDefault();
+      void this.openFile(event.dataTransfer?.files[0]);
+    });
     shadow.append(this.root);
     model.on("connection", ((on: boolean) => this.connection(on)) as (message: never) => void);
     model.on("change:machine", (() => this.open(model.get("machine") as Model)) as (message: never) => void);
@@ -208,8 +225,9 @@ export class App implements Page {
             ),
           );
     const [back, forth] = this.undoing.undoable!;
-    const tool = (sign: string, title: string, act: () => void, disabled = false) =>
-      h("button", { class: "quiet", title, "aria-label": title, onclick: act, disabled }, sign);
+    const tool = (sign: Icon, title: string, act: () => void, disabled = false) =>
+      h("button", { class: "quiet", title, "aria-label": title, onclick: act, disabled }, icon(sign));
+    const file = h("input", { type: "file", hidden: true, onchange: () => void this.openFile(file.files?.[0]) });
     const language = h(
       "select",
       {
@@ -232,14 +250,16 @@ export class App implements Page {
       h("h1", {}, "gruebler ", h("small", {}, this.name)),
       ...(tabs ? [tabs] : []),
       h("span", { class: "spring" }),
-      tool("↶", t("Undo"), () => this.undoing.undo?.(), !back),
-      tool("↷", t("Redo"), () => this.undoing.redo?.(), !forth),
-      tool("⤴", t("Copy the link"), () => void this.share()),
-      tool("◐", t("Light or dark"), () => {
+      tool("undo", t("Undo"), () => this.undoing.undo?.(), !back),
+      tool("redo", t("Redo"), () => this.undoing.redo?.(), !forth),
+      file,
+      tool("open", t("Open a file"), () => file.click()),
+      tool("link", t("Copy the link"), () => void this.share()),
+      tool("theme", t("Light or dark"), () => {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
         this.motion.stage.recoloured();
       }),
-      tool("?", t("Keys"), () => this.help()),
+      tool("keys", t("Keys"), () => this.help()),
       language,
     );
   }
@@ -366,6 +386,41 @@ export class App implements Page {
     } else this.say(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
   }
 
+  /** Open what a file holds: the library reads every format, a page alone its own mechanism in JSON. */
+  async openFile(file: File | undefined): Promise<void> {
+    if (!file) return;
+    try {
+      if (file.size > LARGEST_FILE)
+        throw new Error(t("The file {name} is too large for the page.", { name: file.name }));
+      if (this.served) await this.openServed(file);
+      else await this.openOwn(file);
+    } catch (error) {
+      this.say((error as Error).message);
+    }
+  }
+
+  private async openServed(file: File): Promise<void> {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+    const found = await this.ask<Opened>("open_file", { name: file.name.slice(-200), base64 });
+    if (found.model) this.open(found.model);
+    else if (found.text) this.describe(found.text);
+    else if (found.points) {
+      (this.views.synthesis as SynthesisView).take(found.points, found.closed ?? false);
+      this.turnTo("synthesis");
+    }
+    if (found.note) this.say(found.note, "done");
+  }
+
+  private async openOwn(file: File): Promise<void> {
+    const { model } = this.motion.linkage;
+    const document = jsonOf(await file.text());
+    const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(document?.[key]);
+    if (document?.reference_pose && ["joints", "frame", "drives", "links"].every(same))
+      this.motion.openDocument(document);
+    else this.say(t("This page alone opens its own mechanism, saved as JSON. Others: gruebler explore FILE"));
+  }
+
   // --- keys ----------------------------------------------------------------------------------------------------------
 
   private key(event: KeyboardEvent): void {
@@ -411,5 +466,13 @@ export class App implements Page {
     dialog.addEventListener("close", () => dialog.remove());
     this.root.append(dialog);
     dialog.showModal();
+  }
+}
+
+function jsonOf(text: string): LinkageDocument | null {
+  try {
+    return JSON.parse(text) as LinkageDocument;
+  } catch {
+    return null;
   }
 }

@@ -1,8 +1,9 @@
 /** What can be taken away: pictures, tables, files, the link, and the same in Python and on a command line. */
 
 import { h } from "./dom";
-import { t } from "./language";
+import { currentLanguage, t } from "./language";
 import { chainText, type LinkageDocument } from "./model";
+import { film, filmType, imageOf } from "./video";
 import type { Page } from "./view";
 
 /** What is taken away. */
@@ -12,6 +13,8 @@ export interface Exported {
   document(): LinkageDocument;
   /** The picture as an SVG file. */
   picture(): string;
+  /** The pictures of a film: once through its motion, from the pose that is shown. */
+  pictures(): Generator<string>;
   /** The curves as CSV. */
   table(): string;
 }
@@ -23,38 +26,64 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
+interface Saved {
+  base64: string;
+  type: string;
+  ending?: string;
+  note?: string;
+}
+
+const WIDTHS: [string, number][] = [
+  ["640 px", 640],
+  ["1280 px", 1280],
+  ["1920 px", 1920],
+];
+const GIF_WIDTH = 423; // of a GIF with a zoom of 1
+const LARGEST_ZOOM = 4;
+
+/** What the reader chose, for the next time that the panel is made. */
+const choice = { width: 1280, kind: "dxf" };
+const kinds = new Map<string, Promise<{ name: string; title: string }[]>>();
+
 export function exportPanel(page: Page, shown: Exported): HTMLElement {
   const stem = () => (page.shown.source || page.shown.name || "linkage").replace(/[^\w-]+/g, "_");
   const save = (suffix: string, type: string, content: string | Blob) =>
     download(`${stem()}.${suffix}`, content instanceof Blob ? content : new Blob([content], { type }));
   const button = (text: string, act: () => void) => h("button", { class: "plain", onclick: act }, text);
+  const failed = (error: Error) => page.say(error.message);
+  const ask = (kind: string, more: Record<string, unknown> = {}) => {
+    page
+      .ask<Saved>("export", { document: shown.document(), kind, name: page.shown.name, ...more })
+      .then(({ base64, type, ending, note }) => {
+        const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+        save(ending?.slice(1) ?? kind, type, new Blob([bytes], { type }));
+        if (note) page.say(note, "done");
+      }, failed);
+  };
   const own = [
     button("SVG", () => save("svg", "image/svg+xml", shown.picture())),
     button("PNG", () => void png(shown.picture()).then((blob) => save("png", "image/png", blob))),
     button("CSV", () => save("csv", "text/csv", shown.table())),
     button("JSON", () => save("json", "application/json", JSON.stringify(shown.document(), null, 1))),
   ];
-  const served = page.served
-    ? ["TOML", "GIF", "HTML", "PDF"].map((kind) =>
-        button(kind, () => {
-          page
-            .ask<{ base64: string; type: string }>("export", {
-              document: shown.document(),
-              kind: kind.toLowerCase(),
-              name: page.shown.name,
-            })
-            .then(
-              ({ base64, type }) =>
-                save(
-                  kind.toLowerCase(),
-                  type,
-                  new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type }),
-                ),
-              (error: Error) => page.say(error.message),
-            );
-        }),
-      )
-    : [];
+  const served = page.served ? ["TOML", "HTML", "PDF"].map((kind) => button(kind, () => ask(kind.toLowerCase()))) : [];
+  const recorded = filmType();
+  const record = async () => {
+    page.say(t("The film is being recorded …"), "done");
+    const blob = await film(shown.pictures(), choice.width, recorded!);
+    save(recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
+    page.say("");
+  };
+  const gif = () => ask("gif", { zoom: Math.min(LARGEST_ZOOM, choice.width / GIF_WIDTH) });
+  const width = h(
+    "select",
+    { "aria-label": t("Width of films"), onchange: () => (choice.width = Number(width.value)) },
+    ...WIDTHS.map(([text, value]) => h("option", { value, selected: value === choice.width }, text)),
+  );
+  const films = [
+    ...(recorded ? [button(t("Film"), () => void record().catch(failed))] : []),
+    ...(page.served ? [button("GIF", gif)] : []),
+  ];
   const model = page.shown;
   const [reader, measured] = ["from gruebler.files import read_linkage", "print(gr.measures(linkage).explain())"];
   const named = model.source && !shown.changed; // by its name the library finds it as it was
@@ -70,6 +99,10 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
       ...served,
       button(t("Copy the link"), () => void page.share()),
     ),
+    h("div", { class: "form" }, h("span", {}, t("Moving picture")), width, ...films),
+    page.served
+      ? programs(page, ask)
+      : h("p", { class: "note" }, t("DXF and files of other programs: gruebler convert FILE OUT")),
     h("p", { class: "note" }, t("The chain as text")),
     h("pre", { "data-text": "chain" }, chainText(model)),
     named
@@ -88,10 +121,25 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
   );
 }
 
+/** The formats of other programs, which the library writes. */
+function programs(page: Page, ask: (kind: string) => void): HTMLElement {
+  const onchange = () => (choice.kind = kind.value);
+  const kind = h("select", { "aria-label": t("File of another program"), "data-field": "kind", onchange });
+  const lang = currentLanguage();
+  if (!kinds.has(lang)) kinds.set(lang, page.ask("saved_kinds", {}));
+  kinds.get(lang)!.then(
+    (found) =>
+      kind.append(
+        ...found.map(({ name, title }) => h("option", { value: name, selected: name === choice.kind }, title)),
+      ),
+    () => kinds.delete(lang), // it is asked again
+  );
+  const save = h("button", { class: "plain", "data-act": "save", onclick: () => ask(kind.value) }, t("Save"));
+  return h("div", { class: "form" }, kind, save);
+}
+
 async function png(file: string): Promise<Blob> {
-  const image = new Image();
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(file)}`;
-  await image.decode();
+  const image = await imageOf(file);
   const canvas = h("canvas", { width: 2 * image.naturalWidth, height: 2 * image.naturalHeight });
   canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
   return new Promise((resolve, reject) =>

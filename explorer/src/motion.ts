@@ -7,6 +7,7 @@ import { Dragging } from "./dragging";
 import { exportPanel } from "./export";
 import { driveValue, type Found, factsOf } from "./facts";
 import { History } from "./history";
+import { type Icon, icon } from "./icons";
 import { type Rows, Status } from "./kernel";
 import { t } from "./language";
 import { Linkage, Refused, type Snapshot } from "./linkage";
@@ -20,6 +21,7 @@ import type { Shown } from "./shown";
 import { Stage } from "./stage";
 import { tableOf } from "./table";
 import { Track } from "./track";
+import { FRAMES } from "./video";
 import type { Page, View } from "./view";
 import { stopText } from "./wording";
 
@@ -106,7 +108,7 @@ export class MotionView implements View, Editor {
   }
 
   /** Other sizes of the same structure, as a link holds them. */
-  openDocument(document: LinkageDocument, drive: number): void {
+  openDocument(document: LinkageDocument, drive?: number): void {
     this.history.add(this.state());
     this.tryTo(() => applyDocument(this.linkage, document, drive));
     this.renewed();
@@ -162,9 +164,9 @@ export class MotionView implements View, Editor {
   /** The buttons on the picture. */
   private arrangeTools(): void {
     const { stage } = this;
-    const button = (sign: string, title: string, onclick: () => void) =>
-      h("button", { title, "aria-label": title, onclick }, sign);
-    const adder = button("✛", t("Add a coupler point: click on a link"), () => {
+    const button = (sign: Icon, title: string, onclick: () => void) =>
+      h("button", { title, "aria-label": title, onclick }, icon(sign));
+    const adder = button("point", t("Add a coupler point: click on a link"), () => {
       stage.adding = !stage.adding;
       adder.setAttribute("aria-pressed", String(stage.adding));
       stage.element.classList.toggle("adding", stage.adding);
@@ -175,9 +177,9 @@ export class MotionView implements View, Editor {
       h(
         "div",
         { class: "tools" },
-        button("+", t("Zoom in"), () => stage.zoom(1.25)),
-        button("−", t("Zoom out"), () => stage.zoom(0.8)),
-        button("⤢", t("Show everything"), () => stage.fit()),
+        button("more", t("Zoom in"), () => stage.zoom(1.25)),
+        button("less", t("Zoom out"), () => stage.zoom(0.8)),
+        button("fit", t("Show everything"), () => stage.fit()),
         adder,
       ),
       h("div", { class: "hint" }, t("Drag a joint to change sizes, a link to move it.")),
@@ -477,6 +479,20 @@ export class MotionView implements View, Editor {
 
   picture(): string {
     return this.stage.file();
+  }
+
+  *pictures(): Generator<string> {
+    this.pause();
+    const { active, cycle, drives } = this.linkage;
+    const start = drives[active] ?? 0;
+    const turns = cycle.full ? cycle.turns : 1;
+    let [value, way] = [wrapped(cycle, start), 1];
+    for (let left = Math.round((turns * 60 * FRAMES) / this.speed); left > 0; left--) {
+      yield this.stage.file();
+      ({ value, way } = later(value, way, 1 / FRAMES, this.speed, cycle, this.track.range));
+      this.go(value);
+    }
+    this.go(start);
   }
 
   table(): string {

@@ -50,6 +50,14 @@ export class SynthesisView implements View {
     this.plane.addEventListener("pointercancel", () => (this.moving = -1));
   }
 
+  /** Other points, out of a file. */
+  take(points: [number, number][], closed: boolean): void {
+    this.points = points;
+    this.closed = closed;
+    this.designs = null;
+    this.arrange();
+  }
+
   arrange(): void {
     const option = (text: string, checked: boolean, set: (on: boolean) => void, key: string) => {
       const box = h("input", { type: "checkbox", checked, "data-field": key, onchange: () => set(box.checked) });

@@ -1,11 +1,16 @@
-/** The curves as a table in CSV: the drive, the output and the points, with their derivatives. */
+/** The curves as a table in CSV: the drive, the output and the points, with their derivatives.
+ *
+ * Spreadsheets in German want semicolons, decimal commas and a byte order mark. */
 
+import { currentLanguage } from "./language";
 import type { Linkage } from "./linkage";
 import { outputAlong, transmission } from "./measures";
 import { place } from "./rows";
 
 export function tableOf(linkage: Linkage): string {
   const { cycle, model } = linkage;
+  const comma = currentLanguage() === "de";
+  const cell = (x: number) => (Number.isFinite(x) ? String(x).replace(".", comma ? "," : ".") : "");
   const { points } = linkage.sizes;
   const turning = linkage.drive?.turning ?? true;
   const record = model.outputs[0];
@@ -22,9 +27,9 @@ export function tableOf(linkage: Linkage): string {
     }
     for (const { link, at } of points)
       line.push(...place(cycle.rows, row, link, ...at), ...place(cycle.rows, row, link, ...at, 1));
-    return line.map((x) => (Number.isFinite(x) ? String(x) : "")).join(",");
+    return line.map(cell).join(comma ? ";" : ",");
   });
-  return `${[head.map(quoted).join(","), ...lines].join("\n")}\n`;
+  return `${comma ? "\ufeff" : ""}${[head.map(quoted).join(comma ? ";" : ","), ...lines].join("\n")}\n`;
 }
 
 function degrees(angle: number): number {
@@ -33,5 +38,5 @@ function degrees(angle: number): number {
 
 /** A text as a cell: in quotation marks if it needs them. */
 export function quoted(text: string): string {
-  return /[",]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+  return /[",;]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
 }

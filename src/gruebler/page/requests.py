@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping
 from itertools import islice
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import msgspec
 
@@ -130,8 +130,18 @@ class Export(_Params):
     """A linkage and the kind of file that is wanted of it."""
 
     document: dict[str, Any]
-    kind: Literal["toml", "gif", "html", "pdf"]
+    kind: Word
+    """``gif``, ``html``, ``pdf``, or the name of a format of `gruebler.files`."""
     name: Word = ""
+    zoom: Annotated[float, msgspec.Meta(ge=0.5, le=4)] = 1.25
+    """Pixels of a moving picture for one of the drawing."""
+
+
+class OpenFile(_Params):
+    """A file that the reader opens."""
+
+    name: Annotated[str, msgspec.Meta(min_length=1, max_length=200)]
+    base64: Annotated[str, msgspec.Meta(max_length=400_000)]
 
 
 class NewExercise(_Params):
@@ -347,11 +357,9 @@ def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
 
 
 def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
-    from gruebler.files import linkage_from_json, linkage_to_toml
+    from gruebler.files import linkage_from_json
 
     linkage = linkage_from_json(asked.document)
-    if asked.kind == "toml":
-        return _file(linkage_to_toml(linkage).encode("utf-8"), "application/toml")
     if asked.kind == "html":
         from gruebler.page.model import model_of
         from gruebler.page.page import single_file
@@ -360,7 +368,11 @@ def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
     if asked.kind == "gif":
         from gruebler.pictures.linkage.animation_frames import animated_frames
 
-        return _file(animated_frames(linkage, "gif", lang=lang, name=asked.name), "image/gif")
+        return _file(animated_frames(linkage, "gif", zoom=asked.zoom, lang=lang, name=asked.name), "image/gif")
+    if asked.kind != "pdf":
+        from gruebler.page.exchange import saved_file
+
+        return saved_file(linkage, asked.kind, lang)
     from gruebler.pictures.canvas.files import picture_bytes
     from gruebler.pictures.linkage.picture import draw_linkage
 
@@ -369,6 +381,18 @@ def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
 
 def _file(content: bytes, kind: str) -> dict[str, str]:
     return {"base64": base64.b64encode(content).decode("ascii"), "type": kind}
+
+
+def _open_file(asked: OpenFile, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.page.exchange import opened_file
+
+    return opened_file(asked.name, asked.base64, lang)
+
+
+def _saved_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
+    from gruebler.page.exchange import saved_kinds
+
+    return saved_kinds(lang)
 
 
 def _exercise_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
@@ -432,6 +456,8 @@ REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] =
     "synthesise": (SynthesisePath, _synthesise),
     "measures": (OpenDocument, _measures),
     "export": (Export, _export),
+    "open_file": (OpenFile, _open_file),
+    "saved_kinds": (Nothing, _saved_kinds),
     "exercise_kinds": (Nothing, _exercise_kinds),
     "exercise": (NewExercise, _new_exercise),
     "mark": (MarkAnswers, _mark),

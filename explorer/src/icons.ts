@@ -1,0 +1,22 @@
+/** Signs of buttons, drawn as lines on a square of 20. */
+
+import { svg } from "./dom";
+
+const PATHS = {
+  undo: "M8 4L4 8l4 4M4 8h8a4 4 0 0 1 0 8H9",
+  redo: "M12 4l4 4-4 4M16 8H8a4 4 0 0 0 0 8h3",
+  open: "M3 16V4h5l2 2h7v10zM10 14V9M7.5 11.5L10 9l2.5 2.5",
+  link: "M8.5 11.5l3-3M9 6l2-2a3.5 3.5 0 0 1 5 5l-2 2M11 14l-2 2a3.5 3.5 0 0 1-5-5l2-2",
+  theme: "M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14",
+  keys: "M2.5 5h15v10h-15zM5.5 8h1M9.5 8h1M13.5 8h1M6.5 12h7",
+  fit: "M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4",
+  point: "M10 3v5M10 12v5M3 10h5M12 10h5M10 9.5v1",
+  more: "M10 4v12M4 10h12",
+  less: "M4 10h12",
+} as const;
+
+export type Icon = keyof typeof PATHS;
+
+export function icon(name: Icon): SVGElement {
+  return svg("svg", { class: "icon", viewBox: "0 0 20 20", "aria-hidden": "true" }, svg("path", { d: PATHS[name] }));
+}

@@ -1,0 +1,89 @@
+"""Files that the page opens and saves: all that `files.read` and `files.write` know of a linkage."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import os
+import re
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import Message, error_in_language, joined, translate
+from gruebler.files.formats import FORMATS, Format
+from gruebler.files.values import format_of, read, write
+from gruebler.mechanics.linkages import Linkage
+
+_NO_LINKAGES = frozenset({"csv", "spreadsheet", "parquet", "dxf-links"})
+"""Formats of tables and folders; the page writes its table by itself."""
+
+
+def saved_kinds(lang: str) -> list[dict[str, str]]:
+    """The formats into which a linkage is saved, with what they are called."""
+    return [
+        {"name": form.name, "title": f"{form.title.in_language(lang)} ({_ending(form)})"}
+        for form in FORMATS
+        if form.name not in _NO_LINKAGES
+    ]
+
+
+def _ending(form: Format) -> str:
+    return form.suffixes[0] if form.suffixes else ".json"
+
+
+def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
+    """What a file in base64 holds, for the view that shows it: ``model``, the ``text`` of a chain, or ``points``.
+
+    Raises `GrueblerError` that names the file for what cannot be read or shown.
+    """
+    from gruebler.design.synthesis import PathTask
+    from gruebler.page.model import model_of
+    from gruebler.structure.chain import Chain
+
+    try:
+        data = base64.b64decode(content, validate=True)
+    except binascii.Error:
+        raise GrueblerError("{path}: expected base64", path=name) from None
+    notes: list[Message] = []
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / (re.sub(r'[\x00-\x1f/\\:*?"<>|]', "_", name).strip(". ") or "file")
+        file.write_bytes(data)
+        try:
+            value: Any = read(file, left_out=notes)
+        except GrueblerError as error:
+            text = error_in_language(error, lang).replace(f"{folder}{os.sep}", "")
+            raise GrueblerError("{message}", message=text) from None
+    chains = value if isinstance(value, list) else [value]
+    shown: dict[str, Any]
+    if isinstance(value, Linkage):
+        shown = {"model": model_of(value, name=Path(name).stem)}
+    elif chains and isinstance(chains[0], Chain):
+        shown = {"text": chains[0].text()}
+    elif isinstance(value, PathTask):
+        shown = {"points": [list(point) for point in value.points], "closed": value.closed}
+    else:
+        raise GrueblerError("{path}: the page shows planar linkages, chains and points of a path", path=name)
+    return shown | {"note": _note(notes, lang)}
+
+
+def saved_file(linkage: Linkage, kind: str, lang: str) -> dict[str, str]:
+    """A linkage in a format as base64, the ending of the file, and what was left out."""
+    form = format_of("", kind)
+    if form.name in _NO_LINKAGES:
+        raise GrueblerError("the format {name} holds no linkage", name=form.name)
+    notes: list[Message] = []
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"linkage{_ending(form)}"
+        try:
+            write(linkage, file, format_name=kind, left_out=notes)
+        except GrueblerError as error:
+            text = error_in_language(error, lang).replace(f"{folder}{os.sep}", "")
+            raise GrueblerError("{message}", message=text) from None
+        content = base64.b64encode(file.read_bytes()).decode("ascii")
+    return {"base64": content, "type": "application/octet-stream", "ending": _ending(form), "note": _note(notes, lang)}
+
+
+def _note(notes: list[Message], lang: str) -> str:
+    return translate("Left out: {what}", lang, what=joined(notes, "; ")) if notes else ""

@@ -1,0 +1,141 @@
+"""Files that the page opens and saves: those of other programs, tables, films."""
+
+import base64
+import csv
+import io
+import json
+import math
+
+import pytest
+
+from gruebler.base.errors import GrueblerError
+from gruebler.cli import main
+from gruebler.files import linkage_from_json, linkage_to_json
+from gruebler.files.values import write
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.kinematics import move
+from gruebler.page.requests import answer
+
+BAR = FourBar(25, 70, 40, 70)
+
+
+def test_what_is_saved_in_a_format_of_another_program_is_opened_again():
+    document = linkage_to_json(BAR.linkage())
+    models = {}
+    for kind in answer("saved_kinds", {}, "en", print):
+        saved = answer("export", {"document": document, "kind": kind["name"]}, "en", print)
+        assert len(base64.b64decode(saved["base64"])) > 1
+        asked = {"name": f"my file{saved['ending']}", "base64": saved["base64"]}
+        if kind["name"] in ("dxf", "mjcf", "urdf"):
+            with pytest.raises(GrueblerError, match=f"^my file.{kind['name']}: .* written only"):
+                answer("open_file", asked, "en", print)
+            continue
+        opened = answer("open_file", asked, "en", print)
+        if "model" in opened:
+            models[kind["name"]] = opened["model"]["document"]
+        else:
+            assert opened["text"].count("R(") == 4
+    assert {"toml", "json", "linkage2", "pmks", "pyslvs", "motiongen", "pylinkage", "four-bar-rs"} == set(models)
+    for name, found in models.items():
+        assert ratios(linkage_from_json(found)) == pytest.approx([1, 40 / 25, 70 / 25, 70 / 25], rel=1e-4), name
+
+
+def ratios(linkage) -> list[float]:
+    """The distances of the two pins of each link, by the shortest of them."""
+    pins: dict[str, list] = {}
+    for (_, link), pin in linkage.elements.items():
+        pins.setdefault(link, []).append(pin)
+    lengths = sorted(math.dist((one.x, one.y), (two.x, two.y)) for one, two in pins.values())
+    return [length / lengths[0] for length in lengths]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("x.toml", b"joints = 3", "x.toml"),
+        ("../../etc/x.json", b"[", ".json"),
+        ("no ending", b"", "no ending"),
+        ("x.txt", b"R(0-1", "x.txt"),
+        ("x.json", b"\xff\xfe\x00", "x.json"),
+        ("...", b"", "file"),
+    ],
+)
+def test_a_file_that_cannot_be_read_is_named_without_a_folder(name, content, words):
+    asked = {"name": name, "base64": base64.b64encode(content).decode()}
+    with pytest.raises(GrueblerError) as refused:
+        answer("open_file", asked, "en", print)
+    assert words in str(refused.value)
+    assert "/tmp" not in str(refused.value)
+
+
+def dropped(page, name: str, content: bytes) -> None:
+    """Let a file fall on the page."""
+    text = base64.b64encode(content).decode()
+    page.page.evaluate(
+        """([name, text]) => {
+        const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+        const dataTransfer = new DataTransfer();
+        dataTransfer.items.add(new File([bytes], name));
+        gruebler.host.dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+        }""",
+        [name, text],
+    )
+
+
+def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_path):
+    path = write(BAR.linkage(), tmp_path / "leg.linkage2", left_out=[])
+    page = tab(locale="de-DE").open(server.address)
+    dropped(page, path.name, path.read_bytes())
+    page.until("gruebler.motion.linkage.model.name === 'leg'")
+    lengths = page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")
+    assert sorted(lengths)[-4:] == pytest.approx([25, 40, 70, 70], abs=1e-3)
+    panel = page.page.locator('[data-panel="export"]')
+    panel.locator("summary").click()
+    panel.locator('[data-field="kind"] option[value="dxf"]').wait_for(state="attached")
+    with page.page.expect_download() as saved:
+        panel.locator('[data-act="save"]').click()
+    assert saved.value.suggested_filename == "leg.dxf"
+    saved.value.save_as(tmp_path / "leg.dxf")
+    ezdxf = pytest.importorskip("ezdxf", reason="drawings are audited with ezdxf")
+    assert not ezdxf.readfile(tmp_path / "leg.dxf").audit().errors
+    assert "Nicht übernommen" in page.page.locator(".message.done").inner_text()
+    # a German spreadsheet has semicolons and decimal commas
+    with page.page.expect_download() as saved:
+        panel.locator('button:text-is("CSV")').click()
+    saved.value.save_as(tmp_path / "leg.csv")
+    text = (tmp_path / "leg.csv").read_text(encoding="utf-8")
+    assert text.startswith("\ufeffdrive_deg;")
+    rows = list(csv.reader(io.StringIO(text.lstrip("\ufeff")), delimiter=";"))
+    assert float(rows[10][0].replace(",", ".")) == pytest.approx(
+        page.page.evaluate("gruebler.motion.linkage.cycle.values[9] * 180 / Math.PI"), abs=1e-9
+    )
+    # a chain goes to its view, points to that of the synthesis, rubbish nowhere
+    dropped(page, "chain.txt", b"R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)")
+    page.page.locator('[data-page="structure"] [data-fact="counted"]:text-is("F = 2")').wait_for()
+    points = "x,y\n0,0\n10,5\n20,8\n30,5\n40,0\n"
+    dropped(page, "path.csv", points.encode())
+    page.until("gruebler.views.synthesis.points.length === 5")
+    dropped(page, "leg.xyz", b"?")
+    page.page.locator(".message", has_text="leg.xyz").wait_for()
+
+
+def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path):
+    path = tmp_path / "bar.html"
+    assert main(["explore", "four-bar:25,70,40,70", "-o", str(path)]) == 0
+    page = tab().open(path.as_uri())
+    other = FourBar(25, 70, 45, 70).linkage()
+    other = other.with_reference_pose(move(other, [1.0]).pose())
+    dropped(page, "other.json", json.dumps(linkage_to_json(other)).encode())
+    page.until("gruebler.motion.dragging.lengths().some((one) => Math.abs(one.value - 45) < 1e-9)")
+    dropped(page, "x.linkage2", b"<linkage2/>")
+    page.until("gruebler.message.textContent.includes('gruebler explore FILE')")
+    page.page.locator('[data-panel="export"] summary').click()
+    page.page.evaluate("gruebler.motion.speed = 60")  # a second
+    page.page.locator('[data-panel="export"] select').select_option("640")
+    drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
+    with page.page.expect_download(timeout=30_000) as saved:
+        page.page.locator('[data-panel="export"] button:text-is("Film")').click()
+    saved.value.save_as(tmp_path / "film.webm")
+    assert (tmp_path / "film.webm").read_bytes().startswith(b"\x1a\x45\xdf\xa3")  # EBML, the container of WebM
+    assert (tmp_path / "film.webm").stat().st_size > 5_000
+    assert page.page.evaluate("gruebler.motion.linkage.drives[0]") == drive  # it stands where it stood
