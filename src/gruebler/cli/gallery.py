@@ -44,8 +44,8 @@ def add(parser: Parser) -> None:
         """
         ids ID|CHAIN|FILE|- *  instead of --links: catalog entries, texts of chains and mechanisms, files with one per
             line, or - for lines on standard input
-        --poster {chains,inversions,assur,joints}  a poster instead: all chains by assortment, all inversions or all
-            Assur groups up to --links, or the kinds of joints
+        --poster {chains,inversions,assur,forms,joints}  a poster instead: all chains by assortment, all inversions or
+            all Assur groups up to --links, the forms of four-bars and slider-cranks, or the kinds of joints
         --links N int  number of links
         --mobility F int  mobility (default: 1)
         --fractionated {none,link,joint,all}  as for gruebler enumerate (default: none)

@@ -15,6 +15,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.mechanics.fourbar import SizedInversion, double_slide_inversions, sized_inversions
 from gruebler.mechanics.fourbar.length_texts import is_lengths, size_of
+from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
 
@@ -75,7 +76,17 @@ def run(arguments: argparse.Namespace) -> int:
         drivens = [DrivenMechanism(mechanism) for mechanism in inversions(chain)]
     show = _print_texts if arguments.text else _print
     print_items(arguments, drivens, item, lambda: show(drivens, arguments.lang))
+    if not any((arguments.drives, arguments.text, arguments.count, arguments.json, arguments.out)):
+        _print_forms(chain, arguments.lang)
     return 0
+
+
+def _print_forms(chain: Chain, lang: str) -> None:
+    """Which forms the mechanisms have, by their lengths."""
+    from gruebler.teaching.exercises import forms_of_chain, lines_of_table
+
+    for table in forms_of_chain(chain):
+        print("", *lines_of_table(table, lang), sep="\n")
 
 
 def _check(arguments: argparse.Namespace) -> None:

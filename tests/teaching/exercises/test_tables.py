@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from gruebler import Chain, FourBar, GrueblerError, move, rotatability
+from gruebler import Chain, FourBar, GrueblerError, InvertedSliderCrank, SliderCrank, move, rotatability
 from gruebler.mechanics.fourbar import FOUR_BAR_TYPES, sized_inversions
 from gruebler.structure.chain.pairs import PAIRS
 from gruebler.teaching.catalog import entries
-from gruebler.teaching.exercises import TABLES, lines_of_table, teaching_table
+from gruebler.teaching.exercises import TABLES, forms_of_chain, lines_of_table, teaching_table
 
 # Table 2.2 of the seeds, reconstructed: f, German symbol, German name.
 JOINTS = [
@@ -83,7 +83,7 @@ def test_inversions():
 
 
 def test_grashof():
-    (table,) = teaching_table("grashof")
+    table, *sliders = teaching_table("grashof")
     assert {row[-1].in_language("de") for row in table.rows} == {
         kind.name("de") for (relation, _), kind in FOUR_BAR_TYPES.items() if relation in "<=>"
     }
@@ -106,6 +106,33 @@ def test_grashof():
             if one.joint == joint and one.full
         }
         assert full == set(str(row[6]).split(", ")) & {"a", "c"}
+    # A slide is a turning joint infinitely far away: the same inequality is left.
+    for kind, table in zip((SliderCrank, InvertedSliderCrank), sliders, strict=True):
+        assert len(table.rows) == 6
+        for row in table.rows:
+            first, second, e = (float(x) for x in row[2:5])
+            relation = "<=>"[1 + int(np.sign(min(first, second) + e - max(first, second)))]
+            assert row[0].split()[3] == relation
+            if relation == "=":
+                continue
+            names = {"a": "R(frame-crank)", "guide": "R(frame-block)"}
+            turned = rotatability(kind(first, second, e).linkage())
+            full = {name for name, joint in names.items() for one in turned if one.joint == joint and one.full}
+            assert full == set(str(row[5]).split(", ")) & set(names), row
+
+
+def test_forms_of_a_chain_are_those_of_its_lengths():
+    names = [
+        [str(table.rows[0][-1]) for table in forms_of_chain(Chain.parse(text))]
+        for text in (
+            "R(0-1) R(1-2) R(2-3) R(3-0)",
+            "R(0-1) P(1-2) R(2-3) R(3-0)",
+            "P(0-1) P(1-2) R(2-3) R(3-0)",
+            "R(0-1) R(1-2) R(2-0) R(2-3)",
+            "spherical: R(0-1) R(1-2) R(2-3) R(3-0)",
+        )
+    ]
+    assert names == [["crank-rocker"], ["slider-crank", "inverted slider-crank with swinging guide"], [], [], []]
 
 
 def test_transfer():

@@ -232,7 +232,16 @@ def test_posters():
     _, sections = poster("assur", 6)
     assert [len(section.items) for section in sections] == [len(list(assur_groups(n))) for n in (2, 4, 6)]
     _, sections = poster("inversions", 6)
-    assert sum(len(section.items) for section in sections) == 1 + 5
+    assert [len(section.items) for section in sections] == [4, 10, 1, 2, 3]  # forms of the four-bar; Watt, Stephenson
+    _, sections = poster("forms", lang="de")
+    captions = [item.caption for item in sections[0].items]
+    assert captions == [  # figure 2.4 of the seeds, with its lengths 2, 5, 4, 5
+        "Gestell d: Kurbelschwinge",
+        "Gestell c: Doppelschwinge mit umlaufender Koppel",
+        "Gestell b: Kurbelschwinge",
+        "Gestell a: Doppelkurbel",
+    ]
+    assert [len(section.items) for section in sections[1:]] == [10, 1, 4, 6, 2, 3]
     with pytest.raises(GrueblerError, match="did you mean 'joints'"):
         poster("joint")
     with pytest.raises(GrueblerError, match="up to 8 links"):

@@ -182,9 +182,14 @@ def _columns(section: Section) -> int:
     """The number of pictures in a row of a section."""
     for columns in _COLUMNS:
         wide, high = (1 - 2 * _LEFT) / columns, _ROW * _COLUMNS[0] / columns
-        if all(_scale(item.figure, wide, high) >= _LEGIBLE for item in section.items):
+        if all(_scale(item.figure, wide, high) >= _least_scale(item.figure) for item in section.items):
             return columns
     return _COLUMNS[-1]
+
+
+def _least_scale(figure: Figure) -> float:
+    """To what a picture may be reduced: one without texts further."""
+    return _LEGIBLE if any(isinstance(shape, TextShape) for shape in figure.shapes) else _LEGIBLE / 3
 
 
 def _scale(figure: Figure, wide: float, high: float) -> float:

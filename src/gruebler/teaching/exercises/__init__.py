@@ -20,7 +20,7 @@ from gruebler.teaching.exercises.solution import (
     TeachingTable,
 )
 from gruebler.teaching.exercises.solving import Comparison, compare, methods, solve, with_values
-from gruebler.teaching.exercises.tables import TABLES, teaching_table
+from gruebler.teaching.exercises.tables import TABLES, forms_of_chain, smallest_lengths, teaching_table
 
 __all__ = [
     "KINDS",
@@ -41,12 +41,14 @@ __all__ = [
     "compare",
     "exercise",
     "faults",
+    "forms_of_chain",
     "generate",
     "grade",
     "grades_as_list",
     "lines_of_table",
     "methods",
     "plain_name",
+    "smallest_lengths",
     "solution_as_dict",
     "solution_text",
     "solve",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import product
 from math import degrees, pi, radians, tau
@@ -15,7 +15,16 @@ from gruebler.machines.cams import read_lift
 from gruebler.machines.gears import read_train, speeds
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.analysis import motion_roles
-from gruebler.mechanics.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
+from gruebler.mechanics.fourbar import (
+    FOUR_BAR_TYPES,
+    INVERTED_SLIDER_CRANK_TYPES,
+    SLIDER_CRANK_TYPES,
+    FourBar,
+    InvertedSliderCrank,
+    LinkageType,
+    SliderCrank,
+)
+from gruebler.mechanics.fourbar.length_forms import ClosedForm
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Pair
@@ -153,30 +162,83 @@ def inversion_table(a: float = 2, b: float = 5, c: float = 4, d: float = 5) -> t
     return (TeachingTable(title, headers, tuple(rows)),)
 
 
-_CONDITIONS = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
+def smallest_lengths(kind: type[ClosedForm]) -> dict[str, ClosedForm]:
+    """Every type of four-bar, slider-crank or inverted slider-crank with the smallest whole lengths that have it.
+
+    >>> {key: (size.a, size.b, size.e) for key, size in smallest_lengths(SliderCrank).items()}["slider_rocker"]
+    (1.0, 1.0, 1.0)
+    """
+    types, names, *_ = _FORMS[kind]
+    least = [0 if name == "e" else 1 for name in names]
+    smallest: dict[str, ClosedForm] = {}
+    for lengths in sorted(product(*(range(k, 7) for k in least)), key=lambda x: (sum(x), max(x), x)):
+        size = kind(*lengths)
+        smallest.setdefault(size.type.key, size)
+        if len(smallest) == len(types):
+            break
+    return smallest
+
+
+_FORMS: dict[type[ClosedForm], tuple[Mapping[tuple[str, str], LinkageType], str, str, Message]] = {
+    FourBar: (
+        FOUR_BAR_TYPES,
+        "abcd",
+        "l_min + l_max {relation} l' + l''",
+        message(
+            "Four-bars by Grashof's condition and the place of the shortest link "
+            "(a crank, b coupler, c rocker, d frame)"
+        ),
+    ),
+    SliderCrank: (
+        SLIDER_CRANK_TYPES,
+        "abe",
+        "l_min + |e| {relation} l_max",
+        message("Slider-cranks by the same condition (a crank, b coupler, e eccentricity)"),
+    ),
+    InvertedSliderCrank: (
+        INVERTED_SLIDER_CRANK_TYPES,
+        "ade",
+        "l_min + |e| {relation} l_max",
+        message("Inverted slider-cranks by the same condition (a crank, d frame, e eccentricity)"),
+    ),
+}
+"""Types, letters of the lengths, condition and title of each kind."""
 
 
 def grashof_types() -> tuple[TeachingTable, ...]:
-    """Every type of four-bar (table 3.6) with its smallest whole lengths and its turning links."""
-    examples: dict[str, tuple[int, ...]] = {}
-    places = {(kind.key): place for place, kind in FOUR_BAR_TYPES.items()}
-    for lengths in sorted(product(range(1, 7), repeat=4), key=lambda x: (sum(x), max(x), x)):
-        examples.setdefault(grashof(*lengths).type.key, lengths)
-        if len(examples) == len(places):
-            break
+    """Every type of four-bar (table 3.6) and of slider-crank with its smallest whole lengths and its turning links."""
+    return tuple(map(_types_table, _FORMS))
+
+
+def _types_table(kind: type[ClosedForm]) -> TeachingTable:
+    types, names, condition, title = _FORMS[kind]
+    examples = smallest_lengths(kind)
     rows: list[tuple[Value, ...]] = []
-    for (condition, place), kind in FOUR_BAR_TYPES.items():
-        if condition not in _CONDITIONS:
+    for (relation, place), type_ in types.items():
+        if relation not in "<=>":
             continue
-        lengths = examples[kind.key]
-        turning = ", ".join(grashof(*lengths).turning) or "-"
+        size = examples[type_.key]
+        lengths = (f"{getattr(size, name):g}" for name in names)
+        turning = ", ".join(size.turning) or "-"
         shortest = " = ".join(place) or "-"
-        rows.append((_CONDITIONS[condition], shortest, *map(str, lengths), turning, in_every_language(kind.name)))
-    title = message(
-        "Four-bars by Grashof's condition and the place of the shortest link (a crank, b coupler, c rocker, d frame)"
-    )
-    headers = (message("condition"), message("shortest"), *"abcd", message("turning"), message("type"))
-    return (TeachingTable(title, headers, tuple(rows)),)
+        rows.append((condition.format(relation=relation), shortest, *lengths, turning, in_every_language(type_.name)))
+    headers = (message("condition"), message("shortest"), *names, message("turning"), message("type"))
+    return TeachingTable(title, headers, tuple(rows))
+
+
+def forms_of_chain(chain: Chain) -> tuple[TeachingTable, ...]:
+    """Which forms the mechanisms of a chain have, and for which lengths; none for chains without names for them.
+
+    >>> len(forms_of_chain(Chain.parse("R(0-1) R(1-2) R(2-3) P(3-0)")))
+    2
+    """
+    kinds = [joint.pair.name for joint in chain.joints]
+    if chain.space != Space.PLANAR or chain.link_kinds != {2: 4}:
+        return ()
+    four_bar, *sliders = grashof_types()
+    if kinds.count("revolute") + kinds.count("prismatic") < 4:
+        return ()
+    return {0: (four_bar,), 1: tuple(sliders)}.get(kinds.count("prismatic"), ())
 
 
 _Column = tuple[Message, str, Callable[[np.ndarray], np.ndarray]]

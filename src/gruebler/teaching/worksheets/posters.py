@@ -1,4 +1,4 @@
-"""Posters of the systematics: chains by assortment, inversions, Assur groups, kinds of joints."""
+"""Posters of the systematics: chains by assortment, inversions, forms, Assur groups, kinds of joints."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from gruebler.structure.assur import AssurGroup, assur_groups
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.enumeration import chains
 from gruebler.structure.mechanism.inversion import family, inversions
+from gruebler.teaching.worksheets.forms import four_bar_forms, slider_forms
 from gruebler.teaching.worksheets.joint_pictures import joint_pictures
 
 _MOST = {"chains": 10, "inversions": 8, "assur": 8}
@@ -21,7 +22,7 @@ _USUAL = {"chains": 8, "inversions": 6, "assur": 6}
 
 
 def poster(name: str, links: int | None = None, lang: str = "en") -> tuple[str, tuple[Section, ...]]:
-    """Title and sections of a poster: ``chains``, ``inversions``, ``assur`` (up to so many links) or ``joints``.
+    """Title and sections: ``chains``, ``inversions``, ``assur`` (up to so many links), ``forms`` or ``joints``.
 
     Cost: 20 ms a picture. Raises `GrueblerError` for another name, and for more links than fit on a poster.
 
@@ -69,9 +70,13 @@ def _chains(links: int, lang: str) -> tuple[str, tuple[Section, ...]]:
     return translate("Kinematic chains with F = 1 up to {links} links", lang, links=links), tuple(sections)
 
 
+def _forms(_: int, lang: str) -> tuple[str, tuple[Section, ...]]:
+    return translate("Forms of four-bars and slider-cranks", lang), (*four_bar_forms(lang), *slider_forms(lang))
+
+
 def _inversions(links: int, lang: str) -> tuple[str, tuple[Section, ...]]:
-    sections = []
-    for count in range(4, links + 1, 2):
+    sections = list(four_bar_forms(lang)) if links >= 4 else []
+    for count in range(6, links + 1, 2):
         for number, chain in enumerate(chains(count, 1), 1):
             items = [
                 Item(
@@ -113,6 +118,7 @@ def _joints(_: int, lang: str) -> tuple[str, tuple[Section, ...]]:
 
 POSTERS: dict[str, Callable[[int, str], tuple[str, tuple[Section, ...]]]] = {
     "chains": _chains,
+    "forms": _forms,
     "inversions": _inversions,
     "assur": _assur,
     "joints": _joints,
