@@ -34,7 +34,7 @@ WINGS = {
             "private_folder",
             "units",
         },
-        {"columns", "jets"},
+        {"columns", "formulas", "jets"},
     ],
     "structure": [
         {"chain"},

@@ -165,7 +165,7 @@ def test_a_driven_slide_has_forces_and_velocities():
         ({"forces": {"nowhere": ["1 N", "2 N"]}}, "loads.forces: "),
         ({"forces": {"R(crank-coupler)": "1 N"}}, "expected two components"),
         ({"forces": {"R(crank-coupler)": ["1e200 N", "0 N"]}}, "expected numbers below 1e100"),
-        ({"moments": {"crank": {"formula": "2*spped", "unit": "N m"}}}, "there is no 'spped' (did you mean 'speed'?)"),
+        ({"moments": {"crank": {"formula": "2*spped", "unit": "N m"}}}, "unknown name 'spped' (did you mean 'speed'?)"),
         ({"moments": {"crank": {"unit": "N m"}}}, "loads.moments.crank: expected either formula or curve"),
         ({"springs": [{"between": ["frame:0,0", "crank:1,0"], "free_length": -3}]}, "loads.springs.1: the free length"),
         ({"springs": [{"between": ["frame:0,0", "crank:1,0"], "stifness": "1 N/m"}]}, "did you mean 'stiffness'?"),

@@ -8,9 +8,10 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import SynthesisError
+from gruebler.base.formulas import Formula
 from gruebler.design.synthesis import Demands, FunctionTask, function_task, synthesise_function
 from gruebler.design.synthesis.coordination import Coordination
-from gruebler.design.synthesis.formulas import Formula, FunctionLaw
+from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.structural_errors import ErrorFamily, coordination_of, largest_error, structural_error
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move
@@ -220,6 +221,7 @@ def test_a_design_that_does_not_follow_the_function_throughout_has_no_optimum():
         ("sine(x)", "did you mean 'sin'"),
         ("log10(x", "cannot be read"),
         ("y + 1", "unknown name 'y'"),
+        ("atan2(x)", "atan2 takes 2 values"),
         ("x if x else 1", "none of numbers"),
         ("-" * 100 + "x", "nested too deeply"),
         ("True", "none of numbers"),
@@ -227,12 +229,13 @@ def test_a_design_that_does_not_follow_the_function_throughout_has_no_optimum():
 )
 def test_functions_that_are_none(text, sentence):
     with pytest.raises(SynthesisError, match=sentence.replace("+", r"\+")):
-        Formula(text)
+        FunctionLaw(text, interval=(1, 2), input_swing=1.0, output_swing=1.0)
 
 
 @given(st.floats(0.5, 3))
 def test_formulas_are_the_functions_of_numpy(x):
-    assert float(Formula("2*sin(x)^2 - log10(x)/e + pi")(x)) == 2 * np.sin(x) ** 2 - np.log10(x) / np.e + np.pi
+    formula = Formula("2*sin(x)^2 - log10(x)/e + pi", ("x",))
+    assert float(formula(x=x)) == 2 * np.sin(x) ** 2 - np.log10(x) / np.e + np.pi
 
 
 def test_functions_without_values_and_too_many_pairs():
@@ -270,3 +273,14 @@ def test_a_long_table_with_free_starts_is_met_by_least_squares():
     assert errors == sorted(errors)
     assert 1e-6 < errors[0] < 1e-3
     assert "least squares" in str(found.notes[0])
+
+
+def test_a_formula_knows_conditions_and_keeps_the_shape_of_its_variables():
+    """Of several variables, those that it does not name too; a condition is 1 or 0 wherever a number may stand."""
+    formula = Formula("where(speed < 0, -2*time, max(time, 0.5)) + 3*(time >= 1) - exp(-(time < 1))", ("time", "speed"))
+    assert formula.names == ("speed", "time")
+    found = formula(time=[0.0, 1.0, 2.0], speed=[[-1.0], [1.0]])
+    np.testing.assert_array_equal(
+        found, [[-np.exp(-1), -2 + 3 - 1, -4 + 3 - 1], [0.5 - np.exp(-1), 1 + 3 - 1, 2 + 3 - 1]]
+    )
+    assert Formula("2*deg", ("x",))(x=np.zeros(3)).tolist() == [2 * np.pi / 180] * 3

@@ -14,8 +14,9 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
+from gruebler.base.formulas import Formula
 from gruebler.design.synthesis.coordination import KINDS, Coordination, as_coordination
-from gruebler.design.synthesis.formulas import Formula, FunctionLaw, chebyshev_spacing
+from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.results import Design
 from gruebler.design.synthesis.tasks import FunctionTask
 
@@ -128,8 +129,8 @@ class ErrorFamily:
     @cached_property
     def _formula(self) -> tuple[Formula, float, float]:
         """The function, its value at the begin of the interval, and the output by its change."""
-        formula = Formula(self.law.function)
-        begin, end = (float(v) for v in formula(self.law.interval))
+        formula = self.law.formula
+        begin, end = (float(v) for v in formula(x=self.law.interval))
         return formula, begin, self.law.output_swing / self.unit / (end - begin)
 
     def numbers_of(self, solution: Coordination) -> Reals:
@@ -164,7 +165,7 @@ class ErrorFamily:
     def _wanted(self, numbers: Reals, x: Reals) -> tuple[Reals, Reals]:
         """Inputs and outputs wanted at x."""
         formula, begin, factor = self._formula
-        return self.inputs(numbers, x), numbers[4] + factor * (formula(x) - begin)
+        return self.inputs(numbers, x), numbers[4] + factor * (formula(x=x) - begin)
 
     def _outputs(self, numbers: Reals, inputs: Reals, wanted: Reals) -> Reals:
         """What solves the equation on the branch; of angles the value nearest to the one wanted."""

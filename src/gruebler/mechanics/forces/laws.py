@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -15,6 +14,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.formulas import Formula
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,47 +58,10 @@ class Law(Protocol):
         """A number, or one for each row, (rows,)."""
 
 
-_FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "sin": np.sin,
-    "cos": np.cos,
-    "tan": np.tan,
-    "atan2": np.arctan2,
-    "sqrt": np.sqrt,
-    "exp": np.exp,
-    "log": np.log,
-    "abs": np.abs,
-    "sign": np.sign,
-    "floor": np.floor,
-    "tanh": np.tanh,
-    "min": np.minimum,
-    "max": np.maximum,
-    "where": np.where,
-}
-_CONSTANTS = {"pi": math.pi, "deg": math.pi / 180}
-_OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
-    ast.Add: np.add,
-    ast.Sub: np.subtract,
-    ast.Mult: np.multiply,
-    ast.Div: np.divide,
-    ast.Pow: np.power,
-    ast.Mod: np.mod,
-    ast.USub: np.negative,
-    ast.UAdd: np.positive,
-    ast.Lt: np.less,
-    ast.LtE: np.less_equal,
-    ast.Gt: np.greater,
-    ast.GtE: np.greater_equal,
-}
-_LONGEST = 500
-
-
 @door_that_raises(LinkageError)
 @dataclass(frozen=True)
 class LoadFormula:
-    """A load as a formula of `VARIABLES`, such as ``-200*where(vx < 0, 1, 0)``; angles are in radians.
-
-    It knows + - * / ** % < <= > >=, the functions sin, cos, tan, atan2, sqrt, exp, log, abs, sign, floor, tanh, min,
-    max and where(condition, then, otherwise), and the numbers pi and deg (a degree).
+    """A load as a `Formula` of `VARIABLES`, such as ``-200*where(vx < 0, 1, 0)``; angles are in radians.
 
     >>> LoadFormula("2*drive + time").names
     ('drive', 'time')
@@ -107,90 +70,20 @@ class LoadFormula:
     text: str
 
     def __post_init__(self) -> None:
-        assert self._code is not None
+        assert self._formula is not None
 
     @property
     def names(self) -> tuple[str, ...]:
         """What it depends on, sorted."""
-        names = {node.id for node in ast.walk(self._code) if isinstance(node, ast.Name)}
-        return tuple(sorted(names & set(VARIABLES)))
+        return self._formula.names
 
-    def __call__(self, state: State, /) -> Any:
-        """Its value, or one for each row."""
-        with np.errstate(all="ignore"):
-            return _value(self._code, state)
+    def __call__(self, state: State, /) -> Reals:
+        """Its value, (), or one for each row, (rows,)."""
+        return self._formula(**{name: getattr(state, name) for name in self.names})
 
     @cached_property
-    def _code(self) -> ast.expr:
-        if len(self.text) > _LONGEST:
-            raise LinkageError("an expression has at most {count} characters", count=_LONGEST)
-        try:
-            code = ast.parse(self.text.strip().replace("^", "**"), mode="eval").body
-            _check(code, self.text)
-        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-            if isinstance(error, LinkageError):
-                raise
-            raise LinkageError("{text!r} is not an expression that can be read", text=self.text) from None
-        return code
-
-
-def _check(node: ast.AST, text: str) -> None:
-    """`LinkageError` for what an expression may not have."""
-    match node:
-        case ast.Constant(value=bool() | str() | bytes() | complex()):
-            pass
-        case ast.Constant(value=int() | float() as value) if abs(value) < 1e100:
-            return
-        case ast.Name(id=name) if name in VARIABLES or name in _CONSTANTS:
-            return
-        case ast.Name(id=name):
-            known = (*VARIABLES, *_CONSTANTS)
-            raise LinkageError(
-                "{text!r}: there is no {name!r}{suggestion}; known are {known}",
-                text=text,
-                name=name,
-                suggestion=nearest(name, known),
-                known=", ".join(known),
-            )
-        case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
-            _check(left, text)
-            _check(right, text)
-            return
-        case ast.UnaryOp(op=op, operand=operand) if type(op) in _OPERATORS:
-            _check(operand, text)
-            return
-        case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in _OPERATORS:
-            _check(left, text)
-            _check(right, text)
-            return
-        case ast.Call(func=ast.Name(id=name), args=parts, keywords=[]) if name in _FUNCTIONS:
-            wanted = {"where": 3, "min": 2, "max": 2, "atan2": 2}.get(name, 1)
-            if len(parts) != wanted:
-                raise LinkageError("{text!r}: {name} takes {count} values", text=text, name=name, count=wanted)
-            for part in parts:
-                _check(part, text)
-            return
-    raise LinkageError(
-        "{text!r}: {part!r} is not allowed; functions are {functions}",
-        text=text,
-        part=ast.unparse(node),
-        functions=", ".join(_FUNCTIONS),
-    )
-
-
-def _value(node: ast.expr, state: State) -> Any:
-    match node:
-        case ast.Constant(value=value):
-            return float(value)  # type: ignore[arg-type]
-        case ast.Name(id=name):
-            return _CONSTANTS[name] if name in _CONSTANTS else getattr(state, name)
-        case ast.BinOp(left=left, op=op, right=right) | ast.Compare(left=left, ops=[op], comparators=[right]):
-            return _OPERATORS[type(op)](_value(left, state), _value(right, state))
-        case ast.UnaryOp(op=op, operand=operand):
-            return _OPERATORS[type(op)](_value(operand, state))
-        case ast.Call(func=ast.Name(id=name), args=parts):
-            return _FUNCTIONS[name](*(_value(part, state) for part in parts))
-    raise AssertionError(node)
+    def _formula(self) -> Formula:
+        return Formula(self.text, VARIABLES, LinkageError)
 
 
 @door_that_raises(LinkageError)
