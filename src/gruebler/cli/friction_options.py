@@ -72,7 +72,7 @@ def _by_joint(option: str, given: Sequence[str]) -> dict[str, float]:
     numbers = {}
     for text in given:
         name, equals, value = text.rpartition("=")
-        numbers[name.strip() if equals else "*"] = numbers_of(option, value, 1)[0]
+        numbers[name.strip() if equals else "*"] = option_numbers(option, value, 1)[0]
     return numbers
 
 
@@ -85,7 +85,7 @@ def _pair(option: str, text: str) -> tuple[str, str]:
     return joint.strip(), link.strip()
 
 
-def numbers_of(option: str, text: str, count: int) -> list[float]:
+def option_numbers(option: str, text: str, count: int) -> list[float]:
     """So many finite numbers with commas between; `GrueblerError` names the option."""
     try:
         numbers = [float(part) for part in text.split(",")]

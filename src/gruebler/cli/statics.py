@@ -15,7 +15,7 @@ from gruebler.base.columns import Column, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import given_rows, turning_drives
-from gruebler.cli.friction_options import add_friction, friction_of, numbers_of
+from gruebler.cli.friction_options import add_friction, friction_of, option_numbers
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_linkage, linkage_of_word
 from gruebler.cli.output import print_json, write_table
@@ -107,7 +107,7 @@ def _loads(arguments: argparse.Namespace) -> Loads:
     )
     if arguments.gravity is None:
         return Loads(forces, moments, masses=masses)
-    x, y = numbers_of("--gravity", arguments.gravity, 2)
+    x, y = option_numbers("--gravity", arguments.gravity, 2)
     return Loads(forces, moments, masses=masses, gravity=(x, y))
 
 
@@ -130,7 +130,7 @@ def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float
             expected="POINT=FX,FY" if count == 2 else "NAME=NUMBER",
             found=text,
         )
-    numbers = numbers_of(option, values, count)
+    numbers = option_numbers(option, values, count)
     return name.strip(), numbers if count > 1 else numbers[0]
 
 
