@@ -6,6 +6,7 @@
 
 #include "check.hpp"
 #include "motion/designs.hpp"
+#include "motion/inverses.hpp"
 #include "motion/tracing.hpp"
 #include "motion/walk.hpp"
 
@@ -246,9 +247,32 @@ void check_wrong_programs() {
     expect(refused(machine), "a law without pieces");
 }
 
+// Against the functions of the system, over many powers of ten; an ulp of the result, or of 1 for cosines.
+void check_functions() {
+    constexpr double ulp = 2.3e-16;
+    double number = 1e-300, large = 1;
+    for (int k = 0; k < 4000; ++k) {
+        number *= 1.411;
+        large *= 1.00865;  // up to 1e15
+        if (number > 1e299) number = 1e-300;
+        const Complex near{std::cos(k * 0.7), std::sin(k * 0.7)}, point = unit_vector(large);
+        const Complex directions[] = {near, {near.x, near.y * 1e-9}, {near.x * 1e-9, near.y}, number * near};
+        for (const Complex z : directions) {
+            const double angle = std::atan2(z.y, z.x);
+            expect(std::fabs(direction_angle(z) - angle) <= 4 * ulp * std::fabs(angle), "the angle of a direction");
+        }
+        for (const double of : {number, 1 + 1e-3 * near.x, large}) {
+            const double log = std::log(of);
+            expect(std::fabs(logarithm(of) - log) <= 3 * ulp * std::fabs(log), "the logarithm");
+        }
+        expect(std::fabs(point.x - std::cos(large)) + std::fabs(point.y - std::sin(large)) <= 4 * ulp, "a point of the circle");
+    }
+}
+
 }  // namespace
 
 int main() {
+    check_functions();
     for (int order = 0; order <= most_orders; ++order) check_four_bar(order, 0.01);
     check_four_bar(1, 0.7);
     check_limit();

@@ -93,6 +93,11 @@ def same(one, other):
     return np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
 
 
+def within_an_ulp(one, other):
+    """The same but for the last bit of cosines, which the core computes itself."""
+    return np.abs(one - other).max() <= 4e-16 * (1 + np.abs(other).max())
+
+
 class Plain:
     """A program, one pose after the other in plain Python, from signed roots and unknowns that are given."""
 
@@ -277,9 +282,10 @@ def test_newtons_method_closes_groups(core):
     for _ in range(50):
         x = random.normal(size=6)
         residual, slopes, expected, plain = np.zeros(6), np.zeros((6, 6)), np.zeros(6), np.zeros((6, 6))
-        assert core.closing(kept, x, residual, slopes) == closure.closing(kept, x, expected, plain)
-        assert same(residual, expected)
-        assert same(slopes, plain)
+        assert core.closing(kept, x, residual, slopes) == np.abs(residual).max()
+        closure.closing(kept, x, expected, plain)
+        assert within_an_ulp(residual, expected)
+        assert within_an_ulp(slopes, plain)
         steps, determinant = core.newton(kept, x, 20)
         if steps > 0:
             arrived += 1
@@ -304,7 +310,7 @@ def test_circuits_are_closed_by_plain_python(core, name):
     for pose, tangent in list(zip(traced.poses, traced.tangents, strict=True))[:: max(1, len(traced.arcs) // 10)]:
         for mine, plain in zip(core.jacobian(system.conditions, pose), (residual, slopes), strict=True):
             assert closure.closing(system.conditions, pose, residual, slopes) < 1e-9
-            assert same(mine, plain)
+            assert within_an_ulp(mine, plain)
         assert np.linalg.norm(tangent) == pytest.approx(1, abs=1e-12)
         assert np.abs(slopes @ tangent).max() < 1e-5 * max(1, np.abs(slopes).max())
 

@@ -1,25 +1,10 @@
-// Runs the page's kernel on records that Python wrote (one JSON document a line) and prints, for each, how far apart
-// they are: `explorer.js` as first argument, the records as second.
+// Runs the page's kernel on records that Python wrote (one JSON document a line) and prints, for each, how it ended and how
+// many numbers differ in a bit: `explorer.js` as first argument, the records as second.
 import { createReadStream } from "node:fs";
 import { createInterface } from "node:readline";
 import { pathToFileURL } from "node:url";
 
 const { Kernel, programOf } = await import(pathToFileURL(process.argv[2]).href);
-
-/** The largest difference, each row against its own largest value where it is more than `unit`. */
-function apart(mine, theirs, width, unit, trusted) {
-  let most = 0;
-  for (let row = 0; row * width < theirs.length; row++) {
-    if (!trusted(row)) continue;
-    let scale = unit;
-    for (let k = row * width; k < (row + 1) * width; k++) scale = Math.max(scale, Math.abs(theirs[k] ?? 0));
-    for (let k = row * width; k < (row + 1) * width; k++) {
-      const gap = Math.abs(mine[k] - theirs[k]) / scale;
-      if (!(gap <= most)) most = Number.isNaN(theirs[k]) || theirs[k] === null ? most : gap;
-    }
-  }
-  return most;
-}
 
 /** Row by row, and what is no number as NaN; `at` says where the numbers of a link are. */
 function ordered(array, orders, links, width, count, at) {
@@ -41,35 +26,18 @@ for await (const line of createInterface({ input: createReadStream(process.argv[
     2,
     record.speeds.map((s) => Float64Array.from(s)),
   );
-  const { linkCount: links, dyads, size } = record.program;
+  const links = record.program.linkCount;
   // Python: places (order, row, link), rates (order, row, link); the page: a column for each number; here: row first
   const count = record.reached, all = rows.turns.length / (2 * links);
   const theirs = (array, orders, width) => ordered(array, orders, links, width, count, (k, link, row) => (k * count + row) * links + link);
   const mine = (array, orders, width) => ordered(array, orders, links, width, count, (k, link, row) => (k * links + link) * all + row);
-  const places = theirs(record.places, 3, 2), rates = theirs(record.rates, 2, 1), turns = theirs(record.turns, 1, 2);
-  const found = { places: mine(rows.places, 3, 2), rates: mine(rows.rates, 2, 1), turns: mine(rows.turns, 1, 2) };
-  const least = (row) => {
-    let out = 1;
-    for (let m = 0; m < dyads; m++) out = Math.min(out, Math.abs(record.roots[row * dyads + m]));
-    return out;
+  const different = (what, orders, width) => {
+    const here = mine(rows[what], orders, width);
+    // what is not finite came as null
+    const same = (value, k) => Object.is(here[k], value) || (Number.isNaN(value) && !Number.isFinite(here[k]));
+    return theirs(record[what], orders, width).filter((value, k) => !same(value, k)).length;
   };
-  const pick = (all, k) => Float64Array.from({ length: count * 2 * links }, (_, i) =>
-    all[(Math.floor(i / (2 * links)) * 3 + k) * 2 * links + (i % (2 * links))]);
-  const turn = (k, all) => Float64Array.from({ length: count * links }, (_, i) =>
-    all[(Math.floor(i / links) * 2 + k) * links + (i % links)]);
-  // what is lost beside a root r: a position is known to 1e-16 / r, a velocity to 1e-16 / r^2, an acceleration to / r^4
-  const near = (r) => (row) => least(row) > r;
-  console.log(JSON.stringify({
-    status: rows.status, reached: rows.reached, at: rows.at, fault: rows.fault,
-    turns: apart(found.turns, turns, 2 * links, 1, near(1e-6)),
-    places: apart(pick(found.places, 0), pick(places, 0), 2 * links, size, near(1e-6)),
-    velocities: Math.max(
-      apart(pick(found.places, 1), pick(places, 1), 2 * links, size, near(1e-3)),
-      apart(turn(0, found.rates), turn(0, rates), links, 1, near(1e-3))),
-    accelerations: Math.max(
-      apart(pick(found.places, 2), pick(places, 2), 2 * links, size, near(1e-2)),
-      apart(turn(1, found.rates), turn(1, rates), links, 1, near(1e-2))),
-    rows: count,
-    trusted: Array.from({ length: count }, (_, row) => least(row)).filter((r) => r > 1e-3).length,
-  }));
+  const { status, reached, at, fault } = rows;
+  const apart = { places: different("places", 3, 2), rates: different("rates", 2, 1), turns: different("turns", 1, 2) };
+  console.log(JSON.stringify({ end: { status, reached, at, fault }, apart, numbers: count * links * 10 }));
 }

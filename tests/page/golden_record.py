@@ -36,7 +36,6 @@ def golden_record(linkage: Linkage, rows: Reals, signs: Reals, unknowns: Reals) 
         "places": _finite(solved.places),
         "turns": _finite(solved.turns),
         "rates": _finite(solved.rates),
-        "roots": _finite(solved.roots),
     }
 
 

@@ -24,7 +24,6 @@ from tests.page.golden_record import golden_record
 from tests.strategies import GROUPS, parallelograms
 
 BUILT = Path(__file__).parents[2] / "src/gruebler/page/static/explorer.js"
-AGREED = 1e-9
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="the page's kernel needs node to be executed here")
 
@@ -39,15 +38,10 @@ def compared(records: list[dict], tmp_path: Path) -> list[dict]:
     return found
 
 
-def check(name: str, record: dict, found: dict, agreed: float = AGREED) -> bool:
-    """Compare one; returns whether the same part is at fault at its end, if it has one."""
-    assert found["reached"] == record["reached"], name
-    assert found["at"] == pytest.approx(record["at"], abs=1e-6), name
-    assert (found["status"] == 0) == (record["status"] == 0), name
-    for what in ("turns", "places", "velocities"):
-        assert found[what] <= agreed, (name, what, found[what])
-    assert found["accelerations"] <= 100 * agreed, (name, found["accelerations"])
-    return record["status"] == 0 or (found["status"], found["fault"]) == (record["status"], record["fault"])
+def check(name: str, record: dict, found: dict) -> None:
+    """The same end and the same bits."""
+    assert found["end"] == {what: record[what] for what in ("status", "reached", "at", "fault")}, name
+    assert found["apart"] == {"places": 0, "rates": 0, "turns": 0}, name
 
 
 def machines() -> list[str]:
@@ -68,9 +62,9 @@ def test_every_planar_machine_of_the_catalog(tmp_path):
             names.append(f"{name} {way:+}")
     found = compared(records, tmp_path)
     for name, record, one in zip(names, records, found, strict=True):
-        assert check(name, record, one), name
+        check(name, record, one)
     assert len(machines()) >= 61
-    assert sum(one["trusted"] for one in found) > 0.9 * sum(one["rows"] for one in found)
+    assert sum(one["numbers"] for one in found) > 300_000
 
 
 def built(rng: random.Random) -> Linkage:
@@ -112,10 +106,8 @@ def test_a_thousand_random_linkages(tmp_path):
         records.append(golden_record(linkage, rows, begin.signs, begin.unknowns))
         forms.update(group.form() for group in plan.decomposition.groups)
     found = compared(records, tmp_path)
-    same = [check(f"random linkage {number}", *pair) for number, pair in enumerate(zip(records, found, strict=True))]
-    # a group behind a dyad that comes to its limit is lost at the same place, within 1e-13: which of them is named
-    # there hangs on the last bit of a sine, and sines differ between a browser and the library
-    assert same.count(False) <= 3
+    for number, pair in enumerate(zip(records, found, strict=True)):
+        check(f"random linkage {number}", *pair)
     assert {"RRR", "RRP", "RPR", "PRP", "RPP"} <= set(forms)
     assert sum(count for form, count in forms.items() if len(form) > 3) > 100
     stopped = sum(record["status"] != 0 for record in records)
@@ -125,7 +117,7 @@ def test_a_thousand_random_linkages(tmp_path):
 def test_trains_of_parallelograms_pass_their_change_points_together(tmp_path):
     """Long rows and short ones, and change points at the same place, near one another or apart."""
     random = np.random.default_rng(20_261_122)
-    records, agreed = [], []
+    records = []
     for bends in [(0, 0, 0), (1e-3, 0, 1e-3), (1e-2, 1.5, 0), (pi / 2, pi, 0.5)] * 10:
         linkage = parallelograms(random.uniform(0.5, 2, 4).tolist(), random.uniform(2.1, 4, 3).tolist(), list(bends))
         before, behind = 10 ** random.uniform(-6, -1, 2)
@@ -133,7 +125,5 @@ def test_trains_of_parallelograms_pass_their_change_points_together(tmp_path):
         begin = pose_at_reference(cached_plan(linkage), np.ones(1))
         records.append(golden_record(linkage, rows[:, None], begin.signs, begin.unknowns))
         assert records[-1]["status"] == 0
-        # The sine of the angle between two bars is this small: rounding of the coordinates, divided by it, turns a bar.
-        agreed.append(AGREED + 100 * np.finfo(float).eps / min(before, behind))
-    for number, three in enumerate(zip(records, compared(records, tmp_path), agreed, strict=True)):
-        check(f"train {number}", *three)
+    for number, pair in enumerate(zip(records, compared(records, tmp_path), strict=True)):
+        check(f"train {number}", *pair)

@@ -1,6 +1,8 @@
 // Cosine and sine without a branch, so that loops over them vectorise: the same bits on every processor.
 #pragma once
 
+#include <math.h>
+
 #include "motion/complex.hpp"
 
 namespace gruebler::motion {
@@ -35,6 +37,15 @@ inline Complex circle(double angle) {
     const bool turn_x = static_cast<int>(quarter == 1) | static_cast<int>(half_turn);
     const bool turn_y = static_cast<int>(quarter == -1) | static_cast<int>(half_turn);
     return {turn_x ? -x : x, turn_y ? -y : y};
+}
+
+// Of any angle. Beyond `reduced` whole turns are taken off first, 2 pi in two parts; remainders are exact on every system. (Beyond
+// 1e21 neighbouring numbers are many turns apart: then it is some point of the circle, everywhere the same.)
+inline Complex unit_vector(double angle) {
+    if (fabs(angle) < reduced) return circle(angle);
+    constexpr double turn = 6.28318530717958647693, rest_of_turn = 2.44929359829470641435e-16;
+    const double rest = remainder(angle, turn);
+    return circle(remainder(rest - (angle - rest) / turn * rest_of_turn, turn));
 }
 
 }  // namespace

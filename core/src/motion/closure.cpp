@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "motion/inverses.hpp"
+
 namespace gruebler::motion {
 namespace {
 
@@ -20,7 +22,7 @@ struct Side {
 
     Side(const ElementJet& element, int body, const double* x) : arm{0, 0}, point(element.point[0]), line(element.line) {
         if (body < 0) return;
-        const Complex turn{std::cos(x[3 * body + 2]), std::sin(x[3 * body + 2])};
+        const Complex turn = unit_vector(x[3 * body + 2]);
         arm = turn * point;
         line = turn * line;
         point = arm + Complex{x[3 * body], x[3 * body + 1]};
@@ -59,7 +61,7 @@ std::string read_condition(std::int64_t kind, const double* values, std::int64_t
 }
 
 double unwound_angle(Complex direction, double near) {
-    const double angle = std::atan2(direction.y, direction.x);
+    const double angle = direction_angle(direction);
     return angle + turn_round * std::floor((near - angle) / turn_round + 0.5);
 }
 
@@ -155,7 +157,7 @@ double closing(const Conditions& conditions, const double* x, int unknowns, doub
                 const Complex seen = conjugate(one.line) * gap;
                 const LawValue radius = evaluate_law(conditions.laws, condition.law, unwound_angle(seen, 0));
                 const double square = squared(seen);
-                residual[row] = factor_a * ((square > 0 ? std::log(square) / 2 : -infinity) - radius.value);
+                residual[row] = factor_a * ((square > 0 ? logarithm(square) / 2 : -infinity) - radius.value);
                 counts.measure = factor_a * (Complex{1, 0} - imaginary(radius.slope)) * gap / squared(gap);
                 counts.turn_a = factor_a * radius.slope;
                 break;

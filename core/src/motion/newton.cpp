@@ -13,6 +13,8 @@ constexpr double finite = 1e300;   // a residual that is larger, or NaN, comes o
 constexpr double damping = 1e-12;  // of the sum of squares of the Jacobian: holds directions with a singular value below 1e-6
 constexpr int damped_steps = 4;    // each squares the error, from that of an extrapolation (some 1e-2) down to rounding
 
+constexpr double vanishing = 1e-7;  // of the scaled Jacobian: Newton's method leaves a singular position off by some 1e-8
+
 // Angles are compared with lengths by the size.
 double scale_of(int unknown, double size) { return unknown % 3 == 2 ? size : 1.0; }
 
@@ -74,6 +76,25 @@ NewtonEnd newton(const Conditions& conditions, double* x, int n, int steps, Line
         if (moved < arrived * size) return {step + 1, determinant};
     }
     return {-1, 0};
+}
+
+bool is_singular(const Conditions& conditions, const double* x, int n, bool has_arrived, LinearRoom& room) {
+    double* jacobian = room.jacobian.data();
+    const double miss = closing(conditions, x, n, room.residual.data(), jacobian);
+    if (!has_arrived && !(miss < closed * conditions.size)) return false;
+    for (int i = 0; i < n; ++i) {
+        double most = 0;
+        for (int k = 0; k < n; ++k) {
+            jacobian[i * n + k] /= scale_of(k, conditions.size);
+            most = larger(most, std::fabs(jacobian[i * n + k]));
+        }
+        if (most == 0) return true;
+        for (int k = 0; k < n; ++k) jacobian[i * n + k] /= most;
+    }
+    if (factor(jacobian, n, room.pivots.data()) == 0) return true;
+    for (int k = 0; k < n; ++k)
+        if (std::fabs(jacobian[k * n + k]) < vanishing) return true;
+    return false;
 }
 
 void close_near_singular(const Conditions& conditions, double* x, int n, LinearRoom& room) {

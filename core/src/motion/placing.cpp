@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "motion/circle.hpp"
 #include "motion/closure_rates.hpp"
 
 namespace gruebler::motion {
@@ -23,8 +24,6 @@ constexpr double straight_deviation = 0.02;  // of the way moved: the same behin
 constexpr double no_deviation = 1e-7;  // of the size: nearer to the prediction nothing has jumped, however short the way
 constexpr double ahead_part = 0.5;     // of the way to the expected zero of a determinant: no step leads farther
 constexpr double determinant_kept = 0.1;  // of its last value: one that keeps less may have come through zero
-
-Complex unit_vector(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 template <class Part>
 int largest(const Group* groups, int count, Part part) {
@@ -211,7 +210,8 @@ bool Placing::is_expected(const Group& group, int number, double at) const {
     }
     const double ahead = filled > 1 ? zero_ahead(number) : infinity;
     if (at - last[0].at > ahead_part * ahead && ahead > nearest * unit) return false;
-    return trial.determinants[number] / last[0].determinants[number] > determinant_kept;
+    const double kept_from = last[0].determinants[number];  // zero where the start is singular: its side is not known
+    return kept_from != 0 && trial.determinants[number] / kept_from > determinant_kept;
 }
 
 // Angles that count whole turns are near what they were in the last pose.
@@ -296,14 +296,15 @@ bool Placing::place_group(int number, int order, double at) {
     if (in_it) {
         close_near_singular(conditions, x, n, room_);
     } else {
-        const NewtonEnd end = newton(conditions, x, n, newton_steps, room_);
+        NewtonEnd end = newton(conditions, x, n, newton_steps, room_);
+        if (filled == 0 && is_singular(conditions, x, n, end.steps >= 0, room_)) end = {0, 0};
         trial.determinants[number] = end.determinant;
         if (end.steps < 0) return false;
         if (filled > 0 && !is_expected(group, number, at)) return false;
     }
     if (!wind(group)) return false;
     for (int b = 0; b < bodies; ++b) bodies_[b] = {{{x[3 * b], x[3 * b + 1]}}, unit_vector(x[3 * b + 2]), {}};
-    if (order > 0) set_group_rates(group, conditions, order, !in_it);
+    if (order > 0) set_group_rates(group, conditions, order, !in_it && trial.determinants[number] != 0);
     for (int b = 0; b < bodies; ++b) {
         BodyJet& link = links[plan_.roots[group.first_body + b]];
         link.turn = bodies_[b].turn;

@@ -107,8 +107,9 @@ void place_turn(const BodyRows& near_rows, BodyRows& far_rows, Complex near_poin
         }
     } else {
         for (int i = 0; i < count; ++i) {
-            x[i] = cos(sign * values[0][i]);
-            y[i] = sin(sign * values[0][i]);
+            const Complex turn = unit_vector(sign * values[0][i]);
+            x[i] = turn.x;
+            y[i] = turn.y;
         }
     }
     EACH_LANE

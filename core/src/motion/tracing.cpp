@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "motion/inverses.hpp"
 #include "motion/newton.hpp"
 
 namespace gruebler::motion {
@@ -226,7 +227,8 @@ Tracing::Attempt Tracing::attempt(const Samples& samples, std::int64_t k, double
     for (int i = 0; i < n; ++i) skew += square((after[i] - here[i]) / chord - (next[i] + tangent[i]) / mean);
     if (!(cosine > bend_least && skew < skew_most * skew_most && chord < 2 * step)) return {false, false};
     const double half = std::sqrt(turned) / 2;
-    samples.arcs[k + 1] = samples.arcs[k] + chord * (half > straight ? std::asin(half) / half : 1.0);
+    const double angle = direction_angle({std::sqrt(1 - half * half), half});
+    samples.arcs[k + 1] = samples.arcs[k] + chord * (half > straight ? angle / half : 1.0);
     return {true, back};
 }
 

@@ -323,7 +323,7 @@ void Walk::meet(double at) {
         turn = at > 0 ? placing_.last_turns[body] : Complex{1, 0};
         break;
     }
-    placing_.dyads[number].direction = turn / std::hypot(turn.x, turn.y);
+    placing_.dyads[number].direction = turn / std::sqrt(dot(turn, turn));
     placing_.dyads[number].met = at;
 }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -105,8 +106,8 @@ def move(
         return _with_warning(_never(plan, path, upto, found))
     from_reference = branch is None and plan.lower.reference_pose is not None
     rows = follow_path(plan, path, speeds, upto, signs, unknowns)
-    if from_reference and (_in_change_point(plan, rows) if rows.reached else plan.higher_groups):
-        rows = _from_reference(plan, path, speeds, upto)
+    if from_reference and _is_doubtful_start(plan, rows):
+        rows = max(_from_reference(plan, path, speeds, upto), rows, key=attrgetter("reached"))
     motion = motion_from_rows(plan, path, rows)
     if motion.stop is not None and motion.stop.reason == "open" and from_reference:
         # the start may be a change point of the independent part: the way from the reference pose tells the way on
@@ -161,10 +162,13 @@ def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
     return changed
 
 
-def _in_change_point(plan: Plan, rows: SolvedRows) -> bool:
-    """Whether the first row is a change point of a dyad, where its sign does not tell the branch."""
+def _is_doubtful_start(plan: Plan, rows: SolvedRows) -> bool:
+    """Whether the first row does not tell the way on: a change point of a dyad, a singular position of a larger group."""
+    if not rows.reached:
+        return bool(plan.higher_groups)
     branching = [dyad.number for dyad in plan.dyads if dyad.branching]
-    return bool((np.abs(rows.roots[0, branching]) < _DOUBTFUL).any())
+    stuck = _REASONS.get(rows.status) == "singular" and rows.at == 0
+    return stuck or bool((np.abs(rows.roots[0, branching]) < _DOUBTFUL).any())
 
 
 def _from_reference(plan: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
