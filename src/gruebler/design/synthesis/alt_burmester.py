@@ -326,12 +326,17 @@ def _levelled(marks: Complexes) -> Complexes:
 
 
 def _pairs(problem: Problem, z: Complexes, near: float = _SAME) -> Integers:
-    """Pairs of solutions of one class: (pairs, 2)."""
-    from scipy.spatial import cKDTree
-
+    """Pairs of solutions of one class: (pairs, 2). In the order of their first mark, which few others are near to."""
     marks = _levelled(problem.marks(z))
     flat = np.nan_to_num(np.concatenate([marks.real, marks.imag], axis=1), nan=9.0)
-    return np.asarray(cKDTree(flat).query_pairs(near, output_type="ndarray"))
+    order = np.argsort(flat[:, 0], kind="stable")
+    flat = flat[order]
+    places = np.arange(len(flat))
+    behind = np.searchsorted(flat[:, 0], flat[:, 0] + near, side="right") - places - 1
+    first = np.repeat(places, behind)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(behind) - behind, behind)
+    close = np.linalg.norm(flat[first] - flat[second], axis=1) <= near
+    return np.stack([order[first[close]], order[second[close]]], axis=1)
 
 
 def _repeated(problem: Problem, z: Complexes, arrived: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -13,6 +13,7 @@ from gruebler.design.synthesis.targets import Targets
 from gruebler.mechanics.kinematics import Circuit, Poses
 
 _REFINEMENTS = 8
+_ARRIVED = 1e-15  # of the length: steps as short as rounding
 _SHARPENINGS = 3
 _INSIDE = 1e-6  # of the length: `move` cannot be led to a limit of the drive itself
 
@@ -55,7 +56,9 @@ def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
         gap, rate = targets.gaps(course.at(at), target)
         with np.errstate(invalid="ignore", divide="ignore"):
             step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
-        at = np.clip(at - np.nan_to_num(step), low, high)
+        before, at = at, np.clip(at - np.nan_to_num(step), low, high)
+        if np.abs(at - before).max() <= _ARRIVED * course.length:
+            break
     ends = np.full(len(at), np.inf)
     if len(at):
         gap, _ = targets.gaps(course.at(at), target)

@@ -51,6 +51,7 @@ _DIFFERENCE = 1e-5  # sizes and radians: the cube root of the rounding, the best
 _BESIDE = np.array([-2.0, -1.0, 1.0, 2.0])  # places about a meeting of curves, in widths
 _NEARER = (0.1, 0.02, 0.02)  # the widths, in parts of the way between two samples
 _BORDER = 1e-6  # parts of a way between samples, sizes and radians: meetings at a sample are one
+_BETWEEN = 2  # times the difference of two Jacobians: more than that along an arc that hardly bends
 _LOST = 1e-5  # of the singular value a width away: less is zero
 _SMALL = 0.2  # below this gauge a redundantly constrained linkage is looked at for change points
 
@@ -389,16 +390,22 @@ def _meeting(system: ClosureSystem, first: Reals, second: Reals, tangent: Reals)
 
     The pose is None if there is none.
 
-    Along the curve the smallest singular value of the Jacobian, with the other sign behind it, goes through zero there:
-    the place is the zero of a cubic through four values, the pose lies on cubics through four poses.
+    A singular value changes by no more than the Jacobian (Weyl): larger than the change from sample to sample, it is
+    nowhere zero between them. Along the curve the smallest one of the Jacobian, with the other sign behind it, goes
+    through zero there: the place is the zero of a cubic through four values, the pose lies on cubics of four poses.
     """
+
+    def least(pose: Reals) -> float:
+        return float(np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2])
 
     def at(part: float) -> tuple[Reals, float]:
         pose = first + part * (second - first)
         _core.settle_on_curve(system.conditions, pose, tangent.copy())
-        return pose, float(np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2])
+        return pose, least(pose)
 
-    before, behind = at(0.0)[1], at(1.0)[1]
+    before, behind = least(first), least(second)
+    if before + behind > _BETWEEN * np.linalg.norm(system.linearised(second)[1] - system.linearised(first)[1]):
+        return None, 0
     place = before / max(before + behind, 1e-300)
     for width in _NEARER:
         places = place + width * _BESIDE

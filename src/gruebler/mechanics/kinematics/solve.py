@@ -163,7 +163,7 @@ def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
 
 
 def _is_doubtful_start(plan: Plan, rows: SolvedRows) -> bool:
-    """Whether the first row does not tell the way on: a change point of a dyad, a singular position of a larger group."""
+    """Whether the first row does not tell the way on: a change point of a dyad, a singular pose of a larger group."""
     if not rows.reached:
         return bool(plan.higher_groups)
     branching = [dyad.number for dyad in plan.dyads if dyad.branching]
