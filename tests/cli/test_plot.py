@@ -28,6 +28,8 @@ def run(capsys, *arguments):
             "coupler curves",
         ),
         (["mzc", "--kind", "ratio", "--ratio", "0.005"], "relative deviation of K"),
+        (["compressor", "--kind", "torque"], "Piston compressor with slider-crank: torque and power of the drive"),
+        (["compressor", "--kind", "forces", "--point", "P(frame-piston)", "--lang", "de"], "Gelenkkräfte"),
     ],
 )
 def test_every_kind(capsys, arguments, title):
@@ -50,7 +52,7 @@ def test_the_speed_is_in_turns_a_minute(capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ([FOUR_BAR, "--point", "K"], "--point goes with --kind hodograph, curves or ratio, not with transfer"),
+        ([FOUR_BAR, "--point", "K"], "--point goes with --kind hodograph, curves, ratio or forces, not with transfer"),
         ([FOUR_BAR, "--kind", "curves"], "no named points; name one of its joints"),
         ([FOUR_BAR, "--kind", "family", "--from=1,2"], "--from and --to go together"),
         ([FOUR_BAR, "--kind", "family", "--from=1", "--to=2,3"], "--from: expected two numbers X,Y"),

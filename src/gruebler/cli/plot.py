@@ -11,13 +11,18 @@ from typing import Any
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or, translate
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_path, picture_suffix, write_picture
-from gruebler.cli.linkage_inputs import add_linkage, with_points
+from gruebler.cli.drive_rows import given_speeds, turning_drives
+from gruebler.cli.linkage_inputs import add_linkage, loaded_linkage, with_points
 from gruebler.cli.parser import Parser
+from gruebler.mechanics.dynamics import InverseDynamics, inverse_dynamics
+from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas import Figure
 from gruebler.pictures.canvas.panels import ratio_diagram
 from gruebler.pictures.linkage.curve_plots import coupler_plot, family_plot, hodograph
+from gruebler.pictures.linkage.force_plots import effort_plot, force_plot
 from gruebler.pictures.linkage.motion_plots import transfer_plot, transmission_plot
+from gruebler.pictures.linkage.piecewise_curves import plot_run
 
 
 def add(parser: Parser) -> None:
@@ -26,19 +31,22 @@ def add(parser: Parser) -> None:
         description="Diagrams of a linkage with one drive. transfer: the output and its derivatives of order 1 and 2, "
         "with dead centres. transmission: the transmission angle, with the range below 40 degrees. hodograph: the tips "
         "of velocity vectors. curves: paths of points. family: paths of points on a line of one link. ratio: Q_G and "
-        "L/l1 of a straight-line linkage over its crank angle.",
+        "L/l1 of a straight-line linkage over its crank angle. Of a linkage with loads, at constant speed, torque: the "
+        "effort of the drive and its power; forces: those of joints, as curves of the tips of their arrows.",
         epilog="Examples: gruebler plot four-bar:25,70,40,70 --kind transmission -o mu.svg; gruebler plot lambda "
-        "--kind family --count 7; gruebler plot mzc --kind ratio --ratio 0.005. Without -o the SVG goes to standard "
-        "output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
+        "--kind family --count 7; gruebler plot mzc --kind ratio --ratio 0.005; gruebler plot compressor --kind "
+        "torque. Without -o the SVG goes to standard output. PNG and PDF need matplotlib: pip install "
+        "'gruebler[plot]'.",
     )
     add_linkage(parser)
     parser.take(
         """
-        --kind {transfer,transmission,hodograph,curves,family,ratio} =transfer  the kind of diagram (default: transfer)
+        --kind {transfer,transmission,hodograph,curves,family,ratio,torque,forces} =transfer  the kind of diagram
+            (default: transfer)
         --output LINK  transfer, transmission: the link or sliding joint observed
         --point POINT ...  hodograph, curves, ratio: a named point, a joint, or LINK:X,Y (default: all named points,
-            for ratio the first); repeatable
-        --speed N float  hodograph: drive speed in turns per minute, or in lengths per second
+            for ratio the first); forces: a joint (default: the pins on the frame); repeatable
+        --speed N float  hodograph, torque, forces: drive speed in turns per minute, or in lengths per second
         --link LINK  family: the link that carries the points (default: a coupler)
         """
     )
@@ -72,8 +80,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 _ONLY: Mapping[str, tuple[Any, tuple[str, ...]]] = {
     "output": (None, ("transfer", "transmission")),
-    "point": ([], ("hodograph", "curves", "ratio")),
-    "speed": (None, ("hodograph",)),
+    "point": ([], ("hodograph", "curves", "ratio", "forces")),
+    "speed": (None, ("hodograph", "torque", "forces")),
     "link": (None, ("family",)),
     "start": (None, ("family",)),
     "end": (None, ("family",)),
@@ -169,6 +177,28 @@ def _place(key: str, text: str | None) -> complex | None:
     return complex(u, v)
 
 
+def _torque(asked: _Asked) -> Figure:
+    return effort_plot(_inverse_dynamics(asked), lang=asked.arguments.lang, name=asked.name)
+
+
+def _forces(asked: _Asked) -> Figure:
+    joints = asked.arguments.point or None
+    return force_plot(_inverse_dynamics(asked), joints, lang=asked.arguments.lang, name=asked.name)
+
+
+def _inverse_dynamics(asked: _Asked) -> InverseDynamics:
+    """Forces at constant speed, from the loads of the file or of the entry."""
+    given = asked.arguments
+    linkage, loads, usual, _ = loaded_linkage(given.linkage, given.lang)
+    speeds = given_speeds([] if given.speed is None else [given.speed], turning_drives(linkage))
+    speed = speeds[0] if speeds else usual
+    if speed is None:
+        raise GrueblerError("--speed is missing: the forces of inertia grow with its square")
+    course = plot_run(linkage, 0, given.branch, asked.between, given.lang, "")
+    motion = move_quietly(linkage, course.drives[:, None], branch=given.branch, speed=[speed], order=2)
+    return inverse_dynamics(motion, loads, times=(course.drives - course.drives[0]) / speed)
+
+
 def _ratio(asked: _Asked) -> Figure:
     """Q_G and L/l1 of windows about a crank angle, against the tangent there."""
     from gruebler.mechanics.geometry.sizing import crank_length, tangent_windows
@@ -206,4 +236,6 @@ _KINDS: Mapping[str, Callable[[_Asked], Figure]] = {
     "curves": _curves,
     "family": _family,
     "ratio": _ratio,
+    "torque": _torque,
+    "forces": _forces,
 }

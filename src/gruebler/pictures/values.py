@@ -20,6 +20,8 @@ from gruebler.pictures.canvas.textbook import textbook
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from gruebler.mechanics.dynamics.inverse import InverseDynamics
+    from gruebler.mechanics.dynamics.simulation import Simulation
     from gruebler.mechanics.kinematics.motion import Motion
     from gruebler.mechanics.linkages import Linkage
     from gruebler.mechanics.linkages.branch import Branch
@@ -119,6 +121,13 @@ _PLOTS = {
     "curves": ("linkage.curve_plots", "coupler_plot"),
     "family": ("linkage.curve_plots", "family_plot"),
 }
+_FORCE_PLOTS = {
+    "torque": ("linkage.force_plots", "effort_plot"),
+    "forces": ("linkage.force_plots", "force_plot"),
+}
+_PHASE_PLOTS = {"phase": ("linkage.force_plots", "phase_plot")}
+_PLOTS_OF = {"InverseDynamics": _FORCE_PLOTS, "Simulation": _PHASE_PLOTS}
+"""Diagrams of other values than linkages and motions, the usual one first."""
 
 _OF_PICTURE = message("the picture of a {kind} has no option {option!r}{suggestion}; it has {known}")
 _OF_ANIMATION = message("the moving picture of a {kind} has no option {option!r}{suggestion}; it has {known}")
@@ -271,7 +280,7 @@ def animate(
 
 @door
 def plot(
-    linkage: LinkageLike | Motion,
+    linkage: LinkageLike | Motion | InverseDynamics | Simulation,
     kind: str = "transfer",
     *,
     branch: Branch = None,
@@ -287,20 +296,22 @@ def plot(
     name: str | None = None,
     lang: str | None = None,
 ) -> Picture:
-    """A diagram of a linkage with one drive.
+    """A diagram of a linkage with one drive, of forces in its motion, or of its free motion.
 
     Every diagram takes ``branch``, ``between``, ``name`` and ``lang``; which further options it takes stands with each.
 
     Args:
         linkage: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`; a `Motion` stands for its linkage on its
-            branch, between its smallest and largest drive value.
+            branch, between its smallest and largest drive value. What `inverse_dynamics` returns has diagrams of its
+            own, ``torque`` (with the power; the usual one) and ``forces`` (of joints, in polar form); what `simulate`
+            returns has ``phase`` (speed over drive).
         kind: ``transfer`` (the output and its derivatives), ``transmission`` (transmission angle), ``hodograph``,
             ``curves`` (paths of points) or ``family`` (paths of points on a line of one link).
         branch: the assembly mode, such as ``"+-"``.
         between: drive values between which it is plotted (radians, or lengths); by default the full range.
         speed: of ``hodograph``: that of the drive, in rad/s or lengths a second; without it velocities are by drive.
         output: of ``transfer`` and ``transmission``: a link or sliding joint; by default the linkage's own output.
-        points: of ``hodograph`` and ``curves``: names of points or joints, at most eight.
+        points: of ``hodograph``, ``curves`` and ``forces``: names of points or joints, at most eight.
         link: of ``family``: the link of the points.
         start: of ``family``: one end of the line, x + iy in coordinates of the link.
         end: of ``family``: the other end.
@@ -331,17 +342,22 @@ def plot(
         docs/theory/events.md
     """
     given = _given(locals())
-    if kind not in _PLOTS:
+    own = _PLOTS_OF.get(type(linkage).__name__)
+    known = own or _PLOTS
+    if own and kind == "transfer":
+        kind = next(iter(own))
+    if kind not in known:
         raise GrueblerError(
             "there is no plot {kind!r}{suggestion}; there are {known}",
             kind=kind,
-            suggestion=nearest(str(kind), _PLOTS),
-            known=", ".join(_PLOTS),
+            suggestion=nearest(str(kind), known),
+            known=", ".join(known),
         )
-    return Picture(_called(_OF_DIAGRAM, kind, _function(*_PLOTS[kind]), *_plotted(linkage, given)))
+    plotted = (linkage, given) if own else _plotted(linkage, given)
+    return Picture(_called(_OF_DIAGRAM, kind, _function(*known[kind]), *plotted))
 
 
-def _plotted(linkage: LinkageLike | Motion, given: dict[str, Any]) -> tuple[Linkage, dict[str, Any]]:
+def _plotted(linkage: Any, given: dict[str, Any]) -> tuple[Linkage, dict[str, Any]]:
     """The linkage that is plotted, with the branch and the range of a motion."""
     from gruebler.mechanics.kinematics.motion import Motion
     from gruebler.mechanics.linkages.conversion import as_linkage

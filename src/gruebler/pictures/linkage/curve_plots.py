@@ -79,7 +79,7 @@ def hodograph(
     ]
     tips = factor * run.cycle.at(run.round_drives, 1).complex_point(places[0], 1)
     spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
-    panel = _square(
+    panel = square_panel(
         paths, names if len(names) > 1 else [""], axes, [*spots, PointMarker(x=0.0, y=0.0, text="")], ranges=ranges
     )
     title = translate("{name}: hodograph of {points}", lang, name=run.name, points=", ".join(names))
@@ -202,7 +202,7 @@ def _paths(
     row = len(run.drives) // 6
     skeleton = _skeleton(run.motion, row, places.values())
     spots = [PointMarker(x=path[row].real, y=path[row].imag, text="") for path in paths]
-    panel = _square(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
+    panel = square_panel(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
     about = translate(
         "Paths of {points}, {range}; dots and thin lines show the pose at {at}.",
         lang,
@@ -226,7 +226,7 @@ def _skeleton(motion: Motion, row: int, places: Iterable[LinkPoint]) -> list[Com
     return lines
 
 
-def _square(
+def square_panel(
     paths: Sequence[Complexes],
     names: Sequence[str],
     axes: Sequence[str],
@@ -234,7 +234,7 @@ def _square(
     thin: Sequence[Complexes] = (),
     ranges: Sequence[tuple[float, float]] = (),
 ) -> Panel:
-    """A panel with the same scale on both axes; without ranges it contains everything."""
+    """A panel of paths with the same scale on both axes; without ranges it contains everything."""
     if not ranges:
         everything = np.concatenate([*paths, *thin])
         ranges = [(float(np.nanmin(v)), float(np.nanmax(v))) for v in (everything.real, everything.imag)]
@@ -255,8 +255,8 @@ def _square(
 def _even(low: float, high: float, longest: float) -> Scale:
     """A tight scale whose step is that of the longer one."""
     few = max(1, round(8 * (high - low) / longest))
-    scale = decimals(low, high, few=few, tight=True)
-    return scale if len(scale.ticks) > 1 else decimals(low, high, few=2, tight=True)
+    scales = (decimals(low, high, few=most, tight=True) for most in (few, *range(2, 8)))
+    return next((scale for scale in scales if len(scale.ticks) > 1), decimals(low, high, tight=True))
 
 
 def _few(points: Sequence[PointLike]) -> dict[str, PointLike]:
