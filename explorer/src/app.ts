@@ -103,6 +103,8 @@ export class App implements Page {
     this.unread = this.linkable && location.hash.length > 1; // until it is read
     this.motion.open(this.model.get("machine") as Model);
     this.show("motion");
+    const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches || location.hash.length > 1;
+    if ((this.model.get("machine") as Model).plays && !still) this.motion.toggle();
     if (this.linkable) {
       await this.read();
       this.motion.forget();

@@ -1,10 +1,10 @@
 /** What is read off in the pose that is shown and over the cycle: names and values, good or bad. */
 
-import { wrapped } from "./cycle";
+import { TURN, wrapped } from "./cycle";
 import { angle, number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { type Least, output, transmission } from "./measures";
-import { driveText, placeOf } from "./wording";
+import { type DeadCentre, type Least, output, transmission } from "./measures";
+import { driveText, placeOf, rateUnit } from "./wording";
 
 /** From here on a transmission angle is good. */
 const GOOD = (40 / 180) * Math.PI;
@@ -13,11 +13,13 @@ export interface Fact {
   name: string;
   text: string;
   style?: "good" | "bad";
+  /** Where it is so. */
+  note?: string;
 }
 
-/** What was found over the cycle: drive values of dead centres, the smallest transmission angle. */
+/** What was found over the cycle: dead centres, the smallest transmission angle. */
 export interface Found {
-  dead: number[];
+  dead: DeadCentre[];
   least: Least | null;
 }
 
@@ -25,28 +27,38 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
   const { cycle, model, pose } = linkage;
   const facts: Fact[] = [];
   const record = model.outputs[0];
+  const turning = record?.joint === null;
+  const size = (value: number) => (turning ? angle(value, 4) : `${number(value, 4)} ${model.unit}`);
   if (record) {
     const [value, rate] = output(linkage, pose, 0);
-    const text = record.joint === null ? angle(inLap(value), 5) : `${number(value, 5)} ${model.unit}`;
+    const text = turning ? angle(inLap(value), 5) : `${number(value, 5)} ${model.unit}`;
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
-    facts.push({ name: t("Velocity by the drive"), text: number(rate, 4) });
+    facts.push({ name: t("Velocity by the drive"), text: number(rate, 4), note: rateUnit(linkage, 1) });
+    const [one, two] = dead;
+    if (one && two && dead.length === 2) {
+      facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(Math.abs(one.output - two.output)) });
+      const part = Math.abs(wrapped(cycle, one.value) - wrapped(cycle, two.value));
+      const rest = cycle.turns * TURN - part;
+      if (cycle.full)
+        facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest), 4) });
+    }
   }
   const mu = transmission(linkage, pose, 0);
   if (Number.isFinite(mu)) {
     facts.push({ name: t("Transmission angle"), text: angle(mu), style: mu < GOOD ? "bad" : "good" });
     if (least) {
-      const text = `${angle(least.mu)} · ${driveText(linkage, placeOf(linkage, least.value), 4)}`;
-      facts.push({ name: t("smallest"), text, style: least.mu < GOOD ? "bad" : "good" });
+      const note = t("at {place}", { place: driveText(linkage, placeOf(linkage, least.value), 4) });
+      facts.push({ name: t("smallest"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
     }
+  }
+  if (dead.length) {
+    const places = dead.map(({ value }) => placeOf(linkage, value)).sort((a, b) => a - b);
+    facts.push({ name: t("Dead centres"), text: places.map((value) => driveText(linkage, value, 4)).join(", ") });
   }
   if (linkage.drive) {
     const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });
-    const part = `${driveText(linkage, cycle.low, 5)} … ${driveText(linkage, cycle.high, 5)}`;
+    const part = `${driveText(linkage, cycle.low, 4)} … ${driveText(linkage, cycle.high, 4)}`;
     facts.push({ name: t("Range of the drive"), text: cycle.full ? full : part });
-  }
-  if (dead.length) {
-    const places = dead.map((value) => placeOf(linkage, value)).sort((a, b) => a - b);
-    facts.push({ name: t("Dead centres"), text: places.map((value) => driveText(linkage, value, 5)).join(", ") });
   }
   return facts;
 }

@@ -79,6 +79,8 @@ export interface Model {
   version: number;
   name: string;
   /** Whether it has other sizes than what its name and its source stand for. */
+  /** Whether it moves from the start. */
+  plays?: boolean;
   changed?: boolean;
   /** The name in several languages, if it has such. */
   names: Record<string, string>;

@@ -72,6 +72,7 @@ export class MotionView implements View, Editor {
   private readonly facts = h("dl", { class: "facts" });
   private readonly sizes = new SizeRows(this);
   private readonly checked = h("p", { class: "note" });
+  private readonly words = h("details", { class: "words" });
   private readonly opened = new Set(["sizes", "measures", "plots"]);
   private measuring = 0;
 
@@ -145,10 +146,12 @@ export class MotionView implements View, Editor {
   arrange(): void {
     this.arrangeTools();
     this.player.arrange();
+    renew(this.words, h("summary", {}, t("In words")), this.checked);
+    this.words.hidden = !this.page.served;
     const { scrollTop } = this.side; // before its parts leave it for new panels
     renew(
       this.side,
-      this.panel("measures", t("Measures"), this.facts, this.checked),
+      this.panel("measures", t("Measures"), this.facts, this.words),
       this.panel("sizes", t("Sizes"), this.sizes.element),
       this.panel("plots", t("Plots"), this.plots.element),
       this.panel("points", t("Coupler points"), pointsPanel(this)),
@@ -195,12 +198,16 @@ export class MotionView implements View, Editor {
       max: 60,
       value: this.speed,
       "aria-label": t("Speed"),
-      oninput: () => (this.speed = Number(speed.value)),
+      oninput: () => {
+        this.speed = Number(speed.value);
+        rate.textContent = `${this.speed}/min`;
+      },
     });
+    const rate = h("span", {}, `${this.speed}/min`);
     const onchange = (event: Event) => this.choose(Number((event.target as HTMLSelectElement).value));
     const choices = model.drives.map((drive, k) => h("option", { value: k, selected: k === active }, drive.name));
     const drives = choices.length > 1 ? h("select", { "aria-label": t("Drive"), onchange }, ...choices) : null;
-    const speedLabel = h("label", { class: "speed" }, t("Speed"), speed);
+    const speedLabel = h("label", { class: "speed" }, t("Speed"), speed, rate);
     return [this.player.button, ...(drives ? [drives] : []), this.track.element, this.value, speedLabel];
   }
 
@@ -417,8 +424,7 @@ export class MotionView implements View, Editor {
 
   /** After a change: what takes longer than a frame, and what Python says. */
   measured(): void {
-    const dead = deadCentres(this.linkage).map((one) => one.value);
-    this.found = { dead, least: leastTransmission(this.linkage) };
+    this.found = { dead: deadCentres(this.linkage), least: leastTransmission(this.linkage) };
     this.showTrack();
     this.showPose();
     this.sizes.show();
@@ -454,7 +460,8 @@ export class MotionView implements View, Editor {
   private showTrack(): void {
     const { cycle, drive, model } = this.linkage;
     const { dead, least } = this.found;
-    this.track.show(cycle, drive?.turning ?? true, model.span.between, dead, least?.value ?? null, model.unit);
+    const places = dead.map(({ value }) => value);
+    this.track.show(cycle, drive?.turning ?? true, model.span.between, places, least?.value ?? null, model.unit);
   }
 
   private showPose(): void {
@@ -467,7 +474,9 @@ export class MotionView implements View, Editor {
     }
     const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
     this.facts.replaceChildren(
-      ...facts.flatMap(({ name, text, style }) => [h("dt", {}, name), h("dd", { class: style ?? "" }, text)]),
+      ...facts.map(({ name, text, style, note }) =>
+        h("div", {}, h("dt", {}, name), h("dd", { class: style ?? "" }, text), note ? h("small", {}, note) : null),
+      ),
     );
   }
 

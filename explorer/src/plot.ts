@@ -1,5 +1,6 @@
-/** Small plots over the drive, linked with it by a cursor. */
+/** Small plots over the drive, linked with it by a cursor; the value at the drive, or at the pointer, stands above. */
 
+import { gridStep } from "./canvas";
 import { svg } from "./dom";
 import { number } from "./language";
 
@@ -14,7 +15,7 @@ export interface Series {
 const WIDTH = 300;
 const HEIGHT = 128;
 const LEFT = 44;
-const RIGHT = 8;
+const RIGHT = 10;
 const TOP = 20;
 const BOTTOM = 18;
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
@@ -24,7 +25,6 @@ export class Plot {
     class: "plot",
     viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
     role: "img",
-    preserveAspectRatio: "none",
   });
   private readonly curve = svg("path", { class: "curve" });
   private readonly band = svg("rect", { class: "band", x: LEFT, width: WIDTH - LEFT - RIGHT, height: 0 });
@@ -32,7 +32,11 @@ export class Plot {
   private readonly cursor = svg("path", { class: "cursor" });
   private readonly here = svg("circle", { class: "here", r: 3 });
   private readonly title = svg("text", { class: "title", x: LEFT, y: 13 });
-  private readonly texts = [0, 1, 2, 3].map(() => svg("text"));
+  private readonly value = svg("text", { class: "read", y: TOP + 10 });
+  private readonly ticks = svg("g");
+  private ticked = "";
+  private pointed = NaN;
+  private drive = NaN;
   private drives: Float64Array = new Float64Array(0);
   private domain: [number, number] = [0, 1];
   private series: Series | null = null;
@@ -48,13 +52,20 @@ export class Plot {
       d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}`,
       fill: "none",
     });
-    this.element.append(this.band, frame, this.zero, this.curve, this.cursor, this.here, this.title, ...this.texts);
-    const at = (event: MouseEvent) => {
+    const { band, cursor, curve, here, ticks, title, value, zero } = this;
+    this.element.append(band, ticks, frame, zero, curve, cursor, here, title, value);
+    const driveOf = (event: MouseEvent) => {
       const box = this.element.getBoundingClientRect();
       const part = (((event.clientX - box.left) / box.width) * WIDTH - LEFT) / (WIDTH - LEFT - RIGHT);
       const [first, last] = this.domain;
-      pick(first + Math.max(0, Math.min(1, part)) * (last - first));
+      return first + Math.max(0, Math.min(1, part)) * (last - first);
     };
+    const at = (event: MouseEvent) => pick(driveOf(event));
+    const point = (drive: number) => {
+      this.pointed = drive;
+      this.at(this.drive);
+    };
+    this.element.addEventListener("pointerleave", () => point(NaN));
     // a finger that goes up or down scrolls the page; one that taps or goes sideways picks
     let [startX, startY] = [0, 0];
     this.element.addEventListener("pointerdown", (event) => {
@@ -66,6 +77,7 @@ export class Plot {
     this.element.addEventListener("pointermove", (event) => {
       const sideways = Math.abs(event.clientX - startX) > Math.abs(event.clientY - startY);
       if (event.buttons && (sideways || event.pointerType !== "touch")) at(event);
+      else if (event.pointerType === "mouse") point(driveOf(event));
     });
     this.element.addEventListener("click", at);
   }
@@ -100,32 +112,51 @@ export class Plot {
     this.band.setAttribute("y", (HEIGHT - BOTTOM - shaded).toFixed(1));
     this.title.textContent = series.title;
     this.element.setAttribute("aria-label", series.title);
-    const text = (k: number, x: number, y: number, anchor: string, content: string) => {
-      this.texts[k]!.setAttribute("x", String(x));
-      this.texts[k]!.setAttribute("y", String(y));
-      this.texts[k]!.setAttribute("text-anchor", anchor);
-      this.texts[k]!.textContent = content;
-    };
-    const rounded = (value: number) => (Math.abs(value) < 1e-9 * (high - low) ? 0 : value);
-    text(0, LEFT - 4, TOP + 8, "end", number(rounded(high), 3));
-    text(1, LEFT - 4, HEIGHT - BOTTOM - 1, "end", number(rounded(low), 3));
-    text(2, LEFT, HEIGHT - 4, "start", number(domain[0] / this.unit, 4));
-    text(3, WIDTH - RIGHT, HEIGHT - 4, "end", number(domain[1] / this.unit, 4));
+    this.showTicks(domain);
+  }
+
+  /** Round values at both axes; they are made anew where they are others. */
+  private showTicks(domain: [number, number]): void {
+    const [first, last] = [domain[0] / this.unit, domain[1] / this.unit];
+    const { low, high, unit } = this;
+    const across = this.unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
+    const upward = roundValues(low, high, 3);
+    const told = [first, last, low, high, ...across, ...upward].join();
+    if (told === this.ticked) return;
+    this.ticked = told;
+    const lines = [
+      ...upward.map((value) => `M${LEFT} ${this.y(value).toFixed(1)}H${WIDTH - RIGHT}`),
+      ...across.map((value) => `M${this.x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
+    ];
+    this.ticks.replaceChildren(
+      svg("path", { class: "mesh", d: lines.join("") }),
+      ...upward.map((value) =>
+        svg("text", { x: LEFT - 4, y: this.y(value) + 4, "text-anchor": "end" }, number(value, 4)),
+      ),
+      ...across.map((value) =>
+        svg("text", { x: this.x(value * unit), y: HEIGHT - 4, "text-anchor": "middle" }, number(value, 4)),
+      ),
+    );
   }
 
   at(drive: number): void {
+    this.drive = drive;
     const { drives, series } = this;
     if (!series || drives.length < 2) return;
-    let row = drives.findIndex((one) => one >= drive);
-    if (row < 0) row = drives.length - 1;
-    const x = this.x(drive);
-    this.cursor.setAttribute("d", `M${x.toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`);
-    const value = series.values[row]!;
-    this.here.setAttribute("cx", x.toFixed(1));
+    const place = Number.isNaN(this.pointed) ? drive : this.pointed;
+    const value = valueAt(drives, series.values, place);
+    const x = this.x(place).toFixed(1);
+    this.cursor.setAttribute("d", `M${x} ${TOP}V${HEIGHT - BOTTOM}`);
+    this.here.setAttribute("cx", x);
     this.here.setAttribute(
       "cy",
       (Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.y(value))) : -9).toFixed(1),
     );
+    const where = place === drive ? "" : `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: `;
+    this.value.textContent = `${where}${number(value, 4)}`;
+    const right = this.x(place) < (LEFT + WIDTH) / 2;
+    this.value.setAttribute("text-anchor", right ? "start" : "end");
+    this.value.setAttribute("x", (this.x(place) + (right ? 5 : -5)).toFixed(1));
   }
 
   private x(drive: number): number {
@@ -170,4 +201,33 @@ export function plotRange(values: Float64Array): { low: number; high: number; wi
   if (low < least - 3 * wide) low = least - wide;
   if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 1, high + 1];
   return { low, high, wide };
+}
+
+/** The value between two places, on the straight line through both. */
+export function valueAt(places: Float64Array, values: Float64Array, place: number): number {
+  let [low, high] = [0, places.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (places[middle]! <= place) low = middle;
+    else high = middle;
+  }
+  const width = places[high]! - places[low]!;
+  const part = width > 0 ? Math.max(0, Math.min(1, (place - places[low]!) / width)) : 0;
+  return values[low]! + (part ? part * (values[high]! - values[low]!) : 0);
+}
+
+/** About so many round values in a range: multiples of 1, 2 or 5 times a power of ten. */
+export function roundValues(low: number, high: number, count: number): number[] {
+  const step = gridStep((high - low) / (count + 1.5));
+  const first = Math.ceil(low / step - 1e-9);
+  const found = Math.floor(high / step + 1e-9) - first + 1;
+  return Array.from({ length: Math.max(0, found) }, (_, k) => (first + k) * step);
+}
+
+/** Angles in degrees that divide a circle. */
+function degreeValues(low: number, high: number): number[] {
+  const step = [5, 10, 15, 30, 45, 90, 180, 360, 720, 1440].find((one) => (high - low) / one <= 5);
+  if (!step || high - low < 10) return roundValues(low, high, 4);
+  const first = Math.ceil(low / step - 1e-9);
+  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => (first + k) * step);
 }

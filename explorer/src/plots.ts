@@ -8,6 +8,7 @@ import { outputAlong, outputStandsStill, transmission } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
+import { rateUnit } from "./wording";
 
 /** The rows of a cycle in the order in which they are plotted, with their drive values. */
 export interface Lap {
@@ -42,7 +43,7 @@ export class Plots {
     const series = record ? outputSeries(linkage, record) : [];
     for (const { name, link, at } of sizes.points)
       series.push(({ rows }) => ({
-        title: t("Speed of {name} by the drive", { name }),
+        title: t("Speed of {name} by the drive", { name }) + rateUnit(linkage, 1, false),
         colour: "--ink",
         values: along(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
       }));
@@ -138,12 +139,12 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
     values: turning ? outputs[0].map(degrees) : outputs[0],
   });
   const velocity: Making = ({ outputs }) => ({
-    title: t("Its velocity by the drive"),
+    title: t("Its velocity by the drive") + rateUnit(linkage, 1),
     colour: "--green",
     values: outputs[1],
   });
   const acceleration: Making = ({ outputs }) => ({
-    title: t("Its acceleration by the drive"),
+    title: t("Its acceleration by the drive") + rateUnit(linkage, 2),
     colour: "--purple",
     values: outputs[2],
   });

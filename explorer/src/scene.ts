@@ -13,12 +13,13 @@ const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23
 // Counter-clockwise, as a drive grows.
 const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 70; // pixels
+const HALF_LETTER = 3.4; // pixels
 
 export class Scene {
   private links: SVGGElement[] = [];
   private pins: { element: SVGGElement; joint: number }[] = [];
   private marks: { element: SVGGElement; point: number }[] = [];
-  private labels: { element: SVGTextElement; at: () => Pair }[] = [];
+  private labels: Label[] = [];
   private readonly arrows = svg("path", { class: "velocity" });
   private readonly changes = svg("path", { class: "acceleration" });
   private readonly circle = svg("circle", { class: "inflection", r: 0 });
@@ -120,9 +121,10 @@ export class Scene {
       const record = sizes.points[point];
       if (record) put(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
-    for (const { element, at } of this.labels) {
+    for (const { element, at, beside } of this.labels) {
       const [x, y] = viewport.screen(...at());
-      put(element, [x + 9, y - 9]);
+      const [u, v] = beside();
+      put(element, [x + u, y + v]);
     }
     this.arrows.setAttribute("d", shown.velocities ? this.vectors(linkage, 1) : "");
     this.changes.setAttribute("d", shown.accelerations ? this.vectors(linkage, 2) : "");
@@ -168,8 +170,15 @@ export class Scene {
   }
 }
 
-/** The names of links in the middle of their elements, and of points. */
-function labelsOf(linkage: Linkage): { element: SVGTextElement; at: () => Pair }[] {
+/** A name, its place in the plane, and how many pixels it stands beside that. */
+interface Label {
+  element: SVGTextElement;
+  at: () => Pair;
+  beside: () => Pair;
+}
+
+/** The names of links beside the middle of their elements, and of points. */
+function labelsOf(linkage: Linkage): Label[] {
   const { model, sizes } = linkage;
   const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
   const names = links.map((link) => {
@@ -179,11 +188,31 @@ function labelsOf(linkage: Linkage): { element: SVGTextElement; at: () => Pair }
       const mean = (axis: 0 | 1) => places.reduce((sum, p) => sum + p[axis], 0) / places.length;
       return [mean(0), mean(1)];
     };
-    return { element: svg("text", { class: "name" }, linkage.linkName(link)), at };
+    const name = linkage.linkName(link);
+    const element = svg("text", { class: "name", "text-anchor": "middle" }, name);
+    const points = sizes.points.filter((point) => point.link === link);
+    const beside = (): Pair => {
+      const [one, two] = mine.length === 2 ? mine.map((k) => linkage.elementAt(k)) : [];
+      if (!one || !two) return [0, 4];
+      const [dx, dy] = [two[0] - one[0], two[1] - one[1]];
+      const length = Math.hypot(dx, dy);
+      if (!(length > 0)) return [0, -12];
+      // across from where its points are
+      const across = points.reduce((sum, point) => {
+        const [x, y] = place(linkage.pose, 0, link, ...point.at);
+        return sum + dx * (y - one[1]) - dy * (x - one[0]);
+      }, 0);
+      const side = across > 1e-6 * length * length ? 1 : -1;
+      const [u, v] = [(side * dy) / length, (side * dx) / length];
+      const far = 9 + HALF_LETTER * name.length * Math.abs(u) + 6 * Math.abs(v);
+      return [far * u, far * v + 4];
+    };
+    return { element, at, beside };
   });
   const marks = sizes.points.map((point) => ({
     element: svg("text", { class: "mark" }, point.name),
     at: () => place(linkage.pose, 0, point.link, ...point.at),
+    beside: (): Pair => [9, -9],
   }));
   return [...names, ...marks];
 }

@@ -30,3 +30,11 @@ export function stopText(linkage: Linkage, stop: Stop): string {
   if (stop.status === Status.GIVEN_UP) return t("The motion was given up at {drives}: it is too long.", { drives });
   return t("The motion ends at {drives}: there {form} {{links}} can no longer be assembled.", values);
 }
+
+/** The unit of the first or second derivative of the output by the drive, in brackets; nothing if there is none. */
+export function rateUnit({ drive, model }: Linkage, order: 1 | 2, turning = model.outputs[0]?.joint === null): string {
+  const above = turning ? "rad" : model.unit;
+  const below = drive?.turning ? "rad" : model.unit;
+  if (above === below) return order === 1 ? "" : ` [1/${below}]`;
+  return ` [${above}/${below}${order === 1 ? "" : "²"}]`;
+}

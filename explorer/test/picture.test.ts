@@ -7,7 +7,7 @@ import { TURN } from "../src/cycle";
 import { convexHull, toHull } from "../src/hull";
 import { Linkage } from "../src/linkage";
 import { later } from "../src/player";
-import { lineThrough, plotRange } from "../src/plot";
+import { lineThrough, plotRange, roundValues, valueAt } from "../src/plot";
 import { lapOf } from "../src/plots";
 import { linesOf } from "../src/shapes";
 import { Sizes } from "../src/sizes";
@@ -141,4 +141,16 @@ test("a drive goes on: full turns, or to and fro", () => {
   near2(later(1, 1, 0.5, 12, RANGE, [1, 3]), [1.4, 1]); // a stroke is a half of to and fro
   near2(later(2.9, 1, 0.5, 12, RANGE, [1, 3]), [3, -1]);
   near2(later(1.1, -1, 0.5, 12, RANGE, [1, 3]), [1, 1]);
+});
+
+test("round values at an axis, and the value between two rows", () => {
+  near(roundValues(-0.9, 0.65, 3), [-0.5, 0, 0.5]);
+  near(roundValues(63.2, 143, 3), [80, 100, 120, 140]);
+  near(roundValues(0, 1, 3), [0, 0.5, 1]);
+  const [places, values] = [Float64Array.of(0, 1, 3), Float64Array.of(4, 6, 0)];
+  close(valueAt(places, values, 0.5), 5);
+  close(valueAt(places, values, 2), 3);
+  close(valueAt(places, values, 3), 0);
+  close(valueAt(places, values, 9), 0);
+  close(valueAt(places, values, -1), 4);
 });

@@ -15,6 +15,8 @@ from gruebler.cli.parser import Parser
 from gruebler.page.model import model_of
 
 _PORT = 8117
+_FIRST = "lambda"
+"""What is shown unless something is named: a four-bar whose point goes straight and back in a bow."""
 
 
 def add(parser: Parser) -> None:
@@ -28,8 +30,8 @@ def add(parser: Parser) -> None:
     )
     parser.take(
         """
-        linkage FILE|ID|CHAIN|LENGTHS|ADDRESS ? =crankrocker  a file, a catalog entry, a chain or mechanism as text,
-            lengths such as four-bar:25,70,40,70, or an address copied from the page (default: crankrocker)
+        linkage FILE|ID|CHAIN|LENGTHS|ADDRESS ?  a file, a catalog entry, a chain or mechanism as text,
+            lengths such as four-bar:25,70,40,70, or an address copied from the page (default: lambda, which moves)
         """
     )
     parser.add_out(help="one file .html instead of a server", endings=("html", "htm"))
@@ -46,7 +48,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the file, or serve until interrupted."""
     if arguments.port is not None and not 0 <= arguments.port < 65536:
         raise GrueblerError("--port: expected a number from 0 to 65535, but found {port}", port=arguments.port)
-    model = _model(arguments.linkage, arguments.lang)
+    word = arguments.linkage or _FIRST
+    model = _model(word, arguments.lang) | {"plays": arguments.linkage is None}
     if arguments.out is not None:
         from gruebler.page.page import single_file
 

@@ -1,0 +1,109 @@
+"""What meets the eye: a machine that moves, measures as figures, plots that are read, names beside their links."""
+
+from math import acos, degrees
+
+import numpy as np
+import pytest
+
+from gruebler.cli import main
+
+
+@pytest.fixture(scope="module")
+def crank_rocker(tmp_path_factory):
+    path = tmp_path_factory.mktemp("look") / "crank-rocker.html"
+    assert main(["explore", "crankrocker", "-o", str(path)]) == 0
+    return path.as_uri()
+
+
+def test_the_page_begins_with_a_machine_that_moves_unless_motion_is_unwelcome(tab, tmp_path):
+    path = tmp_path / "first.html"
+    assert main(["explore", "-o", str(path)]) == 0
+    page = tab()
+    page.page.emulate_media(reduced_motion="reduce")
+    page.open(path.as_uri())
+    assert page.page.evaluate("gruebler.motion.player.playing") is False
+    page = tab().open(path.as_uri())
+    page.until("window.gruebler?.motion?.player?.playing")
+    before = page.page.evaluate("gruebler.motion.linkage.drives[0]")
+    page.until(f"Math.abs(gruebler.motion.linkage.drives[0] - {before}) > 0.1")
+    assert page.page.evaluate("gruebler.motion.linkage.sizes.points.length") > 0  # and draws a curve
+
+
+def test_swing_and_time_ratio_are_figures(tab, crank_rocker):
+    """Crank 25, coupler 70, rocker 40, frame 70: at the dead centres the triangle has the sides 95 or 45, 70 and 40."""
+
+    def angle(one: float, two: float, opposite: float) -> float:
+        return degrees(acos((one**2 + two**2 - opposite**2) / (2 * one * two)))
+
+    swing = angle(70, 40, 95) - angle(70, 40, 45)
+    part = angle(45, 70, 40) + 180 - angle(95, 70, 40)
+    ratio = max(part, 360 - part) / min(part, 360 - part)
+    page = tab().open(crank_rocker)
+    facts = dict(
+        page.page.locator(".facts > div").evaluate_all(
+            "all => all.map((one) => [one.querySelector('dt').textContent, one.querySelector('dd').textContent])"
+        )
+    )
+    assert facts["Swing"] == f"{swing:.4g}°"
+    assert facts["Time ratio"] == f"{ratio:.4g}"
+    assert facts["smallest"] == f"{angle(70, 40, 45):.4g}°"
+    assert len(facts) == 8
+
+
+def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    plot = page.page.locator(".plot").first
+    read = plot.locator("text.read")
+    here = read.text_content()
+    assert float(here) == pytest.approx(float(page.page.locator(".facts dd").first.text_content().strip("°")), abs=0.02)
+    assert plot.locator("g text").all_text_contents() == [
+        "60",
+        "80",
+        "100",
+        "120",
+        "140",
+        "0",
+        "90",
+        "180",
+        "270",
+        "360",
+    ]
+    box = plot.bounding_box()
+    page.page.mouse.move(box["x"] + box["width"] * 0.6, box["y"] + box["height"] / 2)
+    place, value = read.text_content().split("°: ")
+    drives, values = page.page.evaluate(
+        "(({ drives, series }) => [[...drives], [...series.values]])(gruebler.motion.plots.parts[0].plot)"
+    )
+    assert float(value) == pytest.approx(np.interp(np.radians(float(place)), drives, values), abs=0.1)
+    page.page.mouse.move(5, 300)
+    assert read.text_content() == here
+
+
+def test_names_stand_beside_their_links(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    near = """(() => {
+        const { linkage, stage } = gruebler.motion;
+        const names = [...stage.root.querySelectorAll("text.name")];
+        return [1, 2, 3].map((link, k) => {
+            const ends = linkage.sizes.elementsOn(link).map((e) => stage.viewport.screen(...linkage.elementAt(e)));
+            const [[ax, ay], [bx, by]] = ends;
+            const box = names[k].getBBox();
+            const { e, f } = names[k].transform.baseVal[0].matrix;
+            const corners = [[0, 0], [1, 0], [0, 1], [1, 1]].map(([u, v]) =>
+                [e + box.x + u * box.width, f + box.y + (0.25 + 0.5 * v) * box.height]);
+            const sides = corners.map(([x, y]) =>
+                ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / Math.hypot(bx - ax, by - ay));
+            return Math.min(...sides.map(Math.abs)) * (new Set(sides.map(Math.sign)).size === 1 ? 1 : -1);
+        });
+    })()"""
+    for drive in np.linspace(0, 6, 9):
+        page.page.evaluate(f"gruebler.motion.pick({drive})")
+        assert min(page.page.evaluate(near)) > 2, drive
+
+
+def test_the_header_has_room_for_its_name_and_its_language_in_german(tab, server):
+    page = tab(width=1024, height=768, locale="de-DE").open(server.address)
+    name, language = (page.page.locator(f"header {tag}").bounding_box() for tag in ("h1", "select"))
+    assert name["width"] > 60
+    assert language["x"] + language["width"] <= 1024
+    assert abs(name["y"] + name["height"] / 2 - language["y"] - language["height"] / 2) < 6  # one row
