@@ -38,8 +38,8 @@ def add(parser: Parser) -> None:
     )
     parser.add_json(help="print an object with title, steps and values")
     parser.add_out(
-        help="write into a file instead: .html with a slider for the steps, .pdf with one step a page, .svg or .png of "
-        "the last step; or the steps as text: .txt, or .json as with --json"
+        help="write into a file instead: .html with a slider for the steps, .pdf with one step a page, .svg, .png or "
+        ".tex with the steps side by side; or the steps as text: .txt, or .json as with --json"
     )
     parser.set_defaults(written=tuple(f".{ending}" for ending in CONSTRUCTION_SUFFIXES))
 

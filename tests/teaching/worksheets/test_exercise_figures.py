@@ -7,8 +7,10 @@ import pytest
 
 from gruebler.mechanics.kinematics import move
 from gruebler.teaching.exercises import exercise, solve
+from gruebler.teaching.worksheets.blocks import Pictures
 from gruebler.teaching.worksheets.exercise_figures import exercise_linkage
-from gruebler.teaching.worksheets.tasks import exercise_figure
+from gruebler.teaching.worksheets.solution_figures import solution_figures
+from gruebler.teaching.worksheets.tasks import exercise_figure, solution_document
 
 WITH_PATHS = ["exercise-16", "exercise-17", "exercise-18", "exercise-19", "exercise-20", "example-3.5.4-lambda",
               "example-3.5.4-scott-russell"]  # fmt: skip
@@ -43,6 +45,30 @@ def test_exercise_19_draws_the_lengths_of_its_text():
     assert linkage.mechanism.drive_names() == ("R(frame-first)",)
     words = [shape.text for shape in exercise_figure(exercise("19")).shapes if hasattr(shape, "text")]
     assert sorted(words) == ["A", "C", "D", "a", "b", "c", "d"]
+
+
+@pytest.mark.parametrize(
+    ("id", "count"), [("1", 1), ("2", 1), ("15", 1), ("3", 2), ("4", 1), ("5", 5), ("5b", 1), ("6", 1)]
+)
+def test_solutions_contain_the_drawings_asked_for(id, count):
+    task = exercise(id)
+    drawn = list(solution_figures(task, solve(task)))
+    assert len(drawn) == count
+    assert len({caption for _, caption in drawn}) == count
+    pictures = [block for block in solution_document([task]).blocks if isinstance(block, Pictures)]
+    assert {figure.title for figure, _ in drawn} <= {each.figures[0].title for each in pictures}
+
+
+@pytest.mark.parametrize("id", ["2", "15"])
+def test_the_plotted_stroke_is_that_of_the_table(id):
+    """Each dot of the plot lies on the drawn line: rows by trigonometry, the line by complex numbers."""
+    ((figure, _),) = solution_figures(exercise(id), solve(exercise(id)))
+    (line,) = (shape for shape in figure.shapes if shape.style == "line-1")
+    dots = [shape.at for shape in figure.shapes if shape.style == "dot"]
+    assert len(dots) == 13
+    places = np.array([complex(*point) for part in line.parts for point in part])
+    for dot in dots:
+        assert abs(np.interp(dot.x, places.real, places.imag) - dot.y) < 0.3  # pixels
 
 
 def test_the_eccentricity_of_scott_russell_is_none():

@@ -282,5 +282,5 @@ def test_exercise_12_has_its_graphical_way(tmp_path):
     assert main(["exercise", "solve", "12", "15", "8", "--lang", "de", "-o", str(file)]) == 0
     text = file.read_text(encoding="utf-8")
     assert "91,24" in text  # the frame, measured in the construction
-    assert text.count("<svg") == 4  # three constructions, and the slider-crank of exercise 15
+    assert text.count("<svg") == 5  # three constructions, the slider-crank of exercise 15 and its s(φ)
     assert "55 &lt; d &lt; 85" in text

@@ -47,6 +47,7 @@ from gruebler.teaching.worksheets.blocks import (
     Rows,
 )
 from gruebler.teaching.worksheets.exercise_figures import linkage_figure
+from gruebler.teaching.worksheets.solution_figures import solution_figures
 
 _MOST = 60
 _SPACE = {"mobility": 60.0, "grashof": 80.0, "dyad": 60.0}
@@ -211,6 +212,8 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         else:
             count += 1
             yield Paragraph("\n".join(line.strip() for line in step_lines(part, count, lang)))
+    for drawing, caption in solution_figures(exercise, solution, lang):
+        yield Pictures((drawing,), (caption,), height=200.0)
     if exercise.asked:
         yield _answers(exercise, solution, lang)
     if exercise.remark is not None:
@@ -222,8 +225,8 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         yield Pictures((draw_structure(_chain(exercise), labels=True, lang=lang),), height=170.0)
     whole = construction_of(exercise)
     if whole is not None:
-        steps = " ".join(f"{k}. {step.text.in_language(lang)}" for k, step in enumerate(whole.steps, 1))
-        yield Pictures((whole.figures(lang, captions=False)[-1],), (steps,), height=340.0)
+        yield Pictures((whole.figures(lang, captions=False)[-1],), height=340.0)
+        yield Paragraph("\n".join(f"{k}. {step.text.in_language(lang)}" for k, step in enumerate(whole.steps, 1)))
 
 
 def _answers(exercise: Exercise, solution: Solution, lang: str) -> Rows:
