@@ -11,6 +11,7 @@ from gruebler.structure.assur.listing import group_rows
 from gruebler.structure.assur.modes import modes_of_rows, modes_of_trusses, sets_of_ends
 from gruebler.structure.enumeration import chains, edge_blocks
 from tests.structure.assur.monodromy_oracle import count_by_monodromy
+from tests.structure.assur.spherical_monodromy_oracle import count_by_spherical_monodromy
 
 # lnumber 0.20 (J. Capco), planar and spherical Laman numbers of the triangulated trusses over 2 ** sum (k - 2), in the
 # order of `chains(n, 0)`.
@@ -32,6 +33,24 @@ ELEVEN = {
     152: 12, 154: 7, 156: 14, 158: 6, 160: 3, 162: 11, 164: 2, 166: 4, 168: 3, 170: 7, 172: 1, 174: 2,
     180: 2, 184: 2, 186: 1, 188: 2, 200: 1,
 }  # fmt: skip
+# And for 13 links: the least, the most, and some drawn at random; joints as pairs of links, 10 to 12 as a to c.
+THIRTEEN = {
+    "01 02 17 72 03 18 83 04 29 94 05 3a a5 06 4b b6 5c c6": 126,
+    "23 14 35 45 16 26 07 57 6a a7 08 18 3b b8 09 29 4c c9": 700,
+    "02 16 62 07 73 18 83 23 09 94 14 2a a4 0b b5 1c c5 35": 400,
+    "08 81 23 14 24 05 29 95 4a a5 06 16 36 0b b7 1c c7 37": 404,
+    "08 81 09 91 04 2a a4 34 15 25 3b b5 06 26 17 37 6c c7": 540,
+    "23 14 34 05 15 06 29 96 5a a6 07 37 4b b7 0c c8 18 28": 444,
+    "03 28 83 19 94 24 34 05 1a a5 0b b6 16 56 0c c7 17 27": 400,
+    "01 07 72 08 82 09 93 1a a3 0b b4 34 15 25 1c c6 46 56": 420,
+    "08 81 23 14 24 05 29 95 45 0a a6 16 36 0b b7 17 3c c7": 420,
+    "13 24 39 94 0a a5 25 06 36 56 07 17 47 0b b8 18 2c c8": 472,
+    "01 07 72 18 82 09 93 1a a3 23 24 15 4b b5 06 4c c6 56": 428,
+    "08 81 02 03 29 93 0a a4 15 3b b5 1c c6 46 56 17 27 47": 406,
+    "23 14 34 05 25 06 29 96 5a a6 07 1b b7 37 08 18 4c c8": 400,
+    "03 18 83 19 93 04 2a a4 0b b5 25 45 16 26 07 17 6c c7": 384,
+    "08 81 02 09 93 23 04 15 3a a5 1b b6 46 56 17 27 4c c7": 444,
+}
 
 
 def truss_sets(links):
@@ -50,11 +69,24 @@ def test_another_program_for_eleven_links():
     assert dict(zip(numbers.tolist(), times.tolist(), strict=True)) == ELEVEN
 
 
+def test_another_program_for_thirteen_links():
+    ends = np.array([[[int(end, 13) for end in joint] for joint in text.split()] for text in THIRTEEN], np.uint8)
+    assert modes_of_trusses(13, sets_of_ends(ends)).tolist() == list(THIRTEEN.values())
+
+
 @pytest.mark.parametrize("links", [3, 5, pytest.param(7, marks=pytest.mark.slow)])
 def test_monodromy(links):
     for block in edge_blocks(links, 0):
         for ends, modes in zip(block.tolist(), modes_of_trusses(links, sets_of_ends(block)).tolist(), strict=True):
             assert count_by_monodromy(links, ends) == modes
+
+
+@pytest.mark.parametrize("links", [3, pytest.param(5, marks=pytest.mark.slow)])
+def test_spherical_monodromy(links):
+    sets = truss_sets(links)
+    for joints, modes in zip(sets.tolist(), modes_of_trusses(links, sets, spherical=True).tolist(), strict=True):
+        ends = [tuple(k for k in range(links) if joint >> k & 1) for joint in joints]
+        assert count_by_spherical_monodromy(ends) == modes
 
 
 @pytest.mark.parametrize("spherical", [False, True])
