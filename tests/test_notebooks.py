@@ -1,4 +1,4 @@
-"""Three notebooks of docs (`tests/page` has the fourth): every cell runs, every value it ends with shows itself."""
+"""Four notebooks of docs (`tests/page` has the fifth): every cell runs, every value it ends with shows itself."""
 
 import ast
 import json
@@ -7,7 +7,7 @@ import pytest
 
 from tests.docs_session import DOCS
 
-NOTEBOOKS = [DOCS / "notebooks" / f"{name}.ipynb" for name in ("lesson", "design", "research")]
+NOTEBOOKS = [DOCS / "notebooks" / f"{name}.ipynb" for name in ("lesson", "design", "research", "forces")]
 RICH = ("_repr_html_", "_repr_svg_", "_repr_markdown_", "_repr_mimebundle_")
 
 
