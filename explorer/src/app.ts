@@ -85,7 +85,8 @@ export class App implements Page {
       this.header,
       this.lost,
       this.message,
-      ...Object.values(this.views).map((view) => view.element),
+      // a notebook has its own main part
+      h(this.linkable ? "main" : "div", { class: "views" }, ...Object.values(this.views).map((view) => view.element)),
     );
     // a page of its own listens everywhere, a cell of a notebook to itself
     (this.linkable ? document : this.root).addEventListener("keydown", (event) => this.key(event as KeyboardEvent));
@@ -168,6 +169,23 @@ export class App implements Page {
     this.show(name);
   }
 
+  /** Arrows, Home and End lead from tab to tab. */
+  private stepTab(event: KeyboardEvent, keys: string[]): void {
+    const here = keys.indexOf(this.view);
+    const steps: Record<string, number> = {
+      ArrowLeft: (here + keys.length - 1) % keys.length,
+      ArrowRight: (here + 1) % keys.length,
+      Home: 0,
+      End: keys.length - 1,
+    };
+    const next = keys[steps[event.key] ?? -1];
+    if (next === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.turnTo(next);
+    this.header.querySelector<HTMLElement>(`[data-view="${next}"]`)?.focus();
+  }
+
   /** The view whose changes are undone: one that draws, else the motion. */
   private get undoing(): View {
     const view = this.views[this.view];
@@ -212,12 +230,13 @@ export class App implements Page {
         ? null
         : h(
             "nav",
-            { role: "tablist" },
+            { role: "tablist", onkeydown: (event: KeyboardEvent) => this.stepTab(event, keys) },
             ...keys.map((key) =>
               h(
                 "button",
                 {
                   role: "tab",
+                  tabindex: key === this.view ? 0 : -1,
                   "data-view": key,
                   "aria-selected": String(key === this.view),
                   onclick: () => this.turnTo(key),
@@ -246,6 +265,11 @@ export class App implements Page {
         ] as const
       ).map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)),
     );
+    if (keys.length > 1)
+      for (const key of keys) {
+        this.views[key]!.element.setAttribute("role", "tabpanel");
+        this.views[key]!.element.setAttribute("aria-label", names[key]!);
+      }
     if (this.linkable) document.title = this.name ? `${this.name} – gruebler` : "gruebler";
     renew(
       this.header,

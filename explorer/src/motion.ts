@@ -475,7 +475,12 @@ export class MotionView implements View, Editor {
     const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
     this.facts.replaceChildren(
       ...facts.map(({ name, text, style, note }) =>
-        h("div", {}, h("dt", {}, name), h("dd", { class: style ?? "" }, text), note ? h("small", {}, note) : null),
+        h(
+          "div",
+          {},
+          h("dt", {}, name),
+          h("dd", { class: style ?? "" }, text, note ? h("small", {}, ` ${note}`) : null),
+        ),
       ),
     );
   }

@@ -211,6 +211,7 @@ export class StructureView implements View {
   private showStructure(): void {
     const found = this.structure!;
     const drawn = picture(found.picture, found.text) as SVGSVGElement;
+    drawn.setAttribute("role", "group"); // its joints are buttons
     const marks: SVGElement[] = found.links
       .filter((link) => link.overconstrained || link.rigid)
       .map((link) =>

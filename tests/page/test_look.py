@@ -41,7 +41,7 @@ def test_swing_and_time_ratio_are_figures(tab, crank_rocker):
     page = tab().open(crank_rocker)
     facts = dict(
         page.page.locator(".facts > div").evaluate_all(
-            "all => all.map((one) => [one.querySelector('dt').textContent, one.querySelector('dd').textContent])"
+            "all => all.map((one) => ['dt', 'dd'].map((part) => one.querySelector(part).firstChild.textContent))"
         )
     )
     assert facts["Swing"] == f"{swing:.4g}°"
