@@ -6,6 +6,7 @@ from hashlib import sha256
 
 import pytest
 
+from benchmarks import oeis
 from benchmarks.tables import FOLDER, TABLES, text_of
 from gruebler.structure.enumeration import count_simple_chains
 
@@ -48,3 +49,22 @@ def test_the_b_file():
     assert list(terms) == list(range(1, 10))
     for k in range(1, 7):
         assert terms[k] == count_simple_chains(2 * k + 2).chains
+
+
+def test_the_entries_for_the_oeis_are_those_of_the_tables():
+    assert {path.name: path.read_text(encoding="utf-8") for path in oeis.OEIS.iterdir()} == oeis.files()
+
+
+def test_terms_that_stand_in_print():
+    """A233288, Peisach 2007, J. Mech. Des. 141(4) 043301; of multiple joints and F = 0 an unfiltered generator."""
+    entries = {entry.file: entry for entry in oeis.sequences()}
+    assert entries["b_chains_1.txt"].b_file().startswith("1 1\n2 2\n3 16\n4 230\n5 6856\n6 318162\n7 19819281\n")
+    assert entries["b_assur_groups.txt"].b_file().startswith("1 1\n2 2\n3 10\n4 173\n")
+    assert entries["b_chains_0.txt"].b_file().startswith("1 1\n2 1\n3 3\n4 28\n")
+    assert entries["b_multiple_joints_1.txt"].b_file().startswith("1 1\n2 4\n3 60\n")
+    assert entries["b_trains_displacement_1.txt"].b_file().startswith("3 1\n4 3\n5 13\n6 81\n")
+    assert [entries[f"b_{name}.txt"].index() for name in ("chains_2", "assur_groups", "trains_rotation_1")] == [
+        "2n + 3 links",
+        "2n links",
+        "n links",
+    ]
