@@ -82,7 +82,12 @@ def add(parser: Parser) -> None:
     sheet.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="from 1 (easy) to 3 (default: 1)")
     sheet.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the first task (default: 0)")
     sheet.add_argument("--count", type=int, default=6, metavar="K", help="number of tasks (default: 6)")
-    sheet.add_out(help="the sheet: .pdf, .html, .tex or .md", required=True, endings=("pdf", "html", "tex", "md"))
+    sheet.add_argument("--heading", default="", metavar="TEXT", help="heading of the sheet, such as that of the course")
+    sheet.add_out(
+        help="the sheet: .pdf, .html, .tex or .md; or .xml, questions for Moodle with answers and tolerances",
+        required=True,
+        endings=("pdf", "html", "tex", "md", "xml"),
+    )
     for action in (listing, show, new, check):
         action.add_printed(help="print JSON, with texts in both languages")
     solve.add_json(help="print JSON, with texts in both languages")
@@ -153,12 +158,22 @@ def _solve(tasks: list[Exercise], arguments: argparse.Namespace) -> int:
 
 def _sheet(arguments: argparse.Namespace) -> None:
     """Write the sheet and its solutions."""
-    from gruebler.teaching.worksheets import document_bytes, task_sheet
+    from gruebler.teaching.worksheets import document_bytes, worksheet
 
     kinds = [word.strip() for word in arguments.kind.split(",") if word.strip()]
-    sheet = task_sheet(kinds, arguments.count, level=arguments.level, seed=arguments.seed, lang=arguments.lang)
+    sheet = worksheet(
+        kinds,
+        arguments.count,
+        level=arguments.level,
+        seed=arguments.seed,
+        lang=arguments.lang,
+        heading=arguments.heading,
+    )
     path = arguments.out
     suffix = path.suffix.lower().removeprefix(".")
+    if suffix == "xml":
+        write_file(path, sheet.moodle(), arguments.lang)
+        return
     beside = path.with_name(f"{path.stem}-{translate('solutions', arguments.lang)}{path.suffix}")
     write_file(path, document_bytes(sheet.tasks, suffix), arguments.lang)
     write_file(beside, document_bytes(sheet.solutions, suffix), arguments.lang)

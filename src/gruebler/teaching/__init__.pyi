@@ -19,6 +19,7 @@ from .exercises import (
 from .sheets import Sheet, sheet
 from .sheets import sheets as all_sheets
 from .sheets.expressions import Expression
+from .worksheets import worksheet
 
 __all__ = [
     "Expression",
@@ -38,5 +39,6 @@ __all__ = [
     "solve",
     "task_text",
     "teaching_table",
+    "worksheet",
     "worksheets",
 ]

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -20,7 +21,7 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises import KINDS, exercise, grade, solve
 from gruebler.teaching.sheets.page import TextLine
-from gruebler.teaching.worksheets import catalog_book, document_bytes, machine_document, poster, task_sheet
+from gruebler.teaching.worksheets import catalog_book, document_bytes, machine_document, poster, worksheet
 from gruebler.teaching.worksheets.blocks import AnswerLines, Contents, Document, Heading, Paragraph, Pictures, Rows
 from gruebler.teaching.worksheets.joint_pictures import joint_pictures
 from gruebler.teaching.worksheets.paged import document_pages
@@ -31,7 +32,7 @@ ROOT = Path(__file__).parents[3]
 
 @pytest.fixture(scope="module")
 def sheet():
-    return task_sheet(list(KINDS), 6, level=2, seed=7, lang="de")
+    return worksheet(list(KINDS), 6, level=2, seed=7, lang="de")
 
 
 def blocks_of(document, kind):
@@ -57,6 +58,46 @@ def test_answers_are_marked_by_the_names_that_are_printed(sheet):
         assert [each.mark.value for each in grade(task, answers)] == ["right"] * len(names), id
 
 
+def test_no_two_tasks_have_the_same_answers_and_ids_stand_on_the_solutions():
+    chosen = worksheet(["mobility"], 5, seed=7, heading="Getriebelehre 1")
+    answers = [tuple(str(result.value) for result in solve(exercise(id)).results.values()) for id in chosen.ids]
+    assert len(set(answers)) == 5  # as many as level 1 has
+    text, solved = (document_bytes(each, "md").decode("utf-8") for each in (chosen.tasks, chosen.solutions))
+    assert "Getriebelehre 1" in text
+    assert chosen.ids[0] not in text
+    assert "seed" not in text
+    assert all(id in solved for id in chosen.ids)
+    assert "seed 7" in solved
+
+
+def test_moodle_marks_as_grade_does(sheet):
+    """The elements that Moodle documents; each answer there has the mark that `grade` gives it."""
+    quiz = ElementTree.fromstring(sheet.moodle())
+    assert quiz.tag == "quiz"
+    asked = [(exercise(id), question.key) for id in sheet.ids for question in exercise(id).asked]
+    questions = quiz.findall("question")
+    assert len(questions) == len(asked)
+    for question, (task, key) in zip(questions, asked, strict=True):
+        assert question.findtext("name/text").startswith(task.id)
+        body = question.findtext("questiontext/text")
+        files = question.findall("questiontext/file")
+        assert len(files) == body.count("@@PLUGINFILE@@/figure.svg") == (exercise_figure(task) is not None)
+        assert all(base64.b64decode(file.text).startswith(b"<svg") for file in files)
+        assert not any(b"Glieder" in base64.b64decode(file.text) for file in files)  # nothing gives the answer away
+        assert question.get("type") in {"numerical", "truefalse", "shortanswer"}
+        for answer in question.findall("answer"):
+            text, fraction = answer.findtext("text"), answer.get("fraction")
+            if question.get("type") == "numerical" and fraction == "50":
+                text = repr(float(text) + 0.6 * float(answer.findtext("tolerance")))
+            word = {"true": "yes", "false": "no"}.get(text, text)
+            (graded,) = grade(task, {key: word})
+            assert graded.mark.value == {"100": "right", "50": "near", "0": "wrong"}[fraction], (task.id, key, text)
+
+
+def test_an_underscore_may_be_left_out():
+    assert [each.mark.value for each in grade(exercise("dead-centre-1-7"), {"la": "130"})] == ["right"]  # b + a = 130
+
+
 def test_a_task_of_mobility_shows_the_chain_and_not_its_joints(sheet):
     text = document_bytes(sheet.tasks, "md").decode("utf-8")
     chain = str(exercise(sheet.ids[0]).given["chain"])
@@ -75,7 +116,7 @@ def test_the_marking_key_has_every_answer(sheet):
 
 @pytest.mark.parametrize(("lang", "word", "other"), [("en", "good", "gut"), ("de", "gut", "good")])
 def test_the_marking_key_names_answers_in_the_language(lang, word, other):
-    sheet = task_sheet(["transmission-angle"], 1, level=3, seed=1, lang=lang)
+    sheet = worksheet(["transmission-angle"], 1, level=3, seed=1, lang=lang)
     names = {row[1] for row in blocks_of(sheet.solutions, Rows)[-1].rows}
     assert word in names
     assert other not in names
@@ -145,7 +186,7 @@ def test_latex_knows_every_sign_of_the_texts():
 def test_latex_files_compile(lang, tmp_path):
     if shutil.which("pdflatex") is None:
         pytest.skip("pdflatex is not here")
-    sheets = [task_sheet(list(KINDS), 6, level=level, seed=3, lang=lang) for level in (1, 2, 3)]
+    sheets = [worksheet(list(KINDS), 6, level=level, seed=3, lang=lang) for level in (1, 2, 3)]
     made = [
         *((sheet.tasks, sheet.solutions) for sheet in sheets),
         (machine_document(entries()["crankrocker"], lang=lang), machine_document(entries()["geartrain"], lang=lang)),
@@ -177,7 +218,7 @@ def test_nothing_leaves_the_page(sheet):
 )
 def test_wrong_sheets(arguments, says):
     with pytest.raises(GrueblerError, match=says):
-        task_sheet(*arguments)
+        worksheet(*arguments)
 
 
 def test_the_sheet_of_any_machine():

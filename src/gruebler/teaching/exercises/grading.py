@@ -15,8 +15,8 @@ from gruebler.teaching.exercises.answers import GivenAnswer, read_answer
 from gruebler.teaching.exercises.solution import Mistake, Result, Value
 from gruebler.teaching.exercises.solving import scale_of, solve
 
-_FINE = 1e-3  # relative difference of an answer that is right whatever its digits
-_NEAR = 0.02  # of one that is nearly right: intermediate results rounded
+FINE = 1e-3  # relative difference of an answer that is right whatever its digits
+NEARLY = 0.02  # of one that is nearly right: intermediate results rounded
 _WORDS = {"yes": True, "ja": True, "true": True, "no": False, "nein": False, "false": False}
 
 
@@ -135,7 +135,8 @@ def key_in_language(key: str, lang: str) -> str:
 
 
 def _bare(name: str) -> str:
-    return "".join(ascii_key(name).split())
+    """Without spaces and underscores: la and l_a are the same."""
+    return "".join(ascii_key(name).split()).replace("_", "")
 
 
 def plain_name(result: Result) -> str:
@@ -210,7 +211,7 @@ def _is_mistake(mistake: Value, correct: float, reading: GivenAnswer) -> bool:
     """Whether an answer within the rounding tolerance is exactly that of a known mistake, such as H = 50 for 50.3."""
     if not isinstance(mistake, float):
         return False
-    return abs(reading.number - mistake) <= 1e-5 * abs(mistake) and abs(reading.number - correct) > _FINE * abs(correct)
+    return abs(reading.number - mistake) <= 1e-5 * abs(mistake) and abs(reading.number - correct) > FINE * abs(correct)
 
 
 def _mark_of(value: Value, reading: GivenAnswer) -> Mark:
@@ -219,9 +220,9 @@ def _mark_of(value: Value, reading: GivenAnswer) -> Mark:
     off, size = abs(reading.number - value), abs(value)
     if isinstance(value, int):
         return Mark.RIGHT if off == 0 else Mark.WRONG
-    if off <= _FINE * size or (off <= 0.5 * reading.place * (1 + 1e-9) and off <= _NEAR * size) or off < 1e-9:
+    if off <= FINE * size or (off <= 0.5 * reading.place * (1 + 1e-9) and off <= NEARLY * size) or off < 1e-9:
         return Mark.RIGHT
-    return Mark.NEAR if off <= _NEAR * size else Mark.WRONG
+    return Mark.NEAR if off <= NEARLY * size else Mark.WRONG
 
 
 def _mark_of_words(value: Value, answer: str) -> Mark:

@@ -7,7 +7,7 @@ from gruebler.teaching.worksheets.blocks import Document
 from gruebler.teaching.worksheets.files import DOCUMENT_SUFFIXES, document_bytes
 from gruebler.teaching.worksheets.machines import catalog_book, machine_document
 from gruebler.teaching.worksheets.posters import POSTERS, poster
-from gruebler.teaching.worksheets.tasks import TaskSheet, solution_document, task_sheet
+from gruebler.teaching.worksheets.tasks import TaskSheet, solution_document, worksheet
 
 __all__ = [
     "DOCUMENT_SUFFIXES",
@@ -19,5 +19,5 @@ __all__ = [
     "machine_document",
     "poster",
     "solution_document",
-    "task_sheet",
+    "worksheet",
 ]

@@ -23,6 +23,7 @@ from gruebler.teaching.exercises import (
     TeachingTable,
     ascii_key,
     compare,
+    exercise,
     generate,
     solve,
     value_text,
@@ -47,9 +48,11 @@ from gruebler.teaching.worksheets.blocks import (
     Rows,
 )
 from gruebler.teaching.worksheets.exercise_figures import linkage_figure
+from gruebler.teaching.worksheets.moodle import moodle_xml
 from gruebler.teaching.worksheets.solution_figures import solution_figures
 
 _MOST = 60
+_TRIES = 20  # seeds, for a task with other answers
 _SPACE = {"mobility": 60.0, "grashof": 80.0, "dyad": 60.0}
 
 
@@ -61,13 +64,23 @@ class TaskSheet:
     solutions: Document
     ids: tuple[str, ...]
 
+    def moodle(self) -> bytes:
+        """The tasks as questions of Moodle, marked there by the same rule (Moodle XML)."""
+        lang = self.tasks.lang
+        exercises = [exercise(id) for id in self.ids]
+        return moodle_xml([(each, _text(each, lang), exercise_figure(each, lang)) for each in exercises], lang)
 
-def task_sheet(kinds: Sequence[str], count: int, *, level: int = 1, seed: int = 0, lang: str = "en") -> TaskSheet:
+
+def worksheet(
+    kinds: Sequence[str], count: int, *, level: int = 1, seed: int = 0, lang: str = "en", heading: str = ""
+) -> TaskSheet:
     """So many tasks of the kinds in turn, with seeds from ``seed`` on; kinds may stand in the plural.
+
+    No two tasks have the same answers as long as there are others. Seeds and ids stand on the solutions only.
 
     Cost: some tenths of a second a task. Raises `GrueblerError` for unknown kinds, levels and counts.
 
-    >>> task_sheet(["grashof", "dead-centres"], 3, seed=7).ids
+    >>> worksheet(["grashof", "dead-centres"], 3, seed=7).ids
     ('grashof-1-7', 'dead-centre-1-8', 'grashof-1-9')
     """
     if not kinds:
@@ -75,9 +88,9 @@ def task_sheet(kinds: Sequence[str], count: int, *, level: int = 1, seed: int = 
     kinds = [kind if kind in KINDS else kind.removesuffix("s") for kind in kinds]
     if not 1 <= count <= _MOST:
         raise GrueblerError("--count is a number from 1 to {most}, not {count}", most=_MOST, count=count)
-    exercises = [generate(kind, seed + k, level) for k, kind in enumerate(islice(cycle(kinds), count))]
+    exercises = _distinct(list(islice(cycle(kinds), count)), level, seed)
     names = joined([KINDS[kind][0] for kind in dict.fromkeys(kinds)]).in_language(lang)
-    title = translate("Tasks: {kinds}", lang, kinds=names)
+    title = heading or translate("Tasks: {kinds}", lang, kinds=names)
     subtitle = translate("level {level}, seed {seed}", lang, level=level, seed=seed)
     tasks = [block for k, each in enumerate(exercises, 1) for block in _task_blocks(each, k, lang)]
     name_line = translate("Name: {line}   Date: {short}", lang, line="_" * 34, short="_" * 14)
@@ -86,10 +99,27 @@ def task_sheet(kinds: Sequence[str], count: int, *, level: int = 1, seed: int = 
         solutions += _solution_blocks(each, k, lang)
     solutions += [PageBreak(), *_marking_key(exercises, lang)]
     return TaskSheet(
-        Document(title, subtitle, (Paragraph(name_line), *tasks), lang),
+        Document(title, translate("level {level}", lang, level=level), (Paragraph(name_line), *tasks), lang),
         Document(translate("Solutions: {kinds}", lang, kinds=names), subtitle, tuple(solutions), lang),
         tuple(each.id for each in exercises),
     )
+
+
+def _distinct(kinds: Sequence[str], level: int, seed: int) -> list[Exercise]:
+    """A task of each kind, whose answers no other one has if some seeds later there is such a task."""
+    chosen: list[Exercise] = []
+    answers = set()
+    for kind in kinds:
+        for _ in range(_TRIES):
+            task = generate(kind, seed, level)
+            seed += 1
+            results = solve(task).results
+            answer = (kind, *(str(results[question.key].value) for question in task.asked))
+            if answer not in answers:
+                break
+        answers.add(answer)
+        chosen.append(task)
+    return chosen
 
 
 # --- tasks -------------------------------------------------------------------------------------------
@@ -105,7 +135,6 @@ def _task_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
     asked = [solution.results[question.key] for question in exercise.asked]
     names = tuple(f"{_symbol(solution, result, lang)}: {asked_text(result, lang)}" for result in asked)
     yield AnswerLines(names, _SPACE.get(_kind(exercise), 110.0))
-    yield Paragraph(exercise.id, small=True)
 
 
 def _kind(exercise: Exercise) -> str:
@@ -254,13 +283,13 @@ def _symbol(solution: Solution, result: Result, lang: str) -> str:
 def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
     """What is right, and its points: one for each answer, one for each way."""
     rows, total = [], 0
-    for k, exercise in enumerate(exercises, 1):
-        solution = solve(exercise)
-        for question in exercise.asked:
+    for k, task in enumerate(exercises, 1):
+        solution = solve(task)
+        for question in task.asked:
             result = solution.results[question.key]
             rows.append((str(k), _symbol(solution, result, lang), value_text(result.value, result.unit, lang), "1"))
         rows.append((str(k), translate("solution steps", lang), "", "1"))
-        total += len(exercise.asked) + 1
+        total += len(task.asked) + 1
     rows.append(("", translate("sum", lang), "", str(total)))
     yield Heading(translate("Marking key", lang), 1)
     rule = message(
