@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 INSTALLED := $(VENV)/.installed
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest page core test-core core-sanitize torture mutants bench clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest page core test-core core-sanitize torture mutants bench evidence clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -24,6 +24,7 @@ help:
 	@echo "make core-sanitize  the C++ kernels with address and undefined-behaviour sanitizers, without Python"
 	@echo "make page        core/page/motion.wasm.gz from the kernels, and the built page; needs node"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
+	@echo "make evidence    the numbers of docs/tables derived again, contracted graphs by a second method"
 
 # Reinstalled only when pyproject.toml or the C++ sources change: repeated calls start at once. What did not change is not
 # compiled again.
@@ -152,6 +153,11 @@ core-sanitize: $(VENV)/.core
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks
+
+# What takes longer is listed with its command.
+evidence: $(READY)
+	$(BIN)/python -m benchmarks.tables --check
+	$(BIN)/python -m benchmarks.evidence
 
 clean:
 	rm -rf $(VENV) build dist src/gruebler/_core*.so src/gruebler/_core*.pyd

@@ -1,4 +1,4 @@
-"""The tables of docs/tables, made anew: `python -m benchmarks.tables [NAME ...]`.
+"""The tables of docs/tables, made anew: `python -m benchmarks.tables [NAME ...]`; `--check [SECONDS]` only compares.
 
 Every table is a CSV file; `records.json` keeps for each the command, version, seconds and checksum. The environment
 variable TABLES_CHECKPOINT names a directory for finished pieces of the count of 20 links, which takes 25 minutes.
@@ -168,8 +168,24 @@ def text_of(rows: Rows) -> str:
     return text.getvalue()
 
 
+def compared(most: float) -> Iterator[tuple[str, str]]:
+    """Names of tables, and whether the same bytes come again; what takes longer is only named, with its command."""
+    for name, record in json.loads((FOLDER / "records.json").read_text(encoding="utf-8")).items():
+        if record["seconds"] > most:
+            yield name, f"not made, {record['seconds']:.0f} s: {record['command']}"
+        else:
+            same = sha256(text_of(TABLES[name](None)).encode()).hexdigest() == record["sha256"]
+            yield name, "the same" if same else "OTHER THAN the file"
+
+
 def main(names: list[str]) -> None:
-    """Make tables; without names all."""
+    """Make tables, without names all; or compare them."""
+    if names[:1] == ["--check"]:
+        verdicts = []
+        for name, verdict in compared(float(names[1]) if names[1:] else 300):
+            verdicts.append(verdict)
+            print(f"{name:20}{verdict}", flush=True)
+        sys.exit(any(verdict.startswith("OTHER") for verdict in verdicts))
     path = FOLDER / "records.json"
     for name in names or TABLES:
         begun = perf_counter()

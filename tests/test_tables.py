@@ -6,7 +6,7 @@ from hashlib import sha256
 
 import pytest
 
-from benchmarks import oeis
+from benchmarks import oeis, tables
 from benchmarks.tables import FOLDER, TABLES, text_of
 from gruebler.structure.enumeration import count_simple_chains
 
@@ -68,3 +68,14 @@ def test_terms_that_stand_in_print():
         "2n links",
         "n links",
     ]
+
+
+def test_evidence_finds_what_is_other(monkeypatch):
+    """One row is not that of the file; what takes longer is named with its command."""
+    wrong = [("links", "highest_class", "driven_mechanisms"), (4, 2, 2)]
+    monkeypatch.setitem(TABLES, "driven_by_class", lambda _: iter(wrong))
+    verdicts = dict(tables.compared(6))
+    assert verdicts.pop("driven_by_class") == "OTHER THAN the file"
+    assert verdicts.pop("truss_modes") == "the same"
+    assert len(verdicts) == len(TABLES) - 2
+    assert all(verdict.endswith(f"python -m benchmarks.tables {name}") for name, verdict in verdicts.items())
