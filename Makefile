@@ -5,7 +5,8 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 INSTALLED := $(VENV)/.installed
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest page core test-core core-sanitize torture mutants bench evidence clean
+.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest page core test-core core-sanitize \
+	core-sanitize-python torture mutants bench evidence clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -22,6 +23,7 @@ help:
 	@echo "make core        the C++ kernels alone, compiled where they changed, see core/README.md"
 	@echo "make test-core   the tests of the C++ kernels, against plain Python and against print"
 	@echo "make core-sanitize  the C++ kernels with address and undefined-behaviour sanitizers, without Python"
+	@echo "make core-sanitize-python  the tests that call the C++ kernels most, with the same sanitizers; needs GCC"
 	@echo "make page        core/page/motion.wasm.gz from the kernels, and the built page; needs node"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 	@echo "make evidence    the numbers of docs/tables derived again, contracted graphs by a second method"
@@ -131,8 +133,11 @@ $(VENV)/.core: pyproject.toml
 	@touch $@
 
 CORE := PATH="$(CURDIR)/$(BIN):$$PATH" cmake
+# Of its headers Python knows better than cmake where they are.
+HEADERS = import sysconfig; print(sysconfig.get_path("include"))
+CORE_PYTHON = -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -DPython_INCLUDE_DIR="$$($(BIN)/python -c '$(HEADERS)')"
 core: $(VENV)/.core
-	$(CORE) -S core -B build/core -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python \
+	$(CORE) -S core -B build/core -G Ninja $(CORE_PYTHON) \
 		-DCORE_FOLDER=$(CURDIR)/src/gruebler >/dev/null
 	$(CORE) --build build/core
 	$(CORE) --install build/core >/dev/null
@@ -150,6 +155,20 @@ core-sanitize: $(VENV)/.core
 	$(CORE) -S core -B build/core-sanitize -G Ninja -DCORE_PYTHON=OFF -DCORE_STANDALONE=ON -DCORE_SANITIZE=ON >/dev/null
 	$(CORE) --build build/core-sanitize
 	cd build/core-sanitize && PATH="$(CURDIR)/$(BIN):$$PATH" ctest --output-on-failure
+
+# The package once more, as links, with another module. Exceptions are caught by the library of C++ that is loaded first.
+SANITIZED := build/core-sanitize-python
+core-sanitize-python: $(READY) $(VENV)/.core
+	$(CORE) -S core -B $(SANITIZED) -G Ninja $(CORE_PYTHON) -DCMAKE_CXX_COMPILER=g++ -DCORE_SANITIZE=ON \
+		-DCORE_FOLDER=$(CURDIR)/$(SANITIZED)/gruebler >/dev/null
+	$(CORE) --build $(SANITIZED)
+	rm -rf $(SANITIZED)/gruebler
+	cp -rs $(CURDIR)/src/gruebler $(SANITIZED)/
+	rm -f $(SANITIZED)/gruebler/_core*.so
+	$(CORE) --install $(SANITIZED) >/dev/null
+	LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
+		PYTHONPATH=$(CURDIR)/$(SANITIZED) $(BIN)/python -m pytest -q -n 2 $(addprefix tests/,core mechanics/kinematics \
+		structure/enumeration structure/isomorphism structure/atlas)
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks
