@@ -35,7 +35,8 @@ from gruebler.design.synthesis import DeadCentreTask
 from gruebler.machines.cams import Roller, read_lift
 from gruebler.machines.gears import Mesh, read_train
 from gruebler.mechanics.analysis import motion_table
-from gruebler.mechanics.analysis.drive_cycles import Course, drive_cycle
+from gruebler.mechanics.analysis.courses import Course
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.kinematics import four_bars
 from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.linkages import Circle, Line

@@ -9,8 +9,7 @@ import pytest
 import gruebler as gr
 from gruebler.cli import main
 from gruebler.pictures.canvas.shapes import Polylines, TextShape
-from gruebler.pictures.canvas.styles import STYLES
-from gruebler.pictures.canvas.textbook import PREFIX
+from gruebler.pictures.canvas.styles import STYLES, TEXTBOOK
 from gruebler.pictures.linkage.letters import joint_letters
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
 
@@ -25,7 +24,7 @@ def shapes_of(value, **options):
 
 def test_lines_have_the_widths_of_iso_128():
     """0.35 and 0.7 mm are neighbours by the factor 2 in the series of ISO 128-2; what is white only separates."""
-    rows = {name.removeprefix(PREFIX): style for name, style in STYLES.items() if name.startswith(PREFIX)}
+    rows = {name.removeprefix(TEXTBOOK): style for name, style in STYLES.items() if name.startswith(TEXTBOOK)}
     widths = {style.width / MILLIMETRE for name, style in rows.items() if style.stroke == "ink" and name != "slot-rim"}
     assert sorted(widths) == pytest.approx([0.35, 0.7])
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
-from gruebler.pictures.canvas.styles import STYLES
+from gruebler.pictures.canvas.styles import STYLES, USUAL
 
 LISTED_CHAINS = {"links": {"min": 3, "max": 12}, "mobility": {"min": 0, "max": 6}}
 """The chains of which the page makes lists."""
@@ -27,7 +27,8 @@ def module_text() -> str:
 def picture_styles() -> str:
     """The rules of the library's pictures with the colours of the page, which the reader may turn dark."""
     rules = [".gr{stroke-linecap:round;stroke-linejoin:round}"]
-    for name, style in STYLES.items():
+    for name in USUAL:
+        style = STYLES[name]
         parts = [f"fill:var(--{style.fill})" if style.fill else "fill:none"]
         if style.stroke:
             parts += [f"stroke:var(--{style.stroke})", f"stroke-width:{style.width:g}"]

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import ChangePoint
 from gruebler.mechanics.analysis import measures
-from gruebler.mechanics.analysis.drive_cycles import CycleSpan, DriveCycle, by_place, drive_cycle
+from gruebler.mechanics.analysis.cycle_spans import CycleSpan, by_place
+from gruebler.mechanics.analysis.drive_cycles import DriveCycle, drive_cycle
 from gruebler.mechanics.analysis.events import change_points, crossings, dead_centres, transfer_function
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank

@@ -13,7 +13,8 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined, message, plural
 from gruebler.design.realisation.layout_trial import range_path
-from gruebler.mechanics.analysis.drive_cycles import CycleSpan, drive_cycle
+from gruebler.mechanics.analysis.cycle_spans import CycleSpan
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import Mechanism

@@ -14,7 +14,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.events import ChangePoint, DeadCentre
-from gruebler.mechanics.analysis.drive_cycles import Course
+from gruebler.mechanics.analysis.courses import Course
 from gruebler.mechanics.analysis.outputs import Output
 from gruebler.mechanics.kinematics.circuits import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion

@@ -36,7 +36,8 @@ from gruebler.base.events import ChangePoint, DeadCentre, Transmission, Transmis
 from gruebler.base.notebook import brief
 from gruebler.base.plain_data import Units, plain
 from gruebler.base.text import Message, message
-from gruebler.mechanics.analysis.drive_cycles import CycleSpan, DriveCycle, by_place, drive_cycle
+from gruebler.mechanics.analysis.cycle_spans import CycleSpan, by_place
+from gruebler.mechanics.analysis.drive_cycles import DriveCycle, drive_cycle
 from gruebler.mechanics.analysis.events import (
     Crossing,
     Dwell,

@@ -22,7 +22,7 @@ from gruebler.mechanics.linkages.points import PointLike, each_point
 from gruebler.structure.chain.pairs import Alphabet
 
 if TYPE_CHECKING:
-    from gruebler.mechanics.analysis.drive_cycles import CycleSpan
+    from gruebler.mechanics.analysis.cycle_spans import CycleSpan
 
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))

@@ -16,7 +16,7 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import Transmission, TransmissionExtremes
 from gruebler.base.jets import turn_derivative
-from gruebler.mechanics.analysis.drive_cycles import Course
+from gruebler.mechanics.analysis.courses import Course
 from gruebler.mechanics.analysis.outputs import Output, find_output
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan

@@ -18,7 +18,7 @@ from gruebler.mechanics.dynamics.equations import EquationsOfMotion, ReducedEqua
 from gruebler.mechanics.forces.acting import Wrench
 from gruebler.mechanics.forces.friction import Friction, PerJoint
 from gruebler.mechanics.forces.loads import Loads
-from gruebler.mechanics.forces.solution import Statics, statics
+from gruebler.mechanics.forces.solution import Statics, equilibrium
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.messages import drive_name, drive_values
 from gruebler.mechanics.linkages import LinkPoint
@@ -175,7 +175,7 @@ def inverse_dynamics(
     for link in loads.bodies:
         moment = -equations.metres * loads.bodies[link].inertia * motion.angular(link, 2)
         inertia.append(Wrench(LinkPoint(link, 0.0, 0.0), none.astype(np.complex128), moment))
-    held = statics(motion, loads, friction=friction, times=times, besides=tuple(inertia))
+    held = equilibrium(motion, loads, friction, times, tuple(inertia))
     reduced = reduced_equations(motion, loads, times=times)
     assert motion.speeds is not None  # it has accelerations
     effort = np.einsum("rfg,rg->rf", reduced.mass, motion.speeds[1]) + reduced.bias - reduced.force

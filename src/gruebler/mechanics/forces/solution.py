@@ -278,7 +278,6 @@ def statics(
     *,
     friction: Friction | PerJoint | None = None,
     times: ArrayLike = 0.0,
-    besides: tuple[Wrench, ...] = (),
 ) -> Statics:
     """Drive efforts and joint forces that hold the loads at every row of a motion, by two independent methods.
 
@@ -292,7 +291,6 @@ def statics(
             by joint, or `Friction` with radii of pins and guides. Where it locks, forces are NaN and `Statics.message`
             says so.
         times: At which loads are taken that depend on the time; (rows,) or one.
-        besides: Further forces and moments, such as those of inertia.
 
     Returns:
         `Statics`: (rows, drives) efforts of the drives (N, or N times the unit of length), (rows, 2) forces of the
@@ -326,6 +324,17 @@ def statics(
     Theory:
         docs/theory/statics.md
     """
+    return equilibrium(motion, loads, friction, times)
+
+
+def equilibrium(
+    motion: Motion,
+    loads: Loads,
+    friction: Friction | PerJoint | None,
+    times: ArrayLike,
+    besides: tuple[Wrench, ...] = (),
+) -> Statics:
+    """`statics` with further forces and moments, such as those of inertia."""
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if not _are_times(times, len(motion)):

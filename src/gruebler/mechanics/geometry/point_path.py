@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
-from gruebler.mechanics.analysis.drive_cycles import Course, drive_cycle, path_cycle
+from gruebler.mechanics.analysis.courses import Course
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle, path_cycle
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.points import PointLike, point_name

@@ -8,7 +8,7 @@ plot also differ by their dashes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 BAR = 9.0
 """Width of a link."""
@@ -119,3 +119,53 @@ STYLES = {
 }
 LINES = tuple(name for name in STYLES if name.startswith("line-"))
 """Styles of the lines of a plot, in the order of their use."""
+
+USUAL = tuple(STYLES)
+"""Styles of all pictures but those of a textbook."""
+
+# In textbooks: black, one thick line a link, widths in millimetres after ISO 128.
+MILLIMETRE = 96 / 25.4
+"""Pixels."""
+THICK, THIN = 0.7 * MILLIMETRE, 0.35 * MILLIMETRE
+UNLIKE_TEXTBOOKS = (
+    "body-bar",
+    "frame-bar",
+    "body",
+    "frame",
+    "outline-wide",
+    "body-wide",
+    "body-rod",
+    "warning",
+    "rest",
+)
+_LINK = Style(stroke="ink", width=THICK)
+_PLATE = Style(fill="paper", stroke="ink", width=THICK)
+_TEXTBOOK_OWN = {
+    "outline-bar": _LINK,
+    "outline-rod": _LINK,
+    "outline": _PLATE,
+    "halo": Style(stroke="paper", width=THICK + 2 * MILLIMETRE),
+    "halo-bar": Style(stroke="paper", width=THICK + 2 * MILLIMETRE),
+    "area": _PLATE,
+    "rail": _LINK,
+    "slot-rim": Style(stroke="ink", width=SLOT + 2 * THIN),
+    "slot": STYLES["slot"],
+    "grid": STYLES["grid"],
+    "given": _LINK,
+}
+"""Styles whose look is not that of the others: fills white, every coloured line thin and black."""
+
+
+def _black(style: Style) -> Style:
+    """Its dashes and its size of text, lines thin and black; white where a body had a colour."""
+    fill = style.fill and ("paper" if style.fill in ("paper", "body", "frame", "warning") else "ink")
+    return replace(style, fill=fill, stroke=style.stroke and "ink", width=THIN if style.stroke else 0.0)
+
+
+TEXTBOOK = "textbook-"
+"""Begins the name of each style as textbooks have it: one more row for each that they draw."""
+STYLES |= {
+    TEXTBOOK + name: _TEXTBOOK_OWN.get(name) or _black(style)
+    for name, style in [*STYLES.items()]
+    if name not in UNLIKE_TEXTBOOKS
+}

@@ -6,14 +6,14 @@ import math
 from xml.sax.saxutils import escape
 
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
-from gruebler.pictures.canvas.styles import COLOURS, STYLES, Style
+from gruebler.pictures.canvas.styles import COLOURS, STYLES, USUAL, Style
 
 _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 65534, 65535, *range(55296, 57344)))
 
 
 def style_sheet(used: list[str] | None = None) -> str:
     """The rules of these styles, or of all, on light and dark ground; every class begins with ``gr``."""
-    names = [name for name in STYLES if not name.startswith("textbook-")] if used is None else used
+    names = USUAL if used is None else used
     rules = [".gr{stroke-linecap:round;stroke-linejoin:round;font-family:sans-serif}"]
     rules += [f".gr-{name}{{{_declarations(STYLES[name], 0)}}}" for name in names]
     dark = "".join(f".gr-{name}{{{_declarations(STYLES[name], 1)}}}" for name in names)

@@ -10,40 +10,7 @@ from dataclasses import replace
 
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.shapes import Point, Polylines, Shape
-from gruebler.pictures.canvas.styles import SLOT, STYLES, Style
-
-MILLIMETRE = 96 / 25.4
-"""Pixels."""
-THICK, THIN = 0.7 * MILLIMETRE, 0.35 * MILLIMETRE
-_NOT_DRAWN = ("body-bar", "frame-bar", "body", "frame", "outline-wide", "body-wide", "body-rod", "warning", "rest")
-_LINK = Style(stroke="ink", width=THICK)
-_PLATE = Style(fill="paper", stroke="ink", width=THICK)
-_OWN = {
-    "outline-bar": _LINK,
-    "outline-rod": _LINK,
-    "outline": _PLATE,
-    "halo": Style(stroke="paper", width=THICK + 2 * MILLIMETRE),
-    "halo-bar": Style(stroke="paper", width=THICK + 2 * MILLIMETRE),
-    "area": _PLATE,
-    "rail": _LINK,
-    "slot-rim": Style(stroke="ink", width=SLOT + 2 * THIN),
-    "slot": STYLES["slot"],
-    "grid": STYLES["grid"],
-    "given": _LINK,
-}
-"""Styles whose look is not that of the others: fills white, every coloured line thin and black."""
-
-
-def _black(style: Style) -> Style:
-    """Its dashes and its size of text, lines thin and black; white where a body had a colour."""
-    fill = style.fill and ("paper" if style.fill in ("paper", "body", "frame", "warning") else "ink")
-    return replace(style, fill=fill, stroke=style.stroke and "ink", width=THIN if style.stroke else 0.0)
-
-
-PREFIX = "textbook-"
-STYLES.update(
-    {PREFIX + name: _OWN.get(name) or _black(style) for name, style in [*STYLES.items()] if name not in _NOT_DRAWN}
-)
+from gruebler.pictures.canvas.styles import TEXTBOOK, UNLIKE_TEXTBOOKS
 
 
 def textbook(figure: Figure) -> Figure:
@@ -54,17 +21,17 @@ def textbook(figure: Figure) -> Figure:
     >>> [shape.style for shape in textbook(figure_of(bar, "a bar", "")).shapes]
     ['textbook-outline-bar']
     """
-    shapes = tuple(_half(replace(shape, style=PREFIX + shape.style)) for shape in figure.shapes if _is_drawn(shape))
+    shapes = tuple(_half(replace(shape, style=TEXTBOOK + shape.style)) for shape in figure.shapes if _is_drawn(shape))
     return replace(figure, shapes=shapes)
 
 
 def _is_drawn(shape: Shape) -> bool:
-    return shape.style not in _NOT_DRAWN
+    return shape.style not in UNLIKE_TEXTBOOKS
 
 
 def _half(shape: Shape) -> Shape:
     """Hatching across a bar of the frame lies on one side of its line, the lower one."""
-    if not isinstance(shape, Polylines) or shape.style != PREFIX + "hatch-bar":
+    if not isinstance(shape, Polylines) or shape.style != TEXTBOOK + "hatch-bar":
         return shape
     return replace(shape, parts=tuple(_lower_half(*part) for part in shape.parts))
 

@@ -14,7 +14,8 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.text import translate
-from gruebler.mechanics.analysis.drive_cycles import Course, PathCycle
+from gruebler.mechanics.analysis.courses import Course
+from gruebler.mechanics.analysis.drive_cycles import PathCycle
 from gruebler.mechanics.analysis.events import stops
 from gruebler.mechanics.analysis.link_planes import link_planes
 from gruebler.mechanics.analysis.outputs import find_output

@@ -11,7 +11,8 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import number, translate
-from gruebler.mechanics.analysis.drive_cycles import Course, drive_cycle
+from gruebler.mechanics.analysis.courses import Course
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage

@@ -14,7 +14,8 @@ from gruebler.base.angles import warn_of_degrees
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, message
-from gruebler.mechanics.analysis.drive_cycles import Course, drive_cycle, path_cycle
+from gruebler.mechanics.analysis.courses import Course
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle, path_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
