@@ -1,6 +1,7 @@
 """What `import gruebler as gr` gives: every name opens, shorthands are taken everywhere, mistakes are one sentence."""
 
 import ast
+import importlib
 import inspect
 import re
 from pathlib import Path
@@ -49,6 +50,15 @@ def test_every_name_opens_and_is_listed_once():
     assert sorted(listed) == sorted(set(listed)) == sorted(gr.__all__)
     assert all(getattr(gr, name) is not None for name in listed)
     assert len([name for node in names_by_room() if node.module for name in node.names]) <= 64
+
+
+def test_every_name_of_a_wing_and_a_room_opens():
+    folder = Path(gr.__file__).parent
+    stubs = sorted(path for path in folder.rglob("__init__.pyi") if path.parent != folder)
+    assert len(stubs) > 9
+    for stub in stubs:
+        module = importlib.import_module(".".join(["gruebler", *stub.parent.relative_to(folder).parts]))
+        assert [name for name in module.__all__ if getattr(module, name, None) is None] == [], module.__name__
 
 
 def test_another_name_says_which_was_meant():

@@ -8,10 +8,10 @@ from unittest.mock import patch
 
 from gruebler.teaching.catalog import catalog_folder, entries, exercises
 from gruebler.teaching.exercises import all_exercises, solving
-from gruebler.teaching.sheets import sheets
+from gruebler.teaching.sheets import all_sheets
 
 _LOADERS = ("gruebler.teaching.catalog.loader", "gruebler.teaching.exercises.loader", "gruebler.teaching.sheets.loader")
-_CACHES = (entries, exercises, all_exercises, sheets, solving._solve)
+_CACHES = (entries, exercises, all_exercises, all_sheets, solving._solve)
 
 
 @contextmanager

@@ -15,7 +15,7 @@ from gruebler.cli.tables import Cell, print_table
 from gruebler.files.measured_lengths import length_of, same_unit
 from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.structure.mechanism import Mechanism
-from gruebler.teaching.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
+from gruebler.teaching.sheets import Sheet, SizedMechanism, StatedValue, all_sheets, sheet
 from gruebler.teaching.sheets.messages import explanation_paragraphs, typeset_number
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
         case "show":
             return _show(sheet(arguments.id), arguments)
         case "draw":
-            if arguments.id in sheets():
+            if arguments.id in all_sheets():
                 _draw(sheet(arguments.id), arguments)
             else:
                 _draw_machine(arguments)
@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _list(arguments: argparse.Namespace) -> None:
-    records = [each.record for each in sheets().values()]
+    records = [each.record for each in all_sheets().values()]
     items = [
         {
             "id": record.id,

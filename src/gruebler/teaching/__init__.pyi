@@ -16,8 +16,7 @@ from .exercises import (
     task_text,
     teaching_table,
 )
-from .sheets import Sheet, sheet
-from .sheets import sheets as all_sheets
+from .sheets import Sheet, all_sheets, sheet
 from .sheets.expressions import Expression
 from .worksheets import worksheet
 

@@ -12,7 +12,7 @@ import pytest
 from gruebler.base.errors import CatalogError, LinkageError
 from gruebler.pictures.canvas.shapes import TextShape
 from gruebler.teaching.catalog import catalog_folder
-from gruebler.teaching.sheets import sheet, sheets
+from gruebler.teaching.sheets import all_sheets, sheet
 from gruebler.teaching.sheets.expressions import Expression
 from gruebler.teaching.sheets.layout import page
 from gruebler.teaching.sheets.messages import explanation_paragraphs, typeset_number, value_lines
@@ -80,7 +80,7 @@ def test_misprints_are_told():
     assert "l₄* = 40/9·√3 = 7.698004 (the source has 40/3·√3)" in lines
 
 
-@pytest.mark.parametrize("id", sheets())
+@pytest.mark.parametrize("id", all_sheets())
 def test_every_sheet_holds(id):
     one = sheet(id)
     assert one.wrong == ()
@@ -115,7 +115,7 @@ def test_printed_digits(printed, derived, as_printed):
 
 
 @pytest.mark.parametrize("lang", ["en", "de"])
-@pytest.mark.parametrize("id", sheets())
+@pytest.mark.parametrize("id", all_sheets())
 def test_the_page(id, lang):
     made = drawn(id, lang)
     tree = ElementTree.fromstring(made.svg())
@@ -135,7 +135,7 @@ def test_the_page(id, lang):
 
 def test_the_lines_of_the_page_stay_apart():
     """Base lines in one column are a line apart, and the lowest keeps clear of the foot."""
-    for one in sheets().values():
+    for one in all_sheets().values():
         for lang in ("en", "de"):
             words = [item for item in drawn(one.id, lang).items if hasattr(item, "text")]
             for x in {item.x for item in words if item.anchor == "start"}:
@@ -268,7 +268,7 @@ def test_numbers_of_a_language():
     assert typeset_number(-1.25, "en", ".2f") == "−1.25"
 
 
-@pytest.mark.parametrize("id", sheets())
+@pytest.mark.parametrize("id", all_sheets())
 def test_the_picture_of_the_definition(id):
     """Figure 2 of sheet 001: L and Δy, measured in the picture, are those of the example."""
     one = sheet(id)

@@ -13,10 +13,10 @@ from gruebler.teaching.sheets.records import read_sheet
 
 
 @cache
-def sheets() -> Mapping[str, Sheet]:
+def all_sheets() -> Mapping[str, Sheet]:
     """All sheets by id, in alphabetical order.
 
-    >>> sheets()["mzc"].features.drive_joints
+    >>> all_sheets()["mzc"].features.drive_joints
     1
     """
     return {id: Sheet(record) for id, record in RecordFolder(catalog_folder() / "sheets", read_sheet).items()}
@@ -24,11 +24,11 @@ def sheets() -> Mapping[str, Sheet]:
 
 def sheet(id: str) -> Sheet:
     """The sheet of this id; `CatalogError` with the nearest one for any other word."""
-    if id not in sheets():
+    if id not in all_sheets():
         raise CatalogError(
             "there is no sheet {id!r}{suggestion}; known are {sheets}",
             id=id,
-            suggestion=nearest(id, sheets()),
-            sheets=", ".join(sheets()),
+            suggestion=nearest(id, all_sheets()),
+            sheets=", ".join(all_sheets()),
         )
-    return sheets()[id]
+    return all_sheets()[id]
