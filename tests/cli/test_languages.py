@@ -51,6 +51,7 @@ JSON = {
     "realise": [["lambda"]],
     "sheet": [["list"]],
     "dynamics": [[ENGINE, "--speed", "300", "--range", "0:90:30"]],
+    "balance": [[ENGINE], [ENGINE, "--partly", "crank", "--speed", "60", "--irregularity", "0.1"]],
     "simulate": [[ENGINE, "--until", "0.1", "--at", "10", "--speed", "300", "--rows", "3"]],
     "statics": [["lambda", "--load", "C=0,-10", "--moment", "rocker=5", "--range", "0:90:30"]],
     "synthesise": [["dead-centres", "--swing", "60", "--time-ratio", "1.2"]],

@@ -62,6 +62,9 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
                 "dynamics", message("drive torque, power and joint forces of masses in motion, from a file with loads")
             ),
             Command("simulate", message("how a linkage moves by itself under its loads, springs, weights and motors")),
+            Command(
+                "balance", message("counterweights, springs, flywheels for masses in motion, or why there are none")
+            ),
             Command("curve", message("the path of a point and its special points, straight parts, cognates")),
         ),
     ),

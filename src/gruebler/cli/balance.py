@@ -1,0 +1,178 @@
+"""`gruebler balance`: counterweights, counter-rotating shafts, springs and flywheels for a linkage with masses."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message, number, translate
+from gruebler.cli.drive_rows import given_speeds, turning_drives
+from gruebler.cli.link_names import language_of_names
+from gruebler.cli.linkage_inputs import add_loaded, loaded_linkage
+from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
+from gruebler.cli.tables import print_table, print_text
+from gruebler.mechanics.dynamics.balancing import ForceBalance, balance_forces
+from gruebler.mechanics.dynamics.flywheels import flywheel
+from gruebler.mechanics.dynamics.inverse import inverse_dynamics
+from gruebler.mechanics.dynamics.partial_balance import PartialBalance, balance_partly, shaking_harmonics
+from gruebler.mechanics.dynamics.spring_balance import balance_weights
+from gruebler.mechanics.forces import Spring
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.kinematics.solve import move_quietly
+from gruebler.mechanics.linkages import Linkage, LinkPoint
+
+_PRODUCT = message("{link}: mass times radius {product:.6g} kg·{unit} at {angle:.4g}° on the link")
+_LARGEST = message("Largest shaking force: {before:.6g} N without, {after:.6g} N with them.")
+_SPRING = message("from {first} to {second}: {stiffness:.6g} N/{unit}")
+_FLYWHEEL = message(
+    "Flywheel on the drive: moment of inertia {inertia:.6g} kg·{unit}²; mean torque of the drive {torque:.6g} N·{unit}."
+)
+
+_ROWS = 360
+_HIGHEST = 4
+_ROUNDING = 1e-12  # of the largest force
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Counterweights with which the forces of inertia of a linkage balance each other in every motion, "
+        "or why there are none. Further: the best counterweights where a complete balance is impossible or too heavy, "
+        "shaking forces by multiples of the speed, springs that hold the weights, a flywheel. Masses and loads stand "
+        "in the table [loads] of the file or the catalog entry.",
+        epilog="Examples: gruebler balance wiper; gruebler balance compressor --partly crank; gruebler balance "
+        "press.toml --speed 60 --irregularity 0.02. Exit status: 0 success, 1 a complete balance is impossible, 2 "
+        "wrong usage or unreadable input.",
+    )
+    add_loaded(parser)
+    parser.take(
+        """
+        --on LINK ...  a link that carries a counterweight; repeatable (default: as few as are needed)
+        --radius R float  distance of the counterweights from the pins of their links, in the linkage's unit
+        --partly LINK ...  only the best counterweights on this link, which is pinned to the frame; repeatable
+        --minimax  with --partly the least largest force, in place of the least mean square
+        --springs HEIGHT float  also springs of free length 0 that hold the weights, hung HEIGHT above the pins
+        --irregularity D float  also the flywheel with which the speed varies by no more than D of its mean
+        --speed N float  speed of the drive in rpm (default: that of the loads)
+        --branch
+        """
+    )
+    parser.add_printed(help="print an object with counterweights and what else was asked for")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """The balance that was asked for; 1 if it is impossible."""
+    linkage, loads, usual, _ = loaded_linkage(arguments.linkage, language_of_names(arguments))
+    lang = arguments.lang
+    if arguments.minimax and not arguments.partly:
+        raise GrueblerError("--minimax needs --partly")
+    if arguments.partly and (arguments.on or arguments.radius is not None):
+        raise GrueblerError("--partly has its own links and no radius: leave out --on and --radius")
+    document: dict[str, Any] = {}
+    if arguments.partly:
+        forces = inverse_dynamics(_turn(linkage, _speed(arguments, linkage, usual), arguments.branch), loads)
+        document |= _part_document(
+            balance_partly(forces, arguments.partly, minimax=arguments.minimax), shaking_harmonics(forces, _HIGHEST)
+        )
+    else:
+        document |= _balance_document(balance_forces(linkage, loads, on=arguments.on or None, radius=arguments.radius))
+    if arguments.springs is not None:
+        document["springs"] = [_spring(each) for each in balance_weights(linkage, loads, height=arguments.springs)]
+    if arguments.irregularity is not None:
+        motion = _turn(linkage, _speed(arguments, linkage, usual), arguments.branch, closed=True)
+        document["flywheel"] = asdict(flywheel(motion, loads, arguments.irregularity))
+    if arguments.json:
+        print_json(document | ({} if arguments.partly else {"message": document["message"].explain(lang)}))
+    else:
+        _print(document, linkage.unit, lang)
+    return 0 if document.get("possible", True) else 1
+
+
+def _speed(arguments: argparse.Namespace, linkage: Linkage, usual: float | None) -> float:
+    given = given_speeds([arguments.speed] if arguments.speed is not None else [], turning_drives(linkage))
+    if not given and usual is None:
+        raise GrueblerError("--speed is missing: the forces of inertia grow with its square")
+    return given[0] if given else float(usual or 0.0)
+
+
+def _turn(linkage: Linkage, speed: float, branch: str | None, *, closed: bool = False) -> Motion:
+    """A full turn of the drive at even speed."""
+    if turning_drives(linkage) != [True]:
+        raise GrueblerError("this needs one drive that turns")
+    rows = np.linspace(0, 2 * math.pi, _ROWS + 1)
+    motion = move_quietly(linkage, rows if closed else rows[:-1], branch=branch, speed=speed, order=2)
+    if not motion.complete:
+        raise GrueblerError("the drive does not turn fully, so that its speed cannot be even")
+    return motion
+
+
+# --- output ----------------------------------------------------------------------------------------
+
+
+def _balance_document(balance: ForceBalance) -> dict[str, Any]:
+    weights = [asdict(each) for each in balance.counterweights]
+    return {
+        "possible": balance.possible,
+        "blocked": list(balance.blocked),
+        "counterweights": [{name: value for name, value in each.items() if name != "unit"} for each in weights],
+        "message": balance,
+    }
+
+
+def _part_document(part: PartialBalance, harmonics: Complexes) -> dict[str, Any]:
+    before, after = part.largest
+    exact = np.where(
+        np.abs([harmonics.real, harmonics.imag]) < _ROUNDING * before, 0.0, [harmonics.real, harmonics.imag]
+    )
+    return {
+        "products": {link: list(product) for link, product in part.products.items()},
+        "largest_before": before,
+        "largest_after": after,
+        "bound": part.bound,
+        "harmonics": {str(k - _HIGHEST): pair for k, pair in enumerate(exact.T.tolist())},
+    }
+
+
+def _spring(spring: Spring) -> dict[str, Any]:
+    places = [end for end in spring.between if isinstance(end, LinkPoint)]
+    ends = [{"link": end.link, "place": [end.x, end.y]} for end in places]
+    return {"between": ends, "stiffness": spring.stiffness, "free_length": spring.free_length}
+
+
+def _print(document: dict[str, Any], unit: str, lang: str) -> None:
+    if "message" in document:
+        print_text(document["message"].explain(lang))
+    else:
+        _print_part(document, unit, lang)
+    if "springs" in document:
+        print()
+        print(translate("Springs of free length 0 that hold the weights in every position:", lang))
+    for each in document.get("springs", ()):
+        first, second = (f"{e['link']}:{e['place'][0]:.6g},{e['place'][1]:.6g}" for e in each["between"])
+        text = _SPRING.filled(first=first, second=second, stiffness=each["stiffness"], unit=unit)
+        print(text.in_language(lang))
+    if "flywheel" in document:
+        print()
+        print(_FLYWHEEL.filled(**document["flywheel"], unit=unit).in_language(lang))
+
+
+def _print_part(document: dict[str, Any], unit: str, lang: str) -> None:
+    for link, (x, y) in document["products"].items():
+        angle = math.degrees(math.atan2(y, x))
+        print(_PRODUCT.filled(link=link, product=math.hypot(x, y), unit=unit, angle=angle).in_language(lang))
+    before, after = document["largest_before"], document["largest_after"]
+    print(_LARGEST.filled(before=before, after=after).in_language(lang))
+    print()
+    print(translate("Shaking force without them, as forces that turn with multiples of the speed:", lang))
+    rows = [
+        [n, *(number(value, lang, ".6g") for value in (x, y, math.hypot(x, y)))]
+        for n, (x, y) in document["harmonics"].items()
+    ]
+    print_table([translate("multiple", lang), "x [N]", "y [N]", translate("size [N]", lang)], rows, numbers=range(4))
