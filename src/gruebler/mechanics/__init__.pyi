@@ -1,19 +1,23 @@
 from . import (
     analysis,
+    dynamics,
     forces,
     fourbar,
     geometry,
     kinematics,
     linkages,
     screws,
+    space,
 )
 
 __all__ = [
     "analysis",
+    "dynamics",
     "forces",
     "fourbar",
     "geometry",
     "kinematics",
     "linkages",
     "screws",
+    "space",
 ]
