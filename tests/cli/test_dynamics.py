@@ -46,7 +46,7 @@ def test_an_engine_at_constant_speed(capsys):
     assert columns["power R(frame-crank)"] == pytest.approx(torque * speed / 1000, abs=1e-9 * abs(torque).max())
     assert columns["shaking force x"] == pytest.approx(-MASS * speed**2 * second / 1000, rel=1e-9)
     assert found["peak"] == [pytest.approx(abs(torque).max())]
-    assert found["root_mean_square"] == [pytest.approx(math.sqrt((torque**2).mean()))]
+    assert found["root_mean_square"] == [pytest.approx(math.sqrt((torque[:-1] ** 2).mean()))]  # 360° is 0°
     assert found["disagreement"] < 1e-12
 
 

@@ -93,8 +93,13 @@ class InverseDynamics(Tabled):
 
     @cached_property
     def root_mean_square(self) -> Reals:
-        """The effective effort of each drive, each row counted alike; (drives,): by it motors are chosen for heat."""
-        return np.asarray(np.sqrt(np.nanmean(self.drive**2, axis=0)))
+        """The effective effort of each drive; (drives,): by it motors are chosen for heat.
+
+        The mean over time, by the trapezoidal rule: a closed turn counts its first row, which is its last, once.
+        """
+        held = np.where(np.isfinite(self.drive), self._durations[:, None], 0.0)
+        with np.errstate(invalid="ignore"):
+            return np.asarray(np.sqrt((held * np.nan_to_num(self.drive) ** 2).sum(axis=0) / held.sum(axis=0)))
 
     def explain(self, lang: str = "en") -> str:
         """Each drive's largest effort and where, how well two methods agree, where forces are not determined."""
@@ -116,6 +121,18 @@ class InverseDynamics(Tabled):
             lines.append(_AGREE.filled(part=self.disagreement))
         texts = [*(line.in_language(lang) for line in lines), self.motion.message(lang), self.statics.message(lang)]
         return "\n".join(filter(None, texts))
+
+    @property
+    def _durations(self) -> Reals:
+        """(rows,): the half of the time to the row before and to the one behind, from drives and speeds; else ones."""
+        speeds = speeds_of(self.motion)
+        fastest = np.abs(speeds).max(axis=0, initial=0.0)
+        scale = np.where(fastest > 0, fastest, np.inf)  # a drive at rest says nothing of the time
+        speed = np.linalg.norm(speeds / scale, axis=1)
+        way, both = np.linalg.norm(np.diff(self.motion.drives, axis=0) / scale, axis=1), speed[1:] + speed[:-1]
+        times = np.divide(way, both, out=np.zeros_like(way), where=both > 0)
+        weights = np.append(times, 0.0) + np.append(0.0, times)
+        return weights if weights.any() else np.ones_like(weights)
 
     def _frame_point(self, about: tuple[float, float]) -> Complexes:
         frame = self.motion.linkage.mechanism.frame
