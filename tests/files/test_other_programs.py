@@ -2,6 +2,7 @@
 
 import json
 import re
+from itertools import combinations
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
 
@@ -230,6 +231,12 @@ def apart(*places):
     return all(hypot(a[0] - b[0], a[1] - b[1]) > 5 for k, a in enumerate(places) for b in places[:k])
 
 
+def bent(a, b, c):
+    """Whether three places are not nearly on a line."""
+    first, second = complex(b[0] - a[0], b[1] - a[1]), complex(c[0] - a[0], c[1] - a[1])
+    return abs((first.conjugate() * second).imag) > 0.02 * abs(first) * abs(second)
+
+
 @st.composite
 def linkages(draw, *, slides=True, moving_slots=True):
     """A drawn four-bar, a Jansen-like chain with a multiple joint, slider-cranks, inverted ones, a cylinder."""
@@ -266,6 +273,7 @@ def linkages(draw, *, slides=True, moving_slots=True):
                 DrawnJoint("b", *b, ("3", "1"), slot=turn),
             ]
             drive = DrawnDrive("b", "3", "1")
+    assume(all(bent(*three) for three in combinations((a, b, c, d, e), 3)))  # else assembly modes may meet
     linkage = linkage_of_drawing(PinDrawing(frame="0", joints=tuple(pins), drives=(drive,)), [])
     assume(all(moved(linkage, steps(linkage, part)) is not None for part in (0.0, 0.01, -0.02)))
     return linkage
@@ -274,7 +282,10 @@ def linkages(draw, *, slides=True, moving_slots=True):
 @settings(deadline=None, max_examples=25)
 @given(linkage=linkages(), program=st.sampled_from(["linkage2", "pyslvs", "motiongen", "pmks"]))
 def test_what_is_written_is_read_back(linkage, program):
-    assert_same(linkage, again(linkage, program), 1e-8)
+    left_out = []
+    other = again(linkage, program, left_out)
+    assume(not left_out)  # linkage2 has no drive of a slide on the frame
+    assert_same(linkage, other, 1e-8)
 
 
 @settings(deadline=None, max_examples=15)

@@ -6,10 +6,10 @@ import base64
 import binascii
 import os
 import re
-import tempfile
 from pathlib import Path
 from typing import Any
 
+from gruebler.base.atomic_files import atomic_file, temporary_directory
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, error_in_language, joined, translate
 from gruebler.files.formats import FORMATS, Format
@@ -47,9 +47,10 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     except binascii.Error:
         raise GrueblerError("{path}: expected base64", path=name) from None
     notes: list[Message] = []
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / (re.sub(r'[\x00-\x1f/\\:*?"<>|]', "_", name).strip(". ") or "file")
-        file.write_bytes(data)
+    with temporary_directory() as folder:
+        file = folder / (re.sub(r'[\x00-\x1f/\\:*?"<>|]', "_", name).strip(". ") or "file")
+        with atomic_file(file, durable=False) as stored:
+            stored.write(data)
         try:
             value: Any = read(file, left_out=notes)
         except GrueblerError as error:
@@ -74,8 +75,8 @@ def saved_file(linkage: Linkage, kind: str, lang: str) -> dict[str, str]:
     if form.name in _NO_LINKAGES:
         raise GrueblerError("the format {name} holds no linkage", name=form.name)
     notes: list[Message] = []
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / f"linkage{_ending(form)}"
+    with temporary_directory() as folder:
+        file = folder / f"linkage{_ending(form)}"
         try:
             write(linkage, file, format_name=kind, left_out=notes)
         except GrueblerError as error:

@@ -71,6 +71,7 @@ class CycleSpan:
     def explain(self, lang: str = "en") -> str:
         """How far the drive moves and what stops it, in English or German (``de``).
 
+        >>> from gruebler.mechanics.analysis.drive_cycles import drive_cycle
         >>> from gruebler.mechanics.fourbar import FourBar
         >>> print(drive_cycle(FourBar(65, 70, 40, 70).linkage()).span)
         The drive turns from 25.33° to 109.1°.
