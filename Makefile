@@ -5,8 +5,8 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 INSTALLED := $(VENV)/.installed
 
-.PHONY: help demo test docs messages slow wheel-test test-blas test-lowest test-newest page core test-core core-sanitize \
-	core-sanitize-python torture mutants bench evidence clean
+.PHONY: help demo test docs messages slow wheel-test test-blas lowest-packages test-lowest test-newest page core test-core \
+	core-sanitize core-sanitize-python torture mutants bench evidence clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -111,10 +111,13 @@ BROAD := $(addprefix tests/,cli/test_cli.py cli/test_analyse.py cli/test_structu
 NEWEST ?= $(PYTHON)
 EXTRAS := $(addprefix tests/,structure/atlas/test_building.py structure/enumeration/test_schedulers.py \
 	page/test_widget.py files/test_dxf.py)
-test-lowest:
+# Without the package: beside something else that one core does.
+lowest-packages:
 	@mkdir -p build/lowest
 	@test -x build/lowest/venv/bin/python || $(PYTHON) -m venv build/lowest/venv
 	$(PYTHON) .ci/lowest.py > build/lowest/constraints.txt
+	build/lowest/venv/bin/python -m pip install --quiet --disable-pip-version-check -r build/lowest/constraints.txt
+test-lowest: lowest-packages
 	build/lowest/venv/bin/python -m pip install --quiet --disable-pip-version-check -e ".[test]" \
 		-c build/lowest/constraints.txt
 	build/lowest/venv/bin/python -m pytest -q -n 2 $(BROAD) $(EXTRAS)

@@ -1,9 +1,9 @@
 """Settings that all tests share."""
 
 import os
+from contextlib import suppress
 
 from hypothesis import HealthCheck, settings
-from hypothesis.internal.conjecture import providers
 
 # The fast tests try the same examples on every machine, so that a failure is one of the change at hand; `make slow`
 # draws new ones each time, and more of them.
@@ -18,5 +18,8 @@ settings.register_profile(
 )
 settings.load_profile("gruebler")
 # Hypothesis also tries numbers that stand in loaded modules; which are loaded depends on the tests run before.
-if not new_examples and hasattr(providers, "_local_constants"):
-    providers._get_local_constants = lambda: providers._local_constants
+with suppress(ImportError):  # versions that do not know this
+    from hypothesis.internal.conjecture import providers
+
+    if not new_examples and hasattr(providers, "_local_constants"):
+        providers._get_local_constants = lambda: providers._local_constants
