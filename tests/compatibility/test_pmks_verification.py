@@ -1,9 +1,9 @@
-"""Six machines against figures of the verification of PMKS: places, velocities, accelerations, torques.
+"""Six machines against figures of the verification of PMKS: places, velocities, accelerations, torques, reactions.
 
 The figures are those of its MATLAB programs (PMKS-Web/PMKS_Verification, reference-data/v1, cases/*/matlab), which
 agree with a second program, the C# library of PMKS. Of each machine five samples stand in pmks_verification.json,
 evenly spread over its motion, in metres, seconds, newtons; the machines are built here from the stated places.
-Lengths are compared by the size of the machine, rates by size times speed, torques by the largest.
+Lengths are compared by the size of the machine, rates by size times speed, torques and reactions by the largest.
 """
 
 import json
@@ -99,3 +99,30 @@ def test_torques_with_inertia(id, gravity):
         held = gr.statics(motion, gr.Loads(forces, moments))
         assert held.drive[-1, 0] == pytest.approx(row["torque"][gravity], rel=0, abs=2e-11 * largest)
         assert held.work[-1, 0] == pytest.approx(row["torque"][gravity], rel=0, abs=2e-11 * largest)
+
+
+@pytest.mark.parametrize("gravity", ["no_gravity", "gravity"])
+@pytest.mark.parametrize("id", [id for id, machine in MACHINES.items() if "masses" in machine])
+def test_inverse_dynamics_has_the_torques_and_all_reactions(id, gravity):
+    """The same machines with masses as bodies; a reaction acts on each link of its joint with the stated sign."""
+    machine = MACHINES[id]
+    torques = [row["torque"][gravity] for row in machine["rows"]]
+    largest = max(np.hypot(*force) for row in machine["rows"] for force in row["reactions"][gravity].values())
+    load, weight = machine["load"], machine["gravity"] if gravity == "gravity" else (0, 0)
+    for row, torque in zip(machine["rows"], torques, strict=True):
+        motion = followed(machine, row)
+        points = motion.linkage.points
+        at = {link: points[f"centre of {link}"] for link in machine["masses"]}
+        bodies = {k: gr.RigidBody(m["mass"], (at[k].x, at[k].y), m["inertia"]) for k, m in machine["masses"].items()}
+        loads = gr.Loads({f"centre of {load['link']}": load["force"]}, bodies=bodies, gravity=weight)
+        run = gr.inverse_dynamics(motion, loads)
+        for found in (run.drive, run.motion_effort):  # by equilibrium and by the equations of motion
+            assert found[-1, 0] == pytest.approx(torque, rel=0, abs=1e-11 * np.abs(torques).max())
+        names = {joint["id"]: f"R({'-'.join(joint['links'])})" for joint in machine["joints"]}
+        for link, signs in machine["reaction_signs"].items():
+            for joint, sign in signs.items():
+                found = sign * run.statics.force(names[joint], link)[-1]
+                assert found == pytest.approx(row["reactions"][gravity][joint], rel=0, abs=1e-11 * largest), (
+                    joint,
+                    link,
+                )
