@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+from scipy.special import ellipk
 
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.dynamics import EquationsOfMotion, equilibria, influences_of, linearised, simulate
@@ -179,6 +181,33 @@ def test_double_pendulum():
     assert swing.drives[-1] == pytest.approx([a, b - a], abs=1e-10)
 
 
+@pytest.mark.parametrize("amplitude", [0.1, 1.5, 3.0])
+def test_a_pendulum_of_any_amplitude_has_the_period_of_the_elliptic_integral(amplitude):
+    """A quarter of 4 sqrt(l/g) K(sin²(a/2)) leads from rest at the amplitude to the lowest place; there v² = 2gh.
+
+    The pendulum is a crank; the coupler and the rocker that it carries along have no mass.
+    """
+    loads = Loads(masses={LinkPoint("crank", 20.0, 0.0): 2.0}, gravity=(0, -9.81))
+    natural, start = np.sqrt(9.81 / 0.02), amplitude - np.pi / 2  # from the x-axis
+    quarter = ellipk(np.sin(amplitude / 2) ** 2) / natural
+    times, linkage = [quarter, 2 * quarter], FourBar(25, 70, 40, 70)
+    swing = simulate(linkage, loads, branch="+", at=start, until=2 * quarter, times=times, tolerance=1e-12)
+    assert swing.drives[:, 0] == pytest.approx([-np.pi / 2, -amplitude - np.pi / 2], abs=1e-9)
+    assert swing.speeds[0, 0] == pytest.approx(-2 * natural * np.sin(amplitude / 2), rel=1e-9)
+    assert swing.defect < 1e-10
+
+
+def test_small_motions_of_a_double_pendulum():
+    """Masses m, m on rods l, l that hang: w² = (2 ± sqrt 2) g/l (Landau, Lifshitz, Mechanics, §23, problem 2)."""
+    mechanism = Mechanism.parse("R(0-1) R(1-2); frame=0; drive=R(0-1); drive=R(1-2)")
+    linkage = Linkage.from_drawing(mechanism, {"R(0-1)": (0, 0), "R(1-2)": (0.4, 0)}, {"E": ("2", 0.8, 0)}, unit="m")
+    loads = Loads(masses={LinkPoint("1", 0.4, 0.0): 3.0, "E": 3.0}, gravity=(0, -9.81))
+    found = linearised(linkage, loads, at=[-np.pi / 2, 0.0])
+    wanted = np.sqrt((2 + np.array([-1, 1]) * np.sqrt(2)) * 9.81 / 0.4)
+    assert np.sort(found.frequencies) * 2 * np.pi == pytest.approx(wanted, rel=1e-11)
+    assert simulate(linkage, loads, at=[-1.0, 0.5], until=1.0, times=[0.5, 1.0], tolerance=1e-12).defect < 1e-10
+
+
 def test_explicit_and_implicit_agree_and_the_work_of_motor_and_damper_is_kept_account_of():
     rocker = {"rocker": RigidBody(0.1, (20, 0), 20.0)}
     loads = Loads(
@@ -272,6 +301,36 @@ def test_pendulum_equilibria_and_frequencies():
     assert np.cos([up.drives[0], down.drives[0]]) == pytest.approx([0, 0], abs=1e-12)
     assert down.frequencies == pytest.approx([np.sqrt(9.81 * 2 / (5 / 3)) / (2 * np.pi)], rel=1e-10)
     assert up.eigenvalues.real.max() == pytest.approx(np.sqrt(9.81 * 2 / (5 / 3)), rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("damping", "value", "digits"),
+    [(0.0, 2.14767663837j, 1e-11), (1.0, -0.2423858093 + 2.1339550282j, 1e-10)],
+)
+def test_four_bar_with_diagonal_spring_as_printed(damping, value, digits):
+    """The benchmark of IFToMM of this name: data, equilibrium and eigenvalues as in EoM (B. Minaker, eom_pkg, 2016).
+
+    Rods of 1 m and 1 kg, 9.81 m/s², 25 N/m on the diagonal. EoM needs no free length; that of a square, sqrt(2) m,
+    is the one that has the printed equilibrium, by hand: 2 g cos q = k (2 cos(q/2) - sqrt 2) sin(q/2), which the
+    printed angle fulfils to 4e-11.
+    """
+    mechanism, printed = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)"), 2.23433101898
+    places = [0j, turned(2.2), 1 + turned(2.2), 1 + 0j]
+    linkage = Linkage.from_drawing(
+        mechanism, dict(zip(mechanism.chain.joint_names(), map(xy, places), strict=True)), unit="m"
+    )
+    rod = RigidBody(1.0, (0.5, 0), 1 / 12)
+    middle = linkage.element("R(1-2)", "2").place, linkage.element("R(2-3)", "2").place
+    coupler = RigidBody(1.0, xy(sum(complex(*place) for place in middle) / 2), 1 / 12)
+    spring = Spring(("R(0-1)", "R(2-3)"), stiffness=25.0, free_length=np.sqrt(2), damping=damping)
+    loads = Loads(bodies={"1": rod, "2": coupler, "3": rod}, springs=(spring,), gravity=(0, -9.81))
+    found = linearised(linkage, loads, at=printed)
+    assert sorted(found.eigenvalues, key=np.imag) == pytest.approx([np.conj(value), value], rel=0, abs=digits)
+    nearest = min(equilibria(linkage, loads), key=lambda one: abs(one.drives[0] - printed))
+    assert nearest.stable
+    assert nearest.drives[0] == pytest.approx(printed, rel=0, abs=4e-11)
+    exact = brentq(lambda q: 19.62 * np.cos(q) - 25 * (2 * np.cos(q / 2) - np.sqrt(2)) * np.sin(q / 2), 2.2, 2.3)
+    assert nearest.drives[0] == pytest.approx(exact, rel=0, abs=1e-11)
 
 
 def test_four_bar_with_diagonal_spring_by_two_ways():
