@@ -10,7 +10,7 @@ import cmath
 from math import radians
 
 from gruebler.base.text import message
-from gruebler.pictures.canvas.construction import Construction, Dot
+from gruebler.pictures.canvas.construction import Construction
 from gruebler.teaching.constructions.velocities import (
     VectorPlan,
     VelocityPolygon,
@@ -32,45 +32,50 @@ def accelerations_of_four_bar(
 ) -> Construction:
     """The polygon a_B = a_A + a_BAn + a_BAt = a_Bn + a_Bt, the crank turning evenly."""
     polygon = four_bar_velocities(message("Accelerations of a four-bar"), a, b, c, d, phi, omega, 0.2)
-    a0, pin, joint, b0 = polygon.pins
-    v_a, v_b = polygon.known, polygon.sought
-    a_a, n_ba, n_b = _towards(pin - a0, v_a), _towards(joint - pin, v_b - v_a), _towards(joint - b0, v_b)
-    plan = _coupler_plan(polygon, a_a, n_ba)
-    plan.board.step(
-        message("From the pole p_a: a_Bn = v_B²/c = {n:.5g} towards B₀.", n=abs(n_b)), plan.arrow("a_Bn", 0, n_b)
-    )
+    _, pin, joint, b0 = polygon.plan.pins
+    plan, a_a, n_ba = _coupler_plan(polygon)
+    n_b = _towards(joint - b0, polygon.sought)
+    plan.draw(message("From the pole p_a: a_Bn = v_B²/c = {n:.5g} towards B₀.", n=abs(n_b)), ("a_Bn", 0, n_b))
     text = message(
         "The tangential parts are perpendicular to AB, through the tip of a_BAn, and perpendicular to B₀B, "
         "through the tip of a_Bn."
     )
     a_b = plan.meet(text, a_a + n_ba, 1j * (joint - pin), n_b, 1j * (joint - b0))
     t_ba, t_b = a_b - a_a - n_ba, a_b - n_b
-    plan.board.step(
+    plan.draw(
         message(
             "They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}, a_Bt = {t_b:.5g}.",
             a_b=abs(a_b),
             t_ba=abs(t_ba),
             t_b=abs(t_b),
         ),
-        plan.arrow("a_BAt", a_a + n_ba, a_b),
-        plan.arrow("a_Bt", n_b, a_b),
-        plan.arrow("a_B", 0, a_b),
-        Dot(plan.at(a_b), "b"),
+        ("a_BAt", a_a + n_ba, a_b),
+        ("a_Bt", n_b, a_b),
+        ("a_B", 0, a_b),
+        tip="b",
     )
     return plan.board.done(
-        a_A=abs(a_a), a_B=abs(a_b), a_BAn=abs(n_ba), a_BAt=abs(t_ba), a_Bn=abs(n_b), a_Bt=abs(t_b), v_B=abs(v_b)
+        a_A=abs(a_a),
+        a_B=abs(a_b),
+        a_BAn=abs(n_ba),
+        a_BAt=abs(t_ba),
+        a_Bn=abs(n_b),
+        a_Bt=abs(t_b),
+        v_B=abs(polygon.sought),
     )
 
 
 def _plan(polygon: VelocityPolygon, longest: float) -> VectorPlan:
     """A polygon of accelerations below that of the velocities."""
-    return VectorPlan(polygon.board, polygon.pins, longest, 1.5, "acceleration")
+    return VectorPlan(polygon.plan.board, polygon.plan.pins, longest, 1.5, "acceleration")
 
 
-def _coupler_plan(polygon: VelocityPolygon, a_a: complex, n_ba: complex) -> VectorPlan:
-    """The polygon with the parts that are known of a coupler."""
+def _coupler_plan(polygon: VelocityPolygon) -> tuple[VectorPlan, complex, complex]:
+    """The polygon with the parts that are known of a coupler: a_A and a_BAn."""
+    a0, pin, joint, *_ = polygon.plan.pins
+    a_a, n_ba = _towards(pin - a0, polygon.known), _towards(joint - pin, polygon.sought - polygon.known)
     plan = _plan(polygon, abs(a_a))
-    plan.board.step(
+    plan.draw(
         message(
             "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from its "
             "tip a_BAn = v_BA²/b = {n:.5g}, from B towards A.",
@@ -78,27 +83,29 @@ def _coupler_plan(polygon: VelocityPolygon, a_a: complex, n_ba: complex) -> Vect
             scale=1 / plan.scale,
             n=abs(n_ba),
         ),
-        Dot(plan.pole, "p_a"),
-        plan.arrow("a_A", 0, a_a),
-        plan.arrow("a_BAn", a_a, a_a + n_ba),
+        ("a_A", 0, a_a),
+        ("a_BAn", a_a, a_a + n_ba),
+        pole="p_a",
     )
-    return plan
+    return plan, a_a, n_ba
 
 
-def _crank_plan(polygon: VelocityPolygon, a_a: complex) -> VectorPlan:
+def _crank_plan(polygon: VelocityPolygon) -> tuple[VectorPlan, complex]:
     """The polygon with the acceleration of the crank's pin."""
+    a0, pin, *_ = polygon.plan.pins
+    a_a = _towards(pin - a0, polygon.known)
     plan = _plan(polygon, abs(a_a))
-    plan.board.step(
+    plan.draw(
         message(
             "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s².",
             a_a=abs(a_a),
             scale=1 / plan.scale,
         ),
-        Dot(plan.pole, "p_a"),
-        plan.arrow("a_A", 0, a_a),
-        Dot(plan.at(a_a), "a"),
+        ("a_A", 0, a_a),
+        pole="p_a",
+        tip="a",
     )
-    return plan
+    return plan, a_a
 
 
 def accelerations_of_slider_crank(
@@ -106,22 +113,20 @@ def accelerations_of_slider_crank(
 ) -> Construction:
     """The polygon a_B = a_A + a_BAn + a_BAt, a_B along the line of the slider, the crank turning evenly."""
     polygon = slider_crank_velocities(message("Accelerations of a slider-crank"), a, b, e, phi, omega, 0.2)
-    a0, pin, joint = polygon.pins
-    v_a, v_b = polygon.known, polygon.sought
-    a_a, n_ba = _towards(pin - a0, v_a), _towards(joint - pin, v_b - v_a)
-    plan = _coupler_plan(polygon, a_a, n_ba)
+    _, pin, joint = polygon.plan.pins
+    plan, a_a, n_ba = _coupler_plan(polygon)
     text = message(
         "a_BAt is perpendicular to AB, through the tip of a_BAn; a_B lies along the line of the slider, through p_a."
     )
     a_b = plan.meet(text, a_a + n_ba, 1j * (joint - pin), 0, 1 + 0j)
     t_ba = a_b - a_a - n_ba
-    plan.board.step(
+    plan.draw(
         message("They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}.", a_b=abs(a_b), t_ba=abs(t_ba)),
-        plan.arrow("a_BAt", a_a + n_ba, a_b),
-        plan.arrow("a_B", 0, a_b),
-        Dot(plan.at(a_b), "b"),
+        ("a_BAt", a_a + n_ba, a_b),
+        ("a_B", 0, a_b),
+        tip="b",
     )
-    return plan.board.done(a_A=abs(a_a), a_B=abs(a_b), a_BAn=abs(n_ba), a_BAt=abs(t_ba), v_B=abs(v_b))
+    return plan.board.done(a_A=abs(a_a), a_B=abs(a_b), a_BAn=abs(n_ba), a_BAt=abs(t_ba), v_B=abs(polygon.sought))
 
 
 def accelerations_of_inverted_slider_crank(
@@ -130,28 +135,29 @@ def accelerations_of_inverted_slider_crank(
     """The polygon a_A = a_Cn + a_Ct + a_Cor + a_rel with Coriolis' acceleration, the crank turning evenly."""
     title = message("Accelerations of an inverted slider-crank, with Coriolis")
     polygon = lever_velocities(title, a, d, phi, omega, 0.2)
-    a0, pin, b0 = polygon.pins
+    _, pin, b0 = polygon.plan.pins
     v_a, v_c, lever = polygon.known, polygon.sought, pin - b0
-    a_a, n_c = _towards(pin - a0, v_a), _towards(lever, v_c)
+    n_c = _towards(lever, v_c)
     turn = (v_c / (1j * lever)).real
     coriolis = 2j * turn * (v_a - v_c)
-    plan, known = _crank_plan(polygon, a_a), n_c + coriolis
-    plan.board.step(
+    known = n_c + coriolis
+    plan, a_a = _crank_plan(polygon)
+    plan.draw(
         message(
             "a_Cn = v_C²/B₀A = {n:.5g} towards B₀, from p_a; from its tip Coriolis' acceleration 2 ω₄ v_rel = "
             "{cor:.5g}: v_rel turned by 90° in the sense of ω₄.",
             n=abs(n_c),
             cor=abs(coriolis),
         ),
-        plan.arrow("a_Cn", 0, n_c),
-        plan.arrow("a_Cor", n_c, known),
+        ("a_Cn", 0, n_c),
+        ("a_Cor", n_c, known),
     )
     text = message(
         "a_Ct is perpendicular to the lever, through the tip of a_Cor; a_rel lies along the lever, through a."
     )
     tip = plan.meet(text, known, 1j * lever, a_a, lever)
     t_c, rel = abs(tip - known), abs(a_a - tip)
-    plan.board.step(
+    plan.draw(
         message(
             "They meet: a_Ct = {t:.5g}, a_rel = {rel:.5g}. The lever's angular acceleration is α₄ = a_Ct / B₀A = "
             "{alpha:.4g} 1/s².",
@@ -159,8 +165,8 @@ def accelerations_of_inverted_slider_crank(
             rel=rel,
             alpha=t_c / abs(lever),
         ),
-        plan.arrow("a_Ct", known, tip),
-        plan.arrow("a_rel", tip, a_a),
+        ("a_Ct", known, tip),
+        ("a_rel", tip, a_a),
     )
     return plan.board.done(
         a_A=abs(a_a), a_Cor=abs(coriolis), a_Ct=t_c, a_rel=rel, alpha_lever=t_c / abs(lever), omega_lever=abs(turn)
@@ -170,22 +176,21 @@ def accelerations_of_inverted_slider_crank(
 def accelerations_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 55, omega: float = 10) -> Construction:
     """The polygon a_A = a_C + a_rel: the yoke does not turn, so there is no Coriolis' acceleration."""
     polygon = yoke_velocities(message("Accelerations of a Scotch yoke"), a, slot, phi, omega, 0.2)
-    a_a = _towards(polygon.pins[1] - polygon.pins[0], polygon.known)
-    plan = _crank_plan(polygon, a_a)
+    plan, a_a = _crank_plan(polygon)
     text = message(
         "a_C lies along the guide, through p_a; a_rel lies along the slot, through a. The yoke does not turn: "
         "there is no Coriolis' acceleration."
     )
     a_c = plan.meet(text, 0, 1 + 0j, a_a, cmath.rect(1.0, radians(slot)))
-    plan.board.step(
+    plan.draw(
         message(
             "They meet in c: a_C = {a_c:.5g}, the acceleration of the whole yoke; a_rel = {rel:.5g}.",
             a_c=abs(a_c),
             rel=abs(a_a - a_c),
         ),
-        plan.arrow("a_C", 0, a_c),
-        plan.arrow("a_rel", a_c, a_a),
-        Dot(plan.at(a_c), "c"),
+        ("a_C", 0, a_c),
+        ("a_rel", a_c, a_a),
+        tip="c",
     )
     return plan.board.done(a_A=abs(a_a), a_C=abs(a_c), a_rel=abs(a_a - a_c), v_C=abs(polygon.sought))
 
@@ -193,11 +198,10 @@ def accelerations_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 5
 def accelerations_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: float = 2) -> Construction:
     """The polygon a_B = a_Cn + a_Cor + a_rel with Coriolis' acceleration, the lever turning evenly."""
     polygon = tangent_velocities(message("Accelerations of a tangent mechanism, with Coriolis"), d, phi, omega, 0.2)
-    arm = polygon.pins[1] - polygon.pins[0]
-    v_c, v_b = polygon.known, polygon.sought
-    n_c, coriolis = _towards(arm, v_c), 2j * omega * (v_b - v_c)
+    arm = polygon.plan.pins[1] - polygon.plan.pins[0]
+    n_c, coriolis = _towards(arm, polygon.known), 2j * omega * (polygon.sought - polygon.known)
     plan, known = _plan(polygon, max(abs(n_c), abs(coriolis))), n_c + coriolis
-    plan.board.step(
+    plan.draw(
         message(
             "Accelerations: a_Cn = A₀B ω² = {n:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from "
             "its tip Coriolis' acceleration 2 ω v_rel = {cor:.5g}: v_rel turned by 90° in the sense of ω.",
@@ -205,17 +209,17 @@ def accelerations_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: fl
             scale=1 / plan.scale,
             cor=abs(coriolis),
         ),
-        Dot(plan.pole, "p_a"),
-        plan.arrow("a_Cn", 0, n_c),
-        plan.arrow("a_Cor", n_c, known),
+        ("a_Cn", 0, n_c),
+        ("a_Cor", n_c, known),
+        pole="p_a",
     )
     text = message("a_rel lies along the lever, through the tip of a_Cor; a_B lies along the guide, through p_a.")
     a_b = plan.meet(text, known, arm, 0, 1 + 0j)
     rel = abs(a_b - known)
-    plan.board.step(
+    plan.draw(
         message("They meet in b: a_B = {a_b:.5g}, a_rel = {rel:.5g}.", a_b=abs(a_b), rel=rel),
-        plan.arrow("a_rel", known, a_b),
-        plan.arrow("a_B", 0, a_b),
-        Dot(plan.at(a_b), "b"),
+        ("a_rel", known, a_b),
+        ("a_B", 0, a_b),
+        tip="b",
     )
-    return plan.board.done(a_Cn=abs(n_c), a_Cor=abs(coriolis), a_B=abs(a_b), a_rel=rel, v_B=abs(v_b))
+    return plan.board.done(a_Cn=abs(n_c), a_Cor=abs(coriolis), a_B=abs(a_b), a_rel=rel, v_B=abs(polygon.sought))
