@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
+from itertools import pairwise
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message
-from gruebler.pictures.canvas.construction import Construction, ConstructionStep, Drawn
+from gruebler.pictures.canvas.construction import Construction, ConstructionStep, Drawn, Segment
 
 _PARALLEL = 1e-12  # sine of an angle: lines at a smaller angle do not meet on paper
 
@@ -26,6 +27,20 @@ class Board:
     def done(self, **values: float) -> Construction:
         """The construction with the values measured in it."""
         return Construction(self.title, tuple(self.steps), values)
+
+
+def segments(style: str, *places: complex) -> tuple[Segment, ...]:
+    """The lines from each place to the next."""
+    return tuple(Segment(begin, end, style) for begin, end in pairwise(places))
+
+
+def coordinates(**places: complex) -> dict[str, float]:
+    """The values x and y of places, each by its name.
+
+    >>> coordinates(P=1 + 2j)
+    {'x_P': 1.0, 'y_P': 2.0}
+    """
+    return {f"{axis}_{name}": part for name, z in places.items() for axis, part in (("x", z.real), ("y", z.imag))}
 
 
 def meet_left(centre: complex, radius: float, other: complex, other_radius: float) -> complex:

@@ -7,19 +7,29 @@ from math import degrees, pi, radians
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import message
-from gruebler.mechanics.fourbar import FourBar
-from gruebler.pictures.canvas.construction import Angle, Construction, Dot, DrawnCircle, DrawnCurve, DrawnLine, Segment
+from gruebler.pictures.canvas.construction import (
+    Angle,
+    Construction,
+    Dot,
+    Drawn,
+    DrawnCircle,
+    DrawnCurve,
+    DrawnLine,
+    Segment,
+)
 from gruebler.teaching.constructions.compass import (
     Board,
     along,
     circle_through,
+    coordinates,
     degrees_between,
     line_meets_circle,
     lines_meet,
     meet_left,
     mirrored,
+    segments,
 )
-from gruebler.teaching.constructions.given_linkages import four_bar_given
+from gruebler.teaching.constructions.given_linkages import check_that_crank_turns, four_bar_given
 
 _HELPER = cmath.rect(1.0, 0.9)  # direction of the auxiliary line of a third proportional, against the ray
 _FINE = 360
@@ -29,14 +39,15 @@ def _coupler_point(pin: complex, joint: complex, u: float, v: float) -> complex:
     return pin + complex(u, v) * (joint - pin) / abs(joint - pin)
 
 
+def _trace_triangle(pin: complex, joint: complex, point: complex) -> tuple[Drawn, ...]:
+    return Segment(pin, point, "edge"), Segment(joint, point, "edge"), Dot(point, "K")
+
+
 def coupler_curve_by_points(
     a: float = 30, b: float = 90, c: float = 100, d: float = 120, u: float = 45, v: float = 40, step: float = 30
 ) -> Construction:
     """The path of a coupler point in numbered positions, with the trace triangle."""
-    if "a" not in FourBar(a, b, c, d).turning:
-        raise LinkageError(
-            "the crank of the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} does not turn", a=a, b=b, c=c, d=d
-        )
+    check_that_crank_turns(a, b, c, d)
     if not 5 <= step <= 120 or abs(360 / step - round(360 / step)) > 1e-9:
         raise LinkageError("step must divide 360° and lie from 5 to 120, not {step!r}", step=step)
     board = Board(message("Coupler curve, point by point"))
@@ -57,9 +68,7 @@ def coupler_curve_by_points(
             l=abs(first - joints[0]),
         ),
         *(Dot(z, name) for z, name in ((a0, "A₀"), (b0, "B₀"), (pins[0], "A"), (joints[0], "B"), (first, "K"))),
-        Segment(a0, pins[0], "edge"),
-        Segment(pins[0], joints[0], "edge"),
-        Segment(joints[0], b0, "edge"),
+        *segments("edge", a0, pins[0], joints[0], b0),
         Segment(pins[0], first, "edge"),
         Segment(joints[0], first, "edge"),
     )
@@ -167,24 +176,14 @@ def inflection_circle(
             "KP², gives the centre of curvature K₀ of its path and the radius {radius:.4g}.",
             radius=abs(centre - point),
         ),
-        Segment(pin, point, "edge"),
-        Segment(joint, point, "edge"),
+        *_trace_triangle(pin, joint, point),
         DrawnLine(pole, point - pole),
         Segment(carried, inflection),
         Segment(pole, cut),
-        Dot(point, "K"),
         Dot(inflection, "J"),
         Dot(centre, "K₀"),
     )
-    return board.done(
-        diameter=2 * abs(middle - pole),
-        x_P=pole.real,
-        y_P=pole.imag,
-        x_W=top.real,
-        y_W=top.imag,
-        x_K0=centre.real,
-        y_K0=centre.imag,
-    )
+    return board.done(diameter=2 * abs(middle - pole), **coordinates(P=pole, W=top, K0=centre))
 
 
 def bobillier(
@@ -232,17 +231,15 @@ def bobillier(
             x=centre.real,
             y=centre.imag,
         ),
-        Segment(pin, point, "edge"),
-        Segment(joint, point, "edge"),
+        *_trace_triangle(pin, joint, point),
         DrawnLine(pole, ray_k),
         DrawnLine(pole, second_axis),
         DrawnLine(pin, point - pin),
         DrawnLine(a0, crossing - a0),
-        Dot(point, "K"),
         Dot(crossing, "Q_K"),
         Dot(centre, "K₀"),
     )
-    return board.done(tangent=degrees(cmath.phase(tangent)) % 180, x_K0=centre.real, y_K0=centre.imag)
+    return board.done(tangent=degrees(cmath.phase(tangent)) % 180, **coordinates(K0=centre))
 
 
 def roberts_cognates(
@@ -254,17 +251,13 @@ def roberts_cognates(
     point = _coupler_point(pin, joint, u, v)
     board.step(
         message("The coupler point K and the coupler triangle ABK."),
-        Segment(pin, point, "edge"),
-        Segment(joint, point, "edge"),
-        Dot(point, "K"),
+        *_trace_triangle(pin, joint, point),
     )
     first, second = a0 + point - pin, b0 + point - joint
     board.step(
         message("Parallelograms A₀AKA′ and B₀BKB″."),
-        Segment(a0, first, "line-6"),
-        Segment(first, point, "line-6"),
-        Segment(b0, second, "line-7"),
-        Segment(second, point, "line-7"),
+        *segments("line-6", a0, first, point),
+        *segments("line-7", b0, second, point),
         Dot(first, "A′"),
         Dot(second, "B″"),
     )

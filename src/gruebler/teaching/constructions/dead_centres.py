@@ -8,15 +8,26 @@ from math import degrees, pi
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import message
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
-from gruebler.pictures.canvas.construction import Angle, Construction, Dot, DrawnCircle, DrawnLine, Segment, quantity
+from gruebler.pictures.canvas.construction import (
+    Angle,
+    Construction,
+    Dot,
+    Drawn,
+    DrawnCircle,
+    DrawnLine,
+    Segment,
+    quantity,
+)
 from gruebler.teaching.constructions.compass import (
     Board,
     along,
     degrees_between,
     line_meets_circle,
     meet_left,
+    segments,
     turned_angle,
 )
+from gruebler.teaching.constructions.given_linkages import check_that_crank_turns
 
 
 def _crank_rocker_given(board: Board, a: float, b: float, c: float, d: float) -> tuple[complex, complex]:
@@ -74,10 +85,8 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
     pin_inner = along(a0, inner, -a)
     board.step(
         message("The lines A₀B_a and A₀B_i meet the crank's circle in A_a and, beyond A₀, in A_i."),
-        Segment(a0, outer, "edge"),
-        Segment(outer, b0, "edge"),
-        Segment(pin_inner, inner, "ghost"),
-        Segment(inner, b0, "ghost"),
+        *segments("edge", a0, outer, b0),
+        *segments("ghost", pin_inner, inner, b0),
         Dot(pin_outer, "A_a"),
         Dot(pin_inner, "A_i"),
     )
@@ -108,12 +117,10 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
     )
 
 
-def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) -> Construction:
-    """Both dead centres: the circles b - a and b + a about A0 meet the line of the slider."""
+def _turning_slider_crank_given(board: Board, a: float, b: float, e: float, end: float, *drawn: Drawn) -> complex:
+    """The step with the given lengths, the circle of the crank and the line of the slider; returns A0."""
     if SliderCrank(a, b, e).dead_centres is None:
         raise LinkageError("the crank of the slider-crank a = {a:g}, b = {b:g}, e = {e:g} does not turn", a=a, b=b, e=e)
-    board = Board(message("Dead centres of a slider-crank"))
-    a0, rail = 0j, complex(0, e)
     board.step(
         message(
             "Given: the crank a = {a:g} about A₀, the coupler b = {b:g}, the line of the slider at the distance "
@@ -122,11 +129,20 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
             b=b,
             e=abs(e),
         ),
-        Dot(a0, "A₀"),
-        DrawnCircle(a0, a, "curve-rest"),
-        Segment(complex(-a, e), complex(a + b + 0.2 * a, e), "given"),
-        *([Segment(a0, rail, "help", quantity("e", abs(e)))] if e else []),
+        Dot(0j, "A₀"),
+        DrawnCircle(0j, a, "curve-rest"),
+        Segment(complex(-a, e), complex(end, e), "given"),
+        *drawn,
     )
+    return 0j
+
+
+def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) -> Construction:
+    """Both dead centres: the circles b - a and b + a about A0 meet the line of the slider."""
+    board = Board(message("Dead centres of a slider-crank"))
+    rail = complex(0, e)
+    offset = [Segment(0j, rail, "help", quantity("e", abs(e)))] if e else []
+    a0 = _turning_slider_crank_given(board, a, b, e, a + b + 0.2 * a, *offset)
     _, outer = line_meets_circle(rail, 1 + 0j, a0, b + a)
     board.step(
         message(
@@ -183,10 +199,7 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
 
 def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d: float = 50) -> Construction:
     """The extremes of the transmission angle: the crank lies on the line of the frame."""
-    if "a" not in FourBar(a, b, c, d).turning:
-        raise LinkageError(
-            "the crank of the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} does not turn", a=a, b=b, c=c, d=d
-        )
+    check_that_crank_turns(a, b, c, d)
     board = Board(message("Extremes of the transmission angle of a crank-rocker"))
     a0, b0 = _crank_rocker_given(board, a, b, c, d)
     places, folded = [], []
@@ -214,8 +227,7 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
             ),
             DrawnCircle(pin, b),
             DrawnCircle(b0, c),
-            Segment(pin, joint, "edge" if k == 0 else "ghost"),
-            Segment(joint, b0, "edge" if k == 0 else "ghost"),
+            *segments("edge" if k == 0 else "ghost", pin, joint, b0),
             Dot(joint, f"B_{name}"),
             Angle(
                 joint,
@@ -238,22 +250,8 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
 
 def transmission_of_slider_crank(a: float = 30, b: float = 50, e: float = 10) -> Construction:
     """The extreme of the transmission angle: the crank is perpendicular to the line of the slider."""
-    if SliderCrank(a, b, e).dead_centres is None:
-        raise LinkageError("the crank of the slider-crank a = {a:g}, b = {b:g}, e = {e:g} does not turn", a=a, b=b, e=e)
     board = Board(message("Smallest transmission angle of a slider-crank"))
-    a0, rail = 0j, complex(0, e)
-    board.step(
-        message(
-            "Given: the crank a = {a:g} about A₀, the coupler b = {b:g}, the line of the slider at the distance "
-            "e = {e:g}.",
-            a=a,
-            b=b,
-            e=abs(e),
-        ),
-        Dot(a0, "A₀"),
-        DrawnCircle(a0, a, "curve-rest"),
-        Segment(complex(-a, e), complex(a + b, e), "given"),
-    )
+    a0, rail = _turning_slider_crank_given(board, a, b, e, a + b), complex(0, e)
     pin = complex(0, -a if e >= 0 else a)
     board.step(
         message(

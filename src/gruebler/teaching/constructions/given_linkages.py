@@ -7,8 +7,17 @@ from math import radians
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import message
+from gruebler.mechanics.fourbar import FourBar
 from gruebler.pictures.canvas.construction import Dot, Segment
-from gruebler.teaching.constructions.compass import Board, line_meets_circle, lines_meet, meet_left
+from gruebler.teaching.constructions.compass import Board, line_meets_circle, lines_meet, meet_left, segments
+
+
+def check_that_crank_turns(a: float, b: float, c: float, d: float) -> None:
+    """Raise `LinkageError` for a four-bar whose crank does not turn."""
+    if "a" not in FourBar(a, b, c, d).turning:
+        raise LinkageError(
+            "the crank of the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} does not turn", a=a, b=b, c=c, d=d
+        )
 
 
 def four_bar_given(
@@ -30,9 +39,7 @@ def four_bar_given(
         ),
         *(Dot(z, name) for z, name in ((a0, "A₀"), (b0, "B₀"), (pin, "A"), (joint, "B"))),
         Segment(a0, b0, "dead"),
-        Segment(a0, pin, "edge"),
-        Segment(pin, joint, "edge"),
-        Segment(joint, b0, "edge"),
+        *segments("edge", a0, pin, joint, b0),
     )
     return a0, pin, joint, b0
 
@@ -51,8 +58,7 @@ def slider_crank_given(board: Board, a: float, b: float, e: float, phi: float) -
             phi=phi,
         ),
         *(Dot(z, name) for z, name in ((0j, "A₀"), (pin, "A"), (joint, "B"))),
-        Segment(0j, pin, "edge"),
-        Segment(pin, joint, "edge"),
+        *segments("edge", 0j, pin, joint),
         Segment(joint - 0.6 * a, joint + 0.6 * a, "given"),
     )
     return 0j, pin, joint

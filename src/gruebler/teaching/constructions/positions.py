@@ -7,10 +7,10 @@ from math import radians
 
 from gruebler.base.text import message
 from gruebler.pictures.canvas.construction import Construction, Dot, DrawnCircle, DrawnLine, Segment
-from gruebler.teaching.constructions.compass import Board, circle_through, lines_meet
+from gruebler.teaching.constructions.compass import Board, circle_through, coordinates, lines_meet, segments
 
 
-def _segments(board: Board, places: tuple[tuple[complex, complex], ...], length: float) -> None:
+def _segment_given(board: Board, places: tuple[tuple[complex, complex], ...], length: float) -> None:
     board.step(
         message("Given: the segment AB = {length:g} of a body in {count} positions.", length=length, count=len(places)),
         *(
@@ -32,7 +32,7 @@ def two_positions(
     """Two positions: the pivots lie on the perpendicular bisectors, here where these meet the base line."""
     board = Board(message("Two positions of a body"))
     (a1, b1), (a2, b2) = places = _position(0, 0, 0, length), _position(x2, y2, angle2, length)
-    _segments(board, places, length)
+    _segment_given(board, places, length)
     ways = 1j * (a2 - a1), 1j * (b2 - b1)
     board.step(
         message("The perpendicular bisectors of A₁A₂ and B₁B₂."),
@@ -65,20 +65,11 @@ def two_positions(
         DrawnLine(level, 1 + 0j, "dead"),
         Dot(a0, "A₀"),
         Dot(b0, "B₀"),
-        *(Segment(z, w, "edge") for z, w in ((a0, a1), (a1, b1), (b1, b0))),
-        *(Segment(z, w, "ghost") for z, w in ((a0, a2), (a2, b2), (b2, b0))),
+        *segments("edge", a0, a1, b1, b0),
+        *segments("ghost", a0, a2, b2, b0),
     )
-    return board.done(
-        x_P=pole.real,
-        y_P=pole.imag,
-        x_A0=a0.real,
-        y_A0=a0.imag,
-        x_B0=b0.real,
-        y_B0=b0.imag,
-        a=abs(a1 - a0),
-        c=abs(b1 - b0),
-        d=abs(b0 - a0),
-    )
+    measured = coordinates(P=pole, A0=a0, B0=b0)
+    return board.done(**measured, a=abs(a1 - a0), c=abs(b1 - b0), d=abs(b0 - a0))
 
 
 def three_positions(
@@ -93,7 +84,7 @@ def three_positions(
     """Three positions: the pivots are the centres of the circles through the positions of A and of B."""
     board = Board(message("Three positions of a body"))
     places = (_position(0, 0, 0, length), _position(x2, y2, angle2, length), _position(x3, y3, angle3, length))
-    _segments(board, places, length)
+    _segment_given(board, places, length)
     pivots = []
     for name, points, style in (("A", [p[0] for p in places], "line-6"), ("B", [p[1] for p in places], "line-7")):
         pivot = circle_through(*points)
@@ -108,8 +99,7 @@ def three_positions(
                 x=pivot.real,
                 y=pivot.imag,
             ),
-            Segment(first, second),
-            Segment(second, third),
+            *segments("help", first, second, third),
             DrawnLine((first + second) / 2, 1j * (second - first), style),
             DrawnLine((second + third) / 2, 1j * (third - second), style),
             DrawnCircle(pivot, abs(first - pivot)),
@@ -127,9 +117,7 @@ def three_positions(
             c=abs(b1 - b0),
             d=abs(b0 - a0),
         ),
-        *(Segment(z, w, "edge") for z, w in ((a0, a1), (a1, b1), (b1, b0))),
-        *(Segment(z, w, "ghost") for pin, joint in others for z, w in ((a0, pin), (pin, joint), (joint, b0))),
+        *segments("edge", a0, a1, b1, b0),
+        *(line for pin, joint in others for line in segments("ghost", a0, pin, joint, b0)),
     )
-    return board.done(
-        x_A0=a0.real, y_A0=a0.imag, x_B0=b0.real, y_B0=b0.imag, a=abs(a1 - a0), c=abs(b1 - b0), d=abs(b0 - a0)
-    )
+    return board.done(**coordinates(A0=a0, B0=b0), a=abs(a1 - a0), c=abs(b1 - b0), d=abs(b0 - a0))
