@@ -129,8 +129,8 @@ class InverseDynamics(Tabled):
         fastest = np.abs(speeds).max(axis=0, initial=0.0)
         scale = np.where(fastest > 0, fastest, np.inf)  # a drive at rest says nothing of the time
         speed = np.linalg.norm(speeds / scale, axis=1)
-        way, both = np.linalg.norm(np.diff(self.motion.drives, axis=0) / scale, axis=1), speed[1:] + speed[:-1]
-        times = np.divide(way, both, out=np.zeros_like(way), where=both > 0)
+        travelled, both = np.linalg.norm(np.diff(self.motion.drives, axis=0) / scale, axis=1), speed[1:] + speed[:-1]
+        times = np.divide(travelled, both, out=np.zeros_like(travelled), where=both > 0)
         weights = np.append(times, 0.0) + np.append(0.0, times)
         return weights if weights.any() else np.ones_like(weights)
 
