@@ -461,3 +461,19 @@ def test_the_text_of_a_transmission_angle_crosses_no_line(lengths):
         for shape in figure.shapes:
             for p in drawn_points(shape):
                 assert abs(p.x - text.at.x) > half or abs(p.y - text.at.y) > 5, (text.text, shape.style)
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "key"),
+    [
+        (name, form, key)
+        for name in CONSTRUCTIONS
+        for form, known in construction_forms(name).items()
+        for key in "abcd"
+        if key in known
+    ],
+)
+def test_a_length_that_is_not_positive_is_refused(name, form, key):
+    """It was drawn: circles of the radii b and -b are the same."""
+    with pytest.raises(GrueblerError, match=f"{key} must be positive, not -71"):
+        construction(name, form, **{key: -71.0})

@@ -62,14 +62,21 @@ def crank_ranges(a: float, d: float, least: float, most: float) -> tuple[CrankRa
     inner, outer = abs(d - a) >= least - close, a + d <= most + close
     if a + d < least - close or abs(d - a) > most + close:
         return ()
-    first = 0.0 if inner else triangle_angle(a, d, least)
-    last = math.pi if outer else triangle_angle(a, d, most)
-    if inner and outer:
-        return (CrankRange(0.0, TURN),)
-    if inner:
+    return mirrored_ranges(
+        None if inner else triangle_angle(a, d, least), None if outer else triangle_angle(a, d, most)
+    )
+
+
+def mirrored_ranges(first: float | None, last: float | None) -> tuple[CrankRange, ...]:
+    """The crank angles from ``first`` to ``last``, in 0..pi, and their mirror images; None is no limit on that side.
+
+    >>> mirrored_ranges(None, 1.0)
+    (CrankRange(start=-1.0, end=1.0),)
+    """
+    if last is None:
+        return (CrankRange(0.0, TURN),) if first is None else (CrankRange(first, TURN - first),)
+    if first is None:
         return (CrankRange(-last, last),)
-    if outer:
-        return (CrankRange(first, TURN - first),)
     return (CrankRange(first, last), CrankRange(TURN - last, TURN - first))
 
 

@@ -20,6 +20,7 @@ from gruebler.mechanics.fourbar.extremes import (
     CrankRange,
     DeadCentres,
     clipped_cosine,
+    mirrored_ranges,
     transmission_extremes,
 )
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES, NOT_ASSEMBLABLE, SINGLE_POSITION, LinkageType
@@ -278,11 +279,4 @@ def _crank_ranges(a: float, d: float, least: float, most: float) -> tuple[CrankR
         near, far = _h(reach) - _h(a - d), _h(a + d) - _h(reach)
         return 2 * math.atan2(math.sqrt(max(0.0, near)), math.sqrt(max(0.0, far)))
 
-    first, last = 0.0 if inner else angle(least), math.pi if outer else angle(most)
-    if inner and outer:
-        return (CrankRange(0.0, TURN),)
-    if inner:
-        return (CrankRange(-last, last),)
-    if outer:
-        return (CrankRange(first, TURN - first),)
-    return (CrankRange(first, last), CrankRange(TURN - last, TURN - first))
+    return mirrored_ranges(None if inner else angle(least), None if outer else angle(most))

@@ -11,6 +11,7 @@ from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.text import Message, joined, joined_by_or, message
 from gruebler.design.synthesis.dead_centres import dead_centre_family
 from gruebler.design.synthesis.tasks import DeadCentreTask
+from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.pictures.canvas.construction import Construction
 from gruebler.pictures.designs.alt_construction import alt_steps
 from gruebler.teaching.constructions.accelerations import (
@@ -46,6 +47,7 @@ from gruebler.teaching.constructions.velocities import (
     velocities_of_tangent_mechanism,
 )
 
+_LENGTHS = frozenset("abcd")  # of links; an offset e may have either sign
 Value = float | str
 Maker = Callable[..., Construction]
 
@@ -195,9 +197,10 @@ def _checked(name: str, key: str, value: Value, known: Mapping[str, Value]) -> V
             suggestion=nearest(key, known),
             known=joined(known, ", "),
         )
-    if isinstance(known[key], str) or not isinstance(value, str):
+    if isinstance(known[key], str):
         return value
     try:
-        return float(value.replace(",", "."))
+        number = float(value.replace(",", ".")) if isinstance(value, str) else value
     except ValueError:
         raise GrueblerError("{key}: expected a number, but found {value!r}", key=key, value=value) from None
+    return as_positive(key, number) if key in _LENGTHS else number
