@@ -17,7 +17,7 @@ def test_inversions_of_the_slider_crank_chain_by_name(capsys):
     assert status == 0
     assert document["count"] == 2
     assert {item["family"] for item in document["items"]} == {
-        "slider-crank (sliding lever with the block as frame)",
+        "slider-crank",
         "inverted slider-crank (turning or swinging block)",
     }
     _, out, _ = run(capsys, "inversions", "slidercrank", "--lang", "de", "--drives")

@@ -24,7 +24,7 @@ def texts(figure):
 
 def test_torque_and_power():
     figure = effort_plot(run())
-    assert figure.title == "slider-crank (sliding lever with the block as frame): torque and power of the drive"
+    assert figure.title == "slider-crank: torque and power of the drive"
     assert {"M in N·m", "P in W", "mean"} <= set(texts(figure))
     german = effort_plot(run(), lang="de")
     assert "Moment und Leistung des Antriebs" in german.title

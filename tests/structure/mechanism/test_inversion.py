@@ -71,7 +71,7 @@ def test_two_drives_and_those_that_fix_the_motion():
         (
             SLIDER_CRANK,
             {
-                "slider-crank (sliding lever with the block as frame)",
+                "slider-crank",
                 "inverted slider-crank (turning or swinging block)",
             },
         ),

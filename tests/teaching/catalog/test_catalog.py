@@ -86,6 +86,13 @@ def test_search(query, ids):
     assert {e.id for e in search(query)} == ids
 
 
+def test_search_by_purpose():
+    """The entries that a reader of the teaching documents looks for and did not find by this word."""
+    guides = {e.id for e in search(Query(words=("Führungsgetriebe",)))}
+    assert {"mzc", "conchoid", "crane", "toolbox"} <= guides
+    assert not {"crankrocker", "geneva", "geartrain", "vcomp"} & guides
+
+
 def test_search_by_drive():
     driven = {e.id for e in search(Query(drive="P"))}
     assert {"loader", "crane_cyl", "hubpodium_blocks"} <= driven

@@ -14,7 +14,7 @@ from gruebler.mechanics.fourbar.slider_crank import SliderCrank
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-_BLOCK_AS_FRAME = message("slider-crank (sliding lever with the block as frame)")
+_BLOCK_AS_FRAME = message("slider-crank with the block as frame")
 _RING = "abcd"
 
 

@@ -45,7 +45,7 @@ def effort_plot(run: InverseDynamics, *, lang: str = "en", name: str = "") -> Fi
     >>> from gruebler.mechanics.kinematics import from_degrees, move
     >>> engine = move(SliderCrank(30, 50).linkage(), from_degrees(0, 360, 5), speed=100.0)
     >>> effort_plot(inverse_dynamics(engine, Loads(bodies={"slider": RigidBody(2.0)}))).title
-    'slider-crank (sliding lever with the block as frame): torque and power of the drive'
+    'slider-crank: torque and power of the drive'
     """
     linkage = run.motion.linkage
     across, x = _drive_axis(run.motion)

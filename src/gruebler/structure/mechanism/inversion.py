@@ -170,7 +170,7 @@ def _drive(chain: Chain, freedom: Freedom) -> Drive:
 # of a slide have the same structure, and so have a block that turns and one that swings: dimensions distinguish them.
 _FAMILIES = (
     (message("four-bar linkage"), "R(0-1) R(1-2) R(2-3) R(3-0); frame=0"),
-    (message("slider-crank (sliding lever with the block as frame)"), "R(0-1) R(1-2) R(2-3) P(3-0); frame=0"),
+    (message("slider-crank"), "R(0-1) R(1-2) R(2-3) P(3-0); frame=0"),
     (message("inverted slider-crank (turning or swinging block)"), "R(0-1) R(1-2) P(2-3) R(3-0); frame=0"),
     (message("Scotch yoke"), "R(0-1) R(1-2) P(2-3) P(3-0); frame=0"),
     (message("elliptic trammel (double slider)"), "P(0-1) R(1-2) R(2-3) P(3-0); frame=0"),

@@ -6,9 +6,11 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gruebler.base.text import arity, message
-from gruebler.structure.chain.pairs import Alphabet, Pair
+from gruebler.base.text import Message, arity, message
+from gruebler.structure.chain.pairs import Alphabet, Contact, Pair
 from gruebler.structure.mechanism import Mechanism
+
+_GUIDES, _TRANSMITS = message("guide mechanism"), message("transmits a motion")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,3 +88,24 @@ def access_features(mechanism: Mechanism, outputs: Iterable[str] = ()) -> Access
         joints=sum(counts.values()),
         joints_by_pair=tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0].name))),
     )
+
+
+def guided_links(mechanism: Mechanism, outputs: Iterable[str]) -> tuple[str, ...]:
+    """Those of these output links that are guided: not jointed to the frame, and without a higher pair.
+
+    >>> four_bar = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)")
+    >>> guided_links(four_bar, ["2", "3"])
+    ('2',)
+    """
+    at_frame = {link for joint in mechanism.chain.joints_of(mechanism.frame) for link in joint.links}
+    rolling = {link for j in mechanism.chain.joints if j.pair.contact is Contact.HIGHER for link in j.links}
+    return tuple(link for link in outputs if link not in at_frame | rolling)
+
+
+def purpose(mechanism: Mechanism, outputs: Iterable[str]) -> Message:
+    """What a mechanism with these output links is for: it guides a link, or it transmits a motion.
+
+    >>> print(purpose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)"), ["3"]))
+    transmits a motion
+    """
+    return _GUIDES if guided_links(mechanism, outputs) else _TRANSMITS

@@ -9,10 +9,13 @@ from functools import cache
 from pathlib import Path
 
 from gruebler.base.errors import CatalogError, near_words
+from gruebler.base.text import LANGUAGES
 from gruebler.files.catalog_records import Entry, Exercise, read_entry, read_exercise
 from gruebler.structure.chain.pairs import PAIRS, Pair, pair
+from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mobility import counted
 from gruebler.teaching.catalog.claims import CheckedEntry, WrongClaim, check_claims
+from gruebler.teaching.catalog.features import purpose
 from gruebler.teaching.catalog.record_folders import RecordFolder
 
 
@@ -121,7 +124,7 @@ class Query:
     """A search; None and empty mean no requirement."""
 
     words: tuple[str, ...] = ()
-    """Each must occur in the id, a name, a remark, the source or a link's name, in either language."""
+    """Each must occur in the id, a name, a remark, the source, a link's name or the purpose, in any language."""
     links: int | None = None
     joints: int | None = None
     mobility: int | None = None
@@ -153,9 +156,12 @@ def _meanings(symbol: str) -> set[Pair]:
 
 def _all_text(candidate: Entry) -> str:
     remark = candidate.remark
+    chain = candidate.chain()
+    use = purpose(Mechanism(chain, candidate.frame or chain.links[0]), candidate.outputs)
     parts = [candidate.id, candidate.name.en, candidate.name.de, candidate.source]
     parts += [*candidate.links, *candidate.links.values()]
     parts += [remark.en, remark.de] if remark else []
+    parts += [use.in_language(lang) for lang in LANGUAGES]
     return "\n".join(parts).casefold()
 
 

@@ -16,11 +16,11 @@ from gruebler.base.plain_data import plain
 from gruebler.base.text import LANGUAGES, message
 from gruebler.files.catalog_records import Entry, source_text
 from gruebler.mechanics.linkages import Linkage
-from gruebler.structure.chain.pairs import Alphabet, Contact
+from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.structure.mobility import MobilityReport, mobility_report
 from gruebler.teaching.catalog.feature_query import entry_features, entry_mechanism, features_to_json
-from gruebler.teaching.catalog.features import AccessFeatures
+from gruebler.teaching.catalog.features import AccessFeatures, guided_links
 
 if TYPE_CHECKING:
     from gruebler.mechanics.analysis.measuring import Measures
@@ -90,16 +90,10 @@ class MachineReport:
 
     @property
     def guiding_and_guided(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """The links that guide and those that are guided; both empty for a machine that transmits a motion.
-
-        Guided is an output that is not jointed to the frame and touches no link with a higher pair; the moving links
-        jointed to it guide it.
-        """
-        chain, frame = self.mechanism.chain, self.mechanism.frame
-        beside = {link: {n for j in chain.joints if link in j.links for n in j.links} for link in chain.links}
-        rolling = {link for j in chain.joints if j.pair.contact is Contact.HIGHER for link in j.links}
-        guided = tuple(link for link in self.entry.outputs if frame not in beside[link] and link not in rolling)
-        return tuple(link for link in chain.links if link not in guided and beside[link] & {*guided}), guided
+        """The moving links that guide and the outputs that they guide; both empty if the machine transmits a motion."""
+        chain, guided = self.mechanism.chain, guided_links(self.mechanism, self.entry.outputs)
+        beside = {link for j in chain.joints if {*j.links} & {*guided} for link in j.links}
+        return tuple(link for link in chain.links if link in beside and link not in guided), guided
 
     def explain(self, lang: str = "en") -> str:
         """The report as a text with titled sections, in English (``en``) or German (``de``)."""

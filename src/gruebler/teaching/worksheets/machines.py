@@ -23,7 +23,7 @@ from gruebler.structure.mechanism.inversion import family
 from gruebler.structure.mobility import mobility_report
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.catalog.feature_query import entry_mechanism
-from gruebler.teaching.catalog.features import access_features
+from gruebler.teaching.catalog.features import access_features, purpose
 from gruebler.teaching.worksheets.blocks import Block, Contents, Document, Heading, PageBreak, Paragraph, Pictures, Rows
 
 _POINTS = 3  # paths in one diagram
@@ -196,9 +196,7 @@ def _index(chosen: Mapping[str, Entry], lang: str) -> Iterator[Block]:
                 for pair, _ in features.joints_by_pair
             ),
         ]
-        guided = features.output_links > features.output_links_at_frame
-        kind = translate("guide mechanism", lang) if guided else translate("transmits a motion", lang)
-        marks.append((translate("purpose", lang), kind))
+        marks.append((translate("purpose", lang), purpose(mechanism, entry.outputs).in_language(lang)))
         for mark in marks:
             ids_by_feature.setdefault(mark, []).append(id)
     yield Heading(translate("Index by feature", lang), 1)
