@@ -1,8 +1,14 @@
 """The parser of a command: numbers, and its words in the reader's language."""
 
+import ast
+from collections import Counter
+from pathlib import Path
+
 import pytest
 
-from gruebler.cli import main
+import gruebler.cli
+from gruebler.cli import arguments, main
+from gruebler.cli.arguments import rows_of
 from gruebler.cli.parser import Parser
 
 
@@ -52,3 +58,20 @@ def test_american_spellings_are_taken(capsys, american, british):
     wanted = capsys.readouterr()
     assert main(american) == status
     assert capsys.readouterr() == wanted
+
+
+def _written(path):
+    """The rows that a file of a command writes down, each once."""
+    calls = [node for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.Call)]
+    takes = [c for c in calls if getattr(c.func, "attr", getattr(c.func, "id", "")) == "take"]
+    tables = [a.value for call in takes for a in call.args if isinstance(a, ast.Constant)]
+    return {(row.names, repr(row.settings), row.help) for table in tables for row in rows_of(table)}
+
+
+def test_a_row_that_two_commands_have_is_written_once():
+    files = [path for path in Path(gruebler.cli.__file__).parent.glob("*.py") if path.name != "arguments.py"]
+    rows = Counter(row for path in files for row in _written(path))
+    taken = Counter(row[0][0] for row in rows.elements() if not row[2])
+    assert {row: count for row, count in rows.items() if row[2] and count > 1} == {}
+    assert taken.keys() == arguments._SHARED.keys()
+    assert [name for name, count in taken.items() if count < 2] == []

@@ -17,7 +17,7 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_linkage, linkage_of_word, with_points
+from gruebler.cli.linkage_inputs import linkage_of_word, with_points
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
@@ -53,9 +53,9 @@ def add(parser: Parser) -> None:
         "--range 90:270:10. Exit status: 0 success, 1 the linkage cannot be assembled or cannot reach all rows, "
         "2 wrong usage or unreadable input.",
     )
-    add_linkage(parser)
     parser.take(
         """
+        linkage
         --range
         --at VALUE[,VALUE] ...  a row of the table: the values of all drives (repeatable)
         --speed N float ...  speed of the drive in rpm, of a slide in lengths per second; repeat it for each drive

@@ -6,7 +6,7 @@ import argparse
 
 from gruebler.cli.draw import entry_of, linkage_and_range, picture_suffix
 from gruebler.cli.drive_rows import driven_path
-from gruebler.cli.linkage_inputs import add_linkage, with_points
+from gruebler.cli.linkage_inputs import with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.linkages import Linkage
@@ -24,15 +24,17 @@ def add(parser: Parser) -> None:
         epilog="Example: gruebler animate wiper -o wiper.html --seconds 3. Without -o, the SVG is printed. GIF, WebP "
         "and PNG need matplotlib: pip install 'gruebler[plot]'.",
     )
-    add_linkage(parser)
+    parser.take("linkage")
     parser.add_out(help="the file: .svg, .html, .gif, .webp or .png (APNG)")
-    parser.take("--curve")
-    parser.add_argument(
-        "--seconds", type=float, default=4.0, metavar="S", help="duration of a turn, or of back and forth (default: 4)"
+    parser.take(
+        """
+        --curve
+        --seconds S float =4  duration of a turn, or of back and forth (default: 4)
+        --branch
+        --range
+        --dark  dark background for GIF, WebP and PNG
+        """
     )
-    parser.take("--branch")
-    parser.take("--range")
-    parser.add_argument("--dark", action="store_true", help="dark background for GIF, WebP and PNG")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -26,10 +26,10 @@ class Row:
 def rows_of(table: str) -> Iterator[Row]:
     """The rows of a table of arguments.
 
-    A row is NAMES PLACEHOLDERS NOTES and, after two blanks, the help, which goes on in lines that are indented.
-    Without a placeholder an option is a flag. Notes: int, float or path; {a,b} for a choice; ... for what can be
+    A row is NAMES PLACEHOLDERS NOTES and, after two blanks, the help; it goes on in lines that are indented.
+    Without a placeholder an option is a flag. Notes: int, float or path; {a,b} for choices; ... for what can be
     repeated; ?, * or + for how many values there may be; =VALUE for the default; :VALUE for what an option means
-    without its value; ! for what must be given.
+    without its value; ! for what must be given; >NAME for the name under which it is kept.
 
     >>> [(row.names, row.settings, row.help) for row in rows_of("--at DEG float  an angle of the crank")]
     [(('--at',), {'metavar': 'DEG', 'type': <class 'float'>}, 'an angle of the crank')]
@@ -40,9 +40,9 @@ def rows_of(table: str) -> Iterator[Row]:
             blocks.append([line])
         elif line.strip():
             blocks[-1].append(line)
-    for first, *more in blocks:
-        spec, _, begun = first.partition("  ")
-        yield _row(spec.split(), " ".join(" ".join([begun, *more]).split()))
+    for lines in blocks:
+        spec, _, help = " ".join(map(str.strip, lines)).partition("  ")
+        yield _row(spec.split(), help)
 
 
 def _row(words: list[str], help: str) -> Row:
@@ -57,9 +57,12 @@ def _row(words: list[str], help: str) -> Row:
         elif word == "...":
             settings |= {"action": "append", "default": []}
         elif word.startswith("{"):
-            settings["choices"] = tuple(word.strip("{}").split(","))
+            choices = map(settings.get("type", str), word.strip("{}").split(","))
+            settings["choices"] = (*settings.get("choices", ()), *choices)
         elif word == "!":
             settings["required"] = True
+        elif word[0] == ">":
+            settings["dest"] = word[1:]
         elif word[0] in _VALUES:
             settings[_VALUES[word[0]]] = settings.get("type", str)(word[1:])
         else:
@@ -74,10 +77,14 @@ def _row(words: list[str], help: str) -> Row:
 
 
 def take(parser: argparse._ActionsContainer, table: str) -> None:
-    """Give a parser, or a group of one, the arguments of a table; a row without help is the shared one of that name."""
+    """Give a parser, or a group of one, the arguments of a table.
+
+    A row without help is the shared one of that name, with what its own notes add.
+    """
     for row in rows_of(table):
-        taken = row if row.help else _SHARED[row.names[0]]
-        parser.add_argument(*taken.names, **taken.settings, help=taken.help)
+        shared = row if row.help else _SHARED[row.names[0]]
+        notes = {} if row.help else {name: value for name, value in row.settings.items() if name != "action"}
+        parser.add_argument(*shared.names, **shared.settings | notes, help=shared.help)
 
 
 _SHARED = {
@@ -87,16 +94,20 @@ _SHARED = {
         --branch LABELS  the assembly mode, such as +- (write --branch=-+)
         --frame LINK  the fixed link (default: the first)
         --drive JOINT ...  a driven joint (repeatable)
+        --links N int  number of links
         --mobility F int =1  mobility (default: 1)
         --yes  run even if it takes long or needs much memory
         --count  print only the number
         --assortment N2,N3,...  numbers of binary, ternary, ... links
         --labels  label the links
-        --seed N int =0  seed of the random numbers (default: 0)
+        linkage FILE|ID|LENGTHS  a .toml or .json file or one of another program (`gruebler convert --formats`), a
+            catalog entry with dimensions, or lengths: four-bar:A,B,C,D, slider-crank:A,B[,E],
+            inverted-slider-crank:A,D[,E]
         chain CHAIN  a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry
         --space {planar,spherical,spatial}  space of the chain (default: planar)
         --range FROM:TO:STEP ...  drive values in degrees or the unit; repeat it for each drive, with the same number of
             steps; a single number keeps a drive at rest (default: the whole motion of one drive)
+        --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
         --curve POINT ...  the path of a named point, a joint, or LINK:X,Y (repeatable)
         --jobs N int =1  number of processes (default: 1)
         --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786

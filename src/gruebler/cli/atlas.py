@@ -55,7 +55,7 @@ def add(parser: Parser) -> None:
             any drives
         --jobs
         --scheduler
-        --yes  start even if it takes long
+        --yes
         """
     )
     query = parser.add_command("query", help="answer a query in SQL")

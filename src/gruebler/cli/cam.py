@@ -69,10 +69,12 @@ def add(parser: Parser) -> None:
         """
     )
     parser.add_printed(help="print an object; with --laws a list", pictures=True)
-    parser.add_argument(
-        "--at", type=float, metavar="DEG", help="with -o: the cam angle shown (default: greatest pressure angle)"
+    parser.take(
+        """
+        --at DEG float  with -o: the cam angle shown (default: greatest pressure angle)
+        --plot  with -o: add diagrams of lift, velocity and acceleration
+        """
     )
-    parser.add_argument("--plot", action="store_true", help="with -o: add diagrams of lift, velocity and acceleration")
     add_picture_options(parser, help="with --animate: seconds for a turn (default: 4)")
 
 

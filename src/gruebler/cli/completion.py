@@ -9,8 +9,6 @@ from collections.abc import Iterator
 from gruebler.cli.command_tree import Argument, CommandNode, command_tree
 from gruebler.cli.parser import Parser
 
-_SHELLS = ("bash", "zsh", "fish")
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
@@ -21,7 +19,7 @@ def add(parser: Parser) -> None:
         "gruebler completion zsh > ~/.zfunc/_gruebler; "
         "gruebler completion fish > ~/.config/fish/completions/gruebler.fish",
     )
-    parser.add_argument("shell", choices=_SHELLS, metavar="SHELL", help="bash, zsh or fish")
+    parser.take("shell SHELL {bash,zsh,fish}  bash, zsh or fish")
 
 
 def run(arguments: argparse.Namespace) -> int:

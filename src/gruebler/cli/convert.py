@@ -36,11 +36,11 @@ def add(parser: Parser) -> None:
         """
         source IN ?  the file to read, a catalog entry, lengths such as four-bar:25,70,40,70, or the text of a chain
         target OUT ?  the file to write
+        --from FORMAT >source_format  the format of IN (default: its ending)
+        --to FORMAT >target_format  the format of OUT (default: its ending)
+        --formats  list the formats, their endings and what they hold
         """
     )
-    parser.add_argument("--from", dest="source_format", metavar="FORMAT", help="the format of IN (default: its ending)")
-    parser.add_argument("--to", dest="target_format", metavar="FORMAT", help="the format of OUT (default: its ending)")
-    parser.add_argument("--formats", action="store_true", help="list the formats, their endings and what they hold")
 
 
 def _is_file(word: str) -> bool:

@@ -71,17 +71,14 @@ def add(parser: Parser) -> None:
         point POINT ?  a named point, a joint, or LINK:X,Y in the coordinates of the link; X,Y alone: on the coupler
         """
     )
-    question = parser.add_mutually_exclusive_group()
     take(
-        question,
+        parser.add_mutually_exclusive_group(),
         """
         --straight  the part of the path with a relative deviation Q_G = deviation/length (--ratio), in a band (--band)
             or between two drive values (--window)
         --cognates  the cognates of a four-bar or slider-crank (Roberts, Chebyshev)
+        --guidance NAME ? :  a straight-line linkage such as watt; alone: all
         """,
-    )
-    question.add_argument(
-        "--guidance", nargs="?", const="", metavar="NAME", help="a straight-line linkage such as watt; alone: all"
     )
     parser.take(
         """
@@ -93,20 +90,18 @@ def add(parser: Parser) -> None:
         --tolerance LENGTH float  error of the polygon (default: 1e-4 of the size)
         """
     )
-    straight = parser.add_argument_group(title="with --straight")
-    straight.add_argument("--ratio", type=float, metavar="Q", help="the window about --centre with this Q_G")
-    straight.add_argument(
-        "--band", metavar="WIDTH", help="the longest part in a band of this width; with --guidance: 0.75mm"
-    )
-    straight.add_argument(
-        "--window", type=float, nargs=2, metavar=("FROM", "TO"), help="the part between two drive values"
-    )
-    straight.add_argument("--centre", type=float, metavar="DEG", help="the middle of the window (default: 180)")
-    cognates = parser.add_argument_group(title="with --cognates")
-    cognates.add_argument("--at", type=float, metavar="DEG", help="crank angle of the pose shown")
-    guidance = parser.add_argument_group(title="with --guidance")
     take(
-        guidance,
+        parser.add_argument_group(title="with --straight"),
+        """
+        --ratio Q float  the window about --centre with this Q_G
+        --band WIDTH  the longest part in a band of this width; with --guidance: 0.75mm
+        --window FROM TO float  the part between two drive values
+        --centre DEG float  the middle of the window (default: 180)
+        """,
+    )
+    take(parser.add_argument_group(title="with --cognates"), "--at DEG float  crank angle of the pose shown")
+    take(
+        parser.add_argument_group(title="with --guidance"),
         """
         --length L  length of the straight line, with or without unit: 15cm; needs --band
         --lambda X float  construct Meyer zur Capellen's double rocker: distance of the coupler from the tangent by the

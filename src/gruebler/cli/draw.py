@@ -17,6 +17,7 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined, translate
+from gruebler.cli.arguments import take
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of_word, with_points
@@ -69,68 +70,41 @@ def add(parser: Parser) -> None:
         """
         chain CHAIN|ID|FILE  a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE, a catalog entry, a linkage
             file, or lengths such as four-bar:25,70,40,70
-        """
-    )
-    parser.add_argument(
-        "--at",
-        nargs="?",
-        const="",
-        metavar="VALUE[,VALUE]",
-        help="draw to scale, in the pose at these drive values, in degrees or the unit (--at=-30,20 for two drives; "
-        "without a value: a typical pose)",
-    )
-    parser.take("--curve")
-    parser.add_argument(
-        "--show",
-        action="append",
-        default=[],
-        choices=(
-            "dead-centres",
-            "transmission",
-            "velocities",
-            "accelerations",
-            "poles",
-            "centrodes",
-            "inflection",
-            "planes",
-            "dimensions",
-            "scale",
-            "joints",
-            "angles",
-            "lengths",
-        ),
-        help="also draw this (repeatable)",
-    )
-    parser.take(
-        """
+        --at VALUE[,VALUE] ? :  draw to scale, in the pose at these drive values, in degrees or the unit (--at=-30,20
+            for two drives; without a value: a typical pose)
+        --curve
+        --show {dead-centres,transmission,velocities,accelerations,poles,centrodes,inflection,planes,dimensions,scale}
+            {joints,angles,lengths} ...  also draw this (repeatable)
         --ghosts N int  also draw N other positions in thin lines
         --output LINK  the output link: its dead centres, transmission angle, centrodes or inflection circle are drawn
         --branch
         """
     )
     parser.add_out(help="the picture: .svg, .png, .pdf, or .tex for TikZ")
-    parser.add_argument(
-        "--space", choices=("planar", "spherical", "spatial"), help="space of the chain (default: planar)"
+    parser.take(
+        """
+        --space
+        --frame
+        --drive
+        --labels
+        --names {joints}  joints: letters A₀, A, B, B₀ at the joints of a linkage
+        --angles  mark the angles φ, ψ and μ of a linkage
+        --lengths {letters,values}  write the lengths of a linkage as letters or as dimensions
+        --style {colour,textbook} =colour  textbook: black, lines of 0.7 and 0.35 mm
+        --dark  dark background for PNG and PDF
+        """
     )
-    parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
-    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint (repeatable)")
-    parser.add_argument("--labels", action="store_true", help="label the links")
-    parser.add_argument("--names", choices=("joints",), help="joints: letters A₀, A, B, B₀ at the joints of a linkage")
-    parser.add_argument("--angles", action="store_true", help="mark the angles φ, ψ and μ of a linkage")
-    parser.add_argument(
-        "--lengths", choices=("letters", "values"), help="write the lengths of a linkage as letters or as dimensions"
+    take(
+        parser.add_mutually_exclusive_group(),
+        """
+        --structure  draw the structure of a catalog entry with dimensions
+        --graph  draw the link graph instead
+        --contracted  draw the contracted graph instead
+        --loops  draw the independent loops instead
+        --side  draw a gear train from the side, its axes as lines
+        --block  draw drive, mechanism and output as blocks instead
+        """,
     )
-    parser.add_argument(
-        "--style", choices=("colour", "textbook"), default="colour", help="textbook: black, lines of 0.7 and 0.35 mm"
-    )
-    parser.add_argument("--dark", action="store_true", help="dark background for PNG and PDF")
-    view = parser.add_mutually_exclusive_group()
-    view.add_argument("--structure", action="store_true", help="draw the structure of a catalog entry with dimensions")
-    view.add_argument("--graph", action="store_true", help="draw the link graph instead")
-    view.add_argument("--contracted", action="store_true", help="draw the contracted graph instead")
-    view.add_argument("--loops", action="store_true", help="draw the independent loops instead")
-    view.add_argument("--side", action="store_true", help="draw a gear train from the side, its axes as lines")
-    view.add_argument("--block", action="store_true", help="draw drive, mechanism and output as blocks instead")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -51,7 +51,7 @@ def add(parser: Parser) -> None:
     parser.take(
         """
         --range FROM:TO:STEP ...  drive values in degrees or the unit, once per drive (default: a full turn)
-        --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
+        --at
         --branch
         """
     )

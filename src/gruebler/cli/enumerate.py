@@ -58,11 +58,11 @@ def add(parser: Parser) -> None:
     )
     parser.take(
         """
-        --links N int !  number of links
-        --mobility F int =1  mobility (default: 1)
+        --links !
+        --mobility
         --fractionated {none,link,joint,all} ? :all =none  chains that are not fractionated (default), fractionated at a
             link, at a joint, or all of them
-        --assortment N2,N3,...  numbers of binary, ternary, ... links
+        --assortment
         --multiple-joints K|any ? :any =0  number of joints of three or more links: K, K-M or any (default: 0)
         --count  print only the numbers, by assortment
         --orbits  with --count: also count inversions and driven mechanisms
@@ -72,9 +72,14 @@ def add(parser: Parser) -> None:
         """
     )
     parser.add_out(help="write into a file instead: .txt, .g6 or .json")
-    parser.take("--jobs\n--scheduler")
-    parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="folder for finished parts of the work")
-    parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
+    parser.take(
+        """
+        --jobs
+        --scheduler
+        --checkpoint DIR path  folder for finished parts of the work
+        --yes
+        """
+    )
     parser.add_json(help="print JSON")
 
 

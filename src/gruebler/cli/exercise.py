@@ -61,15 +61,13 @@ def add(parser: Parser) -> None:
         )
     new = parser.add_command("new", help="generate tasks; the same seed gives the same task")
     new.add_argument("--kind", choices=_KINDS, required=True, help="topic of the task")
-    new.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="from 1 (easy) to 3 (default: 1)")
-    new.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the first task (default: 0)")
-    new.add_argument(
-        "--count", type=int, default=1, metavar="K", help="number of tasks, with seeds S, S + 1, ... (default: 1)"
-    )
-    new.add_argument("--solutions", action="store_true", help="with solutions")
     check = parser.add_command("check", help="mark answers, with hints at likely mistakes")
-    check.add_argument("id", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)")
-    check.add_argument("answers", nargs="+", metavar="KEY=ANSWER", help="such as H=40 phi_max=189.4 turns=yes")
+    check.take(
+        """
+        id ID  such as 15, exercise-15 or grashof-1-7 (a generated task)
+        answers KEY=ANSWER +  such as H=40 phi_max=189.4 turns=yes
+        """
+    )
     sheet = parser.add_command(
         "sheet",
         help="write a sheet of generated tasks with figures, and a second file with solutions and marking key",
@@ -79,10 +77,25 @@ def add(parser: Parser) -> None:
         "--lang de -o sheet.pdf. PDF needs matplotlib: pip install 'gruebler[plot]'.",
     )
     sheet.take("--kind KIND,... !  topics that take turns, as those of `exercise new`")
-    sheet.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="from 1 (easy) to 3 (default: 1)")
-    sheet.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the first task (default: 0)")
-    sheet.add_argument("--count", type=int, default=6, metavar="K", help="number of tasks (default: 6)")
-    sheet.add_argument("--heading", default="", metavar="TEXT", help="heading of the sheet, such as that of the course")
+    for action in (new, sheet):
+        action.take(
+            """
+            --level int {1,2,3} =1  from 1 (easy) to 3 (default: 1)
+            --seed S int =0  seed of the first task (default: 0)
+            """
+        )
+    new.take(
+        """
+        --count K int =1  number of tasks, with seeds S, S + 1, ... (default: 1)
+        --solutions  with solutions
+        """
+    )
+    sheet.take(
+        """
+        --count K int =6  number of tasks (default: 6)
+        --heading TEXT =  heading of the sheet, such as that of the course
+        """
+    )
     sheet.add_out(
         help="the sheet: .pdf, .html, .tex or .md; or .xml, questions for Moodle with answers and tolerances",
         required=True,

@@ -6,6 +6,7 @@ import argparse
 from typing import Any
 
 from gruebler.base.text import message
+from gruebler.cli.arguments import take
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_items, print_json
@@ -31,19 +32,21 @@ def add(parser: Parser) -> None:
         "that remains when no dyad can be removed.",
         epilog="Examples: gruebler extend 'R(0-1) R(1-2) R(2-3) R(3-0)' --dyad; gruebler extend wiper --derivation.",
     )
+    parser.take("chain")
+    take(
+        parser.add_mutually_exclusive_group(required=True),
+        """
+        --dyad FORM ? :RRR  RRR (default), RRP, RPR, PRP or RPP
+        --coupler PAIRS ? :RR  a link with these two joints (default: RR)
+        --derivation  show how the chain is built from dyads
+        """,
+    )
     parser.take(
         """
-        chain
+        --at-joints  also attach new links to existing joints
+        --count
         """
     )
-    kind = parser.add_mutually_exclusive_group(required=True)
-    kind.add_argument("--dyad", nargs="?", const="RRR", metavar="FORM", help="RRR (default), RRP, RPR, PRP or RPP")
-    kind.add_argument(
-        "--coupler", nargs="?", const="RR", metavar="PAIRS", help="a link with these two joints (default: RR)"
-    )
-    kind.add_argument("--derivation", action="store_true", help="show how the chain is built from dyads")
-    parser.add_argument("--at-joints", action="store_true", help="also attach new links to existing joints")
-    parser.add_argument("--count", action="store_true", help="print only the number")
     parser.add_printed(help="print an object with count and items")
 
 

@@ -46,7 +46,7 @@ def add(parser: Parser) -> None:
             line, or - for lines on standard input
         --poster {chains,inversions,assur,forms,joints}  a poster instead: all chains by assortment, all inversions or
             all Assur groups up to --links, the forms of four-bars and slider-cranks, or the kinds of joints
-        --links N int  number of links
+        --links
         --mobility F int  mobility (default: 1)
         --fractionated {none,link,joint,all}  as for gruebler enumerate (default: none)
         --assortment

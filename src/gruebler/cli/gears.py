@@ -65,12 +65,11 @@ def add(parser: Parser) -> None:
         """
     )
     parser.add_printed(help="print an object; numbers as exact fractions and decimals", pictures=True)
-    parser.add_argument(
-        "--teeth",
-        nargs="?",
-        const=_DRAWN,
-        metavar="A-B",
-        help="with -o: involute teeth instead of pitch circles; search: fewest and most teeth (default: 17-90)",
+    parser.take(
+        """
+        --teeth A-B ? :drawn  with -o: involute teeth instead of pitch circles; search: fewest and most teeth (default:
+            17-90)
+        """
     )
     add_picture_options(parser, help="with --animate: seconds for a turn of the fastest link (default: 4)")
 

@@ -54,15 +54,23 @@ def add(parser: Parser) -> None:
         epilog="Examples: gruebler geneva 4 --distance 100 --speed 60 --step 15; gruebler geneva 6 --pins 2 --animate "
         "-o geneva.html. PNG, PDF, GIF and WebP need matplotlib: pip install 'gruebler[plot]'.",
     )
-    parser.add_argument("slots", type=int, metavar="N", help="number of slots, at least 3")
-    parser.add_argument("--internal", action="store_true", help="the driver turns inside the wheel")
-    parser.add_argument("--pins", type=int, default=1, metavar="K", help="number of pins on the driver (default: 1)")
-    parser.add_argument("--distance", type=float, metavar="D", help="distance of the axes: adds the lengths")
-    parser.add_argument("--speed", type=float, metavar="RPM", help="driver speed in turns per minute: adds the times")
-    parser.add_argument("--step", type=float, metavar="DEG", help="also a table over the driver's turn with this step")
+    parser.take(
+        """
+        slots N int  number of slots, at least 3
+        --internal  the driver turns inside the wheel
+        --pins K int =1  number of pins on the driver (default: 1)
+        --distance D float  distance of the axes: adds the lengths
+        --speed RPM float  driver speed in turns per minute: adds the times
+        --step DEG float  also a table over the driver's turn with this step
+        """
+    )
     parser.add_printed(help="print an object with all figures", pictures=True)
-    parser.add_argument("--at", type=float, metavar="DEG", help="with -o: the driver angle shown (default: 0)")
-    parser.add_argument("--plot", action="store_true", help="with -o: add diagrams of angle, ratio and acceleration")
+    parser.take(
+        """
+        --at DEG float  with -o: the driver angle shown (default: 0)
+        --plot  with -o: add diagrams of angle, ratio and acceleration
+        """
+    )
     add_picture_options(parser, help="with --animate: seconds for a turn (default: 4)")
 
 

@@ -20,16 +20,6 @@ if TYPE_CHECKING:
     from gruebler.mechanics.forces import Loads
 
 
-def add_linkage(command: Parser) -> None:
-    """The argument for a linkage, which `linkage_of` reads."""
-    command.add_argument(
-        "linkage",
-        metavar="FILE|ID|LENGTHS",
-        help="a .toml or .json file or one of another program (`gruebler convert --formats`), a catalog entry with "
-        "dimensions, or lengths: four-bar:A,B,C,D, slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
-    )
-
-
 def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
     """The linkage with each LINK:X,Y among the texts as a point of that name; `LinkageError` for an unknown point."""
     added = {text: (point.link, point.x, point.y) for text in texts if isinstance(point := point_of(text), LinkPoint)}
@@ -115,10 +105,10 @@ class Loaded(NamedTuple):
 
 def add_loaded(command: Parser) -> None:
     """The argument for a linkage with loads, which `loaded_linkage` reads."""
-    command.add_argument(
-        "linkage",
-        metavar="FILE|ID",
-        help="a .toml or .json file of a linkage with a table [loads], or a catalog entry with loads",
+    command.take(
+        """
+        linkage FILE|ID  a .toml or .json file of a linkage with a table [loads], or a catalog entry with loads
+        """
     )
 
 

@@ -22,9 +22,9 @@ _FEW = ("gif", "webp", "png")
 
 def add_picture_options(machine: Parser, *, help: str) -> None:
     """Options for the picture of a machine and for what is printed; ``help`` explains ``--seconds``."""
-    machine.add_argument("--animate", action="store_true", help="with -o: a moving picture")
+    machine.take("--animate  with -o: a moving picture")
     machine.add_argument("--seconds", type=float, metavar="S", help=help)
-    machine.add_argument("--dark", action="store_true", help="with -o: a dark background for PNG, GIF, WebP and PDF")
+    machine.take("--dark  with -o: a dark background for PNG, GIF, WebP and PDF")
 
 
 def refuse_picture(arguments: argparse.Namespace, why: Message) -> None:

@@ -126,7 +126,7 @@ class Parser(argparse.ArgumentParser):
     def add_json(self, *, help: str) -> None:
         """`--json`, and `--all` for tables that are cut otherwise (`tables.cut_tables`)."""
         self.add_argument("--json", action="store_true", help=help)
-        self.add_argument("--all", action="store_true", help="print all rows of long tables")
+        self.take("--all  print all rows of long tables")
 
     def add_printed(self, *, help: str, table: bool = False, pictures: bool = False) -> None:
         """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).

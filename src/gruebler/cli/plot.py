@@ -12,7 +12,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or, translate
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_path, picture_suffix, write_picture
 from gruebler.cli.drive_rows import given_speeds, turning_drives
-from gruebler.cli.linkage_inputs import add_linkage, loaded_linkage, with_points
+from gruebler.cli.linkage_inputs import loaded_linkage, with_points
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.dynamics import InverseDynamics, inverse_dynamics
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -38,9 +38,9 @@ def add(parser: Parser) -> None:
         "torque. Without -o the SVG goes to standard output. PNG and PDF need matplotlib: pip install "
         "'gruebler[plot]'.",
     )
-    add_linkage(parser)
     parser.take(
         """
+        linkage
         --kind {transfer,transmission,hodograph,curves,family,ratio,torque,forces} =transfer  the kind of diagram
             (default: transfer)
         --output LINK  transfer, transmission: the link or sliding joint observed
@@ -48,17 +48,15 @@ def add(parser: Parser) -> None:
             for ratio the first); forces: a joint (default: the pins on the frame); repeatable
         --speed N float  hodograph, torque, forces: drive speed in turns per minute, or in lengths per second
         --link LINK  family: the link that carries the points (default: a coupler)
+        --from X,Y >start  family: the first point; write --from=-10,5
+        --to X,Y >end  family: the last point (default: through two pins)
+        --count K int =5  family: 2 to 8 points (default: 5)
+        --centre DEG float =180  ratio: the middle of the windows (default: 180)
+        --ratio Q float  ratio: mark the window with this Q_G
+        --branch
+        --dark  dark background for PNG and PDF; SVG follows the viewer
         """
     )
-    parser.add_argument("--from", dest="start", metavar="X,Y", help="family: the first point; write --from=-10,5")
-    parser.add_argument("--to", dest="end", metavar="X,Y", help="family: the last point (default: through two pins)")
-    parser.add_argument("--count", type=int, default=5, metavar="K", help="family: 2 to 8 points (default: 5)")
-    parser.add_argument(
-        "--centre", type=float, default=180.0, metavar="DEG", help="ratio: the middle of the windows (default: 180)"
-    )
-    parser.add_argument("--ratio", type=float, metavar="Q", help="ratio: mark the window with this Q_G")
-    parser.take("--branch")
-    parser.add_argument("--dark", action="store_true", help="dark background for PNG and PDF; SVG follows the viewer")
     parser.add_out(help="a file: .svg, .png or .pdf", endings=("svg", "png", "pdf"))
 
 

@@ -26,7 +26,7 @@ def add(parser: Parser) -> None:
         """
         chain
         --frame
-        --drive JOINT ...  a driven joint; repeatable
+        --drive
         --seed S int =0  seed of the random numbers (default: 0)
         --tries N int =1500  number of layouts the search tries (default: 1500)
         """

@@ -42,8 +42,12 @@ _NAMED = {"binary": 2, "ternary": 3, "quaternary": 4}
 
 def add(parser: Parser) -> None:
     """Add the arguments of `gruebler catalog search`."""
-    parser.add_argument("words", nargs="*", metavar="WORD", help="a word in a name, remark, source or link name")
-    parser.add_argument("--text", action="append", default=[], metavar="WORD", help="another such word (repeatable)")
+    parser.take(
+        """
+        words WORD *  a word in a name, remark, source or link name
+        --text WORD ...  another such word (repeatable)
+        """
+    )
     _add_features(parser)
     parser.take(
         """
@@ -52,17 +56,7 @@ def add(parser: Parser) -> None:
         --drive-pair P  symbol or name of the type of a driven joint
         --claims  only machines whose mobility differs from the count
         --enumerate  list all structures, not only those of the catalog
-        """
-    )
-    parser.add_argument(
-        "--atlas",
-        nargs="?",
-        const="",
-        metavar="DIR",
-        help="with --enumerate: take the chains from an atlas (default: the one that comes with the library)",
-    )
-    parser.take(
-        """
+        --atlas DIR ? :  with --enumerate: take the chains from an atlas (default: the one that comes with the library)
         --where SQL  with --enumerate: a condition on the columns of the atlas, such as "not planar and dyads_only";
             gruebler atlas columns lists them
         --yes
@@ -76,7 +70,7 @@ def add(parser: Parser) -> None:
 def _add_features(parser: Parser) -> None:
     parser.take(
         """
-        --links N int  number of links
+        --links
         --mobility, --F F int  mobility by the count (with --enumerate default: 1)
         --drives N int  number of drive joints
         --drives-at-frame N int  number of drive joints at the frame

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import error_in_language, joined, message, number, translate
+from gruebler.cli.arguments import take
 from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
@@ -37,12 +38,13 @@ def add(parser: Parser) -> None:
     )
     listing = parser.add_command("list", help="list all sheets")
     show = parser.add_command("show", help="explain a sheet: features, dimensions, printed and computed values")
-    show.add_argument("id", metavar="ID", help="id of a sheet")
+    show.take("id ID  id of a sheet")
     draw = parser.add_command("draw", help="draw a sheet as an A4 page")
-    draw.add_argument(
-        "id",
-        metavar="ID|FILE|LENGTHS",
-        help="id of a sheet; or any machine: a catalog entry, a file, lengths such as four-bar:25,70,40,70",
+    draw.take(
+        """
+        id ID|FILE|LENGTHS  id of a sheet; or any machine: a catalog entry, a file, lengths such as
+            four-bar:25,70,40,70
+        """
     )
     draw.add_out(
         help="a file: .svg, .html, .pdf or .png, of other machines .pdf, .html, .tex or .md (default: SVG, or "
@@ -50,14 +52,22 @@ def add(parser: Parser) -> None:
         endings=("svg", "html", "pdf", "png", "tex", "md"),
     )
     book = parser.add_command("book", help="all machines of the catalog in one document, with an index by feature")
-    book.add_argument("ids", nargs="*", metavar="ID", help="only these machines (default: all)")
+    book.take("ids ID *  only these machines (default: all)")
     book.add_out(help="a file: .pdf, .html, .tex or .md", required=True, endings=("pdf", "html", "tex", "md"))
     size = parser.add_command("size", help="all lengths for a straight line of a length within a band")
-    size.add_argument("id", metavar="ID", help="id of a sheet")
-    size.add_argument("--length", required=True, metavar="L", help="length of the line, with or without unit: 15cm")
-    wanted = size.add_mutually_exclusive_group(required=True)
-    wanted.add_argument("--ratio", type=float, metavar="Q", help="relative deviation Q_G = band/length")
-    wanted.add_argument("--band", metavar="WIDTH", help="allowed deviation across the line: 0.75mm")
+    size.take(
+        """
+        id ID  id of a sheet
+        --length L !  length of the line, with or without unit: 15cm
+        """
+    )
+    take(
+        size.add_mutually_exclusive_group(required=True),
+        """
+        --ratio Q float  relative deviation Q_G = band/length
+        --band WIDTH  allowed deviation across the line: 0.75mm
+        """,
+    )
     listing.add_printed(help="print a list of objects")
     show.add_printed(help="print an object with all values")
     size.add_printed(help="print an object with all lengths")

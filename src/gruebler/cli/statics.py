@@ -17,7 +17,7 @@ from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import given_rows, turning_drives
 from gruebler.cli.friction_options import add_friction, friction_of, option_numbers
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import add_linkage, linkage_of_word
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -46,9 +46,9 @@ def add(parser: Parser) -> None:
         "Exit status: 0 success, 1 the linkage cannot move through all rows, or in some its forces are undetermined "
         "or it is self-locking, 2 wrong usage or unreadable input.",
     )
-    add_linkage(parser)
     parser.take(
         """
+        linkage
         --load POINT=FX,FY ...  a force at a named point, a joint or LINK:X,Y; repeatable
         --moment LINK=M ...  a moment on a link, counter-clockwise; repeatable
         --mass POINT=M ...  a mass of M kg with its weight; repeatable
@@ -60,7 +60,7 @@ def add(parser: Parser) -> None:
         """
         --range FROM:TO:STEP ...  drive values in degrees or the unit, once per drive (default: a full turn, or the
             whole range)
-        --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
+        --at
         --branch
         """
     )

@@ -126,10 +126,12 @@ def add(parser: Parser) -> None:
         description="Four-bars whose coupler point passes through points: nine points, five points and both fixed "
         "pivots, five points with crank angles, mixed tasks, each with all solutions; whole curves by least squares.",
     )
-    path.add_argument(
-        "task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y or x,y,crank or x,y,angle"
+    path.take(
+        """
+        task TASK  a .toml, .json or .csv file; CSV columns x,y or x,y,crank or x,y,angle
+        --closed  the points are a closed curve
+        """
     )
-    path.add_argument("--closed", action="store_true", help="the points are a closed curve")
     dead = parser.add_command(
         "dead-centres",
         help="crank-rockers and slider-cranks with given dead centres",
@@ -137,11 +139,15 @@ def add(parser: Parser) -> None:
         "between the dead centres; the one with the best transmission angle first.",
         epilog="Example: gruebler synthesise dead-centres --swing 60 --time-ratio 1.2",
     )
-    dead.add_argument("task", nargs="?", metavar="TASK", help="a .toml, .json or .csv file (or the options below)")
-    dead.add_argument("--swing", type=float, metavar="DEG", help="swing of the rocker")
-    dead.add_argument("--stroke", type=float, metavar="H", help="stroke of the slider")
-    dead.add_argument("--crank-angle", type=float, metavar="DEG", help="crank angle between the dead centres")
-    dead.add_argument("--time-ratio", type=float, metavar="K", help="time ratio of slow to quick travel")
+    dead.take(
+        """
+        task TASK ?  a .toml, .json or .csv file (or the options below)
+        --swing DEG float  swing of the rocker
+        --stroke H float  stroke of the slider
+        --crank-angle DEG float  crank angle between the dead centres
+        --time-ratio K float  time ratio of slow to quick travel
+        """
+    )
     for kind in (positions, function, path, dead):
         kind.take(
             """
@@ -149,29 +155,14 @@ def add(parser: Parser) -> None:
             --structure MECHANISM ...  fit this mechanism instead: a text or a catalog entry; several are compared
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
                 atlas, else 4)
-            """
-        )
-        kind.add_argument(
-            "--link", default="", metavar="LINK", help="with --structure: the link that is guided, or the output"
-        )
-        kind.take(
-            """
+            --link LINK =  with --structure: the link that is guided, or the output
             --jobs N int =1  with --structure: number of processes (default: 1)
             --scheduler ADDRESS  with --structure: send the work to a Dask scheduler, such as tcp://host:8786
             --crank  only designs whose drive turns fully
             --transmission DEG float =0  minimum transmission angle on the way through the targets
             --size-ratio R float =10000  limit of longest to shortest length
-            """
-        )
-        kind.add_argument(
-            "--sort",
-            default="",
-            metavar="KEY[,KEY]",
-            help="sort the designs by error, transmission, range-transmission, size, size-ratio, links, full-turn; of "
-            "equal ones the second key decides",
-        )
-        kind.take(
-            """
+            --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio, links,
+                full-turn; of equal ones the second key decides
             --number N int  give the N best designs only, where there are infinitely many or targets are approached
             --rejected  also list the rejected designs with their reasons
             """

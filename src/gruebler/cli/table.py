@@ -11,8 +11,6 @@ from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.teaching.exercises import lines_of_table, table_as_dict, teaching_table
 
-_TABLES = ("joints", "links", "inversions", "grashof", "transfer")
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
@@ -22,9 +20,9 @@ def add(parser: Parser) -> None:
         "smallest integer lengths, transfer functions of gears, linkages, cams and Geneva drives.",
         epilog="Examples: gruebler table grashof --lang de; gruebler table inversions 25,70,40,70",
     )
-    parser.add_argument("name", choices=_TABLES, metavar="NAME", help="joints, links, inversions, grashof or transfer")
     parser.take(
         """
+        name NAME {joints,links,inversions,grashof,transfer}  joints, links, inversions, grashof or transfer
         lengths LENGTHS ?  of the table inversions: other lengths a,b,c,d, such as 25,70,40,70
         """
     )

@@ -37,7 +37,7 @@ def add(parser: Parser) -> None:
     )
     parser.take(
         """
-        --links N int !  number of links
+        --links !
         --mobility
         --prismatic K|any =0  number of sliding joints (default: 0); any, with --count: the numbers for every K
         --rolling K int =0  number of rolling joints (default: 0)
@@ -52,7 +52,7 @@ def add(parser: Parser) -> None:
         --count  only the number
         --jobs
         --scheduler
-        --yes  start even if it takes long
+        --yes
         """
     )
     parser.add_printed(help="print an object with count and items")
