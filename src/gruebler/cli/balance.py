@@ -28,16 +28,16 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 
-_PRODUCT = message("{link}: mass times radius {product:.6g} kg·{unit} at {angle:.4g}° on the link")
-_LARGEST = message("Largest shaking force: {before:.6g} N without, {after:.6g} N with them.")
-_SPRING = message("from {first} to {second}: {stiffness:.6g} N/{unit}")
+_PRODUCT = message("{link}: mass times radius {product:n} kg·{unit} at {angle:n}° on the link")
+_LARGEST = message("Largest shaking force: {before:n} N without, {after:n} N with them.")
+_SPRING = message("from {first} to {second}: {stiffness:n} N/{unit}")
 _FLYWHEEL = message(
-    "Flywheel on the drive: moment of inertia {inertia:.6g} kg·{unit}²; mean torque of the drive {torque:.6g} N·{unit}."
+    "Flywheel on the drive: moment of inertia {inertia:n} kg·{unit}²; mean torque of the drive {torque:n} N·{unit}."
 )
 
 _ROWS = 360
 _HIGHEST = 4
-_ROUNDING = 1e-12  # of the largest force
+_ROUNDING = 1e-12  # of the largest force, or of a product
 
 
 def add(parser: Parser) -> None:
@@ -155,7 +155,9 @@ def _print(document: dict[str, Any], unit: str, lang: str) -> None:
         print()
         print(translate("Springs of free length 0 that hold the weights in every position:", lang))
     for each in document.get("springs", ()):
-        first, second = (f"{e['link']}:{e['place'][0]:.6g},{e['place'][1]:.6g}" for e in each["between"])
+        first, second = (
+            f"{end['link']}:{','.join(number(x, form='n') for x in end['place'])}" for end in each["between"]
+        )
         text = _SPRING.filled(first=first, second=second, stiffness=each["stiffness"], unit=unit)
         print(text.in_language(lang))
     if "flywheel" in document:
@@ -165,14 +167,15 @@ def _print(document: dict[str, Any], unit: str, lang: str) -> None:
 
 def _print_part(document: dict[str, Any], unit: str, lang: str) -> None:
     for link, (x, y) in document["products"].items():
-        angle = math.degrees(math.atan2(y, x))
-        print(_PRODUCT.filled(link=link, product=math.hypot(x, y), unit=unit, angle=angle).in_language(lang))
+        size = math.hypot(x, y)
+        angle = math.degrees(math.atan2(0.0 if abs(y) < _ROUNDING * size else y, x))
+        print(_PRODUCT.filled(link=link, product=size, unit=unit, angle=angle).in_language(lang))
     before, after = document["largest_before"], document["largest_after"]
     print(_LARGEST.filled(before=before, after=after).in_language(lang))
     print()
     print(translate("Shaking force without them, as forces that turn with multiples of the speed:", lang))
     rows = [
-        [n, *(number(value, lang, ".6g") for value in (x, y, math.hypot(x, y)))]
+        [n, *(number(value, lang, "n") for value in (x, y, math.hypot(x, y)))]
         for n, (x, y) in document["harmonics"].items()
     ]
     print_table([translate("multiple", lang), "x [N]", "y [N]", translate("size [N]", lang)], rows, numbers=range(4))

@@ -23,7 +23,7 @@ def test_a_motor_that_is_too_weak_does_not_start():
     assert not run.complete
     assert run.message() == (
         "The motor at R(frame-crank) does not start: at R(frame-crank) = 0° it gives 900 N·mm, and the loads need "
-        f"{WEIGHT:.4g} N·mm."
+        f"{WEIGHT:g} N·mm."
     )
     assert "läuft nicht an" in run.message("de")
 

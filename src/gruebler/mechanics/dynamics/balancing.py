@@ -23,7 +23,7 @@ _SOLVES = 1e-9  # of the largest: what is left of an equation that has no soluti
 _ROUNDS = 60
 
 _STILL = message("The centre of all masses stays still: no counterweight is needed.")
-_WEIGHT = message("{link}: {mass:.6g} kg at ({x:.6g}, {y:.6g}), {product:.6g} kg·{unit}")
+_WEIGHT = message("{link}: {mass:n} kg at ({x:n}, {y:n}), {product:n} kg·{unit}")
 _POSSIBLE = message("With these counterweights the centre of all masses stays still:")
 _BLOCKED = message(
     "A complete balance of forces is impossible: no path of turning joints leads from {link} to the frame, only over "

@@ -17,9 +17,9 @@ from gruebler.structure.mechanism import Mechanism
 
 _STILL = 1e-9  # of the fastest speed so far: a motor that is slower backwards has rounding
 
-_AT_END = message("{joint} reaches the end of its range at {time:.6g} s, {values}.")
+_AT_END = message("{joint} reaches the end of its range at {time:n} s, {values}.")
 _NOT_STARTED = message("The motor at {joint} does not start: at {values} it gives {give}, and the loads need {need}.")
-_STALLED = message("The motor at {joint} stalls at {time:.6g} s, {values}: the loads turn it back.")
+_STALLED = message("The motor at {joint} stalls at {time:n} s, {values}: the loads turn it back.")
 
 
 class Watch(NamedTuple):
@@ -98,8 +98,8 @@ def why_not_started(free: FreeLinkage, first: Instant, acceleration: Reals) -> M
             return _NOT_STARTED.filled(
                 joint=mechanism.drive_names()[k],
                 values=_values(free, first),
-                give=f"{give:.4g} {unit}",
-                need=f"{need:.4g} {unit}",
+                give=message("{value:n} {unit}", value=give, unit=unit),
+                need=message("{value:n} {unit}", value=need, unit=unit),
             )
     return None
 

@@ -121,7 +121,7 @@ def _times(times: ArrayLike | None, until: float) -> Reals:
 
 
 _NO_WAY = message(
-    "The motion cannot be followed beyond {time:.6g} s, {values}: there the linkage branches, or nothing serves as a "
+    "The motion cannot be followed beyond {time:n} s, {values}: there the linkage branches, or nothing serves as a "
     "coordinate."
 )
 

@@ -21,7 +21,7 @@ from gruebler.mechanics.kinematics.plan import Plan, plan
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.linkages import Linkage
 
-_SUMMARY = message("From {start} at {begin:.6g} s to {end} at {last:.6g} s; {count} rows.")
+_SUMMARY = message("From {start} at {begin:n} s to {end} at {last:n} s; {count} rows.")
 _ENERGY = message("Energy is kept to {defect:.1e} of what is exchanged.")
 _COORDINATES = message("Coordinates were exchanged {count} times.")
 _ONE_EXCHANGE = message("Coordinates were exchanged once.")

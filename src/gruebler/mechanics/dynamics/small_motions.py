@@ -32,7 +32,7 @@ _STEP = 0.02  # radians, or sizes of the linkage
 _NONE = 1e-11  # of the largest effort of any single load: less is none
 _GROWS = 1e-9  # of the largest eigenvalue: a part that grows by less is rounding
 
-_STABLE = message("{values}: stable, {frequency:.6g} Hz")
+_STABLE = message("{values}: stable, {frequency:n} Hz")
 _CREEPS = message("{values}: stable, without swinging")
 _UNSTABLE = message("{values}: unstable")
 _EVERYWHERE = message("Every position is an equilibrium.")

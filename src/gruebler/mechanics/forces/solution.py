@@ -39,7 +39,7 @@ _UNKNOWN = message(
 _LOCKED = message(
     "At the drive values {values} the linkage is self-locking, it jams: with this friction no effort of the drive, "
     "however large, moves it on, mainly because of {joint}. The drive's effort is not given there; the linkage would "
-    "move with coefficients of friction below {factor:.4g} times as large (at {value})."
+    "move with coefficients of friction below {factor:n} times as large (at {value})."
 )
 _OTHERS = message(
     "At the drive values {values} there is more than one equilibrium with this friction; the one given grows out of "
@@ -52,7 +52,7 @@ _APART = message(
 _RESTS = message(
     "At the drive values {values} {joint} is at rest and turns back: no friction there, but just before and behind it."
 )
-_EFFORT = message("Effort of the drive {drive}: {low:.4g} to {high:.4g} {unit}.")
+_EFFORT = message("Effort of the drive {drive}: {low:n} to {high:n} {unit}.")
 _RUBS_NOT = message("Nothing rubs: there are no slides with a coefficient of friction, and no pins with a radius.")
 _MOST_VALUES = 6
 _NONE = 1e-13  # of the loads: a smaller effort is none
@@ -190,7 +190,7 @@ class Statics(Tabled):
                 lines.append(_EFFORT.filled(drive=name, unit=unit, **ends))
         forces = np.abs(self.reactions.forces)
         if np.isfinite(forces).any():
-            lines.append(message("Largest force in a joint: {force:.4g} N.", force=float(np.nanmax(forces))))
+            lines.append(message("Largest force in a joint: {force:n} N.", force=float(np.nanmax(forces))))
         return "\n".join([*(line.in_language(lang) for line in lines), self.message(lang)]).rstrip()
 
     def message(self, lang: str = "en") -> str:
@@ -238,8 +238,8 @@ class Statics(Tabled):
     def _value(self, row: int) -> Message:
         value = float(self.motion.drives[row, 0])
         if self.motion.linkage.mechanism.drives[0].turning:
-            return message("{value:.6g}°", value=float(np.degrees(value)))
-        return message("{value:.6g}", value=value)
+            return message("{value:n}°", value=float(np.degrees(value)))
+        return message("{value:n}", value=value)
 
     def _of(self, joint: str | int, link: str | None) -> tuple[int, str]:
         mechanism = self.motion.linkage.mechanism
