@@ -155,7 +155,10 @@ export class App implements Page {
   // --- views ---------------------------------------------------------------------------------------------------------
 
   show(name: string): void {
-    if (this.view !== name) this.say("");
+    if (this.view !== name) {
+      this.say("");
+      if (this.linkable) window.scrollTo(0, 0);
+    }
     this.view = name;
     for (const [key, view] of Object.entries(this.views)) view.element.classList.toggle("shown", key === name);
     if (name !== "motion") this.motion.pause();
@@ -320,16 +323,17 @@ export class App implements Page {
 
   // --- the document --------------------------------------------------------------------------------------------------
 
-  open(model: Model): void {
+  open(model: Model, drive?: number): void {
     this.say("");
     if (this.motion.linkage) this.remember("motion");
     this.motion.open(model);
     this.show("motion");
+    if (drive !== undefined) this.motion.pick(drive);
   }
 
   /** Show the structure of a text. */
   describe(text: string): void {
-    this.show("structure");
+    this.turnTo("structure");
     void (this.views.structure as StructureView).describe(text);
   }
 

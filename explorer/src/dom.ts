@@ -48,6 +48,34 @@ function selectorOf(element: Element): string {
   return element.tagName.toLowerCase() + (named ? `[${named.name}="${CSS.escape(named.value)}"]` : "");
 }
 
+/** Buttons of which one is pressed: values with their texts. */
+export function choice(
+  label: string,
+  options: [string, string][],
+  chosen: string,
+  choose: (value: string) => void,
+  more: Attributes = {},
+): HTMLElement {
+  const group: HTMLElement = h(
+    "div",
+    { class: "choice", role: "group", "aria-label": label, ...more },
+    ...options.map(([value, text]) => {
+      const press = () => {
+        for (const one of group.children) one.setAttribute("aria-pressed", String(one === button));
+        choose(value);
+      };
+      const pressed = String(value === chosen);
+      const button = h(
+        "button",
+        { type: "button", "data-value": value, "aria-pressed": pressed, onclick: press },
+        text,
+      );
+      return button;
+    }),
+  );
+  return group;
+}
+
 /** The picture in SVG that Python wrote, as an element: parsed, not trusted as markup of the page. */
 export function picture(text: string, label: string): Element {
   const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;

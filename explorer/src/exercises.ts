@@ -1,20 +1,42 @@
-/** Exercises: a fresh task, the student's answers marked with their hints, the solution step by step. */
+/** Exercises: a fresh task with its figure, answers marked with hints, its linkage to try, the solution, the score. */
 
-import { h, renew } from "./dom";
+import { choice, h, picture, renew } from "./dom";
 import { t } from "./language";
+import type { Model } from "./model";
 import type { Page, View } from "./view";
 import { moment } from "./waiting";
+
+interface Asked {
+  key: string;
+  name: string;
+  symbol: string;
+  unit: string;
+  choices: string[];
+}
 
 interface Task {
   id: string;
   name: string;
   task: string;
-  asked: { key: string; name: string; unit: string; choice: boolean }[];
+  figure: string;
+  asked: Asked[];
+}
+
+interface Mark {
+  key: string;
+  mark: "right" | "near" | "wrong";
+  hint: string;
 }
 
 interface Marked {
-  marks: { key: string; mark: "right" | "near" | "wrong"; hint: string }[];
+  marks: Mark[];
   solution: string;
+}
+
+interface Tried {
+  model?: Model;
+  text?: string;
+  drive?: number | null;
 }
 
 export class ExercisesView implements View {
@@ -23,122 +45,180 @@ export class ExercisesView implements View {
   private level = 1;
   private seed = 1 + Math.floor(Math.random() * 9999);
   private task: Task | null = null;
+  private marked: Marked | null = null;
   private readonly place = h("div", {});
-  private readonly kinds = h("select", { onchange: () => (this.kind = this.kinds.value) });
+  private readonly kinds = h("div", {});
+  private readonly score = h("span", { class: "score", role: "status" });
   private answers: Record<string, string> = {};
+  /** The tasks that were marked, and whether all their answers were right. */
+  private readonly record = new Map<string, boolean>();
 
   constructor(private readonly page: Page) {}
 
   appeared(): void {
-    if (!this.kinds.options.length) void this.fillKinds().then(() => this.fresh());
+    if (!this.task) void this.fillKinds().then(() => this.fresh());
   }
 
   arrange(): void {
-    this.kinds.setAttribute("aria-label", t("Theory"));
-    const level = h(
-      "select",
-      { "aria-label": t("Level"), onchange: () => (this.level = Number(level.value)) },
-      ...[1, 2, 3].map((k) => h("option", { value: k, selected: k === this.level }, t("Level {level}", { level: k }))),
-    );
-    renew(
-      this.element,
-      h(
-        "div",
-        { class: "page" },
-        h("h2", {}, t("Exercises")),
-        h(
-          "div",
-          { class: "form" },
-          this.kinds,
-          level,
-          h(
-            "button",
-            {
-              class: "key",
-              "data-act": "fresh",
-              onclick: () => {
-                this.seed += 1;
-                void this.fresh();
-              },
-            },
-            t("A fresh task"),
-          ),
-        ),
-        this.place,
-      ),
-    );
-    if (this.kinds.options.length) void this.fillKinds().then(() => this.fresh());
+    const levels = [1, 2, 3].map((k): [string, string] => [String(k), t("Level {level}", { level: k })]);
+    const level = choice(t("Level"), levels, String(this.level), (value) => {
+      this.level = Number(value);
+      void this.fresh();
+    });
+    const next = h("button", { class: "plain", "data-act": "fresh", onclick: () => this.next() }, t("A fresh task"));
+    const form = h("div", { class: "form" }, level, next, this.score);
+    renew(this.element, h("div", { class: "page" }, h("h2", {}, t("Exercises")), this.kinds, form, this.place));
+    this.showScore();
+    if (this.task) void this.fillKinds().then(() => this.fresh());
   }
 
   private async fillKinds(): Promise<void> {
     if (!this.task) renew(this.place, moment());
     const kinds = await this.page.ask<{ kind: string; name: string }[]>("exercise_kinds", {});
-    renew(
-      this.kinds,
-      ...kinds.map(({ kind, name }) => h("option", { value: kind, selected: kind === this.kind }, name)),
-    );
+    const options = kinds.map(({ kind, name }): [string, string] => [kind, name]);
+    const choose = (kind: string) => {
+      this.kind = kind;
+      void this.fresh();
+    };
+    renew(this.kinds, choice(t("Theory"), options, this.kind, choose));
   }
 
+  private next(): void {
+    this.seed += 1;
+    void this.fresh();
+  }
+
+  /** The task of this kind, level and number; of the one that is shown the answers stay. */
   private async fresh(): Promise<void> {
     try {
-      this.task = await this.page.ask<Task>("exercise", { kind: this.kind, level: this.level, seed: this.seed });
-      this.answers = {};
-      this.show(null);
+      const task = await this.page.ask<Task>("exercise", { kind: this.kind, level: this.level, seed: this.seed });
+      if (task.id !== this.task?.id) this.answers = {};
+      this.task = task;
+      this.marked = null;
+      this.show();
     } catch (error) {
       renew(this.place, h("p", { class: "error" }, (error as Error).message));
     }
   }
 
-  private show(marked: Marked | null): void {
+  private show(): void {
+    const { marked, place } = this;
     const task = this.task!;
-    const words = { right: t("right"), near: t("nearly right"), wrong: t("wrong") };
-    const rows = task.asked.map(({ key, name, unit }) => {
-      const mark = marked?.marks.find((one) => one.key === key);
-      const input = h("input", {
-        id: `answer-${key}`,
-        value: this.answers[key] ?? "",
-        "data-answer": key,
-        oninput: () => (this.answers[key] = input.value),
-      });
-      return h(
-        "tr",
-        {},
-        h("td", {}, h("label", { for: `answer-${key}` }, name)),
-        h("td", {}, input, ` ${unit}`),
-        h(
-          "td",
-          {},
-          mark ? h("b", { "data-mark": mark.mark }, words[mark.mark]) : null,
-          mark?.hint ? h("div", { class: "note" }, mark.hint) : null,
-        ),
-      );
-    });
+    const submit = (event: Event) => {
+      event.preventDefault();
+      void this.mark();
+    };
+    const solved = this.record.get(task.id) === true;
+    const act = (name: string, text: string, key: boolean, onclick: () => void, type = "button") =>
+      h("button", { class: key ? "key" : "plain", "data-act": name, type, onclick }, text);
+    const right = marked?.marks.filter(({ mark }) => mark === "right").length ?? 0;
+    const count = task.asked.length;
     renew(
-      this.place,
-      h("h2", {}, task.name),
-      h("p", {}, task.task),
+      place,
       h(
-        "form",
-        {
-          onsubmit: (event: Event) => {
-            event.preventDefault();
-            void this.mark();
-          },
-        },
-        h("table", {}, ...rows),
-        h("div", { class: "form" }, h("button", { class: "key", "data-act": "mark" }, t("Mark my answers"))),
+        "div",
+        { class: "task" },
+        h("div", {}, h("h2", {}, task.name), h("p", {}, task.task)),
+        task.figure ? h("div", { class: "chain-picture" }, picture(task.figure, t("The figure of the task"))) : "",
+        h(
+          "form",
+          { onsubmit: submit },
+          ...task.asked.map((one) => this.row(one)),
+          marked
+            ? h(
+                "p",
+                { class: solved ? "good" : "bad", role: "status", "data-result": "" },
+                t("{right} of {count} right", { right, count }),
+              )
+            : null,
+          h(
+            "div",
+            { class: "form" },
+            act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
+            marked ? act("next", t("Next task"), solved, () => this.next()) : null,
+            marked ? act("try", t("Try it"), false, () => void this.tryIt()) : null,
+          ),
+          marked ? h("details", {}, h("summary", {}, t("The solution")), h("pre", {}, marked.solution)) : null,
+        ),
       ),
-      ...(marked
-        ? [h("details", {}, h("summary", {}, t("The solution")), h("div", {}, h("pre", {}, marked.solution)))]
-        : []),
+    );
+  }
+
+  /** What is asked, with a field or a choice, and its mark. */
+  private row({ key, name, symbol, unit, choices }: Asked): HTMLElement {
+    const mark = this.marked?.marks.find((one) => one.key === key);
+    const given = this.answers[key] ?? "";
+    const set = (value: string) => (this.answers[key] = value);
+    const [id, hint] = [`answer-${key}`, `hint-${key}`];
+    const words = { right: `✓ ${t("right")}`, near: `≈ ${t("nearly right")}`, wrong: `✗ ${t("wrong")}` };
+    const input = h("input", {
+      id,
+      value: given,
+      size: 10,
+      autocomplete: "off",
+      "data-answer": key,
+      "aria-invalid": mark?.mark === "wrong" && "true",
+      "aria-describedby": mark?.hint && hint,
+      oninput: () => set(input.value),
+    });
+    const field = choices.length
+      ? choice(
+          name,
+          choices.map((one) => [one, one]),
+          given,
+          set,
+          { "data-answer": key },
+        )
+      : h("span", {}, symbol ? h("i", {}, ...signs(symbol), " = ") : null, input, ` ${unit}`);
+    return h(
+      "div",
+      { class: "answer", "data-state": mark?.mark },
+      choices.length ? h("span", {}, name) : h("label", { for: id }, name),
+      field,
+      mark ? h("b", { "data-mark": mark.mark }, words[mark.mark]) : null,
+      mark?.hint ? h("div", { id: hint }, mark.hint) : null,
     );
   }
 
   private async mark(): Promise<void> {
+    const task = this.task!;
+    if (!Object.values(this.answers).some((answer) => answer.trim()))
+      return this.page.say(t("Give at least one answer."));
     try {
-      this.show(await this.page.ask<Marked>("mark", { id: this.task!.id, answers: this.answers }));
+      this.marked = await this.page.ask<Marked>("mark", { id: task.id, answers: this.answers });
+    } catch (error) {
+      return this.page.say((error as Error).message);
+    }
+    this.page.say("");
+    const right = this.marked.marks.filter(({ mark }) => mark === "right");
+    this.record.set(task.id, right.length === task.asked.length);
+    this.show();
+    this.showScore();
+  }
+
+  private showScore(): void {
+    const tasks = [...this.record.values()];
+    const solved = tasks.filter(Boolean).length;
+    renew(
+      this.score,
+      ...tasks.slice(-12).map((one) => h("i", { class: one ? "good" : "bad", "aria-hidden": "true" }, one ? "●" : "○")),
+      tasks.length ? t("{solved} of {tasks} solved", { solved, tasks: tasks.length }) : "",
+    );
+  }
+
+  private async tryIt(): Promise<void> {
+    try {
+      const { model, text, drive } = await this.page.ask<Tried>("try", { id: this.task!.id });
+      if (model) this.page.open(model, drive ?? undefined);
+      else this.page.describe(text!);
     } catch (error) {
       this.page.say((error as Error).message);
     }
   }
+}
+
+/** A symbol with its index: l_a. */
+function signs(symbol: string): (string | Node)[] {
+  const [base, ...index] = symbol.split("_");
+  return index.length ? [base!, h("sub", {}, index.join("_"))] : [base!];
 }

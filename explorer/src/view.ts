@@ -24,8 +24,8 @@ export interface Page {
   /** The chains of which lists are made, as far as there is somebody who makes them. */
   readonly limits: Partial<Record<"links" | "mobility", { min: number; max: number }>>;
   ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void): Request<Result>;
-  /** Show another linkage, in motion. */
-  open(model: Model): void;
+  /** Show another linkage, in motion, at a value of its drive. */
+  open(model: Model, drive?: number): void;
   /** Show the structure of a text. */
   describe(text: string): void;
   /** A sentence for the reader, an error unless something is done; without a text the last one goes. */

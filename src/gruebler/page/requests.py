@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import msgspec
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import error_in_language, translate
+from gruebler.base.text import translate
 from gruebler.page.page import LISTED_CHAINS
 
 Progress = Callable[[str], None]
@@ -57,7 +57,7 @@ class ListCatalog(_Params):
 
 
 class CatalogId(_Params):
-    """A machine of the catalog."""
+    """A machine of the catalog, or an exercise."""
 
     id: Word
 
@@ -395,52 +395,28 @@ def _saved_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
     return saved_kinds(lang)
 
 
-def _exercise_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
-    from gruebler.teaching.exercises import KINDS
+def _task_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
+    from gruebler.page.tasks import task_kinds
 
-    return [{"kind": kind, "name": name.in_language(lang)} for kind, (name, _) in KINDS.items()]
-
-
-def _new_exercise(asked: NewExercise, lang: str, _: Progress) -> dict[str, Any]:
-    from gruebler.teaching.exercises import ascii_key, generate, plain_name, solve
-
-    task = generate(asked.kind, asked.seed, asked.level)
-    results = solve(task).results
-    return {
-        "id": task.id,
-        "name": task.name.in_language(lang),
-        "task": task.task.in_language(lang),
-        "asked": [
-            {
-                "key": ascii_key(question.key),
-                "name": result.name.in_language(lang),
-                "unit": result.unit,
-                "choice": isinstance(result.value, bool),
-            }
-            for question in task.asked
-            for result in [results[question.key]]
-            if plain_name(result)
-        ],
-    }
+    return task_kinds(lang)
 
 
-def _mark(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
-    from gruebler.teaching.exercises import exercise, grade, solution_text, solve
+def _task(asked: NewExercise, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.page.tasks import task_record
 
-    task = exercise(asked.id)
-    marks = []
-    for key, given in asked.answers.items():
-        if not given.strip():
-            continue
-        try:
-            graded = grade(task, {key: given})[0]
-        except GrueblerError as error:
-            marks.append({"key": key, "mark": "wrong", "hint": error_in_language(error, lang)})
-            continue
-        marks.append(
-            {"key": key, "mark": str(graded.mark), "hint": graded.hint.in_language(lang) if graded.hint else ""}
-        )
-    return {"marks": marks, "solution": solution_text(task, solve(task), lang)}
+    return task_record(asked.kind, asked.level, asked.seed, lang)
+
+
+def _marked_task(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.page.tasks import marked_task
+
+    return marked_task(asked.id, asked.answers, lang)
+
+
+def _tried_task(asked: CatalogId, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.page.tasks import tried_task
+
+    return tried_task(asked.id, lang)
 
 
 REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] = {
@@ -458,8 +434,9 @@ REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] =
     "export": (Export, _export),
     "open_file": (OpenFile, _open_file),
     "saved_kinds": (Nothing, _saved_kinds),
-    "exercise_kinds": (Nothing, _exercise_kinds),
-    "exercise": (NewExercise, _new_exercise),
-    "mark": (MarkAnswers, _mark),
+    "exercise_kinds": (Nothing, _task_kinds),
+    "exercise": (NewExercise, _task),
+    "mark": (MarkAnswers, _marked_task),
+    "try": (CatalogId, _tried_task),
 }
 """Name, parameters, work."""

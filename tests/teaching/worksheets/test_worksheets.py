@@ -43,7 +43,7 @@ def test_one_task_of_each_kind(sheet):
     assert sheet.ids == tuple(f"{kind}-2-{7 + k}" for k, kind in enumerate(KINDS))
     assert len(blocks_of(sheet.tasks, AnswerLines)) == 6
     figures = [exercise_figure(exercise(id)) for id in sheet.ids]
-    assert len(blocks_of(sheet.tasks, Pictures)) == sum(figure is not None for figure in figures) == 5
+    assert len(blocks_of(sheet.tasks, Pictures)) == sum(figure is not None for figure in figures) == 6
 
 
 def test_answers_are_marked_by_the_names_that_are_printed(sheet):
@@ -323,5 +323,5 @@ def test_exercise_12_has_its_graphical_way(tmp_path):
     assert main(["exercise", "solve", "12", "15", "8", "--lang", "de", "-o", str(file)]) == 0
     text = file.read_text(encoding="utf-8")
     assert "91,24" in text  # the frame, measured in the construction
-    assert text.count("<svg") == 5  # three constructions, the slider-crank of exercise 15 and its s(φ)
+    assert text.count("<svg") == 6  # three constructions, the linkages of 8 and 15, s(φ) of 15
     assert "55 &lt; d &lt; 85" in text

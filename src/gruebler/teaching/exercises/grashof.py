@@ -6,6 +6,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import in_every_language, joined, message
 from gruebler.mechanics.analysis import drive_range
 from gruebler.mechanics.fourbar import FourBar, Grashof, turning_ranges
+from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, figure, formula_number
 
 __all__ = ["condition", "length_range"]
@@ -50,7 +51,16 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     builder.mistake(
         "turns", not turns, message("Compare l_min + l_max with the two others, and see where the shortest link is.")
     )
+    relation = grashof.condition
+    for (sign, _), other in FOUR_BAR_TYPES.items():
+        builder.mistake("type", in_every_language(other.name), _WRONG_PLACE if sign == relation else _WRONG_SUMS)
     return builder.done()
+
+
+_WRONG_SUMS = message(
+    "Compare s1 and s2 again: the type depends on which of them is larger, or whether they are equal."
+)
+_WRONG_PLACE = message("The sums allow that; but which link is the shortest, and where is it?")
 
 
 def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:

@@ -58,6 +58,9 @@ def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
     lengths = {key: float(given[key]) for key in ("a", "b", "c", "d", "e") if isinstance(given.get(key), int | float)}
     if "b" not in lengths and {"a", "ratio"} <= {*given}:
         lengths["b"] = float(given["a"]) / float(given["ratio"])
+    if isinstance(free := given.get("free"), str) and len(lengths) == len("abc"):  # one of those that are asked for
+        solution = solve(exercise)
+        lengths[free] = (solution.number(f"{free}_min") + solution.number(f"{free}_max")) / 2
     if {*"abcd"} <= {*lengths}:
         size: FourBar | SliderCrank = FourBar(*(lengths[key] for key in "abcd"))
     elif {*"ab"} <= {*lengths} and not {*"cd"} & {*lengths} and "free" not in given:

@@ -1,0 +1,105 @@
+"""Exercises on the page: figures, choices, hints by the likely mistake, the linkage to try, the score."""
+
+import pytest
+
+KIND = "gruebler.views.exercises"
+
+
+def begin(page, kind: str, seed: int, level: int = 1) -> None:
+    """Open a certain task."""
+    page.page.evaluate(f"Object.assign({KIND}, {{kind: '{kind}', seed: {seed}, level: {level}}})")
+    page.page.evaluate(f"{KIND}.fresh()")
+    page.until(f"{KIND}.task.id === '{kind}-{level}-{seed}'")
+
+
+@pytest.fixture
+def exercises(tab, server):
+    def opened(**settings):
+        page = tab(**settings).open(server.address)
+        page.page.click('[data-view="exercises"]')
+        page.page.locator("[data-answer]").first.wait_for()
+        return page
+
+    return opened
+
+
+def test_every_kind_has_a_figure_and_wrong_answers_a_hint(exercises):
+    page = exercises()
+    kinds = page.page.locator('[aria-label="Theory"] button')
+    assert kinds.count() == 6
+    page.page.locator('[aria-label="Level"] button').nth(1).click()
+    for number in range(6):
+        kinds.nth(number).click()
+        page.until(f"{KIND}.task.id.startsWith({KIND}.kind + '-2-')")
+        box = page.page.locator('[aria-label="The figure of the task"]').bounding_box()
+        assert min(box["width"], box["height"]) > 60
+        for field in page.page.locator("input[data-answer]").all():
+            field.fill("123456.789")
+        page.page.click('[data-act="mark"]')
+        wrong = page.page.locator('[data-state="wrong"]')
+        wrong.first.wait_for()
+        assert wrong.count() == page.page.locator("input[data-answer]").count()
+        assert all(hint.count(" ") >= 2 for hint in page.page.locator("[id^=hint-]").all_text_contents())
+        assert page.page.locator("[id^=hint-]").count() == wrong.count()
+    assert page.page.locator(".score").text_content().endswith("0 of 6 solved")
+
+
+def test_a_task_is_chosen_marked_mended_and_tried(exercises):
+    """a = 45, b = 80, c = 80, d = 30 mm: 30 + 80 = 110 < 125 = 45 + 80, and the frame is the shortest."""
+    page = exercises()
+    view = page.page
+    begin(page, "grashof", 3)
+    assert "a = 45 mm, b = 80 mm, c = 80 mm and d = 30 mm" in view.locator(".task").inner_text()
+    view.click('[data-act="mark"]')
+    assert "at least one answer" in view.locator(".message").inner_text()
+    view.locator('[data-answer="sum_ends"]').fill("110")
+    view.locator('[data-answer="sum_others"]').fill("12,5 cm")
+    view.locator('[data-answer="turns"] [data-value="yes"]').click()
+    view.locator('[data-answer="type"] [data-value="crank-rocker"]').click()
+    view.click('[data-act="mark"]')
+    view.locator("[data-result]").wait_for()
+    marks = view.locator("[data-mark]").evaluate_all("all => all.map((e) => e.dataset.mark)")
+    assert marks == ["right", "right", "right", "wrong"]
+    assert "which link is the shortest" in view.locator("[id=hint-type]").inner_text()
+    assert view.locator('[data-answer="type"] [aria-pressed="true"]').all_text_contents() == ["crank-rocker"]
+    view.locator('[data-answer="type"] [data-value="double crank"]').press("Enter")
+    view.locator('[data-answer="sum_ends"]').press("Enter")
+    page.until(f"{KIND}.record.get('grashof-1-3')")
+    assert view.locator("[data-result]").inner_text() == "4 of 4 right"
+    assert view.locator(".score").inner_text() == "●1 of 1 solved"
+    view.click('[data-act="try"]')
+    page.until("gruebler.view === 'motion'")
+    lengths = view.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")
+    assert sorted(lengths) == pytest.approx([30, 45, 80, 80])
+    assert view.evaluate("gruebler.motion.linkage.cycle.full") is True  # the crank does turn
+    view.go_back()
+    page.until("gruebler.view === 'exercises'")
+    view.click('[data-act="next"]')
+    page.until(f"{KIND}.task.id === 'grashof-1-4'")
+    assert view.locator("[data-result]").count() == 0
+
+
+def test_answers_and_hints_in_german_on_a_phone(exercises):
+    """A central slider-crank of 30 and 100 mm: the dead centres at 130 and 70, the stroke twice the crank."""
+    page = exercises(width=390, height=844, locale="de-DE")
+    begin(page, "dead-centre", 7)
+    for key, answer in (("l_a", "130,0"), ("l_i", "0,07 m"), ("H", "30")):
+        page.page.locator(f'[data-answer="{key}"]').fill(answer)
+    page.page.click('[data-act="mark"]')
+    page.page.locator("[data-result]").wait_for()
+    assert page.page.locator("[data-result]").inner_text() == "2 von 3 richtig"
+    assert page.page.locator("[id=hint-H]").inner_text() == "Der Hub ist zweimal die Kurbellänge, nicht einmal."
+    assert page.page.evaluate("document.documentElement.scrollWidth") <= 390
+    figure, field = (page.page.locator(part).bounding_box() for part in (".task svg", '[data-answer="l_a"]'))
+    assert figure["y"] + figure["height"] < field["y"]
+
+
+def test_the_velocity_is_asked_where_the_linkage_then_stands(exercises):
+    page = exercises()
+    begin(page, "velocity", 3)
+    angle = page.page.locator(".task p").first.inner_text().split("φ = ")[1].split("°")[0]
+    page.page.locator('[data-answer="v_B"]').fill("1")
+    page.page.click('[data-act="mark"]')
+    page.page.click('[data-act="try"]')
+    page.until("gruebler.view === 'motion'")
+    assert page.page.evaluate("gruebler.motion.linkage.drives[0] * 180 / Math.PI") == pytest.approx(float(angle))
