@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import functools
 import json
 import math
@@ -42,6 +43,11 @@ def words(figure):
     return [shape.text for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
+def leftmost_joint(figure):
+    joints = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
+    return min(joints, key=lambda at: at.x)
+
+
 def styled(figure, style):
     return [shape for shape in figure.shapes if shape.style == style]
 
@@ -56,18 +62,56 @@ def points(figure, style):
 @pytest.mark.parametrize(
     ("linkage", "lengths"),
     [
-        (CRANK_ROCKER.linkage(), ["25 mm", "40 mm", "70 mm", "70 mm"]),
-        (WITH_POINT, ["25 mm", "40 mm", "40.31 mm", "40.31 mm", "70 mm", "70 mm"]),
-        (SliderCrank(25, 70, 12).linkage(), ["12 mm", "25 mm", "70 mm"]),
-        (SliderCrank(25, 70).linkage(), ["25 mm", "70 mm"]),
-        (InvertedSliderCrank(25, 60, 8).linkage(), ["25 mm", "60 mm", "8 mm"]),
+        (CRANK_ROCKER.linkage(), ["25", "40", "70", "70"]),
+        (WITH_POINT, ["25", "40", "40.31", "40.31", "70", "70"]),
+        (SliderCrank(25, 70, 12).linkage(), ["12", "25", "70"]),
+        (SliderCrank(25, 70).linkage(), ["25", "70"]),
+        (InvertedSliderCrank(25, 60, 8).linkage(), ["25", "60", "8"]),
     ],
 )
 def test_every_length_is_told_once(linkage, lengths):
     figure = draw_linkage(linkage, at=1.0, show=["dimensions"])
-    assert sorted(word for word in words(figure) if word.endswith(" mm")) == lengths
+    assert sorted(word for word in words(figure) if word[0].isdigit()) == lengths
     assert "Shown: dimensions." in figure.description
     assert len(styled(figure, "dimension-head")) == 2 * len(lengths)
+
+
+def test_a_unit_other_than_millimetres_is_written():
+    figure = draw_linkage(CRANK_ROCKER.linkage(unit="cm"), at=1.0, show=["dimensions"])
+    assert sorted(word for word in words(figure) if word[0].isdigit()) == ["25 cm", "40 cm", "70 cm", "70 cm"]
+
+
+def test_an_offset_is_measured_from_the_axis_of_the_slide():
+    """A chain line at the height of the offset, which goes on beyond the foot of the dimension."""
+    linkage = SliderCrank(25, 70, 12).linkage()
+    figure = draw_linkage(linkage, at=1.0, show=["dimensions"])
+    (axis,), scale = styled(figure, "pitch"), posed_linkage(linkage, 1.0).scale
+    ((first, last),) = axis.parts
+    pivot = leftmost_joint(figure)
+    assert first.y == last.y == pytest.approx(pivot.y - 12 * scale)
+    assert min(first.x, last.x) < pivot.x < max(first.x, last.x)
+    assert not styled(draw_linkage(SliderCrank(25, 70), at=1.0, show=["dimensions"]), "pitch")
+
+
+def test_the_joints_of_dead_centres_have_letters():
+    """Where crank and coupler are in line, from the law of cosines by hand: A at the angle of A_0 B, from A_0."""
+    linkage = CRANK_ROCKER.linkage()
+    figure = draw_linkage(linkage, at=1.0, show=["dead-centres"], lang="de")
+    pivot, scale = leftmost_joint(figure), posed_linkage(linkage, 1.0).scale
+    texts = {shape.text: shape.at for shape in figure.shapes if isinstance(shape, TextShape)}
+    a, b, c, d = 25, 70, 40, 70
+    for letter, reach, crank in (("a", b + a, a), ("i", b - a, -a)):
+        along = cmath.rect(1.0, math.acos((reach**2 + d**2 - c**2) / (2 * reach * d)))
+        for name, place in (("A", crank * along), ("B", reach * along)):
+            joint = pivot.plus(Point(place.real, -place.imag), scale)
+            assert texts[f"{name}_{letter}"].minus(joint).length < 40
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_centrodes_are_named_below_the_picture(lang):
+    figure = draw_linkage(CRANK_ROCKER, at=1.0, show=["centrodes"], lang=lang)
+    named = ["p  fixed centrode", "q  moving centrode"] if lang == "en" else ["p  Rastpolbahn", "q  Gangpolbahn"]
+    assert [word for word in words(figure) if word in named] == named
 
 
 @settings(max_examples=10)

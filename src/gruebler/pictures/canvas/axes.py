@@ -104,7 +104,7 @@ def as_text(value: float, unit: str, lang: str = "en") -> str:
     """
     plain = not value or 1e-3 <= abs(float(f"{value:.4g}")) < 1e5
     number = f"{float(f'{value:.4g}'):.10g}".replace("-", "−") if plain else _with_power(value).removeprefix("1×")
-    return decimal_sign_in(f"{number} {unit}", lang)
+    return decimal_sign_in(f"{number} {unit}".rstrip(), lang)
 
 
 def _with_power(value: float) -> str:

@@ -36,6 +36,7 @@ _START, _BEYOND = 8.0, 4.0  # of the extension lines: their beginning, and their
 _STARTS = (_START, 18.0, 28.0, 38.0, 48.0, 60.0)
 _HEAD = (8.0, 2.2)
 _GAP = 4.0  # pixels between a number and its line
+_AXIS = 16.0  # pixels by which the axis of a slide goes on at both ends
 _SAME = 1e-9  # sizes: dimensions are not drawn below, lengths that differ by less are equal
 
 
@@ -48,11 +49,15 @@ class _Measure(NamedTuple):
 
 
 def dimension_lines(context: LayerContext) -> list[Shape]:
-    """A dimension line for every length of every link, clear of bodies and of each other where there is space."""
+    """A dimension line for every length of every link, clear of bodies and of each other where there is space.
+
+    The axis of a slide with an offset is drawn too. As in technical drawings (ISO 129), millimetres are not written.
+    """
     posed = context.posed
-    shapes: list[Shape] = []
+    shapes: list[Shape] = [*_axes(posed)]
+    unit = "" if posed.linkage.unit == "mm" else posed.linkage.unit
     for measure in _measures(posed):
-        text = as_text(measure.length, posed.linkage.unit, context.lang)
+        text = as_text(measure.length, unit, context.lang)
         shapes += _dimension(posed.place(measure.first), posed.place(measure.second), text, [*context.drawn, *shapes])
     return shapes
 
@@ -113,6 +118,17 @@ def _beside(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]
                     foot = start + ((pin - start) * along.conjugate()).real * along
                     if abs(foot - pin) > 1e-6 * linkage.size:
                         yield foot, pin
+
+
+def _axes(posed: PosedLinkage) -> Iterator[Polylines]:
+    """A chain line along each slide whose axis misses a pin of its guide: from the foot of the offset over the path."""
+    for slide in slides(posed):
+        feet = [foot for foot, _ in _beside(posed, slide.guide)]
+        if feet and slide.sign == "block":
+            ends = sorted([slide.low, slide.high, *feet], key=lambda z: (z * slide.along.conjugate()).real)
+            first, last = (posed.place(_named(slide.guide, z)) for z in (ends[0], ends[-1]))
+            beyond = last.minus(first).unit
+            yield Polylines(((first.plus(beyond, -_AXIS), last.plus(beyond, _AXIS)),), "pitch")
 
 
 def _cylinders(posed: PosedLinkage) -> Iterator[_Measure]:

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError, nearest
-from gruebler.base.text import translate
+from gruebler.base.text import message, translate
 from gruebler.mechanics.analysis.courses import Course
 from gruebler.mechanics.analysis.drive_cycles import PathCycle
 from gruebler.mechanics.analysis.events import stops
@@ -33,7 +33,7 @@ from gruebler.pictures.linkage.bodies import BodyPart, corners_of, in_link, shap
 from gruebler.pictures.linkage.dimensions import dimension_lines
 from gruebler.pictures.linkage.instant_centres import pole_marks
 from gruebler.pictures.linkage.layer_context import Layer, LayerContext
-from gruebler.pictures.linkage.letters import angle_marks, joint_names, length_letters
+from gruebler.pictures.linkage.letters import angle_marks, joint_letters, joint_names, length_letters
 from gruebler.pictures.linkage.poles import centrode_lines, inflection_lines
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
@@ -42,6 +42,7 @@ _CHORD, _HALVINGS = 0.01, 12  # of a curve's width and height: farther poses get
 _STEP = 0.03  # between samples of a circuit, in sizes
 _RAY = 46.0  # pixels of the legs of an angle
 _ARC = 34.0
+_SIDES = {"inner": message("{letter}_i"), "outer": message("{letter}_o")}  # German: innere und äußere Totlage
 _AT_REST = 1e-7  # sizes for a drive of speed 1: below, a point leaves in the direction of its acceleration
 
 
@@ -136,7 +137,7 @@ def _free_direction(posed: PosedLinkage, joint: int, at: Point) -> float:
 
 
 def _dead_centres(context: LayerContext) -> list[Shape]:
-    """The links as thin lines in the dead centres and dwells of the output."""
+    """The links as thin lines in the dead centres and dwells of the output, their joints with letters."""
     posed = context.posed
     cycle = posed.driven()
     centres, dwells = stops(cycle, find_output(posed.linkage, context.output))
@@ -147,7 +148,24 @@ def _dead_centres(context: LayerContext) -> list[Shape]:
     if not drives:
         return []
     motion = cycle.at(np.array(drives), 0)
-    return [shape for row in range(len(drives)) for shape in ghost(posed, motion, row)]
+    shapes = [shape for row in range(len(drives)) for shape in ghost(posed, motion, row)]
+    sides = {centre.drive: _SIDES[centre.side] for centre in centres if centre.side in _SIDES}
+    for row, drive in enumerate(drives):
+        for letter, place in _free_joints(posed, motion, row) if drive in sides else ():
+            text = sides[drive].filled(letter=letter).in_language(context.lang)
+            shapes.append(note_near(place, text, "value", [*context.drawn, *shapes]))
+    return shapes
+
+
+def _free_joints(posed: PosedLinkage, motion: Motion, row: int) -> Iterator[tuple[str, Point]]:
+    """The letters and places of the joints that the links at the frame have with other moving links."""
+    mechanism = posed.lower.mechanism
+    letters = joint_letters(posed)
+    for number, letter in letters.items():
+        links = mechanism.chain.joints[number].links
+        if f"{letter}_0" in letters.values():
+            element = posed.lower.elements[number, links[0]]
+            yield letter, posed.local(complex(motion.complex_point(LinkPoint(links[0], element.x, element.y))[row]))
 
 
 def ghosts(posed: PosedLinkage, count: int) -> list[Shape]:

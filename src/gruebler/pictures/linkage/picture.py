@@ -62,6 +62,7 @@ _LAYER_NAMES = {
     "lengths": message("letters of the lengths"),
 }
 _MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
+_CENTRODES = {"p": message("fixed centrode"), "q": message("moving centrode")}
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 
 
@@ -140,6 +141,8 @@ def draw_linkage(
     if "poles" in layers:
         numbers = pole_numbers(linkage.mechanism.chain.links)
         rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
+    for letter, meaning in _CENTRODES.items() if layer_shapes.get("centrodes") else ():
+        rows[meaning.in_language(lang)] = letter
     if rows:
         shapes += legend(rows, [Point(0.0, 0.0)], shapes)
     sentences, missing = picture_notes(posed, curves, {key: layer_shapes[key] for key in layers}, lang, ghost or 0)

@@ -19,6 +19,7 @@ _WIDE = 0.3  # of the figure's longer side: the margin in which centrodes and in
 _WHOLE = 1.6  # of it: an inflection circle within this margin is drawn whole
 _SAMPLES = 1440  # points of a centrode or circle
 _TURNING = 1e-6  # for a drive of speed 1: the pole of a link that turns more slowly is far away
+_PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)  # of a centrode: where its letter may stand, far from the joints
 _POINT = 1e-6  # sizes: a smaller inflection circle is a point
 
 
@@ -113,8 +114,10 @@ def centrode_lines(context: LayerContext) -> list[Shape]:
         if max((b.minus(line[0]).length for line in lines for b in line), default=0.0) < 1.0:
             return []
         shapes.append(Polylines(tuple(lines), style))
-        longest = max(lines, key=len)
-        shapes.append(note_near(longest[len(longest) // 3], name, "value", [*context.drawn, *shapes]))
+        pins = [shape.at for shape in context.drawn if isinstance(shape, CircleShape)]
+        ends = [line[round(part * (len(line) - 1))] for line in lines for part in _PARTS]
+        free = max(ends, key=lambda at: min((at.minus(pin).length for pin in pins), default=0.0))
+        shapes.append(note_near(free, name, "value", [*context.drawn, *shapes]))
     return shapes
 
 
