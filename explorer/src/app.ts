@@ -250,7 +250,11 @@ export class App implements Page {
           );
     const [back, forth] = this.undoing.undoable!;
     const tool = (sign: Icon, title: string, act: () => void, disabled = false) =>
-      h("button", { class: "quiet", title, "aria-label": title, onclick: act, disabled }, icon(sign));
+      h(
+        "button",
+        { class: "quiet", title, "aria-label": title, "data-icon": sign, onclick: act, disabled },
+        icon(sign),
+      );
     const file = h("input", { type: "file", hidden: true, onchange: () => void this.openFile(file.files?.[0]) });
     const language = h(
       "select",

@@ -16,6 +16,8 @@ interface Choice {
 
 interface Structure {
   text: string;
+  /** The frame that was chosen, or the one of the list that is like it; empty if none was. */
+  chosen: string;
   picture: string;
   joints: {
     name: string;
@@ -51,6 +53,11 @@ function namesOf({ links, linkNames }: Model): Record<string, string> {
   return Object.fromEntries(names.map((name, link) => [links[link]!, name]));
 }
 
+/** The heading of a step. */
+function step(number: number, title: string): HTMLElement {
+  return h("h2", { class: "step" }, h("i", {}, String(number)), title);
+}
+
 interface Realised {
   model: Model;
   message: string;
@@ -66,6 +73,8 @@ export class StructureView implements View {
   private joint = -1;
   private atFrame = true;
   private readonly list = h("div", {});
+  private readonly count = h("span", { class: "note" });
+  private readonly shown = h("div", {});
   private readonly detail = h("div", {});
   private readonly status = h("div", { class: "form" });
   private readonly error = h("p", { class: "error", role: "alert" });
@@ -81,9 +90,8 @@ export class StructureView implements View {
   }
 
   appeared(): void {
-    if (this.text) return;
-    const model = this.page.shown;
-    void this.describe(chainText(model));
+    if (!this.text) void this.describe(chainText(this.page.shown));
+    if (!this.chains) void this.listChains(0);
   }
 
   arrange(): void {
@@ -92,14 +100,20 @@ export class StructureView implements View {
       ...this.page.limits.links,
       value: this.links,
       "aria-label": t("Links"),
-      onchange: () => (this.links = Number(links.value)),
+      onchange: () => {
+        this.links = Number(links.value);
+        void this.listChains(0);
+      },
     });
     const mobility = h("input", {
       type: "number",
       ...this.page.limits.mobility,
       value: this.mobility,
       "aria-label": t("Mobility"),
-      onchange: () => (this.mobility = Number(mobility.value)),
+      onchange: () => {
+        this.mobility = Number(mobility.value);
+        void this.listChains(0);
+      },
     });
     this.field.setAttribute("aria-label", t("The chain as text"));
     renew(
@@ -107,22 +121,18 @@ export class StructureView implements View {
       h(
         "div",
         { class: "page" },
-        h("h2", {}, t("Choose a chain")),
+        step(1, t("Chain")),
         h(
           "div",
           { class: "form" },
           h("label", {}, t("Links"), links),
           h("label", {}, t("Mobility"), mobility),
-          h(
-            "button",
-            { class: "key", "data-act": "chains", onclick: () => void this.listChains(0) },
-            t("Show all chains"),
-          ),
+          this.count,
           this.status,
         ),
         this.list,
-        h("h2", {}, t("The chain as text")),
-        this.field,
+        this.shown,
+        h("details", { class: "words" }, h("summary", {}, t("The chain as text")), this.field),
         this.error,
         this.detail,
       ),
@@ -144,20 +154,25 @@ export class StructureView implements View {
   private showChains(): void {
     const { chains } = this;
     if (!chains) return renew(this.list);
+    this.count.textContent = t("{shown} of {total} chains", { shown: chains.items.length, total: chains.total });
     const more =
       chains.items.length < chains.total
         ? h("button", { class: "plain", onclick: () => void this.listChains(chains.items.length) }, t("More"))
         : null;
     renew(
       this.list,
-      h("p", { class: "note" }, t("{shown} of {total} chains", { shown: chains.items.length, total: chains.total })),
       h(
         "div",
-        { class: "cards", "data-list": "chains" },
+        { class: "cards few", "data-list": "chains" },
         ...chains.items.map(({ text, picture: drawn }, k) =>
           h(
             "button",
-            { class: "card", "data-chain": text, onclick: () => void this.describe(text, true) },
+            {
+              class: "card",
+              "data-chain": text,
+              "aria-pressed": String(this.text.startsWith(text)),
+              onclick: () => void this.describe(text),
+            },
             thumbnail(drawn, text),
             h("span", {}, `${k + 1}`),
           ),
@@ -167,10 +182,10 @@ export class StructureView implements View {
     );
   }
 
-  async describe(text: string, scroll = false): Promise<void> {
+  async describe(text: string): Promise<void> {
     const number = ++this.asked;
     if (this.field.value !== text) this.field.value = text;
-    if (!this.structure) renew(this.detail, moment());
+    if (!this.structure) renew(this.shown, moment());
     try {
       const found = await this.page.ask<Structure>("structure", {
         text,
@@ -185,12 +200,14 @@ export class StructureView implements View {
       this.error.textContent = "";
       this.field.setAttribute("aria-invalid", "false");
       this.showStructure();
-      if (scroll) this.field.scrollIntoView({ block: "start", behavior: "smooth" });
+      for (const card of this.list.querySelectorAll<HTMLElement>("[data-chain]"))
+        card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.chain!)));
     } catch (error) {
       if (number !== this.asked) return;
-      if (!this.structure) renew(this.detail);
+      if (!this.structure) renew(this.shown);
       const said = (error as Error).message;
       this.field.setAttribute("aria-invalid", "true");
+      this.field.closest("details")!.open = true;
       const place = /(?:character|Stelle) (\d+)/.exec(said);
       renew(this.error, said);
       if (place) {
@@ -278,30 +295,36 @@ export class StructureView implements View {
         )
       : h("p", { class: "note" }, t("Click on a joint to change its type."));
     const strained = found.links.some((link) => link.overconstrained);
-    const choices = (title: string, list: Choice[], label: (choice: Choice) => string, key: string) =>
-      list.length
-        ? [
-            h("h2", {}, title),
+    const lines = [...found.lines.slice(1), ...found.drives.split("\n")].filter((line) => line.trim());
+    renew(
+      this.shown,
+      h(
+        "div",
+        { class: "two" },
+        h("div", {}, h("div", { class: "chain-picture" }, drawn), types),
+        h(
+          "div",
+          {},
+          h(
+            "dl",
+            { class: "facts" },
+            h("div", {}, h("dt", {}, t("Counted")), h("dd", { "data-fact": "counted" }, `F = ${found.counted}`)),
             h(
               "div",
-              { class: "cards", "data-list": key },
-              ...list.map((choice) =>
-                h(
-                  "button",
-                  {
-                    class: "card",
-                    "data-text": choice.text,
-                    "aria-pressed": String(choice.text === found.text),
-                    onclick: () => void this.describe(choice.text, true),
-                  },
-                  thumbnail(choice.picture, choice.text),
-                  h("b", {}, label(choice)),
-                  choice.family ? h("span", {}, choice.family) : null,
-                ),
+              {},
+              h("dt", {}, t("Generic")),
+              h(
+                "dd",
+                { "data-fact": "generic", class: found.generic === found.counted ? "good" : "bad" },
+                `F = ${found.generic}`,
               ),
             ),
-          ]
-        : [];
+          ),
+          ...lines.map((line) => h("p", { class: "said" }, line.trim())),
+          strained ? h("p", { class: "note" }, t("Orange: overconstrained links.")) : null,
+        ),
+      ),
+    );
     const elsewhere = h("input", {
       type: "checkbox",
       checked: !this.atFrame,
@@ -311,60 +334,59 @@ export class StructureView implements View {
         void this.describe(this.text);
       },
     });
+    const driven = found.driven.filter(({ frame }) => !found.chosen || frame === found.chosen);
+    const framed = (choice: Choice) => t("frame: {frame}", { frame: choice.frame });
     renew(
       this.detail,
+      step(2, t("Frame")),
       h(
-        "div",
-        { class: "two" },
-        h(
-          "div",
-          {},
-          h("div", { class: "chain-picture" }, drawn),
-          types,
-          strained ? h("p", { class: "note" }, t("Orange: overconstrained links.")) : null,
-        ),
-        h(
-          "div",
-          {},
-          h(
-            "dl",
-            { class: "facts" },
-            h("dt", {}, t("Counted")),
-            h("dd", { "data-fact": "counted" }, `F = ${found.counted}`),
-            h("dt", {}, t("Generic")),
-            h(
-              "dd",
-              { "data-fact": "generic", class: found.generic === found.counted ? "good" : "bad" },
-              `F = ${found.generic}`,
-            ),
-          ),
-          h("pre", {}, found.lines.join("\n") + (found.drives ? `\n${found.drives}` : "")),
-          h(
-            "div",
-            { class: "form" },
-            h(
-              "button",
-              { class: "key", "data-act": "realise", onclick: () => void this.realise() },
-              t("Find dimensions and move it"),
-            ),
-          ),
-        ),
+        "p",
+        { class: "note" },
+        t("Links that a symmetry exchanges give the same mechanism: each kind stands here once."),
       ),
-      ...choices(
-        t("Frames that make a difference"),
-        found.inversions,
-        (choice) => t("frame: {frame}", { frame: choice.frame }),
-        "inversions",
-      ),
-      ...choices(
-        this.atFrame ? t("Drives at the frame that make a difference") : t("Drives that make a difference"),
-        found.driven,
-        (choice) =>
-          (this.atFrame ? "" : `${t("frame: {frame}", { frame: choice.frame })}, `) + choice.drives.join(", "),
+      this.cards("inversions", found.inversions, framed, (choice) => choice.frame === found.chosen),
+      step(3, t("Drive")),
+      this.cards(
         "driven",
+        driven,
+        (choice) => (found.chosen ? "" : `${framed(choice)}, `) + choice.drives.join(", "),
+        (choice) => choice.text === found.text,
       ),
       h("div", { class: "form" }, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
+      h(
+        "div",
+        { class: "form go" },
+        h(
+          "button",
+          { class: "key", "data-act": "realise", onclick: () => void this.realise() },
+          t("Find dimensions and move it"),
+        ),
+        found.drives ? "" : h("span", { class: "note" }, t("Choose a frame and a drive first.")),
+      ),
     );
+  }
+
+  /** Mechanisms of which one is chosen. */
+  private cards(
+    key: string,
+    list: Choice[],
+    label: (choice: Choice) => string,
+    chosen: (choice: Choice) => boolean,
+  ): HTMLElement {
+    const card = (choice: Choice) =>
+      h(
+        "button",
+        {
+          class: "card",
+          "data-text": choice.text,
+          "aria-pressed": String(chosen(choice)),
+          onclick: () => void this.describe(choice.text),
+        },
+        thumbnail(choice.picture, choice.text),
+        h("b", {}, label(choice)),
+        choice.family ? h("span", {}, choice.family) : null,
+      );
+    return h("div", { class: "cards few", "data-list": key }, ...list.map(card));
   }
 
   private pick(joint: number): void {

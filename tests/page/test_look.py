@@ -107,3 +107,12 @@ def test_the_header_has_room_for_its_name_and_its_language_in_german(tab, server
     assert name["width"] > 60
     assert language["x"] + language["width"] <= 1024
     assert abs(name["y"] + name["height"] / 2 - language["y"] - language["height"] / 2) < 6  # one row
+
+
+def test_the_header_of_a_phone_is_not_cut(tab, server):
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
+    for part in ("h1", "h1 small"):
+        cut = "(e) => e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1"
+        assert page.page.locator(f"header {part}").evaluate(cut) is False
+    assert page.page.locator("header h1").inner_text().split() == ["gruebler", "Kurbelschwinge"]
+    assert page.page.locator("header").bounding_box()["height"] < 110

@@ -172,13 +172,25 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     page = tab().open(server.address)
     view = page.page
     view.click('[data-view="structure"]')
-    view.click('[data-act="chains"]')
     view.locator('[data-list="chains"] .card').nth(1).wait_for()
     assert view.locator('[data-list="chains"] .card').count() == 2
     view.locator('[data-list="chains"] .card').first.click()
     view.locator('[data-list="inversions"] .card span:text-is("Watt II")').wait_for()
-    view.locator('[data-list="driven"] .card').nth(1).click()
-    view.wait_for_timeout(600)
+    # Watt's chain: a ternary or a binary frame, each with two joints that no symmetry exchanges
+    frames, drives = (view.locator(f'[data-list="{key}"] .card') for key in ("inversions", "driven"))
+    assert frames.locator("b").all_text_contents() == ["frame: 0", "frame: 2"]
+    assert drives.count() == 4
+    for number in (1, 0):
+        frames.nth(number).click()
+        view.locator(f'[data-list="inversions"] .card:nth-child({number + 1})[aria-pressed="true"]').wait_for()
+        assert drives.count() == 2
+        numbers = frames.nth(number).locator("svg text").all_text_contents()
+        assert sorted(numbers) == list("012345")
+        assert frames.locator("b").nth(number).inner_text().split()[-1] in numbers
+    drives.nth(1).click()
+    page.until("gruebler.views.structure.text.includes('drive=')")
+    view.locator('[data-list="driven"] [aria-pressed="true"]').wait_for()
+    assert [frame.get_attribute("aria-pressed") for frame in frames.all()] == ["true", "false"]
     names = view.locator(".chain-picture [data-joint]").evaluate_all("all => all.map((e) => e.dataset.joint)")
     frame = re.search(r"frame=(\w+)", view.locator('[data-field="chain"]').input_value())[1]
     driven = re.search(r"drive=(\S+)", view.locator('[data-field="chain"]').input_value())[1]
@@ -209,6 +221,7 @@ def test_errors_of_a_text_stand_at_their_place(tab, server):
     page = tab(locale="de-DE").open(server.address)
     page.page.click('[data-view="structure"]')
     page.page.locator('[data-fact="counted"]').wait_for()
+    page.page.locator('[data-page="structure"] summary').click()
     field = page.page.locator('[data-field="chain"]')
     field.fill("R(0-1) R(1-2")
     page.page.locator(".error .place").wait_for()

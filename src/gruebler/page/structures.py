@@ -7,12 +7,14 @@ from typing import Any
 
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.figure import figure_of
+from gruebler.pictures.canvas.labels import labels_or_numbers
 from gruebler.pictures.canvas.shapes import Point, bounds
 from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.structure import PlacedChain, draw_structure, paint, place_joints
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
 from gruebler.structure.chain.spaces import Space
+from gruebler.structure.isomorphism import symmetry
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
@@ -20,6 +22,7 @@ from gruebler.structure.mobility import MobilityReport, mobility_report
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _MOST_DRIVEN = 60
+_LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
 
 
 def mechanism_of_text(text: str) -> Mechanism:
@@ -55,18 +58,20 @@ def structure_record(
     chain = mechanism.chain
     contacts = contact_shapes(linkage) if linkage is not None and linkage.mechanism.chain == chain else {}
     placed = place_joints(mechanism, contacts)
-    shapes = paint(placed, lang)
-    corner, _ = bounds(shapes, 10.0)
     report = mobility_report(chain, frame=mechanism.frame)
     few = chain.n <= _MOST_LINKS
     called = {link: names[link] for link in chain.links} if names and set(chain.links) <= set(names) else {}
     shown = mechanism.renamed(called)
+    closed = {link: degree > 2 for link, degree in chain.degrees.items()}
+    shapes = labels_or_numbers({link: placed.outlines[link] for link in closed}, closed, paint(placed, lang), called)
+    corner, _ = bounds(shapes, 10.0)
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
         "picture": figure_of(shapes, chain.text(Alphabet.of_language(lang)), "").svg(styled=False),
         "joints": list(_joints(mechanism, shown, placed, corner, lang)),
         "links": list(_links(chain, placed, corner, report)),
         "frame": mechanism.frame,
+        "chosen": _alike(shown) if ";" in text else "",
         "counted": report.counted,
         "generic": report.generic,
         "verdict": str(report.verdict),
@@ -77,6 +82,11 @@ def structure_record(
         if few and chain.space is Space.PLANAR
         else [],
     }
+
+
+def _alike(mechanism: Mechanism) -> str:
+    """The first link that is like the frame: the one that stands in the lists."""
+    return next(orbit[0] for orbit in symmetry(mechanism.chain).link_orbits if mechanism.frame in orbit)
 
 
 def _driven(chain: Chain, at_frame: bool) -> list[Any]:
@@ -93,12 +103,13 @@ def _choice(
     mechanism: Mechanism, lang: str, contacts: Mapping[tuple[int, str], str], called: Mapping[str, str]
 ) -> dict[str, Any]:
     shown = mechanism.renamed(called)
+    few = max(map(len, mechanism.chain.links)) <= _LONGEST_LABEL
     return {
         "text": mechanism.text(),
         "frame": shown.frame,
         "drives": list(shown.drive_names(Alphabet.of_language(lang))),
         "family": family(mechanism, lang) or "",
-        "picture": draw_structure(mechanism, lang=lang, contacts=contacts).svg(styled=False),
+        "picture": draw_structure(mechanism, labels=few, lang=lang, contacts=contacts).svg(styled=False),
     }
 
 
