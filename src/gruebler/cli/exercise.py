@@ -97,9 +97,9 @@ def add(parser: Parser) -> None:
         """
     )
     sheet.add_out(
-        help="the sheet: .pdf, .html, .tex or .md; or .xml, questions for Moodle with answers and tolerances",
+        help="the sheet: .pdf, .html, .tex or .md; or questions for Moodle with answers and tolerances: .xml, or .gift",
         required=True,
-        endings=("pdf", "html", "tex", "md", "xml"),
+        endings=("pdf", "html", "tex", "md", "xml", "gift"),
     )
     for action in (listing, show, new, check):
         action.add_printed(help="print JSON, with texts in both languages")
@@ -184,8 +184,8 @@ def _sheet(arguments: argparse.Namespace) -> None:
     )
     path = arguments.out
     suffix = path.suffix.lower().removeprefix(".")
-    if suffix == "xml":
-        write_file(path, sheet.moodle(), arguments.lang)
+    if suffix in ("xml", "gift"):
+        write_file(path, sheet.moodle() if suffix == "xml" else sheet.gift(), arguments.lang)
         return
     beside = path.with_name(f"{path.stem}-{translate('solutions', arguments.lang)}{path.suffix}")
     write_file(path, document_bytes(sheet.tasks, suffix), arguments.lang)

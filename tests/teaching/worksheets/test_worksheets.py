@@ -4,6 +4,7 @@ import base64
 import re
 import shutil
 import subprocess
+from html import unescape
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -92,6 +93,41 @@ def test_moodle_marks_as_grade_does(sheet):
             word = {"true": "yes", "false": "no"}.get(text, text)
             (graded,) = grade(task, {key: word})
             assert graded.mark.value == {"100": "right", "50": "near", "0": "wrong"}[fraction], (task.id, key, text)
+
+
+def test_gift_says_what_the_xml_says(sheet):
+    """By the rules of the format: a backslash protects a sign, `=%marks%answer:tolerance#feedback` is an answer."""
+    quiz = ElementTree.fromstring(sheet.moodle()).findall("question")
+    questions = re.findall(
+        r"::((?:[^\\:]|\\.)*)::\[html\]((?:[^\\{]|\\.)*)\{((?:[^\\}]|\\.)*)\}", sheet.gift().decode("utf-8")
+    )
+    assert len(questions) == len(quiz)
+
+    def plain(text):
+        return re.sub(r"\\(.)", r"\1", text)
+
+    for (name, text, answers), question in zip(questions, quiz, strict=True):
+        assert plain(name) == question.findtext("name/text")
+        image = re.search(r"base64,([^\"]*)", plain(text))
+        file = question.find("questiontext/file")
+        assert (image and image[1]) == (file if file is None else file.text)
+        expected = [
+            (
+                a.get("fraction"),
+                a.findtext("text"),
+                a.findtext("tolerance") or "",
+                unescape(a.findtext("feedback/text") or ""),
+            )
+            for a in question.findall("answer")
+        ]
+        if question.get("type") == "truefalse":
+            assert (answers.lower(), "100") in {(word, fraction) for fraction, word, *_ in expected}
+            continue
+        assert answers.startswith("#") == (question.get("type") == "numerical")
+        found = re.findall(r"=%(\d+)%((?:[^\\:#\n]|\\.)*):?([^#\n]*)#?(.*)", answers)
+        assert [
+            (fraction, plain(word), tolerance, plain(hint)) for fraction, word, tolerance, hint in found
+        ] == expected
 
 
 def test_an_underscore_may_be_left_out():

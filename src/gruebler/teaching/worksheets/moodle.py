@@ -1,14 +1,17 @@
 """Tasks as questions of Moodle: one for each quantity asked, with figure, unit, tolerance and hints at likely mistakes.
 
-Elements as https://docs.moodle.org/en/Moodle_XML_format describes them.
+Elements of the XML as https://docs.moodle.org/en/Moodle_XML_format describes them, the text as
+https://docs.moodle.org/en/GIFT_format does.
 """
 
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable
-from dataclasses import replace
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from html import escape
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 from gruebler.base.text import LANGUAGES, Readable, message
@@ -22,80 +25,140 @@ from gruebler.teaching.exercises.messages import asked_text
 _NEAR = message("Right in principle; carry more digits on the way.")
 _UNIT_FIELDS = {"unitgradingtype": "0", "unitpenalty": "0.1", "showunits": "3", "unitsleft": "0"}  # a unit is optional
 
+Task = tuple[Exercise, str, Figure | None]
+"""An exercise with its text and its figure."""
 
-def moodle_xml(tasks: Iterable[tuple[Exercise, str, Figure | None]], lang: str = "en") -> bytes:
-    """The questions of tasks, each with the text and the figure given beside it, as a file that Moodle imports.
+
+class _Answer(NamedTuple):
+    """An answer, its marks in percent, what is said to it, and by how much a number may differ from it."""
+
+    text: str
+    fraction: int
+    hint: str = ""
+    tolerance: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Question:
+    """A question about one quantity; ``kind`` is ``numerical``, ``truefalse`` or ``shortanswer``."""
+
+    name: str
+    kind: str
+    paragraphs: tuple[str, str]
+    picture: bytes | None
+    answers: tuple[_Answer, ...]
+    """In the order in which Moodle tries them: right, likely mistakes, nearly right."""
+    unit: str
+
+
+def moodle_xml(tasks: Iterable[Task], lang: str = "en") -> bytes:
+    """The questions of tasks as a file that Moodle imports.
 
     >>> from gruebler.teaching.exercises import exercise
     >>> moodle_xml([(exercise("dead-centre-1-7"), "Find the stroke.", None)]).count(b'<question type="numerical">')
     3
     """
     quiz = Element("quiz")
-    for exercise, text, figure in tasks:
-        solution = solve(exercise)
-        for number, asked in enumerate(exercise.asked, 1):
-            result = solution.results[asked.key]
-            question = SubElement(quiz, "question")
-            _text(SubElement(question, "name"), f"{exercise.id} ({number}/{len(exercise.asked)})")
-            _add_body(question, [text, asked_text(result, lang)], figure)
-            _add_answers(question, solution, result, lang)
+    for asked in _questions(tasks, lang):
+        question = SubElement(quiz, "question", type=asked.kind)
+        _text(SubElement(question, "name"), asked.name)
+        body = SubElement(question, "questiontext", format="html")
+        _text(body, _html(asked, "@@PLUGINFILE@@/figure.svg"))
+        if asked.picture is not None:
+            file = SubElement(body, "file", name="figure.svg", path="/", encoding="base64")
+            file.text = base64.b64encode(asked.picture).decode("ascii")
+        SubElement(question, "defaultgrade").text = "1"
+        for each in asked.answers:
+            answer = SubElement(question, "answer", fraction=str(each.fraction), format="moodle_auto_format")
+            _text(answer, each.text)
+            _text(SubElement(answer, "feedback", format="html"), escape(each.hint))
+            if each.tolerance:
+                SubElement(answer, "tolerance").text = each.tolerance
+        if asked.unit:
+            unit = SubElement(SubElement(question, "units"), "unit")
+            SubElement(unit, "multiplier").text = "1"
+            SubElement(unit, "unit_name").text = asked.unit
+        for key, setting in {"numerical": _UNIT_FIELDS, "shortanswer": {"usecase": "0"}}.get(asked.kind, {}).items():
+            SubElement(question, key).text = setting
     return b'<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(quiz, encoding="unicode").encode("utf-8")
+
+
+def gift(tasks: Iterable[Task], lang: str = "en") -> bytes:
+    """The questions of tasks as GIFT, a text format of Moodle without units; figures stand in the text.
+
+    >>> from gruebler.teaching.exercises import exercise
+    >>> print(gift([(exercise("grashof-1-9"), "Judge it.", None)]).decode().partition("{")[0])
+    ::grashof-1-9 (1/4)::[html]<p>Judge it.</p><p>sum of the shortest and the longest length (in mm)</p>
+    """
+    return "\n\n".join(_gift_question(asked) for asked in _questions(tasks, lang)).encode("utf-8") + b"\n"
+
+
+def _gift_question(asked: _Question) -> str:
+    image = "" if asked.picture is None else f"data:image/svg+xml;base64,{base64.b64encode(asked.picture).decode()}"
+    if asked.kind == "truefalse":
+        answers = next(answer.text for answer in asked.answers if answer.fraction == 100).upper()
+    else:
+        answers = "#" * (asked.kind == "numerical") + "".join(
+            f"\n=%{answer.fraction}%{_literal(answer.text)}{answer.tolerance and f':{answer.tolerance}'}"
+            f"{answer.hint and f'#{_literal(answer.hint)}'}"
+            for answer in asked.answers
+        )
+    return f"::{_literal(asked.name)}::[html]{_literal(_html(asked, image))}{{{answers}}}"
+
+
+def _literal(text: str) -> str:
+    """A text without signs that mean something in GIFT."""
+    return re.sub(r"([\\~=#{}:])", r"\\\1", text)
 
 
 def _text(parent: Element, text: str) -> None:
     SubElement(parent, "text").text = text
 
 
-def _add_body(question: Element, paragraphs: Iterable[str], figure: Figure | None) -> None:
-    body = SubElement(question, "questiontext", format="html")
-    lines = [f"<p>{escape(paragraph)}</p>" for paragraph in paragraphs]
-    if figure is not None:
-        figure = replace(figure, title="", description="")  # they count links and name the mechanism
-        lines.insert(1, '<p><img src="@@PLUGINFILE@@/figure.svg" alt=""></p>')
-    _text(body, "".join(lines))
-    if figure is not None:
-        file = SubElement(body, "file", name="figure.svg", path="/", encoding="base64")
-        file.text = base64.b64encode(picture_bytes(figure, "svg")).decode("ascii")
-    SubElement(question, "defaultgrade").text = "1"
+def _html(asked: _Question, image: str) -> str:
+    lines = [f"<p>{escape(paragraph)}</p>" for paragraph in asked.paragraphs]
+    if asked.picture is not None:
+        lines.insert(1, f'<p><img src="{image}" alt=""></p>')
+    return "".join(lines)
 
 
-def _add_answers(question: Element, solution: Solution, result: Result, lang: str) -> None:
-    """The answers in the order in which Moodle tries them: right, likely mistakes, nearly right."""
+def _questions(tasks: Iterable[Task], lang: str) -> Iterator[_Question]:
+    for exercise, text, figure in tasks:
+        solution = solve(exercise)
+        picture = None
+        if figure is not None:  # without title and description, which count links and name the mechanism
+            picture = picture_bytes(replace(figure, title="", description=""), "svg")
+        for number, asked in enumerate(exercise.asked, 1):
+            result = solution.results[asked.key]
+            kind, answers = _answers(solution, result, lang)
+            yield _Question(
+                name=f"{exercise.id} ({number}/{len(exercise.asked)})",
+                kind=kind,
+                paragraphs=(text, asked_text(result, lang)),
+                picture=picture,
+                answers=tuple(answers),
+                unit=result.unit if kind == "numerical" else "",
+            )
+
+
+def _answers(solution: Solution, result: Result, lang: str) -> tuple[str, list[_Answer]]:
+    """The kind of question, and its answers."""
     value = result.value
     if isinstance(value, bool):
-        question.set("type", "truefalse")
-        for word in ("true", "false"):
-            _add_answer(question, 100 if (word == "true") == value else 0, word)
-    elif isinstance(value, int | float):
-        question.set("type", "numerical")
-        _add_answer(question, 100, repr(value), tolerance=_allowed(value, FINE))
-        for mistake in solution.mistakes:
-            if mistake.key == result.key and isinstance(mistake.value, int | float):
-                hint = mistake.hint.in_language(lang)
-                _add_answer(question, 0, repr(mistake.value), hint, _allowed(mistake.value, FINE))
-        if isinstance(value, float):
-            _add_answer(question, 50, repr(value), _NEAR.in_language(lang), _allowed(value, NEARLY))
-        if result.unit:
-            unit = SubElement(SubElement(question, "units"), "unit")
-            SubElement(unit, "multiplier").text = "1"
-            SubElement(unit, "unit_name").text = result.unit
-        for key, setting in _UNIT_FIELDS.items():
-            SubElement(question, key).text = setting
-    else:
-        question.set("type", "shortanswer")
-        SubElement(question, "usecase").text = "0"
+        return "truefalse", [_Answer(word, 100 if (word == "true") == value else 0) for word in ("true", "false")]
+    if not isinstance(value, int | float):
         names = [value.in_language(each) for each in LANGUAGES] if isinstance(value, Readable) else [str(value)]
-        for answer in dict.fromkeys(form for name in names for form in (name, name.partition(" (")[0])):
-            _add_answer(question, 100, answer)
+        forms = dict.fromkeys(form for name in names for form in (name, name.partition(" (")[0]))
+        return "shortanswer", [_Answer(form, 100) for form in forms]
+    answers = [_Answer(repr(value), 100, tolerance=_allowed(value, FINE))]
+    for mistake in solution.mistakes:
+        if mistake.key == result.key and isinstance(mistake.value, int | float):
+            hint = mistake.hint.in_language(lang)
+            answers.append(_Answer(repr(mistake.value), 0, hint, _allowed(mistake.value, FINE)))
+    if isinstance(value, float):
+        answers.append(_Answer(repr(value), 50, _NEAR.in_language(lang), _allowed(value, NEARLY)))
+    return "numerical", answers
 
 
 def _allowed(value: float, part: float) -> str:
     return "0" if isinstance(value, int) else repr(part * abs(value))
-
-
-def _add_answer(question: Element, fraction: int, text: str, hint: str = "", tolerance: str = "") -> None:
-    answer = SubElement(question, "answer", fraction=str(fraction), format="moodle_auto_format")
-    _text(answer, text)
-    _text(SubElement(answer, "feedback", format="html"), escape(hint))
-    if tolerance:
-        SubElement(answer, "tolerance").text = tolerance

@@ -48,7 +48,7 @@ from gruebler.teaching.worksheets.blocks import (
     Rows,
 )
 from gruebler.teaching.worksheets.exercise_figures import linkage_figure
-from gruebler.teaching.worksheets.moodle import moodle_xml
+from gruebler.teaching.worksheets.moodle import Task, gift, moodle_xml
 from gruebler.teaching.worksheets.solution_figures import solution_figures
 
 _MOST = 60
@@ -66,9 +66,16 @@ class TaskSheet:
 
     def moodle(self) -> bytes:
         """The tasks as questions of Moodle, marked there by the same rule (Moodle XML)."""
+        return moodle_xml(self._questions(), self.tasks.lang)
+
+    def gift(self) -> bytes:
+        """The same questions as GIFT, a text format of Moodle that other programs read too; it has no units."""
+        return gift(self._questions(), self.tasks.lang)
+
+    def _questions(self) -> list[Task]:
         lang = self.tasks.lang
         exercises = [exercise(id) for id in self.ids]
-        return moodle_xml([(each, _text(each, lang), exercise_figure(each, lang)) for each in exercises], lang)
+        return [(each, _text(each, lang), exercise_figure(each, lang)) for each in exercises]
 
 
 def worksheet(
