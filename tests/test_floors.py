@@ -54,7 +54,7 @@ WINGS = {
     ],
     "design": [{"realisation"}, {"synthesis"}],
     "files": [{"files"}],
-    "pictures": [{"canvas"}, {"machines", "structure"}, {"linkage"}, {"designs", "values"}],
+    "pictures": [{"canvas"}, {"machines", "structure"}, {"linkage", "space"}, {"designs", "values"}],
     "teaching": [{"catalog"}, {"constructions", "exercises", "sheets"}, {"worksheets"}],
     "page": [{"page"}],
     "cli": [{"cli"}],

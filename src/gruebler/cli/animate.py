@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 
+from gruebler.base.errors import GrueblerError
 from gruebler.cli.draw import entry_of, linkage_and_range, picture_suffix
-from gruebler.cli.drive_rows import driven_path
-from gruebler.cli.linkage_inputs import with_points
+from gruebler.cli.drive_rows import driven_path, given_rows
+from gruebler.cli.linkage_inputs import SpatialWord, spatial_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.linkage.animation import AnimationOptions, animated_svg
 from gruebler.pictures.linkage.animation_page import animated_page
+from gruebler.pictures.space.views import VIEWS
 
 _SUFFIXES = ("svg", "html", "gif", "webp", "png")
 
@@ -32,6 +34,7 @@ def add(parser: Parser) -> None:
         --seconds S float =4  duration of a turn, or of back and forth (default: 4)
         --branch
         --range
+        --view
         --dark  dark background for GIF, WebP and PNG
         """
     )
@@ -41,9 +44,16 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the animation into a file, or as SVG on standard output."""
     dark = arguments.dark
     suffix = picture_suffix(arguments.out, dark, _SUFFIXES)
+    record = entry_of(arguments.linkage, arguments.lang)
+    name = "" if record is None else record.name.in_language(arguments.lang)
+    spatial = spatial_of_word(arguments.linkage, arguments.lang)
+    if spatial is not None:
+        content = _in_space(arguments, spatial, suffix, name)
+        return _written(arguments, content)
+    if arguments.view:
+        raise GrueblerError("--view needs a linkage in space or on the sphere with the screws of its joints")
     linkage, between = linkage_and_range(arguments.linkage, arguments.lang)
     linkage = with_points(linkage, arguments.curve)
-    record = entry_of(arguments.linkage, arguments.lang)
     options = AnimationOptions(
         branch=arguments.branch,
         between=between,
@@ -51,14 +61,38 @@ def run(arguments: argparse.Namespace) -> int:
         curves=arguments.curve,
         seconds=arguments.seconds,
         lang=arguments.lang,
-        name="" if record is None else record.name.in_language(arguments.lang),
+        name=name,
     )
-    content = _content(linkage, suffix, options, dark)
+    return _written(arguments, _content(linkage, suffix, options, dark))
+
+
+def _written(arguments: argparse.Namespace, content: bytes) -> int:
     if arguments.out is None:
         print_svg(content.decode("utf-8"))
     else:
         write_file(arguments.out, content, arguments.lang)
     return 0
+
+
+def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, suffix: str, name: str) -> bytes:
+    from gruebler.pictures.canvas.moving_files import moving_bytes
+    from gruebler.pictures.space import animate_spatial
+
+    if arguments.branch is not None:
+        raise GrueblerError("--{option} does not go with a linkage in space", option="branch")
+    drives = spatial.linkage.mechanism.drives
+    rows = given_rows(arguments.range, (), [drive.turning for drive in drives])
+    shown = animate_spatial(
+        spatial.linkage,
+        between=spatial.range,
+        drives=rows,
+        curves=arguments.curve,
+        view=arguments.view or next(iter(VIEWS)),
+        seconds=arguments.seconds,
+        lang=arguments.lang,
+        name=name,
+    )
+    return moving_bytes(shown, suffix, dark=arguments.dark, lang=arguments.lang)
 
 
 def _content(linkage: Linkage, suffix: str, options: AnimationOptions, dark: bool) -> bytes:

@@ -109,6 +109,7 @@ _SHARED = {
             steps; a single number keeps a drive at rest (default: the whole motion of one drive)
         --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
         --curve POINT ...  the path of a named point, a joint, or LINK:X,Y (repeatable)
+        --view {isometric,oblique}  of a linkage in space: the view (default: isometric)
         --jobs N int =1  number of processes (default: 1)
         --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786
         """

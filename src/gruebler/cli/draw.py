@@ -20,7 +20,7 @@ from gruebler.base.text import joined, translate
 from gruebler.cli.arguments import take
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
-from gruebler.cli.linkage_inputs import linkage_of_word, with_points
+from gruebler.cli.linkage_inputs import SpatialWord, linkage_of_word, spatial_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.files import Entry
@@ -29,6 +29,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas import Figure
 from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.pictures.canvas.textbook import textbook
+from gruebler.pictures.space.views import VIEWS
 from gruebler.pictures.structure import (
     draw_block,
     draw_contracted,
@@ -91,6 +92,7 @@ def add(parser: Parser) -> None:
         --angles  mark the angles φ, ψ and μ of a linkage
         --lengths {letters,values}  write the lengths of a linkage as letters or as dimensions
         --style {colour,textbook} =colour  textbook: black, lines of 0.7 and 0.35 mm
+        --view
         --dark  dark background for PNG and PDF
         """
     )
@@ -178,13 +180,19 @@ def _figure(arguments: argparse.Namespace) -> Figure:
         )
     if moving["output"] is not None and view is not draw_block and not set(moving["show"]) & set(_OF_A_LINK):
         raise GrueblerError("--output needs --show {views} or --block", views=joined(_OF_A_LINK, ", "))
+    if view is None and not arguments.structure and not (arguments.space or arguments.frame or arguments.drive):
+        spatial = spatial_of_word(arguments.chain, arguments.lang)
+        if spatial is not None:
+            return _in_space(arguments, spatial, moving)
+    if arguments.view:
+        raise GrueblerError("--view needs a linkage in space or on the sphere with the screws of its joints")
     has_sizes = _has_sizes(arguments.chain)
     if view is None and not arguments.structure and (has_sizes or asked or _is_sized_entry(arguments)):
         return _to_scale(arguments, moving)
     record = entry_of(arguments.chain, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
     if has_sizes:
-        thing: Chain | Mechanism = linkage_of_word(arguments.chain, arguments.lang)[0].mechanism
+        thing: Chain | Mechanism = mechanism_of(arguments.chain, None, [], arguments.lang)
     else:
         thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive, arguments.lang)
     names = german(record, arguments.lang)
@@ -261,6 +269,27 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
         show=moving["show"],
         output=moving["output"],
         ghost=moving["ghosts"],
+        labels=arguments.labels,
+        lang=arguments.lang,
+        name="" if record is None else record.name.in_language(arguments.lang),
+        names=german(record, arguments.lang),
+    )
+
+
+def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, moving: Mapping[str, Any]) -> Figure:
+    """The picture of a linkage in space, in isometric or oblique view."""
+    from gruebler.pictures.space import draw_spatial
+
+    for option in ("show", "ghosts", "branch", "output"):
+        if moving[option] not in (None, []):
+            raise GrueblerError("--{option} does not go with a linkage in space", option=option)
+    record = entry_of(arguments.chain, arguments.lang)
+    return draw_spatial(
+        spatial.linkage,
+        at=pose_of(moving["at"], spatial.linkage.mechanism) if moving["at"] else None,
+        between=spatial.range,
+        curves=moving["curve"],
+        view=arguments.view or next(iter(VIEWS)),
         labels=arguments.labels,
         lang=arguments.lang,
         name="" if record is None else record.name.in_language(arguments.lang),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -14,7 +15,9 @@ from gruebler.cli.point_inputs import point_of
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.length_texts import LENGTH_FORMS, LENGTH_KINDS, size_of
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
+from gruebler.structure.chain.spaces import Space
 
 if TYPE_CHECKING:
     from gruebler.mechanics.forces import Loads
@@ -90,6 +93,38 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
             sized=sized,
         )
     return record.linkage(), record.dimensions.range
+
+
+class SpatialWord(NamedTuple):
+    """A linkage given by the screws of its joints."""
+
+    linkage: SpatialLinkage
+    range: tuple[float, float] | None
+    """Drive values between which a catalog entry shows it, in radians or the unit."""
+
+
+def spatial_of_word(word: str, lang: str = "en") -> SpatialWord | None:
+    """The linkage in space or on the sphere, or one given by screws in a file; None for every other word."""
+    path = Path(word)
+    if path.suffix.lower() in (".toml", ".json") and path.is_file():
+        from gruebler.files.screws import read_any_linkage
+
+        value = read_any_linkage(path)
+        return SpatialWord(value, None) if isinstance(value, SpatialLinkage) else None
+    if "(" in word or ":" in word or path.is_file():
+        return None
+    from gruebler.teaching.catalog import entries
+
+    record = entries().get(word)
+    if record is None or record.screws is None or record.chain().space is Space.PLANAR:
+        return None
+    placed = record.in_language(lang).placed()
+    assert isinstance(placed, SpatialLinkage)
+    shown = record.screws.range
+    drives = placed.mechanism.drives
+    if shown is not None and drives and drives[0].turning:
+        shown = (math.radians(shown[0]), math.radians(shown[1]))
+    return SpatialWord(placed, shown)
 
 
 class Loaded(NamedTuple):

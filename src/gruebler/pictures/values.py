@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gruebler.mechanics.linkages.branch import Branch
     from gruebler.mechanics.linkages.conversion import LinkageLike
     from gruebler.mechanics.linkages.points import PointLike
+    from gruebler.pictures.canvas.moving_frames import FramePicture
     from gruebler.pictures.canvas.moving_picture import MovingPicture
     from gruebler.structure.mechanism import Mechanism
 
@@ -109,6 +110,7 @@ _KINDS: Mapping[str, _Kind] = {
     "Chain": _Kind("structure.picture", "draw_structure"),
     "Mechanism": _Kind("structure.picture", "draw_structure"),
     "Linkage": _Kind("linkage.picture", "draw_linkage", "linkage"),
+    "SpatialLinkage": _Kind("space", "draw_spatial", "animate_spatial"),
     "Motion": _Kind("linkage.motion_picture", "draw_motion"),
     "Cam": _Kind("machines.cam_picture", "draw_cam", "animate_cam"),
     "Geneva": _Kind("machines.geneva_picture", "draw_geneva", "animate_geneva"),
@@ -152,6 +154,7 @@ def draw(
     planets: Mapping[str, int] | None = None,
     teeth: bool | None = None,
     plot: bool | None = None,
+    view: str | None = None,
     names: Mapping[str, str] | None = None,
     name: str | None = None,
     lang: str | None = None,
@@ -174,11 +177,13 @@ def draw(
         outputs: of a chain or mechanism: links that get a double arrow.
         ghost: of a linkage: the number of thinly drawn positions, at most 60.
         labels: of a chain, mechanism or linkage: whether to name the links.
-        symbols: of a chain or mechanism: whether to write the symbols of pairs without a sign of their own.
+        symbols: of a chain or mechanism: whether to write the symbols of pairs without a sign of their own; of a
+            `SpatialLinkage`: whether to write the symbols of its joints.
         contacts: of a chain or mechanism: what the bodies of higher pairs are, by joint number and link.
         planets: of a train: the numbers of equal planets by name.
         teeth: of a train: whether gears have involute teeth.
         plot: of a cam or Geneva drive: whether diagrams stand below.
+        view: of a `SpatialLinkage`: ``isometric`` or ``oblique``.
         names: of a chain, mechanism or linkage: other names for links in the picture.
         name: the title; by default the kind.
         lang: language of title and description, ``en`` or ``de``.
@@ -220,6 +225,7 @@ def animate(
     planets: Mapping[str, int] | None = None,
     teeth: bool | None = None,
     plot: bool | None = None,
+    view: str | None = None,
     most: int | None = None,
     seconds: float = 4.0,
     name: str | None = None,
@@ -237,6 +243,7 @@ def animate(
         planets: of a train: the numbers of equal planets by name.
         teeth: of a train: whether gears have involute teeth.
         plot: of a cam or Geneva drive: whether the diagram with a cursor stands below.
+        view: of a `SpatialLinkage`: ``isometric`` or ``oblique``.
         most: of a train: the number of turns after which the picture may begin again though it does not repeat.
         seconds: for a turn of the drive, or for there and back.
         name: the title; by default the kind.
@@ -250,7 +257,7 @@ def animate(
         LinkageError: a linkage that does not move.
 
     Cost:
-        Some 50 ms for a linkage; files of pictures (GIF, WebP, APNG) some 50 ms a frame.
+        Some 50 ms for a linkage, 3 s for one in space; files of pictures (GIF, WebP, APNG) some 50 ms a frame.
 
     Example:
         >>> import gruebler as gr
@@ -274,7 +281,7 @@ def animate(
         _check_options(_OF_ANIMATION, type(value).__name__, _function("linkage.animation", "scene"), given)
         return Animation(given.get("name") or _title(drawn.mechanism), partial(_linkage_content, drawn, given))
     function = _function(kind.module, kind.moving)
-    shown: MovingPicture = _called(_OF_ANIMATION, type(value).__name__, function, drawn, given)
+    shown: MovingPicture | FramePicture = _called(_OF_ANIMATION, type(value).__name__, function, drawn, given)
     return Animation(shown.page.title, partial(_machine_content, shown, lang or "en"))
 
 
@@ -446,7 +453,7 @@ def _linkage_content(linkage: Linkage, options: dict[str, Any], kind: str, *, da
     return content
 
 
-def _machine_content(shown: MovingPicture, lang: str, kind: str, *, dark: bool = False) -> bytes:
+def _machine_content(shown: MovingPicture | FramePicture, lang: str, kind: str, *, dark: bool = False) -> bytes:
     from gruebler.pictures.canvas.moving_files import moving_bytes
 
     return moving_bytes(shown, kind, dark=dark, lang=lang)

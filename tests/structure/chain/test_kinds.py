@@ -9,6 +9,7 @@ import pytest
 import gruebler
 from gruebler.mechanics.linkages.contacts import CONTACTS
 from gruebler.pictures.canvas.symbols import SIGNS
+from gruebler.pictures.space.symbols import SOLIDS
 from gruebler.structure.chain.pairs import PAIRS
 from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.teaching.worksheets.joint_pictures import DRAWINGS
@@ -22,6 +23,7 @@ TABLES = {
     "structure/chain/pairs.py": "the table",
     "mechanics/linkages/contacts.py": "what lies on the links of a joint",
     "pictures/canvas/symbols.py": "signs of structure pictures",
+    "pictures/space/symbols.py": "symbols in space",
     "teaching/worksheets/joint_pictures.py": "drawings in perspective",
 }
 ALLOWED = {
@@ -128,3 +130,4 @@ def test_every_pair_has_its_row_in_the_other_tables():
     assert {name for row in CONTACTS for name in row.pairs} == names_in(Space.PLANAR)
     assert set(SIGNS) == names_in(Space.PLANAR)
     assert set(DRAWINGS) == names_in(Space.SPATIAL)
+    assert set(SOLIDS) == {pair.name for pair in PAIRS}
