@@ -9,8 +9,6 @@ import signal
 import sys
 from types import FrameType
 
-__all__ = ["main"]
-
 
 def _stop(number: int, frame: FrameType | None) -> None:
     """End at once: nothing has been begun. The catalogs of texts are not loaded yet."""

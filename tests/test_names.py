@@ -102,3 +102,11 @@ def imported(door):
     for node in ast.walk(ast.parse(door.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and (node.module or "").strip("."):
             yield from (alias.asname or alias.name for alias in node.names)
+
+
+def test_only_doors_list_their_names():
+    """`__all__` says what a wing or room shows; in any other file the underscore says it."""
+    files = [*SOURCE.rglob("*.py"), SOURCE.with_name("gruebler_command.py")]
+    listing = [path for path in files if "__all__" in path.read_text("utf-8")]
+    assert [path for path in listing if path.name != "__init__.py"] == []
+    assert len(listing) > 30

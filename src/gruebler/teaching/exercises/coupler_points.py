@@ -19,9 +19,6 @@ from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, as_step, figure
 
-__all__ = ["conchoid", "four_bar"]  # the methods of exercises
-
-
 STRIP = 1e-6
 """Tolerance of the width of a strip: its direction comes from samples."""
 PATH = message("Path of the coupler point")

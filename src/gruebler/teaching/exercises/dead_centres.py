@@ -13,8 +13,6 @@ from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, as_step, formula_number
 
-__all__ = ["central_crank_rocker", "crank_rocker", "slider_crank", "stroke_middle", "stroke_table"]
-
 FLAT = 1e-7
 """Tolerance of an angle at which an output turns back, which is less sharp than the output."""
 _OUTER = message("outer dead centre, crank and connecting rod stretched")

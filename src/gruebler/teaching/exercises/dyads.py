@@ -13,8 +13,6 @@ from gruebler.structure.mobility import count_freedoms, counted, mobility_report
 from gruebler.structure.transformations import Extension, extend
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, Value
 
-__all__ = ["coupler", "dyad"]
-
 _BEFORE = message("degree of freedom before")
 _AFTER = message("degree of freedom after")
 

@@ -9,8 +9,6 @@ from gruebler.mechanics.fourbar import FourBar, Grashof, turning_ranges
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, figure, formula_number
 
-__all__ = ["condition", "length_range"]
-
 _SAYS = {
     "<": message("The shortest link turns fully against all others."),
     "=": message("Limiting case: all four joints can lie on one line, and there the motion can branch (change point)."),

@@ -14,8 +14,6 @@ from gruebler.structure.mobility.report import verdict_word
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.exercises.solution import PartHeading, Solution, SolutionBuilder, SolutionStep
 
-__all__ = ["chain", "machines"]
-
 _LINKS = message("number of links, the frame included")
 _FREEDOM = message("degree of freedom")
 _BY_RANK = message("F (at least 0) by the rank of the constraints at random sizes")

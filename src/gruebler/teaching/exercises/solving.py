@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib import import_module
+from inspect import isfunction
 
 from gruebler.base.errors import CatalogError, nearest
 from gruebler.base.text import LANGUAGES, Readable, in_every_language, joined, message
@@ -32,9 +33,14 @@ _THEORIES = (
 
 @cache
 def methods() -> dict[str, Method]:
-    """Every method by the name that exercises use: theory and function."""
-    theories = {theory: import_module(f"gruebler.teaching.exercises.{theory}") for theory in _THEORIES}
-    return {f"{theory}.{name}": getattr(room, name) for theory, room in theories.items() for name in room.__all__}
+    """Every method by the name that exercises use: theory and public function that gives a solution."""
+    theories = {theory: vars(import_module(f"gruebler.teaching.exercises.{theory}")) for theory in _THEORIES}
+    return {
+        f"{theory}.{name}": value
+        for theory, names in theories.items()
+        for name, value in names.items()
+        if isfunction(value) and not name.startswith("_") and value.__annotations__.get("return") == "Solution"
+    }
 
 
 _SCALE = {("cm", "mm"): 10.0, ("mm", "cm"): 0.1, ("m", "mm"): 1000.0, ("s", "ms"): 1000.0}

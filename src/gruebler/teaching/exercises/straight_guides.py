@@ -18,8 +18,6 @@ from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.teaching.exercises.coupler_points import BY_SOLVER, PATH, STRIP, check_path
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, as_step, figure
 
-__all__ = ["double_rocker", "lambda_linkage", "scott_russell", "watt_linkage"]
-
 
 def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float = 30, unit: str = "mm") -> Solution:
     """The Chebyshev lambda linkage with b = c = e: path of C beyond B, its height h, and its straightness.

@@ -8,8 +8,6 @@ from gruebler.machines.gears import read_train, speeds
 from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, as_step, figure, formula_number
 
-__all__ = ["gear_pair"]
-
 _MOST = 10_000  # rows
 
 

@@ -12,8 +12,6 @@ from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, formula_number
 
-__all__ = ["compare_rods", "four_bar", "slider_crank"]
-
 _SMALLEST = message("smallest transmission angle")
 _LARGEST = message("largest transmission angle")
 _DEVIATION = message("largest deviation angle")

@@ -16,8 +16,6 @@ from gruebler.mechanics.linkages.branch import branch_side
 from gruebler.mechanics.linkages.quantities import as_finite
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, figure
 
-__all__ = ["four_bar", "slider_crank"]
-
 _COUPLER_RATE = message("angular velocity of the coupler")
 _COUPLER_ACCELERATION = message("angular acceleration of the coupler")
 _SPEED_A = message("velocity of the crank pin A")
