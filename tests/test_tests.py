@@ -150,3 +150,14 @@ def test_what_the_workflows_make_stands_in_the_makefile():
     called |= {name for text in texts for row in re.findall(r"target: \[(.+)\]", text) for name in row.split(", ")}
     assert len(called) > 5
     assert called <= {*known}
+
+
+def test_mutants_are_tried_in_every_room_that_computes():
+    workflow = FOLDER.parent / ".github" / "workflows" / "scheduled.yml"
+    if not workflow.exists():
+        pytest.skip("the workflows are not part of a source distribution")
+    source = FOLDER.parent / "src" / "gruebler"
+    wings = ("structure", "machines", "mechanics", "design")
+    rooms = {f"{wing}/{path.parent.name}" for wing in wings for path in (source / wing).glob("*/__init__.py")}
+    assert sorted(rooms - set(workflow.read_text(encoding="utf-8").split())) == []
+    assert len(rooms) > 15
