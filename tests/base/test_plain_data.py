@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from fractions import Fraction
 from math import degrees, nan, pi
 
 import numpy as np
@@ -50,3 +51,16 @@ def test_numbers_that_are_none_and_other_kinds() -> None:
     values = {"a": nan, "b": [True, Colour.RED, 2], 3: np.array([[1.0, 2.0]])}
     assert plain(values) == {"a": None, "b": [True, "red", 2], "3": [[1.0, 2.0]]}
     assert type(plain(Colour.RED)) is str
+
+
+def test_angles_in_degrees_places_and_lists_of_records() -> None:
+    assert plain([Leg(pi), Leg(-pi / 2)], "angle_deg hidden") == [
+        {"angle_deg": 180.0, "hidden": 7},
+        {"angle_deg": -90.0, "hidden": 7},
+    ]
+    assert plain(None, "angle_deg") is None
+    assert plain({"at": 3 - 4j, "half": Fraction(1, 2)}, units={"half": float}) == {
+        "at": [3.0, -4.0],
+        "half": Fraction(1, 2),
+    }
+    assert plain(Leg(Fraction(1, 2)), "angle", units={"angle": str}) == {"angle": "1/2"}

@@ -18,6 +18,7 @@ from gruebler.base import notebook
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.notebook import ROWS_SHOWN, brief, html_table, text_table
+from gruebler.base.plain_data import plain
 from gruebler.base.text import number
 
 FORMULA = r"^([=+\-@\t\r\n])"
@@ -83,11 +84,22 @@ class Table:
     @property
     def rows(self) -> Reals:
         """All values; (rows, columns)."""
-        return np.column_stack([column.values for column in self.columns])
+        return np.column_stack([np.empty((len(self), 0)), *(column.values for column in self.columns)])
 
     def without(self, rows: int) -> Table:
         """The table without its first rows."""
         return Table(tuple(column.without(rows) for column in self.columns))
+
+    def to_json(self) -> dict[str, Any]:
+        """Name and unit of the columns, and the rows; null where a quantity is not defined or infinite.
+
+        >>> Table((Column("s", "mm", np.array([1.5, np.nan])),)).to_json()
+        {'columns': [{'name': 's', 'unit': 'mm'}], 'rows': [[1.5], [None]]}
+        >>> Table(()).to_json()
+        {'columns': [], 'rows': []}
+        """
+        rows = [[value if np.isfinite(value) else None for value in row] for row in self.rows.tolist()]
+        return {"columns": plain([*self.columns], "name unit"), "rows": rows}
 
     def csv(self, *, decimal_comma: bool = False) -> str:
         """The table as CSV, with units in its header; with decimal commas for spreadsheets, then ; between cells."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.base.columns import Column, shown
+from gruebler.base.columns import Column, Table, shown
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
@@ -324,10 +324,8 @@ def _document(
         else:
             document["roles"] = {link: str(role) for link, role in motion_roles(around).items()}
             document["rotatability"] = [_plain_row(row, linkage.unit) for row in rotatability(around)]
-    rows = zip(*(column.values for column in columns), strict=True)
     return document | {
-        "columns": [{"name": column.name, "unit": column.unit} for column in columns],
-        "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
+        **Table(tuple(columns)).to_json(),
         "complete": motion.complete,
         "message": motion.message(lang),
     }

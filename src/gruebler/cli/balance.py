@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import Shown, plain
 from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import given_speeds, turning_drives
 from gruebler.cli.link_names import language_of_names
@@ -18,7 +18,7 @@ from gruebler.cli.linkage_inputs import add_loaded, loaded_linkage
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.mechanics.dynamics.balancing import ForceBalance, balance_forces
+from gruebler.mechanics.dynamics.balancing import Counterweight, ForceBalance, balance_forces
 from gruebler.mechanics.dynamics.flywheels import flywheel
 from gruebler.mechanics.dynamics.inverse import inverse_dynamics
 from gruebler.mechanics.dynamics.partial_balance import PartialBalance, balance_partly, shaking_harmonics
@@ -87,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
         document["springs"] = [_spring(each) for each in balance_weights(linkage, loads, height=arguments.springs)]
     if arguments.irregularity is not None:
         motion = _turn(linkage, _speed(arguments, linkage, usual), arguments.branch, closed=True)
-        document["flywheel"] = asdict(flywheel(motion, loads, arguments.irregularity))
+        document["flywheel"] = plain(flywheel(motion, loads, arguments.irregularity))
     if arguments.json:
         print_json(document | ({} if arguments.partly else {"message": document["message"].explain(lang)}))
     else:
@@ -117,13 +117,8 @@ def _turn(linkage: Linkage, speed: float, branch: str | None, *, closed: bool = 
 
 
 def _balance_document(balance: ForceBalance) -> dict[str, Any]:
-    weights = [asdict(each) for each in balance.counterweights]
-    return {
-        "possible": balance.possible,
-        "blocked": list(balance.blocked),
-        "counterweights": [{name: value for name, value in each.items() if name != "unit"} for each in weights],
-        "message": balance,
-    }
+    shown: Shown = {Counterweight: "link mass place product"}
+    return {**plain(balance, "possible blocked counterweights", shown=shown), "message": balance}
 
 
 def _part_document(part: PartialBalance, harmonics: Complexes) -> dict[str, Any]:
@@ -132,18 +127,18 @@ def _part_document(part: PartialBalance, harmonics: Complexes) -> dict[str, Any]
         np.abs([harmonics.real, harmonics.imag]) < _ROUNDING * before, 0.0, [harmonics.real, harmonics.imag]
     )
     return {
-        "products": {link: list(product) for link, product in part.products.items()},
+        **plain(part, "products"),
         "largest_before": before,
         "largest_after": after,
-        "bound": part.bound,
+        **plain(part, "bound"),
         "harmonics": {str(k - _HIGHEST): pair for k, pair in enumerate(exact.T.tolist())},
     }
 
 
 def _spring(spring: Spring) -> dict[str, Any]:
-    places = [end for end in spring.between if isinstance(end, LinkPoint)]
-    ends = [{"link": end.link, "place": [end.x, end.y]} for end in places]
-    return {"between": ends, "stiffness": spring.stiffness, "free_length": spring.free_length}
+    ends = [end for end in spring.between if isinstance(end, LinkPoint)]
+    places = [{"link": end.link, "place": [end.x, end.y]} for end in ends]
+    return {"between": places, **plain(spring, "stiffness free_length")}
 
 
 def _print(document: dict[str, Any], unit: str, lang: str) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.events import Extremum
+from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, message, number, reason_of
 from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_machine_picture
 from gruebler.cli.output import print_json
@@ -259,27 +260,15 @@ def _degrees(angle: float, lang: str) -> str:
 
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     report = cam.findings()
-
-    def item(extremum: Extremum | None, angle: bool = False) -> dict[str, float] | None:
-        return (
-            extremum
-            if extremum is None
-            else {
-                "value": math.degrees(extremum.value) if angle else extremum.value,
-                "at_deg": math.degrees(extremum.at),
-            }
-        )
-
+    extremum = "value at_deg"
     document: dict[str, Any] = {
         "parts": [_part(segment, start, change) for segment, start, change in _parts(cam)],
-        "jumps": [
-            {"at_deg": math.degrees(jump.at), "order": jump.order, "size": jump.size} for jump in cam.lift.jumps()
-        ],
+        "jumps": plain([*cam.lift.jumps()], "at_deg order size"),
         "start": math.degrees(cam.start) if cam.follower.swings else cam.start,
-        "pressure_angle_deg": [item(extremum, angle=True) for extremum in report.pressure],
-        "convex_radius": item(report.convex),
-        "hollow_radius": item(report.hollow),
-        "face": [item(side) for side in report.face] if isinstance(cam.follower, Flat) else None,
+        "pressure_angle_deg": plain([*report.pressure], extremum, units={"value": math.degrees}),
+        "convex_radius": plain(report.convex, extremum),
+        "hollow_radius": plain(report.hollow, extremum),
+        "face": plain([*report.face], extremum) if isinstance(cam.follower, Flat) else None,
         "undercut": report.undercut,
     }
     if table is not None:

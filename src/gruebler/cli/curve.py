@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, joined_by_or, message, number, translate
 from gruebler.cli import curve_cognates, curve_guidance, curve_straight
 from gruebler.cli.arguments import take
@@ -26,6 +26,8 @@ from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import Cell, print_table
 from gruebler.mechanics.analysis.drive_cycles import PathCycle
 from gruebler.mechanics.geometry import CouplerCurve, TangentContact, coupler_curve
+from gruebler.mechanics.geometry.double_points import DoublePoint
+from gruebler.mechanics.geometry.path_events import Cusp, Inflection, TurningPoint, Vertex
 
 _MODES: Mapping[str, Callable[[argparse.Namespace], int]] = {
     "straight": curve_straight.run,
@@ -272,34 +274,26 @@ def _drive(curve: CouplerCurve, value: float, lang: str) -> str:
     return " / ".join(texts)
 
 
+_EVENTS = {
+    Cusp: "drive at direction_deg flat",
+    Inflection: "drive at direction_deg points",
+    Vertex: "drive at curvature kind",
+    DoublePoint: "drives at angle_deg touching",
+    TurningPoint: "drive at kind",
+}
+
+
 def _document(curve: CouplerCurve, contacts: list[TangentContact], directions: tuple[float, ...]) -> dict[str, Any]:
-    path = isinstance(curve.point_path.cycle, PathCycle)
+    def drive(at: float) -> Any:
+        """The value of the drive, along a path those of all drives."""
+        values = _values(curve, np.array([at]))[0].tolist()
+        return values if isinstance(curve.point_path.cycle, PathCycle) else values[0]
 
-    def item(event: Any) -> dict[str, Any]:
-        """An event as its fields, drives in degrees."""
-        fields = {key: value for key, value in asdict(event).items() if key != "parameter"}
-        for key in ("drive", "drives"):
-            if key in fields:
-                values = _values(curve, np.atleast_1d(fields[key]))
-                rows = values.tolist() if path else values[:, 0].tolist()
-                fields[key] = rows if key == "drives" else rows[0]
-        for key in ("direction", "angle"):
-            if key in fields:
-                fields[f"{key}_deg"] = math.degrees(fields.pop(key))
-        return fields | {"at": [event.at.real, event.at.imag]}
-
+    units = {"drive": drive, "drives": drive}
+    keys = "closed length area retraced cusps inflections vertices double_points"
+    turning = {f"{angle:g}": curve.turning_points(math.radians(angle)) for angle in directions}
     return {
-        "closed": curve.closed,
-        "length": curve.length,
-        "area": curve.area,
-        "retraced": curve.retraced,
-        "cusps": [item(cusp) for cusp in curve.cusps],
-        "inflections": [item(inflection) for inflection in curve.inflections],
-        "vertices": [item(vertex) for vertex in curve.vertices],
-        "double_points": [item(double_point) for double_point in curve.double_points],
-        "turning_points": {
-            f"{direction:g}": [item(turning_point) for turning_point in curve.turning_points(math.radians(direction))]
-            for direction in directions
-        },
-        "contacts": [{"points": contact.points, "coefficient": contact.coefficient} for contact in contacts],
+        **plain(curve, keys, units=units, shown=_EVENTS),
+        "turning_points": plain(turning, units=units, shown=_EVENTS),
+        "contacts": plain(contacts, "points coefficient"),
     }

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, message, number, translate
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
@@ -71,9 +72,8 @@ def _row(name: Message, lever: CouplerLever, lang: str) -> tuple[Cell, ...]:
 
 
 def _item(rocker: SymmetricRocker) -> dict[str, Any]:
-    contact = rocker.contact()
     item: dict[str, Any] = {"lambda": rocker.ratio, "phi0_deg": math.degrees(rocker.phi0), "D": rocker.diameter}
-    item["contact"] = {"points": contact.points, "coefficient": contact.coefficient}
+    item["contact"] = plain(rocker.contact(), "points coefficient")
     for key, lever in (("rocker", rocker.lever), ("replacement", rocker.replacement())):
         item[key] = _lengths(lever) | {"kappa_deg": math.degrees(lever.kappa), "type": lever.size.type.key}
     return item

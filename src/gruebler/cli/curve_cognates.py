@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import joined, message, number, translate
 from gruebler.cli.coupler_inputs import coupler_point
 from gruebler.cli.link_names import language_of_names
@@ -112,15 +113,10 @@ def _print(linkages: Sequence[Cognate], lang: str) -> None:
 def _item(cognate: Cognate) -> dict[str, object]:
     return {
         **_lengths(cognate),
-        "u": cognate.u,
-        "v": cognate.v,
+        **plain(cognate, "u v"),
         "type": cognate.size.type.key,
         "direction_deg": _degrees(cognate.turn),
-        "pins": [[pin.real, pin.imag] for pin in cognate.pins],
-        "point": [cognate.point.real, cognate.point.imag],
-        "phi_deg": math.degrees(cognate.phi),
-        "branch": cognate.branch,
-        "turns_with": list(cognate.turns_with),
+        **plain(cognate, "pins point phi_deg branch turns_with"),
     }
 
 

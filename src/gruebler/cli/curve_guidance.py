@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import LANGUAGES, error_in_language, message, number, number_separator, translate
 from gruebler.cli import curve_capellen
 from gruebler.cli.output import print_json
@@ -166,19 +167,16 @@ def _lengths(linkage: Guidance, factor: float) -> dict[str, float]:
 
 
 def _item(linkage: Guidance) -> dict[str, object]:
-    contact = linkage.contact
     return {
         "name": linkage.key,
         "finder": {lang: linkage.name.in_language(lang) for lang in LANGUAGES},
         "proportions": {lang: linkage.proportions.in_language(lang) for lang in LANGUAGES},
         "mechanism": str(linkage.linkage.mechanism),
         "exact": linkage.is_exact,
-        "length": linkage.piece.length,
-        "band": linkage.piece.band,
-        "ratio": linkage.piece.ratio,
+        **plain(linkage.piece, "length band ratio"),
         "drive_deg": list(linkage.degrees),
-        "direction_deg": math.degrees(linkage.direction),
-        "contact": {"points": contact.points, "coefficient": contact.coefficient} if contact else None,
+        **plain(linkage, "direction_deg"),
+        "contact": plain(linkage.contact, "points coefficient"),
         "lengths": _lengths(linkage, 1.0),
     }
 
@@ -186,9 +184,8 @@ def _item(linkage: Guidance) -> dict[str, object]:
 def _sized_item(linkage: Guidance, sizing: Sizing) -> dict[str, object]:
     return {
         "sized": {
-            "factor": sizing.factor,
-            "start_deg": math.degrees(sizing.piece.start),
-            "end_deg": math.degrees(sizing.piece.end),
+            **plain(sizing, "factor"),
+            **plain(sizing.piece, "start_deg end_deg"),
             "lengths": _lengths(linkage, sizing.factor),
         }
     }

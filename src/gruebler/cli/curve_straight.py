@@ -6,6 +6,7 @@ import argparse
 import math
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import translate
 from gruebler.cli.coupler_inputs import coupler_point
 from gruebler.cli.link_names import language_of_names
@@ -44,15 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
         return 1
     start, end = math.degrees(piece.start), math.degrees(piece.end)
     if arguments.json:
-        document = {
-            "start_deg": start,
-            "end_deg": end,
-            "length": piece.length,
-            "band": piece.band,
-            "ratio": piece.ratio if piece.length else None,
-            "direction_deg": math.degrees(piece.direction),
-        }
-        print_json(document)
+        print_json(plain(piece, "start_deg end_deg length band ratio direction_deg"))
         return 0
     print(translate("crank angle: {start:n}° to {end:n}° ({width:n}°)", lang, start=start, end=end, width=end - start))
     print(translate("length along the line: {length:n}", lang, length=piece.length))

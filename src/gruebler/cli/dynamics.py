@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.base.columns import Column, shown
+from gruebler.base.columns import Column, Table, shown
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
 from gruebler.cli.friction_options import add_friction, friction_of
 from gruebler.cli.link_names import language_of_names
@@ -112,15 +112,11 @@ def _print(result: InverseDynamics, table: Sequence[Column], lang: str) -> None:
 
 
 def _document(result: InverseDynamics, columns: Sequence[Column], lang: str) -> dict[str, object]:
-    rows = zip(*(column.values for column in columns), strict=True)
     return {
-        "columns": [{"name": column.name, "unit": column.unit} for column in columns],
-        "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
-        "peak": [float(value) for value in result.peak],
-        "root_mean_square": [float(value) for value in result.root_mean_square],
-        "disagreement": result.disagreement if math.isfinite(result.disagreement) else None,
-        "singular": [int(row) for row in np.flatnonzero(result.statics.singular)],
-        "locked": [int(row) for row in np.flatnonzero(result.statics.locked)],
+        **Table(tuple(columns)).to_json(),
+        **plain(result, "peak root_mean_square disagreement"),
+        "singular": np.flatnonzero(result.statics.singular).tolist(),
+        "locked": np.flatnonzero(result.statics.locked).tolist(),
         "complete": result.motion.complete,
         "message": " ".join(filter(None, (result.motion.message(lang), result.statics.message(lang)))),
     }

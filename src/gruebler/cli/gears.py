@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import LANGUAGES, message, reason_of, translate
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_machine_picture
@@ -112,8 +113,7 @@ def _search(arguments: argparse.Namespace) -> int:
         number=10 if arguments.number is None else arguments.number,
     )
     if arguments.json:
-        keys = ("text", "driving", "driven", "held", "planets", "size")
-        print_json([{k: getattr(design, k) for k in keys} | {"ratio": _value(design.ratio)} for design in designs])
+        print_json(plain([*designs], "text driving driven held planets size ratio", units={"ratio": _value}))
         return int(not designs)
     if not designs:
         print_text(translate("No train with these tooth numbers can be assembled.", arguments.lang))
@@ -225,14 +225,9 @@ def _document(reading: TrainReading, solution: Speeds, forces: Balance | None) -
         "links": [
             {"link": link, "unit": units[link].value, "speed": _value(solution.values[link])} for link in train.links
         ],
-        "contradictions": [
-            {
-                "link": contradiction.link,
-                "wanted": _value(contradiction.wanted),
-                "follows": _value(contradiction.follows),
-            }
-            for contradiction in solution.contradictions
-        ],
+        "contradictions": plain(
+            [*solution.contradictions], "link wanted follows", units={"wanted": _value, "follows": _value}
+        ),
         "spare": list(solution.spare),
     }
     if forces:
@@ -252,8 +247,7 @@ def _document(reading: TrainReading, solution: Speeds, forces: Balance | None) -
     if reading.planets:
         tested = [assembly(train, planet, count) for planet, count in reading.planets.items()]
         document["assembly"] = [
-            {name: getattr(axis, name) for name in ("planet", "number", "coaxial", "evenly", "clear", "possible")}
-            | {"spacing_turns": _value(axis.spacing)}
+            plain(axis, "planet number coaxial evenly clear possible") | {"spacing_turns": _value(axis.spacing)}
             for axis in tested
         ]
     return document

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, message, number
 from gruebler.cli.machine_pictures import add_picture_options, angle_of, write_machine_picture
 from gruebler.cli.output import print_json
@@ -81,7 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
     table = _table(drive, arguments.step) if arguments.step is not None else None
     _picture(arguments, drive)
     if arguments.json:
-        document: dict[str, Any] = {"slots": drive.slots, "internal": drive.internal, "pins": drive.pins, **figures}
+        document = plain(drive, "slots internal pins") | figures
         if table is not None:
             document["motion"] = records(_KEYS, table)
         print_json(document)
@@ -113,25 +114,17 @@ def _picture(arguments: argparse.Namespace, drive: Geneva) -> None:
 
 def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict[str, float]:
     figures: dict[str, float] = {
-        "crank_ratio": drive.crank_ratio,
-        "most_pins": drive.most_pins,
-        "step_deg": math.degrees(drive.step),
+        **plain(drive, "crank_ratio most_pins step_deg"),
         "engaged_deg": math.degrees(2 * drive.engaged),
         "moving_deg": math.degrees(drive.motion_fraction * math.tau),
-        "motion_fraction": drive.motion_fraction,
-        "dwell_fraction": drive.dwell_fraction,
-        "motion_ratio": drive.motion_ratio,
+        **plain(drive, "motion_fraction dwell_fraction motion_ratio"),
         "dwell_begin_deg": math.degrees(drive.engaged),
         "dwell_end_deg": math.degrees(math.tau / drive.pins - drive.engaged),
-        "greatest_ratio": drive.greatest_ratio,
-        "greatest_acceleration": drive.greatest_acceleration,
-        "greatest_acceleration_at_deg": math.degrees(drive.greatest_acceleration_at),
-        "entry_acceleration": drive.entry_acceleration,
+        **plain(drive, "greatest_ratio greatest_acceleration greatest_acceleration_at_deg entry_acceleration"),
     }
     if distance is not None:
         sizes = drive.sizes(distance)
-        figures |= {"crank": sizes.crank, "wheel": sizes.wheel, "slot_end": sizes.slot_end}
-        figures["locking_arc_deg"] = math.degrees(sizes.locking_arc)
+        figures |= plain(sizes, "crank wheel slot_end locking_arc_deg")
     if speed is not None:
         if not 0 < abs(speed) < math.inf:
             raise GrueblerError("--speed: expected turns per minute other than zero, but found {speed:g}", speed=speed)

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import message, number, translate
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -144,9 +145,8 @@ def _document(size: FourBar | SliderCrank | InvertedSliderCrank) -> dict[str, ob
     }
     if isinstance(size, FourBar):
         grashof: Grashof = size.grashof
-        document |= {"condition": grashof.condition, "excess": grashof.excess, "shortest": list(grashof.shortest)}
-    document["turning"] = list(size.turning)
-    document["limits_deg"] = [[math.degrees(end) for end in arc] for arc in size.limits]
+        document |= plain(grashof, "condition excess shortest")
+    document |= plain(size, "turning limits_deg")
     if (centres := size.dead_centres) is not None:
         slides = isinstance(size, SliderCrank)
         document["stroke" if slides else "swing_deg"] = centres.travel if slides else math.degrees(centres.travel)

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import error_in_language, joined, message, number, translate
 from gruebler.cli.arguments import take
 from gruebler.cli.linkage_inputs import linkage_of_word
@@ -228,11 +229,7 @@ def _item(mechanism_sheet: Sheet, lang: str) -> dict[str, Any]:
         "tasks": [task.in_language(lang) for task in mechanism_sheet.record.tasks],
         "mechanism": str(mechanism_sheet.linkage.mechanism),
         "features": {
-            "drive_joints": features.drive_joints,
-            "drive_joints_at_frame": features.drive_joints_at_frame,
-            "output_links": features.output_links,
-            "output_links_at_frame": features.output_links_at_frame,
-            "links": features.links,
+            **plain(features, "drive_joints drive_joints_at_frame output_links output_links_at_frame links"),
             "links_by_joints": {str(k): count for k, count in features.links_by_joints},
             "joints": features.joints,
             "joints_by_symbol": dict(features.by_symbol("german" if lang == "de" else "international")),
@@ -313,8 +310,7 @@ def _print_size(mechanism_sheet: Sheet, sized: SizedMechanism, unit: str, lang: 
 def _sized_item(sized: SizedMechanism, unit: str) -> dict[str, Any]:
     start, end = (math.degrees(angle) for angle in (sized.sizing.piece.start, sized.sizing.piece.end))
     return {
-        "length": sized.length,
-        "tolerance": sized.tolerance,
+        **plain(sized, "length tolerance"),
         "unit": unit,
         "ratio": sized.sizing.piece.ratio,
         "phi_G_deg": end - start,

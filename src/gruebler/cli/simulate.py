@@ -8,8 +8,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gruebler.base.columns import Column, shown
+from gruebler.base.columns import Column, Table, shown
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.cli.drive_rows import given_speeds, pose_of, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_loaded, loaded_linkage
@@ -90,13 +91,8 @@ def _ends(linkage: Linkage, between: tuple[float, float] | None) -> dict[str, tu
 
 
 def _document(result: Simulation, columns: Sequence[Column], lang: str) -> dict[str, object]:
-    rows = zip(*(column.values for column in columns), strict=True)
     return {
-        "columns": [{"name": column.name, "unit": column.unit} for column in columns],
-        "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
-        "defect": result.defect,
-        "steps": result.steps,
-        "evaluations": result.evaluations,
-        "complete": result.complete,
+        **Table(tuple(columns)).to_json(),
+        **plain(result, "defect steps evaluations complete"),
         "message": result.message(lang),
     }

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.base.columns import Column, shown
+from gruebler.base.columns import Column, Table, shown
 from gruebler.base.errors import GrueblerError
+from gruebler.base.plain_data import plain
 from gruebler.base.text import message, number, translate
 from gruebler.cli.drive_rows import given_rows, turning_drives
 from gruebler.cli.friction_options import add_friction, friction_of, option_numbers
@@ -222,13 +223,11 @@ def _place(drive: Column, row: int, lang: str) -> str:
 
 
 def _document(held: Statics, columns: Sequence[Column], lang: str) -> dict[str, object]:
-    rows = zip(*(column.values for column in columns), strict=True)
     return {
-        "columns": [{"name": column.name, "unit": column.unit} for column in columns],
-        "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
-        "disagreement": held.disagreement if math.isfinite(held.disagreement) else None,
-        "singular": [int(row) for row in np.flatnonzero(held.singular)],
-        "locked": [int(row) for row in np.flatnonzero(held.locked)],
+        **Table(tuple(columns)).to_json(),
+        **plain(held, "disagreement"),
+        "singular": np.flatnonzero(held.singular).tolist(),
+        "locked": np.flatnonzero(held.locked).tolist(),
         "complete": held.motion.complete,
         "message": " ".join(filter(None, (held.motion.message(lang), held.message(lang)))),
     }

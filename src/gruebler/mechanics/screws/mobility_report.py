@@ -191,8 +191,7 @@ class Freedoms:
         return {
             "joints": list(names),
             "space": str(self.report.chain.space),
-            "counted": self.counted,
-            "generic": self.generic,
+            **plain(self, "counted generic"),
             "instant": plain(instant, "mobility rank constraints redundancy tolerance")
             | {
                 "singular_values": instant.values.tolist(),

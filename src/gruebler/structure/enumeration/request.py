@@ -10,6 +10,7 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.immutable import settle
+from gruebler.base.plain_data import plain
 from gruebler.structure.enumeration.condition import CLASSES
 
 _TOO_MANY = 1_000_000  # multiple joints: no chain that can be listed has as many
@@ -92,10 +93,7 @@ class Request:
         """Plain data, equal for equivalent requests."""
         fewest, most = self.joints_range
         return {
-            "links": self.links,
-            "mobility": self.mobility,
-            "fractionated": self.fractionated,
-            "assortment": None if self.assortment is None else list(self.assortment),
+            **plain(self, "links mobility fractionated assortment"),
             "multiple_joints": [fewest, most],
         }
 
