@@ -4,15 +4,16 @@ import json
 
 import pytest
 
+from gruebler.cli.commands import command
 from gruebler.cli.exercise import _KINDS
-from gruebler.cli.table import _TABLES
 from gruebler.teaching.exercises import KINDS, TABLES
 from tests.commands import run_main as run
 
 
 def test_the_parser_knows_what_there_is():
     assert tuple(KINDS) == _KINDS
-    assert tuple(TABLES) == _TABLES
+    choices = {action.dest: action.choices for action in command("table").parser("en")._actions}
+    assert choices["name"] == tuple(TABLES)
 
 
 def test_list_and_show(capsys):
