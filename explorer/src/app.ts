@@ -278,6 +278,8 @@ export class App implements Page {
         this.views[key]!.element.setAttribute("aria-label", names[key]!);
       }
     if (this.linkable) document.title = this.name ? `${this.name} – gruebler` : "gruebler";
+    // on a phone the tabs are wider than the screen
+    requestAnimationFrame(() => tabs?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" }));
     renew(
       this.header,
       h("h1", {}, "gruebler ", h("small", {}, this.name)),

@@ -1,6 +1,7 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
-import { h, renew, thumbnail } from "./dom";
+import { choice, h, renew, thumbnail } from "./dom";
+import { movesOnHover } from "./hover";
 import { t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
@@ -78,12 +79,27 @@ export class CatalogView implements View {
         field(t("Joints by type"), this.joints, (text) => (this.joints = text), t("R:4,P:0"), "joints"),
       ),
     );
+    const kinds: [string, string][] = [
+      ["", t("All")],
+      ["crank", t("Cranks")],
+      ["slider", t("Sliders")],
+      ["gear", t("Gears")],
+      ["cam", t("Cams")],
+      ["straight", t("Straight lines")],
+      ["guide mechanism", t("Guide mechanisms")],
+    ];
+    const choose = (words: string) => {
+      this.words = words;
+      this.arrange();
+      void this.search();
+    };
     renew(
       this.element,
       h(
         "div",
         { class: "page" },
         h("h2", {}, t("Catalog")),
+        choice(t("Kinds of machines"), kinds, this.words, choose),
         h(
           "div",
           { class: "form" },
@@ -115,31 +131,25 @@ export class CatalogView implements View {
       if (number !== this.asked) return;
       this.filled = true;
       this.note.textContent = t("{count} machines", { count: found.length });
-      renew(
-        this.cards,
-        ...found.map((entry) =>
-          h(
-            "button",
-            {
-              class: "card",
-              "data-id": entry.id,
-              onclick: () => void this.choose(entry),
-            },
-            h("div", { "data-place": "" }),
-            h("b", {}, entry.name),
-            h(
-              "span",
-              {},
-              t("{links} links, F = {counted}", { links: entry.links, counted: entry.counted }) +
-                (entry.moves ? "" : ` · ${t("structure only")}`),
-            ),
-          ),
-        ),
-      );
+      renew(this.cards, ...found.map((entry) => this.card(entry)));
       for (const card of this.cards.children) this.watcher.observe(card);
     } catch (error) {
       if (number === this.asked) this.note.textContent = (error as Error).message;
     }
+  }
+
+  private card(entry: Entry): HTMLElement {
+    const { id, links, counted, moves } = entry;
+    const sizes = t("{links} links, F = {counted}", { links, counted });
+    const card = h(
+      "button",
+      { class: "card", "data-id": id, onclick: () => void this.choose(entry) },
+      h("div", { "data-place": "" }),
+      h("b", {}, entry.name),
+      h("span", {}, sizes + (moves ? "" : ` · ${t("structure only")}`)),
+    );
+    if (moves) movesOnHover(card, id, () => this.page.ask("moving", { id }));
+    return card;
   }
 
   private async draw(card: HTMLElement): Promise<void> {

@@ -274,9 +274,26 @@ def test_the_catalog_and_the_exercises(tab, server):
     view.locator('[data-field="words"]').fill("wiper")
     view.locator('[data-id="wiper"]').wait_for()
     page.until("gruebler.views.catalog.element.querySelectorAll('.card').length === 1")
-    view.locator('[data-id="wiper"]').click()
+    card = view.locator('[data-id="wiper"]')
+    card.locator("svg").wait_for()
+    for begin, end in ((card.hover, lambda: view.mouse.move(5, 400)), (card.focus, card.blur)):
+        begin()
+        card.locator("animateTransform").first.wait_for(state="attached")
+        link = card.locator("g:has(> animateTransform)").first
+        before = link.bounding_box()
+        view.wait_for_timeout(300)
+        assert link.bounding_box() != before
+        end()
+        card.locator("animateTransform").first.wait_for(state="detached")
+        assert card.locator("svg").count() == 1
+    card.click()
     page.until("gruebler.motion.linkage.model.source === 'wiper'")
     assert "Scheibenwischer" in view.locator("header h1").inner_text()
+    view.go_back()
+    view.locator('[data-value="cam"]').click()
+    page.until("gruebler.views.catalog.element.querySelectorAll('.card').length === 4")
+    assert all("Kurve" in name for name in view.locator('[data-list="catalog"] b').all_text_contents())
+    assert view.locator('[data-value="cam"]').get_attribute("aria-pressed") == "true"
     view.click('[data-view="exercises"]')
     view.locator("[data-answer]").first.wait_for()
     from gruebler.teaching.exercises import ascii_key, generate, solve

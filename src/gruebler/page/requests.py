@@ -234,6 +234,15 @@ def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]
     return {"picture": figure.svg(styled=False)}
 
 
+def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
+    from gruebler.pictures.linkage.animation import scene, svg_of
+    from gruebler.teaching.catalog import entry
+
+    record = entry(asked.id)
+    shown = scene(record.linkage(), between=_between(asked.id), lang=lang, name=record.name.in_language(lang))
+    return {"picture": svg_of(shown, styled=False)}
+
+
 def _between(id: str) -> tuple[float, float] | None:
     """The drive values between which a machine is shown, in radians where the drive turns."""
     from math import radians
@@ -422,6 +431,7 @@ def _tried_task(asked: CatalogId, lang: str, _: Progress) -> dict[str, Any]:
 REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] = {
     "catalog": (ListCatalog, _list_catalog),
     "picture": (CatalogId, _catalog_picture),
+    "moving": (CatalogId, _moving),
     "open": (CatalogId, _open),
     "open_document": (OpenDocument, _open_document),
     "structure": (DescribeStructure, _structure),

@@ -137,8 +137,8 @@ def animated_svg(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
     return svg_of(scene(linkage, **options))
 
 
-def svg_of(shown: Scene) -> str:
-    """The scene as animated SVG."""
+def svg_of(shown: Scene, *, styled: bool = True) -> str:
+    """The scene as animated SVG, with the rules of its styles or without."""
     motion = _Motion(shown)
     lines = [
         f'<g transform="translate({svg_number(-shown.corner.x)} {svg_number(-shown.corner.y)})">',
@@ -148,7 +148,7 @@ def svg_of(shown: Scene) -> str:
         "</g>",
     ]
     used = [shape.style for shape in shown.still] + [shape.style for part in shown.pieces for shape in part.shapes]
-    return svg_document(shown.page, used, lines)
+    return svg_document(shown.page, used if styled else None, lines)
 
 
 class _Motion:

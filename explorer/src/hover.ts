@@ -1,0 +1,36 @@
+/** Cards whose pictures move while the pointer or the focus is on them. */
+
+import { thumbnail } from "./dom";
+
+const PATIENCE = 150; // ms: who passes by a card does not ask
+
+/** Let the picture of a card move: what moves is asked for once, when it is first wanted. */
+export function movesOnHover(card: HTMLElement, label: string, ask: () => Promise<{ picture: string }>): void {
+  let moving: SVGSVGElement | null = null;
+  let still: Element | null = null;
+  let wanted = false;
+  const begin = async () => {
+    wanted = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    await new Promise((resolve) => setTimeout(resolve, PATIENCE));
+    if (!wanted) return;
+    try {
+      moving ??= thumbnail((await ask()).picture, label) as SVGSVGElement;
+    } catch {
+      return; // what has no single drive stands still
+    }
+    still ??= card.querySelector("svg");
+    if (!wanted || !still?.isConnected) return;
+    still.replaceWith(moving);
+    // what comes into a page that is shown already does not begin by itself in every browser, nor before its first frame
+    const turns = moving.querySelectorAll<SVGAnimateTransformElement>("animateTransform");
+    requestAnimationFrame(() => {
+      for (const turn of turns) turn.beginElement();
+    });
+  };
+  const end = () => {
+    wanted = false;
+    if (still && moving?.isConnected) moving.replaceWith(still);
+  };
+  for (const event of ["pointerenter", "focus"]) card.addEventListener(event, () => void begin());
+  for (const event of ["pointerleave", "blur"]) card.addEventListener(event, end);
+}
