@@ -201,7 +201,10 @@ export class ExercisesView implements View {
     const solved = tasks.filter(Boolean).length;
     renew(
       this.score,
-      ...tasks.slice(-12).map((one) => h("i", { class: one ? "good" : "bad", "aria-hidden": "true" }, one ? "●" : "○")),
+      ...tasks.slice(-12).map((one) => {
+        const sign = one ? "●" : "○";
+        return h("i", { class: one ? "good" : "bad", "aria-hidden": "true" }, sign);
+      }),
       tasks.length ? t("{solved} of {tasks} solved", { solved, tasks: tasks.length }) : "",
     );
   }

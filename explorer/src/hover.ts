@@ -21,7 +21,7 @@ export function movesOnHover(card: HTMLElement, label: string, ask: () => Promis
     still ??= card.querySelector("svg");
     if (!wanted || !still?.isConnected) return;
     still.replaceWith(moving);
-    // what comes into a page that is shown already does not begin by itself in every browser, nor before its first frame
+    // what comes into a page later does not begin by itself in every browser, nor before its first frame
     const turns = moving.querySelectorAll<SVGAnimateTransformElement>("animateTransform");
     requestAnimationFrame(() => {
       for (const turn of turns) turn.beginElement();
