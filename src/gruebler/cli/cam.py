@@ -224,7 +224,7 @@ def _print(cam: Cam, table: list[list[float]] | None, lang: str) -> None:
         (message("least convex radius of curvature"), report.convex, False),
         (message("least concave radius of curvature"), report.hollow, False),
     ]
-    if isinstance(cam.follower, Flat):
+    if cam.follower.has_face:
         figures += [
             (message("face needed, one side"), report.face[0], False),
             (message("face needed, other side"), report.face[1], False),
@@ -246,7 +246,7 @@ def _undercut_text(cam: Cam, report: CamReport) -> Message:
     if not report.undercut:
         return message("No undercut.")
     angle = math.degrees(report.room.at)
-    if isinstance(cam.follower, Roller) and cam.follower.radius:
+    if cam.follower.radius:
         return message(
             "Undercut: the profile crosses itself near {angle:n}°. A larger base circle or a smaller roller helps.",
             angle=angle,
@@ -268,7 +268,7 @@ def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
         "pressure_angle_deg": plain([*report.pressure], extremum, units={"value": math.degrees}),
         "convex_radius": plain(report.convex, extremum),
         "hollow_radius": plain(report.hollow, extremum),
-        "face": plain([*report.face], extremum) if isinstance(cam.follower, Flat) else None,
+        "face": plain([*report.face], extremum) if cam.follower.has_face else None,
         "undercut": report.undercut,
     }
     if table is not None:

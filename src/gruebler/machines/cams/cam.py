@@ -88,7 +88,7 @@ class Cam:
         low, high = self.start + lowest, self.start + highest
         if not self.follower.swings and low <= 0:
             raise CamError("the lift goes down to {lowest:g}, beyond the cam's axis", lowest=lowest)
-        limit = math.pi if isinstance(self.follower, Roller) else math.pi / 2
+        limit = self.follower.largest_angle
         if self.follower.swings and not (low > 0 and high < limit):
             raise CamError(
                 "the follower swings from {low:.6g} to {high:.6g} degrees against the line of centres; between 0 "
@@ -101,8 +101,7 @@ class Cam:
     @property
     def start(self) -> float:
         """The follower's coordinate at lift 0."""
-        extra = self.follower.radius if isinstance(self.follower, Roller) else 0.0
-        return self.follower.coordinate(self.base + extra)
+        return self.follower.coordinate(self.base + self.follower.radius)
 
     def profile(self, angle: ArrayLike) -> Reals:
         """The contact points in the cam's frame for cam's angles of shape (...): shape (..., 2)."""

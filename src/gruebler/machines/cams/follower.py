@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -59,6 +59,10 @@ class Roller:
     arm: float = 0.0
     distance: float = 0.0
 
+    has_face: ClassVar[bool] = False
+    largest_angle: ClassVar[float] = math.pi
+    """To which it may swing."""
+
     def __post_init__(self) -> None:
         _check(self)
         if self.radius < 0 or self.arm < 0:
@@ -98,6 +102,15 @@ class Roller:
             return np.asarray(lift * (2 * start + lift))
         return np.asarray(4 * self.arm * abs(self.distance) * np.sin(start + lift / 2) * np.sin(lift / 2))
 
+    def reach(self, s: Reals) -> Reals:
+        """The distance of the centre from the axis."""
+        return np.abs(self.path(s).at)
+
+    def bearing(self, s: Reals) -> tuple[Reals, Reals]:
+        """The direction of the centre as seen from the axis, and its derivative by the coordinate."""
+        path = self.path(s)
+        return np.angle(path.at), np.imag(path.first / path.at)
+
     def path(self, s: Reals) -> Path:
         """The centre."""
         if not self.swings:
@@ -117,6 +130,11 @@ class Flat:
 
     distance: float = 0.0
     face: float = 0.0
+
+    has_face: ClassVar[bool] = True
+    largest_angle: ClassVar[float] = math.pi / 2
+    radius: ClassVar[float] = 0.0
+    offset: ClassVar[float] = 0.0
 
     def __post_init__(self) -> None:
         _check(self)
@@ -146,6 +164,15 @@ class Flat:
         if not self.swings:
             return np.asarray(lift)
         return np.asarray(2 * abs(self.distance) * np.cos(start + lift / 2) * np.sin(lift / 2))
+
+    def reach(self, s: Reals) -> Reals:
+        """The distance of the face from the axis."""
+        return self.line(s).distance
+
+    def bearing(self, s: Reals) -> tuple[Reals, Reals | float]:
+        """The direction of the face's normal, and its derivative by the coordinate."""
+        line = self.line(s)
+        return line.angle, line.turn
 
     def line(self, s: Reals) -> FaceLine:
         """The face."""

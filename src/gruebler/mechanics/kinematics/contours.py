@@ -76,33 +76,28 @@ def cam_law(disc: CamDisc) -> PiecewiseLaw:
     cam = cam_of(disc)
     breaks = [span.start for span in cam.lift.spans()] + [2 * pi]
     if not (np.diff(_bearing(cam, np.linspace(0, 2 * pi, 2881))[0]) < 0).all():
-        if isinstance(cam.follower, Roller):
-            raise LinkageError(
-                "cam: the pitch curve turns back as seen from the axis; less lift or a larger base circle helps"
-            )
-        raise LinkageError("cam: the face turns faster than the cam; less lift or a longer angle for it helps")
+        raise LinkageError(
+            "cam: the face turns faster than the cam; less lift or a longer angle for it helps"
+            if cam.follower.has_face
+            else "cam: the pitch curve turns back as seen from the axis; less lift or a larger base circle helps"
+        )
     bounds = _bearing(cam, np.array(breaks[::-1]) - 1e-300)[0].tolist()
-    start = np.array([cam.start])
-    base = cam.follower.line(start).distance if isinstance(cam.follower, Flat) else abs(cam.follower.path(start).at)
+    base = cam.follower.reach(np.array([cam.start]))
     length = disc.scale * float(base[0])
 
     def value(t: Reals, low: float, high: float) -> Reals:
         ends = np.interp([low, high], bounds, breaks[::-1])
         gain = cam.follower.gain(cam.start, cam.lift.at(_turned(cam, t, *ends)))
-        logarithm: Reals = np.log1p(gain / base**2) / 2 if isinstance(cam.follower, Roller) else disc.scale * gain
+        logarithm: Reals = disc.scale * gain if cam.follower.has_face else np.log1p(gain / base**2) / 2
         return logarithm
 
-    return _law(value, bounds, log(length) if isinstance(cam.follower, Roller) else length)
+    return _law(value, bounds, length if cam.follower.has_face else log(length))
 
 
 def _bearing(cam: Cam, phi: Reals) -> tuple[Reals, Reals]:
     """The direction of the roller's centre, or of the face's normal, in the cam's frame; its derivative by phi."""
-    s, rate = cam.start + cam.lift.at(phi), cam.lift.at(phi, 1)
-    if isinstance(cam.follower, Roller):
-        path = cam.follower.path(s)
-        return np.angle(path.at) - phi, np.imag(path.first / path.at) * rate - 1
-    line = cam.follower.line(s)
-    return line.angle - phi, line.turn * rate - 1
+    direction, turn = cam.follower.bearing(cam.start + cam.lift.at(phi))
+    return direction - phi, turn * cam.lift.at(phi, 1) - 1
 
 
 def _turned(cam: Cam, t: Reals, high: float, low: float) -> Reals:

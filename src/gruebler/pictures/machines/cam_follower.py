@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import NamedTuple
 
 from gruebler.base.arrays import Reals
 from gruebler.machines.cams import Cam, Flat, Roller
@@ -26,46 +28,62 @@ def follower_body(cam: Cam, scale: float, phi: Reals) -> Body:
         arm = tuple((math.pi - s if side > 0 else s).tolist())
         pivot = Shift((Point(scale * cam.follower.distance, 0.0),))
         return Body(tuple(_swinging(cam, scale, side)), (pivot, Turn(arm)))
-    x = scale * _offset(cam)
+    x = scale * cam.follower.offset
     return Body(tuple(_translating(cam, scale)), (Shift(tuple(Point(x, -scale * y) for y in s.tolist())),))
-
-
-def _offset(cam: Cam) -> float:
-    return cam.follower.offset if isinstance(cam.follower, Roller) else 0.0
 
 
 def _translating(cam: Cam, scale: float) -> list[Shape]:
     """A rod with its origin at the roller's centre, the edge or the face."""
     low = _travel(cam, scale)[0]
     top = -(_above(cam, scale) - low) - _GUIDE.y - 22.0  # the rod is longer than its guide in the lowest position
-    if isinstance(cam.follower, Flat):
-        face = cam.findings().face
-        left, right = (scale * face[0].value - _BEYOND, scale * face[1].value + _BEYOND)
-        plate = _box(left, right, -_THICK, 0.0)
-        return [_block(_box(-_ROD, _ROD, top, -_THICK)), _block(plate)]
-    r = scale * cam.follower.radius
+    return _TIPS[type(cam.follower)].of_rod(cam, cam.follower, scale, top)
+
+
+def _swinging(cam: Cam, scale: float, side: float) -> list[Shape]:
+    """An arm with its origin at the pivot, along its own x axis."""
+    pin = CircleShape(Point(0.0, 0.0), 6.2, "joint")
+    return [*_TIPS[type(cam.follower)].of_arm(cam, cam.follower, scale, side), pin]
+
+
+def _rod_with_face(cam: Cam, _follower: Flat, scale: float, top: float) -> list[Shape]:
+    face = cam.findings().face
+    left, right = (scale * face[0].value - _BEYOND, scale * face[1].value + _BEYOND)
+    return [_block(_box(-_ROD, _ROD, top, -_THICK)), _block(_box(left, right, -_THICK, 0.0))]
+
+
+def _rod_with_roller(_cam: Cam, follower: Roller, scale: float, top: float) -> list[Shape]:
+    r = scale * follower.radius
     if not r:
         edge = (Point(0, 0), Point(_ROD, -_WEDGE.y), Point(_ROD, top), Point(-_ROD, top), Point(-_ROD, -_WEDGE.y))
         return [_block(edge)]
     return [_block(_box(-_ROD, _ROD, top, 0.0)), *_roller(Point(0.0, 0.0), r)]
 
 
-def _swinging(cam: Cam, scale: float, side: float) -> list[Shape]:
-    """An arm with its origin at the pivot, along its own x axis."""
-    pin = CircleShape(Point(0.0, 0.0), 6.2, "joint")
-    if isinstance(cam.follower, Flat):
-        face = scale * cam.follower.face
-        reach = scale * max(extremum.value for extremum in cam.findings().face) + _BEYOND
-        # The face lies on the side of the cam, its body on the other: upwards for a pivot on the left.
-        edge, far = (face, face - _THICK) if side < 0 else (-face, -face + _THICK)
-        return [_block(_box(-_ROD, _ROD, *sorted((0.0, far)))), _block(_box(-_ROD, reach, *sorted((edge, far)))), pin]
-    length = scale * cam.follower.arm
-    r = scale * cam.follower.radius
+def _arm_with_face(cam: Cam, follower: Flat, scale: float, side: float) -> list[Shape]:
+    face = scale * follower.face
+    reach = scale * max(extremum.value for extremum in cam.findings().face) + _BEYOND
+    # The face lies on the side of the cam, its body on the other: upwards for a pivot on the left.
+    edge, far = (face, face - _THICK) if side < 0 else (-face, -face + _THICK)
+    return [_block(_box(-_ROD, _ROD, *sorted((0.0, far)))), _block(_box(-_ROD, reach, *sorted((edge, far))))]
+
+
+def _arm_with_roller(_cam: Cam, follower: Roller, scale: float, side: float) -> list[Shape]:
+    length, r = scale * follower.arm, scale * follower.radius
     if not r:
         back = Point(length, side * _WEDGE.y)
         wedge = Point(length, 0.0), back.plus(Point(-1, 0), 7.0), back.plus(Point(1, 0), 7.0)
-        return [_block(wedge), *_bar(Point(0.0, 0.0), back), pin]
-    return [*_bar(Point(0.0, 0.0), Point(length, 0.0)), *_roller(Point(length, 0.0), r), pin]
+        return [_block(wedge), *_bar(Point(0.0, 0.0), back)]
+    return [*_bar(Point(0.0, 0.0), Point(length, 0.0)), *_roller(Point(length, 0.0), r)]
+
+
+class _Tip(NamedTuple):
+    """What draws a kind of follower: of the cam, the follower, the scale, and the rod's top or the pivot's side."""
+
+    of_rod: Callable[..., list[Shape]]
+    of_arm: Callable[..., list[Shape]]
+
+
+_TIPS = {Flat: _Tip(_rod_with_face, _arm_with_face), Roller: _Tip(_rod_with_roller, _arm_with_roller)}
 
 
 def _roller(at: Point, r: float) -> list[Shape]:
@@ -93,7 +111,7 @@ def ground(cam: Cam, scale: float) -> list[Shape]:
         at = Point(scale * cam.follower.distance, 0.0)
         left, right = (Point(at.x + side * _FOOT.x, _FOOT.y) for side in (-1, 1))
         return [Polylines(((at, left, right),), "block-frame", closed=True), ticks(left, right, Point(0.0, 1.0))]
-    x, bottom = scale * _offset(cam), -_above(cam, scale)
+    x, bottom = scale * cam.follower.offset, -_above(cam, scale)
     shapes: list[Shape] = []
     for side in (-1.0, 1.0):
         rail = Point(x + side * _GUIDE.x, bottom), Point(x + side * _GUIDE.x, bottom - _GUIDE.y)
@@ -109,5 +127,4 @@ def _travel(cam: Cam, scale: float) -> tuple[float, float]:
 
 def _above(cam: Cam, scale: float) -> float:
     """The height of the guide's lower end above the axis: above the roller or the face in the highest position."""
-    more = scale * cam.follower.radius if isinstance(cam.follower, Roller) else _THICK
-    return _travel(cam, scale)[1] + max(more, _WEDGE.y) + 8.0
+    return _travel(cam, scale)[1] + max(scale * cam.follower.radius, _WEDGE.y) + 8.0

@@ -10,7 +10,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.text import message, translate
-from gruebler.machines.cams import Cam, CamError, Roller
+from gruebler.machines.cams import Cam, CamError
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.moving_picture import (
     Body,
@@ -112,9 +112,7 @@ def _scale(cam: Cam) -> float:
 
 
 def _title(cam: Cam, lang: str) -> str:
-    kind = "flat"
-    if isinstance(cam.follower, Roller):
-        kind = "roller" if cam.follower.radius else "knife"
+    kind = "flat" if cam.follower.has_face else "roller" if cam.follower.radius else "knife"
     return _TITLES[cam.follower.swings, kind].in_language(lang)
 
 
@@ -140,7 +138,7 @@ def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
     middle = Point(0.0, 0.0)
     rows = [("dead", translate("base circle", lang))]
     disc: list[Shape] = [Polylines((_line(_contour(cam), scale),), "area", closed=True)]
-    if isinstance(cam.follower, Roller) and cam.follower.radius:
+    if cam.follower.radius:
         disc.append(Polylines((_line(_complex(cam.pitch(_turn())), scale),), "centrode-moving", closed=True))
         rows.append(("centrode-moving", translate("pitch curve", lang)))
     if report.undercut:
@@ -188,10 +186,10 @@ def _line(points: Complexes, scale: float) -> tuple[Point, ...]:
 def _undercut(cam: Cam) -> Iterator[Complexes]:
     """The undercut parts of the profile: opposite in direction to the pitch curve, or hollow."""
     contour, turn = _contour(cam), _turn()
-    if isinstance(cam.follower, Roller):
-        wrong = (np.conj(np.diff(_complex(cam.pitch(turn)))) * np.diff(contour)).real <= 0
-    else:
+    if cam.follower.has_face:
         wrong = cam.curvature((turn[1:] + turn[:-1]) / 2) <= 0
+    else:
+        wrong = (np.conj(np.diff(_complex(cam.pitch(turn)))) * np.diff(contour)).real <= 0
     edges = np.flatnonzero(np.diff(np.concatenate([[False], wrong, [False]]).astype(int)))
     for first, last in zip(edges[::2], edges[1::2], strict=True):
         yield contour[first : last + 1]
