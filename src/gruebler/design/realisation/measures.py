@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _ARM = 0.3  # the length by which angles are multiplied, in parts of the size
 _SCALE = 2.0  # a larger group: singular value to sine
-_SHORT = 1 / 3  # RPR: distances below this part of the size count as short
+_SHORT = 1 / 3  # distances of a dyad below this part of the size count as short
 
 
 def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complexes, roots: Reals) -> Reals:
@@ -37,7 +37,7 @@ def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complex
     worst = np.ones(len(turns))
     for dyad in plan.dyads:
         sines = np.abs(roots[:, dyad.number])
-        worst = np.minimum(worst, sines / _SHORT if dyad.form == "RPR" else sines)
+        worst = np.minimum(worst, sines / _SHORT if dyad.form.root_is_distance else sines)
     if plan.conditions:
         points = places[:, program.links] + turns[:, program.links] * program.points
         lines = turns[:, program.links] * program.lines

@@ -174,7 +174,7 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
 def _begun(plan: Plan, branch: Branch) -> Motion:
     """One row on the branch, well assembled if there is one."""
     labels = branch_labels(branch)
-    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    branching = plan.branching
     best, margin = None, 0.0
     for value in _candidates(plan):
         motion = move_quietly(plan, [value], branch=labels)

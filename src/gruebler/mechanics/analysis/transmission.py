@@ -45,12 +45,28 @@ class PushingLink:
     links: tuple[str, ...]
     outer: Element
     inner: Element
-    form: str
-    """RR, RP, PR: the joint on the side of the drive, then that on the side of the output."""
+    pairs: tuple[Pair, Pair]
+    """Of the outer joint, on the side of the drive, and of the inner one, on the side of the output."""
     pushed: str
     """The link that it pushes."""
     guide: tuple[Pair, Element] | None
     """How the pushed link hangs on the frame, if by one joint: its pair, and the joint on the frame."""
+
+    @property
+    def form(self) -> str:
+        """Its joints in letters, such as RP."""
+        return "".join(pair.symbol() for pair in self.pairs)
+
+    @property
+    def slide(self) -> Element | None:
+        """The joint that slides, across which it pushes; without one it pushes along the line of its pins."""
+        outer, inner = self.pairs
+        return self.outer if outer.is_sliding else self.inner if inner.is_sliding else None
+
+    @property
+    def pin(self) -> Element:
+        """The pin on the line of the push, that nearer to the output."""
+        return self.outer if self.pairs[1].is_sliding else self.inner
 
 
 def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
@@ -82,8 +98,9 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
             form=in_alphabets(group.form),
             links=names,
         )
-    if any(leg.form == "PP" for leg in chosen.values()):
-        links = next(", ".join(leg.links) for leg in chosen.values() if leg.form == "PP")
+    couples = [leg for leg in chosen.values() if all(pair.is_sliding for pair in leg.pairs)]
+    if couples:
+        links = ", ".join(couples[0].links)
         raise NoTransmissionAngleError(
             "there is no transmission angle: {links} slides at both ends and transmits a couple only", links=links
         )
@@ -115,13 +132,12 @@ def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
         return None  # a wheel or cam
     links = _bodies(group)
     other = next(k for k in inner[0][1].links if k != body)
-    form = "".join(m.pair.symbol() for _, m in (outer[0], inner[0]))
     pushed = _element(plan, inner[0][0], links[other])[0]
     return PushingLink(
         links=group.bodies[body],
         outer=_element(plan, outer[0][0], links[body]),
         inner=_element(plan, inner[0][0], links[body]),
-        form=form,
+        pairs=(outer[0][1].pair, inner[0][1].pair),
         pushed=pushed,
         guide=_guide(plan, group, other),
     )
@@ -155,13 +171,12 @@ class _Lines(NamedTuple):
 
 def _lines(motion: Motion, leg: PushingLink) -> _Lines:
     """Force and way of a leg; the motion is of order 2."""
-    outer, inner = _point(motion, leg.outer), _point(motion, leg.inner)
-    if leg.form == "RR":
-        (force, force_rate), point = (inner[0] - outer[0], inner[1] - outer[1]), inner
-    elif leg.form == "RP":
-        (force, force_rate), point = _normal(motion, leg.inner), outer
+    point = _point(motion, leg.pin)
+    if leg.slide is None:
+        outer = _point(motion, leg.outer)
+        force, force_rate = point[0] - outer[0], point[1] - outer[1]
     else:
-        (force, force_rate), point = _normal(motion, leg.outer), inner
+        force, force_rate = _normal(motion, leg.slide)
     if leg.guide is not None:
         pair, place = leg.guide
         if pair.is_sliding:

@@ -72,7 +72,7 @@ class Charts:
         self.plan = plan
         self.links = len(plan.lower.mechanism.chain.links)
         self.scale = 1.0 if plan.linkage.mechanism.drives[0].turning else plan.lower.size
-        self._branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+        self._branching = plan.branching
         self._charts: list[Chart] = []  # side by side along the drive
         self._now: Chart | None = None
         self._closed: float | None = None  # the low end of a whole turn, once it is known that it comes back

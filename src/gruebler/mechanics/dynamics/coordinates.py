@@ -37,7 +37,7 @@ class Coordinates:
         self.count = len(plan.linkage.mechanism.drives)
         self._charts = Charts(plan, start) if self.count == 1 else None
         self._state = start
-        self._branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+        self._branching = plan.branching
 
     @property
     def scale(self) -> Reals:

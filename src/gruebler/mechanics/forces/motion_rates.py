@@ -23,7 +23,7 @@ def with_velocities(motion: Motion, speed: Reals, order: int = 1) -> Iterator[tu
     Yields rows and their motion. A row at a limit of the drive tells no assembly mode, so it is not begun there;
     nothing is yielded if all rows are such, or change points.
     """
-    branching = [dyad.number for dyad in motion.plan.dyads if dyad.branching]
+    branching = motion.plan.branching
     margins = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0)
     best = int(np.argmax(margins))
     if not margins[best] > _TELLS:

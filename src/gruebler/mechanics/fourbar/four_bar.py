@@ -204,6 +204,10 @@ class FourBar(Lengths):
     def _travel(self) -> Message:
         return SWING
 
+    def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
+        """See `Lengths.output_place`."""
+        return (self.d, 0.0, float(pose.output.value))
+
     @property
     def transmission_angle(self) -> TransmissionExtremes:
         """The extremes of the transmission angle: crank over the frame and away from it, and a right angle between.

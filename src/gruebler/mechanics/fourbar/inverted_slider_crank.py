@@ -130,6 +130,10 @@ class InvertedSliderCrank(Lengths):
     def _travel(self) -> Message:
         return SWING
 
+    def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
+        """See `Lengths.output_place`."""
+        return (self.d, 0.0, float(pose.coupler.value))
+
     @property
     def transmission_angle(self) -> TransmissionExtremes:
         """The extremes of the transmission angle onto the lever about B0: crank over the frame, and away from it.

@@ -14,8 +14,6 @@ from gruebler.structure.mechanism import Mechanism
 
 ClosedForm = FourBar | SliderCrank | InvertedSliderCrank
 
-_LOOPS = {"four_bar": "RRRR", "slider_crank": "RRRP", "inverted_slider_crank": "RRPR"}
-
 
 def linkage_on_mechanism(
     form: str,
@@ -36,7 +34,7 @@ def linkage_on_mechanism(
         mechanism, loop = own.mechanism, own.mechanism.chain.links
         outputs = own.outputs if outputs is None else outputs
     else:
-        loop = _loop(mechanism, form)
+        loop = _loop(mechanism, own.mechanism, form)
     rank = dict(zip(own.mechanism.chain.links, loop, strict=True))
     elements: dict[str, dict[str | int, object]] = {link: {} for link in loop}
     for (number, link), element in own.elements.items():
@@ -48,10 +46,11 @@ def linkage_on_mechanism(
     return Linkage(mechanism, elements, unit=unit, reference_pose=reference_pose, outputs=outputs or ())
 
 
-def _loop(mechanism: Mechanism, form: str) -> tuple[str, ...]:
-    """The four links in order, from the frame over the crank."""
+def _loop(mechanism: Mechanism, usual: Mechanism, form: str) -> tuple[str, ...]:
+    """The four links in the order of the usual mechanism, from the frame over the crank."""
     chain, frame = mechanism.chain, mechanism.frame
-    kinds = {frozenset(joint.links): joint.pair.symbol() for joint in chain.joints}
+    pairs = {frozenset(joint.links): joint.pair for joint in chain.joints}
+    wanted = [joint.pair for joint in usual.chain.joints]
     driven = [drive.joint for drive in mechanism.drives]
     firsts = sorted((n not in driven, n) for n, joint in enumerate(chain.joints) if frame in joint.links)
     for _, number in firsts:
@@ -62,14 +61,14 @@ def _loop(mechanism: Mechanism, form: str) -> tuple[str, ...]:
             further = [joint.links for joint in chain.joints if loop[-1] in joint.links and joint.links != step]
             step = further[0] if len(further) == 1 else ()
         sides = [frozenset(pair) for pair in pairwise(loop)]
-        if chain.n == len(kinds) == 4 and loop[-1] == frame and "".join(kinds[s] for s in sides) == _LOOPS[form]:
+        if chain.n == len(pairs) == 4 and loop[-1] == frame and [pairs[side] for side in sides] == wanted:
             return tuple(loop[:-1])
     text = chain.text()
     shown = text if len(text) < 120 else text[:117] + "..."
     raise LinkageError(
         "{form} needs four links in a loop with joints {loops}, from the frame over the crank; found {shown}",
         form=form,
-        loops=_LOOPS[form],
+        loops="".join(pair.symbol() for pair in wanted),
         shown=shown,
     )
 
@@ -81,12 +80,6 @@ def _home(door: ClosedForm, branch: Branch) -> tuple[tuple[float, float, float],
     arc = door.limits[0]
     phi = 1.0 if arc.full else arc.start + 0.4 * arc.width
     pose = door.motion(phi, branch=branch)
-    a, b = (tuple(float(v) for v in track.value) for track in (pose.A, pose.B))
+    a = [float(v) for v in pose.A.value]
     theta = float(pose.coupler.value)
-    if isinstance(door, FourBar):
-        output = (door.d, 0.0, float(pose.output.value))
-    elif isinstance(door, SliderCrank):
-        output = (b[0], b[1], 0.0)
-    else:
-        output = (door.d, 0.0, theta)
-    return (0.0, 0.0, 0.0), (0.0, 0.0, phi), (a[0], a[1], theta), output
+    return (0.0, 0.0, 0.0), (0.0, 0.0, phi), (a[0], a[1], theta), door.output_place(pose)

@@ -10,6 +10,7 @@ from gruebler.base import notebook
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.notebook import explained
 from gruebler.base.text import Message, joined_by_or, message
+from gruebler.mechanics.fourbar.crank_motion import CrankMotion
 from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres
 from gruebler.mechanics.linkages.model import Linkage
 
@@ -47,6 +48,10 @@ class Lengths(ABC):
     @abstractmethod
     def _travel(self) -> Message:
         """How the travel between dead centres is said, with a gap for it."""
+
+    @abstractmethod
+    def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
+        """Where the output link of `linkage` lies in a single pose: its origin and its angle."""
 
     def explain(self, lang: str = "en") -> str:
         """What it is, where the crank turns, how far the output goes: lines in English or German (``de``).

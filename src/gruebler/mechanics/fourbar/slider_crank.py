@@ -253,6 +253,10 @@ class SliderCrank(Lengths):
     def _travel(self) -> Message:
         return STROKE
 
+    def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
+        """See `Lengths.output_place`."""
+        return (float(pose.output.value), self.e, 0.0)
+
     @property
     def transmission_angle(self) -> TransmissionExtremes:
         """The extremes of the transmission angle: crank straight up and straight down, and a right angle between.

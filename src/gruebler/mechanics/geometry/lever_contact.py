@@ -68,7 +68,8 @@ def lever_pose(linkage: Linkage, point: str, drive: float, *, branch: Branch = N
     names = mechanism.chain.joint_names()
     pins = [name for name, joint in zip(names, joints, strict=True) if joint.pair.is_turning]
     turning = [complex(motion.complex_point(name)[0]) for name in pins]
-    if "".join(joint.pair.symbol() for joint in joints) not in ("RRRR", "RRPR"):
+    pairs = [joint.pair for joint in joints]
+    if len(pairs) != 4 or not all(pair.is_turning for pair in (*pairs[:2], pairs[3])) or not pairs[2].is_basic:
         raise LinkageError(
             "expected a four-bar or an inverted slider-crank, but found joints {joints}", joints=", ".join(names)
         )

@@ -76,7 +76,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
     lower = motion.lower_linkage
     if len(lower.mechanism.drives) != 1:
         raise LinkageError("a series needs one drive, but this linkage has {count}", count=len(lower.mechanism.drives))
-    roots = np.abs(motion.roots[:, [dyad.number for dyad in motion.plan.dyads if dyad.branching]])
+    roots = np.abs(motion.roots[:, motion.plan.branching])
     if roots.size and roots.min() < _SINGULAR:
         row = int(np.argmin(roots.min(axis=1)))
         raise LinkageError(

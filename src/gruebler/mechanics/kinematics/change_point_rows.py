@@ -45,7 +45,7 @@ def set_change_point_rows(
     Where all rows are such points, the branch is that of a pose at the start or before it. A linkage that only passes
     near a change point keeps what the equations give.
     """
-    branching = np.array([dyad.number for dyad in plan.dyads if dyad.branching], dtype=np.int64)
+    branching = np.array(plan.branching, dtype=np.int64)
     small = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) < _SINGULAR
     broken = np.asarray(~np.isfinite(motion.rates).all(axis=(0, 2)))
     unbounded, taken = list[int](), list[int]()
@@ -106,7 +106,7 @@ def _rows_around(
 ) -> SolvedRows | None:
     """A row beside the change point, where the branch is known, and eight around it; None if one cannot be reached."""
     scale = np.array([1.0 if d.turning else plan.lower.size for d in plan.linkage.mechanism.drives])
-    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    branching = plan.branching
     sound = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _SINGULAR
     sound &= (path != path[row]).any(axis=1)[: len(motion)]
     behind, before = np.flatnonzero(sound[row + 1 :]), np.flatnonzero(sound[:row])

@@ -67,7 +67,7 @@ def _lingers(plan: Plan, path: Reals, rows: SolvedRows) -> bool:
         return False
     if plan.higher_groups and rows.status and (ways[np.append(corners, 0)] == 0).all(axis=1).any():
         return True
-    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    branching = plan.branching
     roots = rows.roots[corners[corners < len(rows.roots)]][:, branching]
     return bool((np.abs(roots).min(axis=1, initial=1.0) < _AT_CHANGE).any())
 
@@ -116,7 +116,7 @@ def _there_and_back(plan: Plan, path: Reals, speeds: Reals, order: int, signs: R
     In a change point a dyad's sign is that of the way onward; for the way back it is the one before.
     """
     rows = run_rows(plan.program, plan, path, np.ascontiguousarray(speeds), order, signs, unknowns)
-    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    branching = plan.branching
     if path.shape[1] > 1 or not branching or len(path) < 3:
         return rows
     steps = np.diff(path[:, 0])

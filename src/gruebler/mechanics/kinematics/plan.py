@@ -13,15 +13,12 @@ import numpy as np
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.mechanics.kinematics.contacts import Condition, contact_conditions, law_tables
+from gruebler.mechanics.kinematics.dyad_forms import DYADS, DyadForm
 from gruebler.mechanics.kinematics.kernel_records import (
     CARRY,
     GROUP,
     PIN,
-    PRP,
     PUSH,
-    RPP,
-    RPR,
-    RRP,
     RRR,
     SLIDE,
     TURN,
@@ -32,9 +29,7 @@ from gruebler.mechanics.linkages import Linkage, with_lower_pairs
 from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.assur import Decomposition, SolvedGroup, decompose
 
-_DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
-_FORMS = {code: form for form, code in _DYADS.items()}
-_BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
+_DYAD_CODES = {form.code for form in DYADS.values()}
 # Between two checks a drive moves no further: within that a pose is predicted so well that Newton's method stays on its
 # branch. A slide moves a third of the way that 5 degrees move a point at the distance of one size.
 _LONGEST_TURN = radians(5)
@@ -48,7 +43,7 @@ class Dyad:
 
     group: int
     """Its number in the decomposition."""
-    form: str
+    form: DyadForm
     first: str
     second: str
     number: int
@@ -57,7 +52,7 @@ class Dyad:
     @property
     def branching(self) -> bool:
         """Whether it has two assembly modes."""
-        return self.form in _BRANCHING
+        return self.form.side is not None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +95,11 @@ class Plan:
         """The dyads in solving order."""
         return tuple(part for part in self.parts if isinstance(part, Dyad))
 
+    @cached_property
+    def branching(self) -> list[int]:
+        """The numbers of the dyads with two assembly modes."""
+        return [dyad.number for dyad in self.dyads if dyad.branching]
+
     @property
     def higher_groups(self) -> tuple[HigherGroup, ...]:
         """The larger groups in solving order."""
@@ -132,7 +132,7 @@ class Plan:
 
     def operation(self, dyad: Dyad) -> tuple[int, ...]:
         """The operation that places a dyad: kind, six elements, two links, its number."""
-        return next(o for o in self.operations if o[0] in _FORMS and o[9] == dyad.number)
+        return next(o for o in self.operations if o[0] in _DYAD_CODES and o[9] == dyad.number)
 
     @cached_property
     def program(self) -> Program:
@@ -297,11 +297,11 @@ class _Planner:
         roots = tuple(body[0] for body in group.bodies)
         dyad = self._dyad(group, base)
         if dyad is not None:
-            kind, elements, first, second = dyad
+            form, elements, first, second = dyad
             count = len([part for part in self.parts if isinstance(part, Dyad)])
             index = self.chain.index
-            self.operations.append((kind, *elements, index(first), index(second), count))
-            self.parts.append(Dyad(group=number, form=_FORMS[kind], first=first, second=second, number=count))
+            self.operations.append((form.code, *elements, index(first), index(second), count))
+            self.parts.append(Dyad(group=number, form=form, first=first, second=second, number=count))
         else:
             count = len(self.conditions)
             self.operations.append((GROUP, count))
@@ -319,24 +319,24 @@ class _Planner:
         link = next(link for link in self.chain.joints[joint].links if self.against.get(link) == root)
         return self.number[joint, link]
 
-    def _dyad(self, group: SolvedGroup, base: str) -> tuple[int, list[int], str, str] | None:
+    def _dyad(self, group: SolvedGroup, base: str) -> tuple[DyadForm, list[int], str, str] | None:
         if (
             len(group.bodies) != 2
             or len(group.joints) != 3
             or any(len(m.links) + m.outer != 2 or not m.pair.is_basic for _, m in group.joints)
         ):
             return None
-        outer: dict[int, tuple[int, str]] = {}
-        inner = (-1, "")
+        outer: dict[int, tuple[int, bool]] = {}
+        inner = (-1, False)
         for joint, member in group.joints:
             if member.outer:
-                outer[member.links[0]] = joint, member.pair.symbol()
+                outer[member.links[0]] = joint, member.pair.is_sliding
             else:
-                inner = joint, member.pair.symbol()
+                inner = joint, member.pair.is_sliding
         body_a, body_b = 0, 1
-        form = outer[0][1] + inner[1] + outer[1][1]
-        if form not in _DYADS:
-            form, body_a, body_b = form[::-1], 1, 0
+        slides: tuple[bool, ...] = (outer[0][1], inner[1], outer[1][1])
+        if slides not in DYADS:
+            slides, body_a, body_b = slides[::-1], 1, 0
         first, second = group.bodies[body_a][0], group.bodies[body_b][0]
         elements = [
             self._element(outer[body_a][0], base),
@@ -346,7 +346,7 @@ class _Planner:
             self._element(outer[body_b][0], second),
             self._element(outer[body_b][0], base),
         ]
-        return _DYADS[form], elements, first, second
+        return DYADS[slides], elements, first, second
 
     def _conditions(self, group: SolvedGroup, base: str, roots: tuple[str, ...]) -> tuple[Condition, ...]:
         conditions: list[Condition] = []

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contacts import reference_angles
+from gruebler.mechanics.kinematics.dyad_forms import PlacedJoint
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 
@@ -73,15 +74,8 @@ def _drive(plan: Plan, k: int) -> float:
 
 def _sign(plan: Plan, dyad: Dyad) -> float:
     _, outer, _, inner, _, _, other, *_ = plan.operation(dyad)
-    if dyad.form == "RRR":
-        side = ((_put(plan, other) - _put(plan, outer)).conjugate() * (_put(plan, inner) - _put(plan, outer))).imag
-    elif dyad.form == "RRP":
-        side = (_line(plan, other).conjugate() * (_put(plan, inner) - _put(plan, outer))).real
-    elif dyad.form == "RPR":
-        side = (_line(plan, inner).conjugate() * (_put(plan, other) - _put(plan, outer))).real
-    else:
-        side = 1.0
-    return -1.0 if side < 0 else 1.0
+    joints = (PlacedJoint(_put(plan, element), _line(plan, element)) for element in (outer, inner, other))
+    return -1.0 if dyad.form.side is not None and dyad.form.side(*joints) < 0 else 1.0
 
 
 def _against(plan: Plan, link: str, base: str) -> tuple[float, float, float]:

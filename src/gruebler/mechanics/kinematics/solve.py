@@ -166,7 +166,7 @@ def _is_doubtful_start(plan: Plan, rows: SolvedRows) -> bool:
     """Whether the first row does not tell the way on: a change point of a dyad, a singular pose of a larger group."""
     if not rows.reached:
         return bool(plan.higher_groups)
-    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    branching = plan.branching
     stuck = _REASONS.get(rows.status) == "singular" and rows.at == 0
     return stuck or bool((np.abs(rows.roots[0, branching]) < _DOUBTFUL).any())
 
@@ -225,7 +225,7 @@ def _while_closed(motion: Motion) -> Motion:
     Next to a change point of the independent part its poses have lost digits; such rows are not judged.
     """
     plan = motion.plan
-    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    branching = plan.branching
     sure = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _DOUBTFUL
     opens = {number: sure & (joint_openings(motion, motion.linkage, number) > _OPEN) for number in plan.released}
     first = [(int(np.argmax(rows)), number) for number, rows in opens.items() if rows.any()]

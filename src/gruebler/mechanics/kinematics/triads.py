@@ -85,6 +85,11 @@ class _Leg:
         """Its joints in letters, such as RP."""
         return "".join(_LETTERS[kind] for kind in self.kinds)
 
+    @property
+    def slides(self) -> tuple[bool, bool]:
+        """Whether its joint at the base slides, and that at the hub."""
+        return self.kinds[0] == SLIDE, self.kinds[1] == SLIDE
+
 
 class _Truss(NamedTuple):
     """The group as two bodies and the legs between them."""
@@ -268,16 +273,16 @@ def _seen_from_known(pose: Reals, truss: _Truss, size: float) -> Reals:
 
 def _is_loose(leg: _Leg) -> bool:
     """Whether the leg itself can move when base and hub are held: pins in one place, or slides that are parallel."""
-    if leg.form == "RR":
+    if not any(leg.slides):
         return abs(leg.inner.point - leg.outer.point) < _VANISHING
-    return leg.form == "PP" and abs(_cross(leg.outer.line, leg.inner.line)) < _VANISHING
+    return all(leg.slides) and abs(_cross(leg.outer.line, leg.inner.line)) < _VANISHING
 
 
 def _locus(leg: _Leg) -> _Locus:
     a, h, arm = leg.base.point, leg.hub.point, leg.inner.point - leg.outer.point
-    if leg.form == "RR":
+    if not any(leg.slides):
         return _Locus(round=True, g0=-a, g1=h, c0=abs(h) ** 2 + abs(a) ** 2 - abs(arm) ** 2, c1=-2 * h * a.conjugate())
-    if leg.form == "PR":
+    if leg.slides[0]:
         u = leg.base.line
         start = a + u * leg.outer.line.conjugate() * arm
         return _Locus(round=False, g0=0.5j * u, g1=0j, c0=-_cross(u, start), c1=-1j * u.conjugate() * h)
@@ -290,7 +295,7 @@ def _locus(leg: _Leg) -> _Locus:
 def _turns(legs: Sequence[_Leg]) -> list[complex] | None:
     """The turns of the hub that may belong to modes; None if all do."""
     for leg in legs:
-        if leg.form == "PP":
+        if all(leg.slides):
             return [leg.base.line * leg.outer.line.conjugate() * leg.inner.line * leg.hub.line.conjugate()]
     samples = _condition([_locus(leg) for leg in legs], np.exp(2j * np.pi * np.arange(_SAMPLES) / _SAMPLES))
     if samples is None:
@@ -332,7 +337,7 @@ def _cross(a: Any, b: Any) -> Any:
 
 def _trials(legs: Sequence[_Leg], turn: complex) -> Iterator[Reals]:
     """Poses of all bodies, flat, from which Newton's method finds those with about this turn of the hub."""
-    loci = [_locus(leg) for leg in legs if leg.form != "PP"]
+    loci = [_locus(leg) for leg in legs if not all(leg.slides)]
     values = [(locus.round, *locus.at(turn)) for locus in loci]
     for x in _places(loci, turn):
         gaps = [round_ * abs(x) ** 2 + 2 * (g.conjugate() * x).real + c for round_, g, c in values]
@@ -370,13 +375,14 @@ def _pose(legs: Sequence[_Leg], turn: complex, place: complex) -> Reals:
     for leg in legs:
         a, u = leg.base
         pin, slide = place + turn * leg.hub.point, turn * leg.hub.line
-        if leg.form == "RR":
+        outside, inside = leg.slides
+        if not (outside or inside):
             own = (pin - a) / (leg.inner.point - leg.outer.point)
             own = own / abs(own) if own else 1
         else:
-            own = slide * leg.inner.line.conjugate() if leg.form == "RP" else u * leg.outer.line.conjugate()
-        at = pin - own * leg.inner.point if leg.form == "PR" else a - own * leg.outer.point
-        if leg.form == "PP":
+            own = u * leg.outer.line.conjugate() if outside else slide * leg.inner.line.conjugate()
+        at = pin - own * leg.inner.point if outside and not inside else a - own * leg.outer.point
+        if outside and inside:
             at += u * _cross(slide, pin - at - own * leg.inner.point) / _cross(slide, u)
         pose += [at.real, at.imag, np.angle(own)]
     return np.array(pose)

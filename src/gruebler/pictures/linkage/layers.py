@@ -233,9 +233,8 @@ def _push(posed: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, comp
     def across(element: tuple[str, complex, complex]) -> complex:
         return 1j * complex(pose.turns[0, chain.index(element[0])]) * element[2]
 
-    outer, inner = point(leg.outer), point(leg.inner)
-    at = outer if leg.form == "RP" else inner
-    force = outer - inner if leg.form == "RR" else across(leg.inner if leg.form == "RP" else leg.outer)
+    at = point(leg.pin)
+    force = point(leg.outer) - at if leg.slide is None else across(leg.slide)
     if leg.guide is not None:
         pair, place = leg.guide
         motion = place[2] if pair.is_sliding else 1j * (at - place[1])
