@@ -9,7 +9,6 @@ from gruebler.base.text import message, number
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
-from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.length_texts import is_lengths, size_of
 from gruebler.pictures.canvas.construction_files import CONSTRUCTION_SUFFIXES, construction_bytes
 from gruebler.teaching.constructions import CONSTRUCTIONS, construction, construction_forms
@@ -97,15 +96,11 @@ def _given(words: list[str], forms: list[str]) -> tuple[str, dict[str, float | s
 
 
 def _lengths(word: str) -> tuple[str, dict[str, float | str]]:
-    match size_of(word):
-        case FourBar(a, b, c, d):
-            return "four-bar", {"a": a, "b": b, "c": c, "d": d}
-        case SliderCrank(a, b, e):
-            return "slider-crank", {"a": a, "b": b, "e": e}
-        case InvertedSliderCrank(a, d, e):
-            offset: dict[str, float | str] = {"e": e} if e else {}
-            return "inverted-slider-crank", {"a": a, "d": d, **offset}
-    raise AssertionError(word)
+    size = size_of(word)
+    assert size is not None
+    kind = word.partition(":")[0] if ":" in word else "four-bar"
+    # Of inverted slider-cranks only central ones are constructed: these have no e.
+    return kind, {name: value for name, value in size.named.items() if value or kind != "inverted-slider-crank"}
 
 
 def _list(arguments: argparse.Namespace) -> None:

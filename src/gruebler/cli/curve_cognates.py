@@ -6,7 +6,6 @@ import argparse
 import math
 from collections.abc import Sequence
 
-from gruebler.base.errors import GrueblerError
 from gruebler.base.plain_data import plain
 from gruebler.base.text import joined, message, number, translate
 from gruebler.cli.coupler_inputs import coupler_point
@@ -18,7 +17,7 @@ from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.mechanics.geometry.lever_contact import lever_pose
-from gruebler.mechanics.geometry.roberts import Cognate, cognates, slider_cognates
+from gruebler.mechanics.geometry.roberts import Cognate, all_cognates
 
 _INSIDE = 0.4  # of the range of the crank: a pose away from its limits
 _LINKS = {"crank": message("crank"), "coupler": message("coupler"), "rocker": message("rocker")}
@@ -27,13 +26,7 @@ _LINKS = {"crank": message("crank"), "coupler": message("coupler"), "rocker": me
 def run(arguments: argparse.Namespace) -> int:
     """Lengths, coupler point and place of every cognate."""
     size, u, v, branch, phi = _given(arguments)
-    linkages: Sequence[Cognate]
-    if isinstance(size, FourBar):
-        linkages = cognates(size, u, v, branch=branch, phi=phi)
-    elif isinstance(size, SliderCrank):
-        linkages = slider_cognates(size, u, v, branch=branch, phi=phi)
-    else:
-        raise GrueblerError("cognates are known for the four-bar and the slider-crank, not for its inversion")
+    linkages = all_cognates(size, u, v, branch=branch, phi=phi)
     if arguments.json:
         print_json({"cognates": [_item(cognate) for cognate in linkages]})
     else:
@@ -62,15 +55,11 @@ def _radians(degrees: float | None) -> float | None:
     return None if degrees is None else math.radians(degrees)
 
 
-def _lengths(cognate: Cognate) -> dict[str, float]:
-    return {name: getattr(cognate.size, name) for name in ("abcd" if isinstance(cognate.size, FourBar) else "abe")}
-
-
 def _print(linkages: Sequence[Cognate], lang: str) -> None:
     rows = [
         (
             str(n),
-            *(number(value, lang, "n") for value in (*_lengths(cognate).values(), cognate.u, cognate.v)),
+            *(number(value, lang, "n") for value in (*cognate.size.named.values(), cognate.u, cognate.v)),
             translate("{x:n}; {y:n}", lang, x=cognate.pivot.real, y=cognate.pivot.imag),
             number(_degrees(cognate.turn), lang, "n") + "°",
             cognate.size.type.name(lang),
@@ -79,7 +68,7 @@ def _print(linkages: Sequence[Cognate], lang: str) -> None:
     ]
     headers: tuple[Cell, ...] = (
         "",
-        *_lengths(linkages[0]),
+        *linkages[0].size.named,
         "u",
         "v",
         message("pivot"),
@@ -88,7 +77,7 @@ def _print(linkages: Sequence[Cognate], lang: str) -> None:
     )
     print_table(headers, rows, numbers=range(len(headers) - 1), lang=lang)
     print()
-    if isinstance(linkages[0].size, FourBar):
+    if len(linkages) == 3:
         third = linkages[1].pins[3]
         print(
             translate(
@@ -112,7 +101,7 @@ def _print(linkages: Sequence[Cognate], lang: str) -> None:
 
 def _item(cognate: Cognate) -> dict[str, object]:
     return {
-        **_lengths(cognate),
+        **cognate.size.named,
         **plain(cognate, "u v"),
         "type": cognate.size.type.key,
         "direction_deg": _degrees(cognate.turn),

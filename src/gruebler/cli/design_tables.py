@@ -188,7 +188,7 @@ def _error(design: Design, lang: str) -> str:
 
 def _output(optimum: Minimax, value: float, lang: str, form: str = "n") -> str:
     """An output angle in degrees, or a travel."""
-    turns = optimum.solution.kind == "four-bar"
+    turns = optimum.solution.row.output == "angle"
     return number(degrees(value), lang, form) + "°" if turns else number(value, lang, form)
 
 
@@ -221,8 +221,7 @@ def print_optimum(optimum: Minimax, law: FunctionLaw, lang: str) -> None:
     """
     solution, shown = optimum.solution, optimum.certificate
     form = f".{digits_for_error(optimum, law)}g"
-    names = "abcd" if solution.kind == "four-bar" else "abe"
-    lengths = [f"{name} = {number(length, lang, form)}" for name, length in zip(names, solution.lengths, strict=True)]
+    lengths = [f"{name} = {number(length, lang, form)}" for name, length in solution.named.items()]
     facts = {
         "error": _output(optimum, optimum.error, lang),
         "start": _output(optimum, optimum.start_error, lang),

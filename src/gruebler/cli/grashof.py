@@ -13,7 +13,7 @@ from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.fourbar.four_bar_types import Grashof, LengthRange, turning_ranges, types_along
+from gruebler.mechanics.fourbar.four_bar_types import LengthRange, turning_ranges, types_along
 from gruebler.mechanics.fourbar.length_texts import size_of
 
 _HEADERS = (message("from"), message("to"), message("type"), message("below"), message("above"))
@@ -60,8 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         print_text(size.explain(arguments.lang))
     if arguments.turns is None:
-        assemblable = size.grashof.assemblable if isinstance(size, FourBar) else bool(size.limits)
-        return 0 if assemblable else 1
+        return 0 if size.assemblable else 1
     turning = arguments.turns in size.turning
     if not arguments.json:
         print(
@@ -138,18 +137,17 @@ def _range_item(part: LengthRange) -> dict[str, object]:
 
 def _document(size: FourBar | SliderCrank | InvertedSliderCrank) -> dict[str, object]:
     document: dict[str, object] = {
-        **{name: getattr(size, name) for name in "abcde" if hasattr(size, name)},
+        **size.named,
         "type": size.type.key,
         "english": size.type.name("en"),
         "german": size.type.name("de"),
     }
-    if isinstance(size, FourBar):
-        grashof: Grashof = size.grashof
+    if (grashof := getattr(size, "grashof", None)) is not None:
         document |= plain(grashof, "condition excess shortest")
     document |= plain(size, "turning limits_deg")
     if (centres := size.dead_centres) is not None:
-        slides = isinstance(size, SliderCrank)
-        document["stroke" if slides else "swing_deg"] = centres.travel if slides else math.degrees(centres.travel)
+        name, travel = ("stroke", centres.travel) if size.output_slides else ("swing_deg", math.degrees(centres.travel))
+        document[name] = travel
         document["time_ratio"] = centres.time_ratio
     if size.limits:
         document["smallest_transmission_angle_deg"] = math.degrees(size.transmission_angle.smallest.mu)

@@ -31,10 +31,13 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the tables of a name."""
-    size = None if arguments.lengths is None else size_of(arguments.lengths)
-    if arguments.lengths is not None and not isinstance(size, FourBar):
-        raise GrueblerError("expected four lengths such as 25,70,40,70, but found {word!r}", word=arguments.lengths)
-    tables = teaching_table(arguments.name, (size.a, size.b, size.c, size.d) if isinstance(size, FourBar) else ())
+    lengths: tuple[float, ...] = ()
+    if arguments.lengths is not None:
+        size = size_of(arguments.lengths)
+        if not isinstance(size, FourBar):
+            raise GrueblerError("expected four lengths such as 25,70,40,70, but found {word!r}", word=arguments.lengths)
+        lengths = tuple(size.named.values())
+    tables = teaching_table(arguments.name, lengths)
     if arguments.json:
         print_json([table_as_dict(table) for table in tables])
     else:

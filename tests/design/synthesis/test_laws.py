@@ -14,7 +14,7 @@ from gruebler.design.synthesis import (
     synthesise,
 )
 from gruebler.design.synthesis.dead_centres import dead_centre_family
-from gruebler.design.synthesis.dyads import Displacements, GuidingDyad, all_dyads
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, GuidingDyad, all_dyads
 from gruebler.design.synthesis.positions import linkage_of_dyads
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import FourBar
@@ -250,17 +250,21 @@ complexes = st.builds(complex, st.floats(-2, 2), st.floats(-2, 2))
 
 
 @st.composite
-def dyads(draw, form):
+def dyads(draw, kind):
     direction = np.exp(1j * draw(st.floats(0, 3)))
     fixed, moving = draw(complexes), draw(complexes)
-    return GuidingDyad(form, moving, fixed if form == "RR" else moving, complex(direction))
+    return GuidingDyad(kind, moving, fixed if kind is CRANK else moving, complex(direction))
 
 
 @settings(max_examples=10, deadline=None)
-@given(st.sampled_from([("RR", "RR"), ("RR", "RP"), ("RR", "PR"), ("PR", "RP")]), st.data(), st.floats(0.15, 0.35))
-def test_every_pair_of_dyads_comes_back_from_five_of_its_positions(forms, data, step):
+@given(
+    st.sampled_from([(CRANK, CRANK), (CRANK, BLOCK), (CRANK, SLIDER), (SLIDER, BLOCK)]),
+    st.data(),
+    st.floats(0.15, 0.35),
+)
+def test_every_pair_of_dyads_comes_back_from_five_of_its_positions(kinds, data, step):
     """Of dyads drawn at random; sliders on the frame are in `test_positions`."""
-    one, two = (data.draw(dyads(form)) for form in forms)
+    one, two = (data.draw(dyads(kind)) for kind in kinds)
     try:
         linkage = linkage_of_dyads(one, two, 0.3 + 0.4j, "mm")
         assume(pins_of(linkage).min(initial=1) > 0.3)
@@ -277,6 +281,7 @@ def test_every_pair_of_dyads_comes_back_from_five_of_its_positions(forms, data, 
     except SynthesisError:
         assume(False)  # a motion that infinitely many dyads guide
     wanted = pins_of(linkage)
+    forms = [kind.form for kind in kinds]
     names = {"-".join(forms), "-".join(reversed(forms))}
     alike = [pins(d) for d in everything(result) if d.form in names and len(pins(d)) == len(wanted)]
     gaps = [np.abs(own - wanted).max(initial=0.0) for own in alike]
@@ -298,8 +303,8 @@ def carried_on_a_line_and_a_circle(rng):
     return Displacements(turns, on_line + nearest * along - turns * on_line), on_line
 
 
-@pytest.mark.parametrize("form", ["PR", "RP"])
-def test_a_slide_is_told_from_a_far_pivot(form):
+@pytest.mark.parametrize("kind", [SLIDER, BLOCK], ids=lambda kind: kind.form)
+def test_a_slide_is_told_from_a_far_pivot(kind):
     """The pivot of a slide lies at infinity; with rounding it is found at some 1e4 to 1e8 sizes."""
     rng, tried = np.random.default_rng(3), 0
     for _ in range(700):
@@ -307,7 +312,7 @@ def test_a_slide_is_told_from_a_far_pivot(form):
         if drawn is None:
             continue
         displacements, pivot = drawn
-        found = all_dyads(displacements if form == "PR" else displacements.inverse).real
-        assert [d for d in found if d.form == form and abs(d.moving - pivot) < 1e-6 * (1 + abs(pivot))]
+        found = all_dyads(displacements if kind is SLIDER else displacements.inverse).real
+        assert [d for d in found if d.kind == kind and abs(d.moving - pivot) < 1e-6 * (1 + abs(pivot))]
         tried += 1
     assert tried > 400

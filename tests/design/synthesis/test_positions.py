@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
 from gruebler.design.synthesis.burmester import burmester_curves
-from gruebler.design.synthesis.dyads import Displacements, all_dyads, misfit
+from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, all_dyads, misfit
 from gruebler.design.synthesis.positions import guiding_dyads
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move
@@ -95,10 +95,10 @@ def test_positions_of_a_linkage_give_its_dyads_back(case):
     except SynthesisError:
         assume(False)  # a linkage that guides its body along circles, such as a parallelogram
     pivots = [motion.complex_point(name)[0] for name in ("R(frame-crank)", "R(crank-coupler)")]
-    gaps = [abs(d.fixed - pivots[0]) + abs(d.moving - pivots[1]) for d in dyads if d.form == "RR"]
+    gaps = [abs(d.fixed - pivots[0]) + abs(d.moving - pivots[1]) for d in dyads if d.kind is CRANK]
     assert min(gaps, default=np.inf) < 1e-5
     if "slider" in linkage.mechanism.chain.links:
-        assert any(d.form == "PR" for d in dyads)
+        assert any(d.kind is SLIDER for d in dyads)
     for dyad in dyads:
         reduced = dyad.moved(1 / size, -origin / size)
         assert misfit(given_, reduced) < 1e-9 * (1 + abs(reduced.moving) + abs(reduced.fixed))
@@ -284,7 +284,7 @@ def test_far_pivots_do_not_crowd_out_the_other_dyads():
     """Positions near a line, drawn by hand: a dyad that slides is good, and ever larger circles approach it."""
     rows = [(0, 0, 0), (1, 0.2, 10), (2, 0.3, 22), (3, 0.3, 31), (4, 0.1, 45), (5, -0.3, 52), (6, -0.8, 60)]
     task = task_of(rows)
-    assert {dyad.form for dyad in guiding_dyads(task)} == {"RR", "PR", "RP"}
+    assert {dyad.kind.form for dyad in guiding_dyads(task)} == {"RR", "PR", "RP"}
     found = synthesise_positions(task)
     assert found.designs[0].verdict.error < 0.03
 
@@ -315,7 +315,7 @@ def test_dyads_of_an_infinite_family_are_taken_from_the_region(count, region):
     """Their pivots lie in it, and the body keeps its distance from them in all positions."""
     task = task_of([(0, 0, 0), (1, 0.5, 20), (2, 0.4, 45), (3, 0, 60)][:count])
     found = synthesise_positions(task, Demands(region=region))
-    turning = [d for d in guiding_dyads(task, 16, region) if d.form == "RR"]
+    turning = [d for d in guiding_dyads(task, 16, region) if d.kind is CRANK]
     assert len(turning) >= 12
     for dyad in turning:
         assert region[0] <= dyad.fixed.real <= region[2]
@@ -335,7 +335,7 @@ def test_dyads_of_four_positions_are_different(number):
         rows = np.column_stack([rng.normal(size=(4, 2)), np.linspace(0, 1.2, 4) + 0.1 * rng.normal(size=4)])
         dyads = guiding_dyads(PositionTask(rows.tolist()), number)
         gaps = [
-            abs(one.moving - two.moving) for k, one in enumerate(dyads) for two in dyads[:k] if one.form == two.form
+            abs(one.moving - two.moving) for k, one in enumerate(dyads) for two in dyads[:k] if one.kind == two.kind
         ]
         assert min(gaps) > 1e-6
 

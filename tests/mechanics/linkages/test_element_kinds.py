@@ -1,14 +1,10 @@
-"""Kinds of elements: every table has a row for each, and no code asks for a kind in another place."""
+"""Kinds of elements: every table has a row for each; `tests/test_kinds.py` sees to it that no other code asks."""
 
-import ast
 import inspect
-from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-import gruebler
 from gruebler.base.errors import LinkageError
 from gruebler.files.element_records import FORMS, ElementRecord, read_element_table, write_element
 from gruebler.mechanics.kinematics.contacts import CONTACT_MOTIONS
@@ -31,15 +27,9 @@ from gruebler.pictures.canvas.symbols import CONTACTS as SIGNS
 from gruebler.pictures.linkage.element_pictures import PICTURES
 from gruebler.structure.chain.pairs import PAIRS
 
-SOURCE = Path(gruebler.__file__).parent
 KINDS = {
     each for each in vars(elements).values() if inspect.isclass(each) and issubclass(each, Element) and each != Element
 }
-ALLOWED = {
-    "mechanics/linkages/wheels.py": "radii from tooth numbers, meshes that repeat others: of toothed wheels only",
-}
-"""Files that ask for a kind of element, and why."""
-
 SAMPLES = [
     Pin(1.0, 2.0),
     Line(1.0, 2.0, 0.5),
@@ -122,76 +112,3 @@ def test_scaling_and_mirroring_by_hand():
 def test_a_key_without_a_value_is_not_given():
     with pytest.raises(LinkageError, match="circle: does not go with a wheel"):
         read_element_table({"at": [0, 0], "circle": None}, "here")
-
-
-# --- no other code asks for a kind ----------------------------------------------------------------------
-
-
-def kinds_in(node: ast.AST, known: set[str]) -> bool:
-    """Whether an expression names a kind, other than by making one."""
-    if isinstance(node, ast.Call):
-        return False
-    named = (isinstance(node, ast.Name) and node.id in known) or (
-        isinstance(node, ast.Attribute) and node.attr in known
-    )
-    return named or any(kinds_in(child, known) for child in ast.iter_child_nodes(node))
-
-
-def questions(tree: ast.Module) -> Iterator[int]:
-    """The lines in which a module asks for a kind."""
-    known = {
-        alias.asname or alias.name
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and ".linkages" in (node.module or "")
-        for alias in node.names
-        if alias.name in {kind.__name__ for kind in KINDS}
-    }
-    unions = {
-        target.id
-        for node in tree.body
-        if isinstance(node, ast.Assign)
-        and isinstance(node.value, ast.BinOp | ast.Tuple)
-        and kinds_in(node.value, known)
-        for target in node.targets
-        if isinstance(target, ast.Name)
-    }
-    known |= unions
-    for node in ast.walk(tree):
-        match node:
-            case ast.Call(func=ast.Name("isinstance" | "issubclass"), args=[_, asked]) if kinds_in(asked, known):
-                yield node.lineno
-            case ast.Compare() if any(kinds_in(side, known) for side in (node.left, *node.comparators)):
-                yield node.lineno
-            case ast.MatchClass() if kinds_in(node.cls, known):
-                yield node.lineno
-
-
-def test_no_code_asks_for_a_kind():
-    asked = {
-        path.relative_to(SOURCE).as_posix()
-        for path in sorted(SOURCE.rglob("*.py"))
-        if [*questions(ast.parse(path.read_text(encoding="utf-8")))]
-    }
-    assert asked == {*ALLOWED}
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        "isinstance(e, Pin)",
-        "not isinstance(e, (Line, Pin))",
-        "isinstance(e, Pin | Line)",
-        "type(e) is Pin",
-        "type(e) in {Pin}",
-        "{type(a), type(b)} == {Pin, Line}",
-        "ROUND = (Pin, Line)\nisinstance(e, ROUND)",
-        "match e:\n    case Pin(x, y):\n        pass",
-    ],
-)
-def test_such_questions_are_found(line):
-    assert [*questions(ast.parse(f"from gruebler.mechanics.linkages import Line, Pin\n{line}"))]
-
-
-@pytest.mark.parametrize("line", ["e.is_pin", "e == Pin(1, 2)", "ROWS = {Pin: 1}", "made = Pin(1, 2)"])
-def test_other_lines_are_none(line):
-    assert not [*questions(ast.parse(f"from gruebler.mechanics.linkages import Pin\n{line}"))]

@@ -27,6 +27,7 @@ TABLES = {
     "teaching/worksheets/joint_pictures.py": "drawings in perspective",
 }
 ALLOWED = {
+    "mechanics/kinematics/triads.py": "a theorem for each three legs, in letters",
     "files/pylinkage.py": "words of the format",
     "files/pyslvs.py": "words of the format",
     "structure/type_synthesis/selection.py": "how many of each pair are wanted, from the fields of `Requirements`",
@@ -38,12 +39,14 @@ ALLOWED = {
 }
 FREEDOMS = {*Freedom, "R", "T", "H", "RH", "TH"}
 SPACES = {str(space) for space in Space}
+FORM = re.compile("[RP]{2,}")
+"""Joints in letters, such as RRR, whose meaning is what each of them does."""
 
 
 def is_kind(node, *, letters=False):
     if not isinstance(node, ast.Constant) or not isinstance(node.value, str) or node.value in SPACES:
         return False
-    return node.value in NAMES or (letters and node.value in SYMBOLS)
+    return node.value in NAMES or (letters and node.value in SYMBOLS) or FORM.fullmatch(node.value) is not None
 
 
 def made(node):
@@ -104,6 +107,8 @@ def test_no_code_outside_the_tables_asks_which_pair_it_is():
     [
         'joint.pair.name == "revolute"',
         'joint.pair.symbol() in ("R", "P")',
+        'dyad.form == "RRP"',
+        '{"RR": 6, "PR": 4}[leg.form]',
         'pair.name in {"rolling", "roll_slide"}',
         '{"revolute": 2, "rolling": 2}[kind]',
         'joint.pair == pair("prismatic")',

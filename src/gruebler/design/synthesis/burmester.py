@@ -17,7 +17,14 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis.dyads import Displacements, GuidingDyad, circle_point_cubics, misfit, sliding_dyads
+from gruebler.design.synthesis.dyads import (
+    CRANK,
+    Displacements,
+    GuidingDyad,
+    circle_point_cubics,
+    misfit,
+    sliding_dyads,
+)
 from gruebler.design.synthesis.tasks import PositionTask
 
 _STEPS = 30  # along a curve to the point nearest to a place
@@ -298,7 +305,7 @@ def _sharpened(given: Displacements, x: complex, m: complex) -> GuidingDyad:
         x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
         if np.abs(step).max() < 1e-15 * (1 + abs(x) + abs(m)):
             break
-    dyad = GuidingDyad("RR", x, m)
+    dyad = GuidingDyad(CRANK, x, m)
     if misfit(given, dyad) > 1e-10 * (1 + abs(x) + abs(m)):
         raise SynthesisError("no dyad of the four positions lies near this place")
     return dyad
@@ -317,4 +324,4 @@ def _nearest_dyad(given: Displacements, x: complex, m: complex, target: complex,
         x, m = dyad.moving, dyad.fixed
         if moved < 1e-13 * (1 + abs(x) + abs(m)):
             break
-    return GuidingDyad("RR", x, m)
+    return GuidingDyad(CRANK, x, m)

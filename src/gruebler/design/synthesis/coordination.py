@@ -16,6 +16,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.plain_data import plain
 from gruebler.base.text import Message
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, GuidingDyad
 from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -43,8 +44,22 @@ class Coordination:
 
     def linkage(self) -> FourBar | SliderCrank | InvertedSliderCrank:
         """The linkage by its usual lengths."""
-        shapes = {"four-bar": FourBar, "slider-crank": SliderCrank, "inverted-slider-crank": InvertedSliderCrank}
-        return shapes[self.kind](*self.lengths)  # type: ignore[no-any-return]
+        return self.row.size(*self.lengths)
+
+    @property
+    def row(self) -> CoordinationKind:
+        """What its kind does."""
+        return next(kind for kind in KINDS if kind.name == self.kind)
+
+    @property
+    def unit(self) -> float:
+        """What an angle or travel of the output is multiplied with for a reader: angles are read in degrees."""
+        return 180 / np.pi if self.row.output == "angle" else 1.0
+
+    @property
+    def named(self) -> dict[str, float]:
+        """Its lengths by name."""
+        return dict(zip(self.row.names, self.lengths, strict=True))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,7 +119,7 @@ class Minimax:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: lengths, starts, errors and the certificate; angles in degrees."""
-        unit = 180 / np.pi if self.solution.kind == "four-bar" else 1.0
+        unit = self.solution.unit
         units = dict.fromkeys(("output_start", "error", "start_error", "decrease"), unit.__rmul__)
         certificate = plain(
             self.certificate,
@@ -127,12 +142,22 @@ class CoordinationKind:
 
     name: str
     _: KW_ONLY
+    size: Callable[..., FourBar | SliderCrank | InvertedSliderCrank]
+    names: str
+    """Of its lengths, a letter each."""
     output: str
+    """``angle`` or ``travel``."""
     unknowns: int
     columns: Callable[[Reals, Reals], Reals]
     """(pairs, unknowns + 1): the conditions say that a combination of the first columns is the last one."""
     lengths: Callable[[Reals], tuple[float, ...] | None]
     """From the factors of that combination to signed lengths."""
+    positive: Callable[[tuple[float, ...], complex, float], tuple[tuple[float, ...], float, float]]
+    """From signed lengths, the joint of crank and coupler, and the output: the lengths but a, of links positive, the
+    output that goes with them, and a number that is not negative on the branch ``+``."""
+    dyad: Callable[[tuple[float, ...], complex, float], tuple[complex, GuidingDyad]]
+    """From lengths, the joint of crank and coupler, and the output: the output's pivot, or a point of its slide, and
+    the dyad between crank and output."""
     input_degree: int = 2
     """In how many columns the input enters: the degree of the condition for a free input start."""
 
@@ -149,6 +174,17 @@ def _four_bar_lengths(k: Reals) -> tuple[float, ...] | None:
     return (a, float(np.sqrt(square)), c, 1.0) if square > _SMALL**2 else None
 
 
+def _four_bar_positive(signed: tuple[float, ...], pin: complex, psi: float) -> tuple[tuple[float, ...], float, float]:
+    _, b, c, d = signed
+    side = float(np.imag(np.conj(d - pin) * (d + c * np.exp(1j * psi) - pin)))
+    return (b, abs(c), d), psi + (np.pi if c < 0 else 0.0), side
+
+
+def _four_bar_dyad(lengths: tuple[float, ...], pin: complex, psi: float) -> tuple[complex, GuidingDyad]:
+    _, _, c, d = lengths
+    return complex(d), GuidingDyad(CRANK, d + c * complex(np.exp(1j * psi)), pin)
+
+
 def _slider_columns(phi: Reals, s: Reals) -> Reals:
     return np.stack([s * np.cos(phi), np.sin(phi), np.ones_like(phi), s * s], axis=1)
 
@@ -162,6 +198,15 @@ def _slider_lengths(k: Reals) -> tuple[float, ...] | None:
     return (a, float(np.sqrt(square)), e) if square > 0 else None
 
 
+def _slider_positive(signed: tuple[float, ...], pin: complex, s: float) -> tuple[tuple[float, ...], float, float]:
+    return signed[1:], s, s - pin.real
+
+
+def _slider_dyad(lengths: tuple[float, ...], pin: complex, s: float) -> tuple[complex, GuidingDyad]:
+    far = complex(s, lengths[2])
+    return far, GuidingDyad(CRANK, far, pin)
+
+
 def _inverted_columns(phi: Reals, psi: Reals) -> Reals:
     return np.stack([np.sin(phi - psi), np.ones_like(phi), -np.sin(psi)], axis=1)
 
@@ -170,15 +215,48 @@ def _inverted_lengths(k: Reals) -> tuple[float, ...] | None:
     return (k[0], 1.0, k[1]) if abs(k[0]) > _SMALL else None
 
 
+def _inverted_positive(signed: tuple[float, ...], pin: complex, psi: float) -> tuple[tuple[float, ...], float, float]:
+    """The guide has the direction psi; B0 lies on it towards the block for the branch ``+``."""
+    return signed[1:], psi, float(np.real((signed[1] - pin) * np.exp(-1j * psi)))
+
+
+def _inverted_dyad(lengths: tuple[float, ...], pin: complex, psi: float) -> tuple[complex, GuidingDyad]:
+    return complex(lengths[1]), GuidingDyad(BLOCK, pin, pin, complex(np.exp(1j * psi)))
+
+
 KINDS = (
-    CoordinationKind("four-bar", output="angle", unknowns=3, columns=_four_bar_columns, lengths=_four_bar_lengths),
-    CoordinationKind("slider-crank", output="travel", unknowns=3, columns=_slider_columns, lengths=_slider_lengths),
+    CoordinationKind(
+        "four-bar",
+        size=FourBar,
+        names="abcd",
+        output="angle",
+        unknowns=3,
+        columns=_four_bar_columns,
+        lengths=_four_bar_lengths,
+        positive=_four_bar_positive,
+        dyad=_four_bar_dyad,
+    ),
+    CoordinationKind(
+        "slider-crank",
+        size=SliderCrank,
+        names="abe",
+        output="travel",
+        unknowns=3,
+        columns=_slider_columns,
+        lengths=_slider_lengths,
+        positive=_slider_positive,
+        dyad=_slider_dyad,
+    ),
     CoordinationKind(
         "inverted-slider-crank",
+        size=InvertedSliderCrank,
+        names="ade",
         output="angle",
         unknowns=2,
         columns=_inverted_columns,
         lengths=_inverted_lengths,
+        positive=_inverted_positive,
+        dyad=_inverted_dyad,
         input_degree=1,
     ),
 )
@@ -258,22 +336,12 @@ def _solved(kind: CoordinationKind, phi: Reals, output: Reals) -> list[Coordinat
 def as_coordination(kind: str, signed: tuple[float, ...], phi: float, output: float) -> Coordination:
     """The linkage of signed lengths in a position: a negative length stands for the link turned by 180 degrees."""
     a = signed[0]
-    crank = phi + (np.pi if a < 0 else 0.0)
-    point = a * np.exp(1j * phi)
-    if kind == "four-bar":
-        b, c, d = signed[1:]
-        rocker = output + (np.pi if c < 0 else 0.0)
-        gap = d + c * np.exp(1j * output) - point
-        side = 1 if np.imag(np.conj(d - point) * gap) >= 0 else -1
-        return Coordination(kind, lengths=(abs(a), b, abs(c), d), input_start=crank, output_start=rocker, side=side)
-    if kind == "slider-crank":
-        side = 1 if output - point.real >= 0 else -1
-        return Coordination(
-            kind, lengths=(abs(a), signed[1], signed[2]), input_start=crank, output_start=output, side=side
-        )
-    # The guide has the direction psi; B0 lies on it towards the block for branch +1.
-    d, e = signed[1:]
-    displacement = float(np.real((d - point) * np.exp(-1j * output)))
+    row = next(row for row in KINDS if row.name == kind)
+    lengths, own_output, side = row.positive(signed, a * np.exp(1j * phi), output)
     return Coordination(
-        kind, lengths=(abs(a), d, e), input_start=crank, output_start=output, side=1 if displacement >= 0 else -1
+        kind,
+        lengths=(abs(a), *lengths),
+        input_start=phi + (np.pi if a < 0 else 0.0),
+        output_start=own_output,
+        side=1 if side >= 0 else -1,
     )

@@ -17,7 +17,7 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.curve_matching import PLACES, CurveMatch, best_matches, drive_angles, evenly_along
-from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.dyads import CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
 from gruebler.design.synthesis.judging import Demands, best_of
 from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
@@ -440,11 +440,11 @@ def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:
     point = complex(curve_points(fit.kind, fit.row[:, None], fit.phi[:1], fit.side).z[0])
     theta = (point - pin) / complex(r["u"], r["v"])
     far = pin + r["b"] * theta
-    own = GuidingDyad("RR", pin, pivot)
+    own = GuidingDyad(CRANK, pin, pivot)
     if fit.kind is FOUR_BAR:
-        return four_bar_linkages(own, GuidingDyad("RR", far, complex(r["b0x"], r["b0y"])), point, unit=unit)
+        return four_bar_linkages(own, GuidingDyad(CRANK, far, complex(r["b0x"], r["b0y"])), point, unit=unit)
     slide = complex(np.exp(1j * r["angle"]))
-    return [linkage_of_dyads(own, GuidingDyad("PR", far, far, slide), point, unit)]
+    return [linkage_of_dyads(own, GuidingDyad(SLIDER, far, far, slide), point, unit)]
 
 
 def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:

@@ -6,7 +6,7 @@ point x to q_j x + t_j. docs/theory/synthesis-positions.md has the equations and
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import combinations, product
 from math import atan2
@@ -16,8 +16,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.structure.chain.spaces import Space
-from gruebler.structure.chain.symbols import read_symbols
+from gruebler.structure.chain.pairs import Pair, pair
 
 _REAL = 1e-7
 """Two conjugate numbers nearer to real than this are looked at as real: a double root has half the digits of 1e-16."""
@@ -29,39 +28,6 @@ _BENT = 1e-3
 _SAME = 1e-2  # sizes: two dyads whose other pivots are nearer are one; remote pivots differ by their inverse distance
 _EXACT = 1e-11
 """A polished dyad misses its condition by less, relative to its size."""
-
-
-@dataclass(frozen=True, slots=True)
-class GuidingDyad:
-    """A connection of body and frame with two joints, the first on the frame: RR, PR or RP."""
-
-    form: str
-    moving: complex
-    """RR and PR: the pivot on the body, as it lies in the first position. RP: the fixed pivot again."""
-    fixed: complex
-    """RR and RP: the pivot on the frame. PR: the pivot on the body."""
-    direction: complex = 0j
-    """PR: of the slide on the frame. RP: of the slide on the body, in the first position."""
-
-    @property
-    def joints(self) -> tuple[tuple[str, tuple[float, ...]], ...]:
-        """The first joint and the one on the body: symbol and place as in a drawing, of a slide with its angle."""
-        pairs = read_symbols(self.form, Space.PLANAR)
-        angle = (atan2(self.direction.imag, self.direction.real),)
-        return tuple(
-            (symbol, (at.real, at.imag, *(angle if pairs[symbol].is_sliding else ())))
-            for symbol, at in zip(self.form, (self.fixed, self.moving), strict=True)
-        )
-
-    @property
-    def length(self) -> float:
-        """The distance of the pivots of an RR dyad; 0 for the others."""
-        return abs(self.moving - self.fixed)
-
-    def moved(self, turn: complex, shift: complex) -> GuidingDyad:
-        """The dyad turned, scaled (``turn``) and shifted."""
-        direction = self.direction * turn / abs(turn)
-        return GuidingDyad(self.form, turn * self.moving + shift, turn * self.fixed + shift, direction)
 
 
 class Displacements(NamedTuple):
@@ -89,6 +55,74 @@ class Displacements(NamedTuple):
         return np.concatenate([[x], self.q * x + self.t])
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DyadKind:
+    """A kind of connection of body and frame with two joints."""
+
+    pairs: tuple[Pair, Pair]
+    """Of the joint on the frame and of that on the body."""
+    sides: tuple[str, str]
+    """What the link between frame and coupler is called: the first of its kind, the second."""
+    seen: Callable[[Displacements], Displacements] | None = None
+    """The displacements in which its pivot stays on a line; None if it stays on a circle."""
+
+    @property
+    def form(self) -> str:
+        """Its joints in letters, such as PR."""
+        return "".join(joint.symbol() for joint in self.pairs)
+
+
+def _from_the_frame(given: Displacements) -> Displacements:
+    return given
+
+
+def _from_the_body(given: Displacements) -> Displacements:
+    return given.inverse
+
+
+_TURNING, _SLIDING = pair("revolute"), pair("prismatic")
+CRANK = DyadKind(pairs=(_TURNING, _TURNING), sides=("crank", "rocker"))
+SLIDER = DyadKind(pairs=(_SLIDING, _TURNING), sides=("slider", "second_slider"), seen=_from_the_frame)
+BLOCK = DyadKind(pairs=(_TURNING, _SLIDING), sides=("block", "second_block"), seen=_from_the_body)
+
+
+@dataclass(frozen=True, slots=True)
+class GuidingDyad:
+    """A connection of body and frame with two joints: a crank (RR), a slider (PR) or a block (RP)."""
+
+    kind: DyadKind
+    moving: complex
+    """RR and PR: the pivot on the body, as it lies in the first position. RP: the fixed pivot again."""
+    fixed: complex
+    """RR and RP: the pivot on the frame. PR: the pivot on the body."""
+    direction: complex = 0j
+    """PR: of the slide on the frame. RP: of the slide on the body, in the first position."""
+
+    @property
+    def joints(self) -> tuple[tuple[str, tuple[float, ...]], ...]:
+        """The first joint and the one on the body: symbol and place as in a drawing, of a slide with its angle."""
+        angle = (atan2(self.direction.imag, self.direction.real),)
+        return tuple(
+            (joint.symbol(), (at.real, at.imag, *(angle if joint.is_sliding else ())))
+            for joint, at in zip(self.kind.pairs, (self.fixed, self.moving), strict=True)
+        )
+
+    @property
+    def slides(self) -> bool:
+        """Whether one of its joints slides, so that its pivot stays on a line."""
+        return self.kind.seen is not None
+
+    @property
+    def length(self) -> float:
+        """The distance of the pivots of an RR dyad; 0 for the others."""
+        return abs(self.moving - self.fixed)
+
+    def moved(self, turn: complex, shift: complex) -> GuidingDyad:
+        """The dyad turned, scaled (``turn``) and shifted."""
+        direction = self.direction * turn / abs(turn)
+        return GuidingDyad(self.kind, turn * self.moving + shift, turn * self.fixed + shift, direction)
+
+
 def _rows(given: Displacements) -> Complexes:
     """Conditions of RR dyads, bilinear: (displacements, 3, 3) by (x, x*, 1) and (m, m*, 1)."""
     q, t = given
@@ -102,12 +136,10 @@ def _rows(given: Displacements) -> Complexes:
 
 def misfit(given: Displacements, dyad: GuidingDyad) -> float:
     """How far the dyad is from guiding the body: the largest deviation of its constant length or line."""
-    if dyad.form == "RR":
+    if dyad.kind.seen is None:
         gaps = np.abs(given.images(dyad.moving) - dyad.fixed)
-    elif dyad.form == "PR":
-        gaps = np.imag(np.conj(dyad.direction) * given.images(dyad.moving))
     else:
-        gaps = np.imag(np.conj(dyad.direction) * given.inverse.images(dyad.fixed))
+        gaps = np.imag(np.conj(dyad.direction) * dyad.kind.seen(given).images(dyad.moving))
     return float(gaps.max() - gaps.min())
 
 
@@ -123,16 +155,16 @@ def dyad_of_moving_pivot(given: Displacements, x: complex, /) -> GuidingDyad:
     area = float(np.imag(np.conj(gaps[0]) * gaps[1])) / float(np.abs(gaps[0]) * np.abs(gaps[1]))
     if abs(area) < _FAR:
         direction = (places[-1] - places[0]) if abs(places[-1] - places[0]) > _FAR else gaps[0]
-        return GuidingDyad("PR", x, x, complex(direction / abs(direction)))
-    return GuidingDyad("RR", x, _centre(places))
+        return GuidingDyad(SLIDER, x, x, complex(direction / abs(direction)))
+    return GuidingDyad(CRANK, x, _centre(places))
 
 
 def dyad_of_fixed_pivot(given: Displacements, m: complex, /) -> GuidingDyad:
     """The dyad of two displacements whose pivot on the frame is given: RR, or RP; errors as above."""
     guiding_dyad = dyad_of_moving_pivot(given.inverse, m)
-    if guiding_dyad.form == "PR":
-        return GuidingDyad("RP", m, m, guiding_dyad.direction)
-    return GuidingDyad("RR", guiding_dyad.fixed, m)
+    if guiding_dyad.slides:
+        return GuidingDyad(BLOCK, m, m, guiding_dyad.direction)
+    return GuidingDyad(CRANK, guiding_dyad.fixed, m)
 
 
 def _centre(places: Complexes) -> complex:
@@ -150,7 +182,7 @@ def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
     if np.abs(given.q - 1).max() < _FAR:
         raise SynthesisError("the body does not turn: every one of its points moves alike (a translation)")
     sliding = []
-    for form, seen in (("PR", given), ("RP", given.inverse)):
+    for kind, seen in ((SLIDER, given), (BLOCK, given.inverse)):
         # The point x stays on a line of normal n: Re(n* (q - 1) x + n* t) = 0, linear in n* x and n.
         q, t = seen.q - 1, seen.t
         matrix = np.stack([q.real, -q.imag, t.real, t.imag], axis=1)
@@ -162,7 +194,7 @@ def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
         if values[2] < _EXACT * values[0] or abs(normal) < _FAR * abs(complex(x, y)):
             continue
         point, direction = complex(x, y) / normal.conjugate(), 1j * normal / abs(normal)
-        dyad = GuidingDyad(form, point, point, direction)
+        dyad = GuidingDyad(kind, point, point, direction)
         if misfit(given, dyad) <= 1e-9 * (1 + abs(point)):
             sliding.append(dyad)
     return tuple(sliding)
@@ -261,7 +293,7 @@ def _turning_dyad(given: Displacements, x: Complexes) -> GuidingDyad | None:
         return None
     x = x * np.sqrt(phase / abs(phase))
     centre = np.conj(np.linalg.svd(np.einsum("i,jik->jk", x, _rows(given)))[2][-1])
-    start = GuidingDyad("RR", *(complex(p[0] / (p[2] if abs(p[2]) > _FAR**2 else _FAR**2)) for p in (x, centre)))
+    start = GuidingDyad(CRANK, *(complex(p[0] / (p[2] if abs(p[2]) > _FAR**2 else _FAR**2)) for p in (x, centre)))
     if min(abs(x[2]), abs(centre[2])) < _FAR:
         return start
     polished = _polished(given, start)
@@ -270,8 +302,8 @@ def _turning_dyad(given: Displacements, x: Complexes) -> GuidingDyad | None:
 
 def _approaches(given: Displacements, dyad: GuidingDyad, slide: GuidingDyad) -> bool:
     """Whether a long RR dyad is this slide, its far pivot found with rounding."""
-    near, form = (dyad.moving, "PR") if abs(dyad.moving) < abs(dyad.fixed) else (dyad.fixed, "RP")
-    if form != slide.form or abs(near - slide.moving) > _SAME * (1 + abs(near)):
+    near, kind = (dyad.moving, SLIDER) if abs(dyad.moving) < abs(dyad.fixed) else (dyad.fixed, BLOCK)
+    if kind != slide.kind or abs(near - slide.moving) > _SAME * (1 + abs(near)):
         return False
     return dyad.length > _REMOTE or not _bends(given, dyad)
 
@@ -305,7 +337,7 @@ def _polished(given: Displacements, start: GuidingDyad) -> GuidingDyad:
         x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
         if np.abs(step).max() < 1e-15 * scale:
             break
-    return GuidingDyad("RR", x, m)
+    return GuidingDyad(CRANK, x, m)
 
 
 def _different(dyads: Iterable[GuidingDyad]) -> tuple[GuidingDyad, ...]:
@@ -314,8 +346,8 @@ def _different(dyads: Iterable[GuidingDyad]) -> tuple[GuidingDyad, ...]:
         near = [
             abs(dyad.moving - o.moving) + abs(dyad.fixed - o.fixed) < 1e-9 * (1 + abs(o.moving) + abs(o.fixed))
             for o in different
-            if o.form == dyad.form
+            if o.kind == dyad.kind
         ]
         if not any(near):
             different.append(dyad)
-    return tuple(sorted(different, key=lambda d: (d.form != "RR", d.length, d.moving.real)))
+    return tuple(sorted(different, key=lambda d: (d.slides, d.length, d.moving.real)))

@@ -40,8 +40,8 @@ _FAMILIES = {
     4: message("There are infinitely many solutions, one for each point of a curve; {count} were taken."),
 }
 """By how many pairs, with both starts free: what a dyad between crank and output can be."""
-_FORMS = {("angle", "RR"): "four-bar", ("travel", "RR"): "slider-crank"}
-"""What crank, dyad and output form together; other dyads between crank and output name themselves."""
+_FORMS = {"angle": "four-bar", "travel": "slider-crank"}
+"""What crank, coupler and output form together; slides between crank and output name themselves."""
 
 
 def synthesise_function(
@@ -212,23 +212,9 @@ def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, opti
 
 
 def _design(task: FunctionTask, demands: Demands, solution: Coordination) -> Design:
-    dyads = _own_dyads(solution)
-    return _judged_function(task, demands, *dyads, solution.kind)
-
-
-def _own_dyads(solution: Coordination) -> tuple[complex, complex, GuidingDyad]:
-    """Crank pivot A and, for the output, its pivot (or a point of the slide), and the dyad between crank and output."""
-    start = complex(np.exp(1j * solution.input_start))
-    point = solution.lengths[0] * start
-    if solution.kind == "four-bar":
-        _, _, c, d = solution.lengths
-        far = d + c * complex(np.exp(1j * solution.output_start))
-        return 0j, complex(d), GuidingDyad("RR", far, point)
-    if solution.kind == "slider-crank":
-        far = complex(solution.output_start, solution.lengths[2])
-        return 0j, far, GuidingDyad("RR", far, point)
-    direction = complex(np.exp(1j * solution.output_start))
-    return 0j, complex(solution.lengths[1]), GuidingDyad("RP", point, point, direction)
+    pin = solution.lengths[0] * complex(np.exp(1j * solution.input_start))
+    far, dyad = solution.row.dyad(solution.lengths, pin, solution.output_start)
+    return _judged_function(task, demands, 0j, far, dyad, solution.kind)
 
 
 def _seen_from_crank(task: FunctionTask) -> PositionTask:
@@ -248,10 +234,10 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
     size = 1.0 if task.output == "angle" else seen.size
     connecting = []
     for dyad in guiding_dyads(seen, number):
-        if task.output == "angle" and dyad.form == "RR":
+        if task.output == "angle" and not dyad.slides:
             frame = abs(dyad.moving - 1) + abs(dyad.fixed) < 1e-6
         else:
-            frame = task.output == "travel" and dyad.form == "RP" and abs(dyad.fixed) < 1e-6 * size
+            frame = task.output == "travel" and dyad.kind.pairs[1].is_sliding and abs(dyad.fixed) < 1e-6 * size
         if not frame:
             connecting.append(dyad)
     return connecting
@@ -259,8 +245,9 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
 
 def _connected(task: FunctionTask, demands: Demands, dyad: GuidingDyad) -> Design | None:
     far = 1 + 0j if task.output == "angle" else dyad.moving
+    form = dyad.kind.form if dyad.slides else _FORMS[task.output]
     try:
-        return _judged_function(task, demands, 0j, far, dyad, _FORMS.get((task.output, dyad.form), dyad.form))
+        return _judged_function(task, demands, 0j, far, dyad, form)
     except LinkageError:
         return None
 

@@ -107,7 +107,7 @@ def digits_for_error(optimum: Minimax, law: FunctionLaw) -> int:
     """
     solution = optimum.solution
     family = ErrorFamily(solution.kind, solution.side, law)
-    unit = 180 / np.pi if solution.kind == "four-bar" else 1.0
+    unit = solution.unit
     for digits in range(5, 16):
         rounded = replace(
             solution,
@@ -186,8 +186,7 @@ class _Search:
         """Whether the lengths differ too much."""
         solution = self.family.linkage_of(place.numbers)
         assert solution is not None
-        links = solution.lengths if solution.kind == "four-bar" else (*solution.lengths[:2], self.family.unit)
-        return max(map(abs, solution.lengths)) > _LONGEST * min(links)
+        return max(map(abs, solution.lengths)) > _LONGEST * min(self.family.links_of(solution))
 
     def linear(self, place: _Place, region: float) -> _Linear | None:
         """The best step within a region for errors linear in the numbers; None at a dead centre.

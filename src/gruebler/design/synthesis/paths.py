@@ -17,7 +17,7 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
-from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, missing_alike
 from gruebler.design.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
 from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
@@ -333,13 +333,13 @@ def _classes(problem: Problem, complete: Solutions) -> Iterator[list[tuple[Guidi
     """The real linkages of each real class: with Roberts' cognates where only points are given."""
     for row in complete.real:
         x, y, a, b = (complex(row[k] + np.conj(row[k + 1])) / 2 for k in (0, 2, 4, 6))
-        alike = [(GuidingDyad("RR", x, a), GuidingDyad("RR", y, b))]
+        alike = [(GuidingDyad(CRANK, x, a), GuidingDyad(CRANK, y, b))]
         if not (problem.poses or problem.given_pivots or abs(y - x) < 1e-12):
             # The coupler triangle: the point, at the origin, lies at the part k of the way from x to y.
             k = -x / (y - x)
             c = a + k * (b - a)
-            alike.append((GuidingDyad("RR", a - x, a), GuidingDyad("RR", (a - x) * (1 - k), c)))
-            alike.append((GuidingDyad("RR", b - y, b), GuidingDyad("RR", k * (b - y), c)))
+            alike.append((GuidingDyad(CRANK, a - x, a), GuidingDyad(CRANK, (a - x) * (1 - k), c)))
+            alike.append((GuidingDyad(CRANK, b - y, b), GuidingDyad(CRANK, k * (b - y), c)))
         yield alike
 
 
@@ -382,7 +382,7 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
     within = np.angle(np.exp(1j * timing))  # a body looks the same after a whole turn
     seen = PositionTask(tuple((-z.real, -z.imag, a) for z, a in zip(task.z, within, strict=True)))
     designs: list[Design] = []
-    cranks = [d for d in guiding_dyads(seen, number) if d.form == "RR"]
+    cranks = [d for d in guiding_dyads(seen, number) if not d.slides]
     real = 0
     for crank in cranks:
         # Placed in the first position: fixed = -A0, moving = (A - A0) - P1 as the place of the body's point.
@@ -391,10 +391,10 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
         pins = pivot + (pin - pivot) * turned
         coupler = np.angle((task.z - pins) / (task.z[0] - pin))
         carried = PositionTask(tuple((z.real, z.imag, a) for z, a in zip(task.z, coupler, strict=True)))
-        own = GuidingDyad("RR", complex(pin), complex(pivot))
+        own = GuidingDyad(CRANK, complex(pin), complex(pivot))
         for other in guiding_dyads(carried, number):
             same = abs(other.moving - own.moving) + abs(other.fixed - own.fixed)
-            if other.form == "RR" and same < 1e-6 * (task.size + abs(own.moving) + abs(own.fixed)):
+            if not other.slides and same < 1e-6 * (task.size + abs(own.moving) + abs(own.fixed)):
                 continue
             real += 1
             designs += _judged_timed(task, demands, own, other)
@@ -454,7 +454,7 @@ def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: Gui
     crank = task.size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
     probes = (Probe("P"), Probe(link="crank", length=task.size))
     targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
-    return [judge_design(linkage, targets, demands, f"RR-{other.form}")]
+    return [judge_design(linkage, targets, demands, f"{own.kind.form}-{other.kind.form}")]
 
 
 class _Method(NamedTuple):

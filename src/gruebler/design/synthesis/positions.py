@@ -19,6 +19,7 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.burmester import burmester_curves
 from gruebler.design.synthesis.dyads import (
+    CRANK,
     Displacements,
     GuidingDyad,
     all_dyads,
@@ -35,8 +36,6 @@ from gruebler.mechanics.fourbar import grashof
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
-_SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
-"""What the link between frame and coupler is called: the first of its kind, the second."""
 NEAR = 0.05
 """More than five positions are met if they are missed by less than this part of the size."""
 _FARTHEST = 1e3
@@ -191,7 +190,7 @@ def _judged_pairs(
     for done, (guiding_dyad, two) in enumerate(pairs, 1):
         if progress is not None:
             progress(done, len(pairs))
-        form = f"{guiding_dyad.form}-{two.form}"
+        form = f"{guiding_dyad.kind.form}-{two.kind.form}"
         try:
             linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
         except LinkageError:
@@ -213,7 +212,7 @@ def four_bar_linkages(
     The side that turns fully drives; of two that do not, each is tried. Raises `LinkageError` if pivots coincide.
     """
     orders = [(first_dyad, second_dyad), (second_dyad, first_dyad)]
-    if first_dyad.form == second_dyad.form == "RR":
+    if not (first_dyad.slides or second_dyad.slides):
         turning = grashof(
             first_dyad.length,
             abs(first_dyad.moving - second_dyad.moving),
@@ -224,7 +223,7 @@ def four_bar_linkages(
             orders.reverse()
         if turning and "b" not in turning:
             orders = orders[:1]
-    elif first_dyad.form == "PR" and second_dyad.form != "PR":
+    elif first_dyad.kind.pairs[0].is_sliding and not second_dyad.kind.pairs[0].is_sliding:
         orders.reverse()
     return [linkage_of_dyads(first, second, point, unit) for first, second in orders]
 
@@ -234,10 +233,8 @@ def linkage_of_dyads(first_dyad: GuidingDyad, other_dyad: GuidingDyad, point: co
 
     Raises `LinkageError` if pivots of a link coincide.
     """
-    first = _SIDES[first_dyad.form][0]
-    second = _SIDES[other_dyad.form][1 if first_dyad.form == other_dyad.form else int(other_dyad.form == "RR")]
-    if first_dyad.form == other_dyad.form and first_dyad.form != "RR":
-        second = second.replace(" ", "_")
+    first = first_dyad.kind.sides[0]
+    second = other_dyad.kind.sides[1 if first_dyad.kind == other_dyad.kind or not other_dyad.slides else 0]
     parts: list[str] = []
     places: dict[str | int, object] = {}
     for side, dyad in ((first, first_dyad), (second, other_dyad)):
@@ -264,7 +261,7 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
             continue
     steps = np.linspace(-2, 2, 4)
     starts += [
-        GuidingDyad("RR", complex(a, b), complex(c, d))
+        GuidingDyad(CRANK, complex(a, b), complex(c, d))
         for a in steps
         for b in steps
         for c in steps[1:3]
@@ -272,7 +269,7 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
     ]
     best: list[tuple[float, GuidingDyad]] = []
     for dyad in starts:
-        if dyad.form == "RR":
+        if dyad.kind.seen is None:
             if max(abs(dyad.moving), abs(dyad.fixed)) > 50:
                 continue
 
@@ -282,11 +279,11 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
 
             start = [dyad.moving.real, dyad.moving.imag, dyad.fixed.real, dyad.fixed.imag]
             p = least_squares(gaps, start, method="lm", xtol=1e-15, ftol=1e-15, max_nfev=200).x
-            fitted = GuidingDyad("RR", complex(p[0], p[1]), complex(p[2], p[3]))
+            fitted = GuidingDyad(CRANK, complex(p[0], p[1]), complex(p[2], p[3]))
             if fitted.length < 1e-6 or max(abs(fitted.moving), abs(fitted.fixed)) > _FARTHEST:
                 continue
         else:
-            seen = given if dyad.form == "PR" else given.inverse
+            seen = dyad.kind.seen(given)
 
             def offsets(p: NDArray[np.float64], seen: Displacements = seen) -> NDArray[np.float64]:
                 across = np.imag(np.exp(-1j * p[2]) * seen.images(complex(p[0], p[1])))
@@ -295,7 +292,7 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
             start = [dyad.moving.real, dyad.moving.imag, float(np.angle(dyad.direction))]
             p = least_squares(offsets, start, method="lm", xtol=1e-15, ftol=1e-15, max_nfev=200).x
             point = complex(p[0], p[1])
-            fitted = GuidingDyad(dyad.form, point, point, complex(np.exp(1j * p[2])))
+            fitted = GuidingDyad(dyad.kind, point, point, complex(np.exp(1j * p[2])))
         best.append((misfit(given, fitted), fitted))
     best.sort(key=lambda row: row[0])
     distinct: list[GuidingDyad] = []
@@ -309,7 +306,7 @@ def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
 
 def _apart(first: GuidingDyad, second: GuidingDyad) -> bool:
     gap = abs(first.moving - second.moving) + abs(first.fixed - second.fixed)
-    return first.form != second.form or gap > 1e-3 * (1 + abs(first.moving) + abs(first.fixed))
+    return first.kind != second.kind or gap > 1e-3 * (1 + abs(first.moving) + abs(first.fixed))
 
 
 def _approximate(

@@ -6,6 +6,7 @@ numbers of the linkage.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,7 +16,7 @@ from numpy.typing import ArrayLike
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.formulas import Formula
-from gruebler.design.synthesis.coordination import KINDS, Coordination, as_coordination
+from gruebler.design.synthesis.coordination import KINDS, Coordination, CoordinationKind, as_coordination
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.results import Design
 from gruebler.design.synthesis.tasks import FunctionTask
@@ -95,6 +96,78 @@ def error_extremes(solution: Coordination, law: FunctionLaw) -> Reals:
     return family.extremes(family.numbers_of(solution))[0]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Equation:
+    """What Freudenstein's equation says of a kind of linkage."""
+
+    numbers: Callable[[tuple[float, ...], float], list[float]]
+    """The three of a linkage, from its lengths and the unit of travels."""
+    outputs: Callable[[Reals, Reals, Reals, int], Reals]
+    """What solves it, from the numbers, the inputs, the outputs wanted and the branch."""
+    derivatives: Callable[[Reals, Reals, Reals], tuple[Reals, Reals]]
+    """By the input and by the output."""
+    turned: Callable[[Reals], int]
+    """-1 where numbers stand for a linkage on the other branch, of positive lengths."""
+    narrowest: float
+    """The crank angle, and that angle by half a turn later, at which the room that is left has an extreme."""
+
+
+def _four_bar_numbers(lengths: tuple[float, ...], _: float) -> list[float]:
+    a, b, c = (v / lengths[3] for v in lengths[:3])
+    return [1 / a, 1 / c, (a * a + c * c + 1 - b * b) / (2 * a * c)]
+
+
+def _four_bar_outputs(numbers: Reals, inputs: Reals, wanted: Reals, side: int) -> Reals:
+    """Re(conj(w) exp(i psi)) = K2 cos phi - K3; of the angles the value nearest to the one wanted."""
+    k1, k2, k3 = numbers[:3]
+    c, s = np.cos(inputs), np.sin(inputs)
+    w = k1 - c - 1j * s
+    cosine = (k2 * c - k3) / np.abs(w)
+    cosine = np.where(np.abs(cosine) < 1 + _ROUNDING, np.clip(cosine, -1, 1), np.nan)
+    output = np.angle(w) + side * np.arccos(cosine)
+    return np.asarray(wanted + np.angle(np.exp(1j * (output - wanted))))
+
+
+def _four_bar_derivatives(numbers: Reals, inputs: Reals, output: Reals) -> tuple[Reals, Reals]:
+    k1, k2 = numbers[:2]
+    turned = np.sin(inputs - output)
+    return k2 * np.sin(inputs) + turned, -k1 * np.sin(output) - turned
+
+
+def _slider_numbers(lengths: tuple[float, ...], unit: float) -> list[float]:
+    a, b, e = (v / unit for v in lengths)
+    return [2 * a, 2 * a * e, b * b - a * a - e * e]
+
+
+def _slider_outputs(numbers: Reals, inputs: Reals, _: Reals, side: int) -> Reals:
+    k1, k2, k3 = numbers[:3]
+    c, s = np.cos(inputs), np.sin(inputs)
+    return np.asarray(k1 * c / 2 + side * np.sqrt((k1 * c / 2) ** 2 + k2 * s + k3))
+
+
+def _slider_derivatives(numbers: Reals, inputs: Reals, output: Reals) -> tuple[Reals, Reals]:
+    k1, k2 = numbers[:2]
+    return k2 * np.cos(inputs) - k1 * output * np.sin(inputs), k1 * np.cos(inputs) - 2 * output
+
+
+_EQUATIONS = {
+    "four-bar": _Equation(
+        numbers=_four_bar_numbers,
+        outputs=_four_bar_outputs,
+        derivatives=_four_bar_derivatives,
+        turned=lambda numbers: int(np.sign(numbers[0] * numbers[1])),
+        narrowest=0.0,
+    ),
+    "slider-crank": _Equation(
+        numbers=_slider_numbers,
+        outputs=_slider_outputs,
+        derivatives=_slider_derivatives,
+        turned=lambda _: 1,
+        narrowest=np.pi / 2,
+    ),
+}
+
+
 @dataclass(frozen=True, eq=False)
 class ErrorFamily:
     """The structural errors for a law of all linkages of a kind, by five numbers of the linkage.
@@ -111,13 +184,25 @@ class ErrorFamily:
     law: FunctionLaw
 
     def __post_init__(self) -> None:
-        if self.kind not in ("four-bar", "slider-crank"):
+        if self.kind not in _EQUATIONS:
             raise SynthesisError("the minimax optimum is sought of four-bars and slider-cranks")
 
     @cached_property
     def unit(self) -> float:
         """What errors and travels are parts of: one radian, or the wanted travel."""
-        return 1.0 if self.kind == "four-bar" else abs(self.law.output_swing)
+        return abs(self.law.output_swing) if self._row.output == "travel" else 1.0
+
+    @cached_property
+    def _row(self) -> CoordinationKind:
+        return next(kind for kind in KINDS if kind.name == self.kind)
+
+    @property
+    def _equation(self) -> _Equation:
+        return _EQUATIONS[self.kind]
+
+    def links_of(self, solution: Coordination) -> tuple[float, ...]:
+        """What the lengths of a linkage are compared with: all links, or crank, coupler and the wanted travel."""
+        return (*solution.lengths[:2], self.unit) if self._row.output == "travel" else solution.lengths
 
     @cached_property
     def samples(self) -> Reals:
@@ -135,27 +220,21 @@ class ErrorFamily:
 
     def numbers_of(self, solution: Coordination) -> Reals:
         """(5,) the numbers of a linkage of this kind."""
-        if self.kind == "four-bar":
-            a, b, c = (v / solution.lengths[3] for v in solution.lengths[:3])
-            own = [1 / a, 1 / c, (a * a + c * c + 1 - b * b) / (2 * a * c)]
-        else:
-            a, b, e = (v / self.unit for v in solution.lengths)
-            own = [2 * a, 2 * a * e, b * b - a * a - e * e]
+        own = self._equation.numbers(solution.lengths, self.unit)
         return np.array([*own, solution.input_start, solution.output_start / self.unit])
 
     def linkage_of(self, numbers: Reals) -> Coordination | None:
         """The linkage of these numbers, the frame of a four-bar 1; None if it has none that can be assembled."""
-        kind = next(kind for kind in KINDS if kind.name == self.kind)
-        signed = kind.lengths(numbers[:3])
+        signed = self._row.lengths(numbers[:3])
         begin = np.array(self.law.interval[:1])
         output = float(self._outputs(numbers, *self._wanted(numbers, begin))[0])
         if signed is None or not np.isfinite(output):
             return None
-        linkage = as_coordination(kind.name, signed, float(numbers[3]), output)
-        lengths = tuple(float(v if self.kind == "four-bar" else self.unit * v) for v in linkage.lengths)
+        linkage = as_coordination(self.kind, signed, float(numbers[3]), output)
+        lengths = tuple(float(self.unit * v) for v in linkage.lengths)
         start = self.unit * (linkage.output_start + float(numbers[4]) - output)
-        turned = np.sign(numbers[0] * numbers[1]) if self.kind == "four-bar" else 1
-        return replace(linkage, lengths=lengths, output_start=start, side=self.side * int(turned))
+        turned = self._equation.turned(numbers)
+        return replace(linkage, lengths=lengths, output_start=start, side=self.side * turned)
 
     def inputs(self, numbers: Reals, x: Reals) -> Reals:
         """The crank angles at x."""
@@ -169,16 +248,8 @@ class ErrorFamily:
 
     def _outputs(self, numbers: Reals, inputs: Reals, wanted: Reals) -> Reals:
         """What solves the equation on the branch; of angles the value nearest to the one wanted."""
-        k1, k2, k3 = numbers[:3]
-        c, s = np.cos(inputs), np.sin(inputs)
         with np.errstate(all="ignore"):
-            if self.kind == "four-bar":  # Re(conj(w) exp(i psi)) = K2 cos phi - K3
-                w = k1 - c - 1j * s
-                cosine = (k2 * c - k3) / np.abs(w)
-                cosine = np.where(np.abs(cosine) < 1 + _ROUNDING, np.clip(cosine, -1, 1), np.nan)
-                output = np.angle(w) + self.side * np.arccos(cosine)
-                return np.asarray(wanted + np.angle(np.exp(1j * (output - wanted))))
-            return np.asarray(k1 * c / 2 + self.side * np.sqrt((k1 * c / 2) ** 2 + k2 * s + k3))
+            return self._equation.outputs(numbers, inputs, wanted, self.side)
 
     def errors(self, numbers: Reals, x: Reals) -> Reals:
         """(x,) the outputs less those wanted, in radians or parts of the wanted travel; NaN where there is none."""
@@ -189,15 +260,8 @@ class ErrorFamily:
         """The errors and (x, 5) their derivatives by the numbers: the equation holds whatever the numbers are."""
         inputs, wanted = self._wanted(numbers, x)
         output = self._outputs(numbers, inputs, wanted)
-        k1, k2 = numbers[:2]
-        if self.kind == "four-bar":
-            columns = KINDS[0].columns(inputs, output)
-            by_input = k2 * np.sin(inputs) + np.sin(inputs - output)
-            by_output = -k1 * np.sin(output) - np.sin(inputs - output)
-        else:
-            columns = KINDS[1].columns(inputs, output)
-            by_input = k2 * np.cos(inputs) - k1 * output * np.sin(inputs)
-            by_output = k1 * np.cos(inputs) - 2 * output
+        columns = self._row.columns(inputs, output)
+        by_input, by_output = self._equation.derivatives(numbers, inputs, output)
         with np.errstate(divide="ignore", invalid="ignore"):
             moved = -np.column_stack([columns[:, :3], by_input]) / by_output[:, None]
         return output - wanted, np.column_stack([moved, -np.ones_like(x)])
@@ -209,7 +273,7 @@ class ErrorFamily:
         left is a concave function of the cosine (the sine) of the crank angle.
         """
         low, high = self.law.interval
-        first = (0.0 if self.kind == "four-bar" else np.pi / 2) - numbers[3]
+        first = self._equation.narrowest - numbers[3]
         ends = np.sort([first, first - self.law.input_swing]) / -np.pi
         turned = first + np.pi * np.arange(np.ceil(ends.min()), np.floor(ends.max()) + 1)
         return np.asarray(low + (high - low) * np.clip(turned / self.law.input_swing, 0, 1))

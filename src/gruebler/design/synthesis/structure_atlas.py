@@ -69,7 +69,7 @@ def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
     crank = next(link for link in chain.joints[pivot].links if link != frame)
     dyads = []
     for group in order.groups:
-        if group.form() != "RRR" or len(group.links) > 2:
+        if len(group.links) != 2:  # no dyad
             return None
         links = group.bodies[0][0], group.bodies[1][0]
         outer, base = [], []

@@ -13,7 +13,6 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
-from gruebler.base.text import Message
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -40,7 +39,7 @@ from gruebler.mechanics.fourbar.four_bar_types import (
     turning_ranges,
     types_along,
 )
-from gruebler.mechanics.fourbar.lengths import SWING, Lengths
+from gruebler.mechanics.fourbar.lengths import Lengths
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import as_finite, as_lengths, as_positive, given_and_missing
@@ -63,6 +62,8 @@ class FourBar(Lengths):
     b: float
     c: float
     d: float
+
+    output_slides = False
 
     def __post_init__(self) -> None:
         settle(self, **as_lengths(a=self.a, b=self.b, c=self.c, d=self.d))
@@ -199,10 +200,6 @@ class FourBar(Lengths):
         """Whether the line through the dead centres goes through A0, so that both ways take the same time."""
         centres = self.dead_centres
         return centres is not None and centres.delta_phi < 1e-9
-
-    @property
-    def _travel(self) -> Message:
-        return SWING
 
     def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
         """See `Lengths.output_place`."""

@@ -14,7 +14,6 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
-from gruebler.base.text import Message
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -34,7 +33,7 @@ from gruebler.mechanics.fourbar.extremes import (
     transmission_extremes,
 )
 from gruebler.mechanics.fourbar.four_bar_types import LinkageType
-from gruebler.mechanics.fourbar.lengths import SWING, Lengths
+from gruebler.mechanics.fourbar.lengths import Lengths
 from gruebler.mechanics.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation, offset_sentence
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
@@ -59,6 +58,8 @@ class InvertedSliderCrank(Lengths):
     a: float
     d: float
     e: float = 0.0
+
+    output_slides = False
 
     def __post_init__(self) -> None:
         settle(self, **as_lengths(a=self.a, d=self.d))
@@ -125,10 +126,6 @@ class InvertedSliderCrank(Lengths):
         """The angle between the dead centres; None if there are none."""
         centres = self.dead_centres
         return None if centres is None else centres.travel
-
-    @property
-    def _travel(self) -> Message:
-        return SWING
 
     def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
         """See `Lengths.output_place`."""

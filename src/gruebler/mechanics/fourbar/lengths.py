@@ -5,13 +5,15 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from math import degrees
+from typing import ClassVar
 
 from gruebler.base import notebook
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.notebook import explained
-from gruebler.base.text import Message, joined_by_or, message
+from gruebler.base.text import joined_by_or, message
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion
 from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres
+from gruebler.mechanics.fourbar.four_bar_types import NOT_ASSEMBLABLE, LinkageType
 from gruebler.mechanics.linkages.model import Linkage
 
 
@@ -20,6 +22,25 @@ class Lengths(ABC):
     """A linkage of one crank that is given by its lengths."""
 
     __slots__ = ()
+
+    __match_args__: ClassVar[tuple[str, ...]]
+    output_slides: ClassVar[bool]
+    """Whether the output travels along a line; of the others it turns."""
+
+    @property
+    def named(self) -> dict[str, float]:
+        """The lengths by their letters."""
+        return {name: getattr(self, name) for name in self.__match_args__}
+
+    @property
+    def assemblable(self) -> bool:
+        """Whether there is any position at all."""
+        return self.type is not NOT_ASSEMBLABLE
+
+    @property
+    @abstractmethod
+    def type(self) -> LinkageType:
+        """What it is."""
 
     @abstractmethod
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
@@ -44,11 +65,6 @@ class Lengths(ABC):
     def transmission_angle(self) -> TransmissionExtremes:
         """The extremes of the transmission angle."""
 
-    @property
-    @abstractmethod
-    def _travel(self) -> Message:
-        """How the travel between dead centres is said, with a gap for it."""
-
     @abstractmethod
     def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
         """Where the output link of `linkage` lies in a single pose: its origin and its angle."""
@@ -68,7 +84,8 @@ class Lengths(ABC):
         if self.limits:
             lines.append(message("crank angle: {ranges}", ranges=joined_by_or([arc.title for arc in self.limits])))
             if (centres := self.dead_centres) is not None:
-                lines.append(self._travel.filled(length=centres.travel, angle=degrees(centres.travel)))
+                travel = _STROKE if self.output_slides else _SWING
+                lines.append(travel.filled(length=centres.travel, angle=degrees(centres.travel)))
                 lines.append(message("time ratio: {ratio:n}", ratio=centres.time_ratio))
             smallest = degrees(self.transmission_angle.smallest.mu)
             lines.append(message("smallest transmission angle: {angle:n}°", angle=smallest))
@@ -79,5 +96,5 @@ class Lengths(ABC):
         return notebook.svg_of(self) if notebook.svg_of else None
 
 
-STROKE = message("stroke of the output: {length:n}")
-SWING = message("swing of the output: {angle:n}°")
+_STROKE = message("stroke of the output: {length:n}")
+_SWING = message("swing of the output: {angle:n}°")

@@ -13,7 +13,6 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
-from gruebler.base.text import Message
 from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
@@ -32,7 +31,7 @@ from gruebler.mechanics.fourbar.extremes import (
     transmission_extremes,
 )
 from gruebler.mechanics.fourbar.four_bar_types import LinkageType
-from gruebler.mechanics.fourbar.lengths import STROKE, Lengths
+from gruebler.mechanics.fourbar.lengths import Lengths
 from gruebler.mechanics.fourbar.slider_crank_types import SLIDER_CRANK_TYPES, offset_relation, offset_sentence
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
@@ -86,6 +85,8 @@ class SliderCrank(Lengths):
     a: float
     b: float
     e: float = 0.0
+
+    output_slides = True
 
     def __post_init__(self) -> None:
         settle(self, **as_lengths(a=self.a, b=self.b))
@@ -248,10 +249,6 @@ class SliderCrank(Lengths):
             close = np.where(np.abs(np.abs(cosine) - 1) < 1e-14, np.sign(cosine), cosine)
             angle = np.arccos(close)
         return np.asarray((line + angle) % TURN), np.asarray((line - angle) % TURN)
-
-    @property
-    def _travel(self) -> Message:
-        return STROKE
 
     def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:
         """See `Lengths.output_place`."""

@@ -7,6 +7,7 @@ any kind there is `gruebler.mechanics.geometry.contact`, by another way.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
@@ -126,13 +127,21 @@ def lever_contact(
 
 def _coupler(size: FourBar | InvertedSliderCrank, to_b0: Complexes, side: int, where: Message) -> Complexes:
     """The unit vector along the coupler, from the vector A to B0."""
-    square = _times(to_b0, np.conj(to_b0))
-    if isinstance(size, InvertedSliderCrank):
-        contact = side * _root(_plus(square, -(size.e**2)), where)
-        return _over(to_b0, _plus(contact, 1j * size.e))
+    return _COUPLERS[type(size)](size, to_b0, _times(to_b0, np.conj(to_b0)), side, where)
+
+
+def _guide(size: InvertedSliderCrank, to_b0: Complexes, square: Complexes, side: int, where: Message) -> Complexes:
+    contact = side * _root(_plus(square, -(size.e**2)), where)
+    return _over(to_b0, _plus(contact, 1j * size.e))
+
+
+def _coupler_of_four_bar(size: FourBar, to_b0: Complexes, square: Complexes, side: int, where: Message) -> Complexes:
     b, c = size.b, size.c
     area = _root(_times(_plus(-square, (b + c) ** 2), _plus(square, -((b - c) ** 2))), where)
     return _over(_times(to_b0, _plus(square + 1j * side * area, b**2 - c**2)), 2 * b * square)
+
+
+_COUPLERS: dict[type, Callable[..., Complexes]] = {FourBar: _coupler_of_four_bar, InvertedSliderCrank: _guide}
 
 
 # --- series -----------------------------------------------------------------------------------------

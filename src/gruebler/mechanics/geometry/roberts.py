@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +15,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion
+from gruebler.mechanics.fourbar.length_forms import ClosedForm
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch, branch_of_side
 from gruebler.mechanics.linkages.quantities import as_finite, as_numbers
@@ -116,7 +119,7 @@ class Cognate:
         mechanism = self.size.linkage().mechanism
         names = mechanism.chain.joint_names()
         places: dict[str | int, object] = dict(zip(names, pins, strict=False))
-        if isinstance(self.size, SliderCrank):
+        if self.size.output_slides:
             places[names[3]] = (*pins[2], float(np.angle(self.turn)))
         point = ("coupler", self.point.real, self.point.imag)
         return Linkage.from_drawing(mechanism, places, {"K": point}, unit=unit, outputs=[mechanism.chain.links[3]])
@@ -225,6 +228,21 @@ def slider_cognates(
     return first, second
 
 
+def all_cognates(
+    size: ClosedForm, u: float, v: float, *, branch: Branch = None, phi: float | None = None
+) -> tuple[Cognate, ...]:
+    """The cognates of a four-bar or a slider-crank, the given one first.
+
+    Raises `LinkageError` for inverted slider-cranks, and like `cognates`.
+    """
+    if type(size) not in _COGNATES:
+        raise LinkageError("cognates are known for the four-bar and the slider-crank, not for its inversion")
+    return _COGNATES[type(size)](size, u, v, branch=branch, phi=phi)
+
+
+_COGNATES: dict[type, Callable[..., tuple[Cognate, ...]]] = {FourBar: cognates, SliderCrank: slider_cognates}
+
+
 def parallel_motion(
     four_bar: FourBar, u: float, v: float, *, branch: Branch = None, phi: float | None = None, unit: str = "mm"
 ) -> Linkage:
@@ -263,7 +281,7 @@ def _pose(
         if not size.limits:
             raise LinkageError("it cannot be assembled in any position: {size!r}", size=size)
         start, end = size.limits[0]
-        phi = start + (end - start) * (1 / 3 if _folds(size) else 1 / 2)
+        phi = start + (end - start) * (1 / 3 if _SHAPES[type(size)].folds(size) else 1 / 2)
     motion = size.motion(as_finite("phi", phi), branch=branch)
     if not motion.assembled:
         raise LinkageError(
@@ -277,30 +295,47 @@ def _pose(
     return a, b, a + s * (b - a), s
 
 
-def _folds(size: FourBar | SliderCrank) -> bool:
+def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
+    """Refuse assembly modes in which a moving link stands still: a parallelogram, or a kite whose joints coincide."""
+    for still, gaps in _SHAPES[type(size)].standing(size, a, b):
+        if max(map(abs, gaps)) <= _AT_A_JOINT * size.b:
+            raise LinkageError(
+                "{still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank "
+                "would turn with that link does not move",
+                still=still,
+            )
+
+
+class _Shape(NamedTuple):
+    """What a kind of linkage may look like that has no cognates, or not everywhere."""
+
+    folds: Callable[..., bool]
     """Whether its links can lie on one line: at the crank angle pi, in the middle of its range, modes may meet."""
-    if isinstance(size, SliderCrank):
-        return abs(size.a - size.b) <= _AT_A_JOINT * size.b
+    standing: Callable[..., Sequence[tuple[Message, Sequence[complex]]]]
+    """From A and B: which link stands still if all of some lengths are zero."""
+
+
+def _four_bar_folds(size: FourBar) -> bool:
     lengths = sorted((size.a, size.b, size.c, size.d))
     return abs(lengths[0] + lengths[3] - lengths[1] - lengths[2]) <= _AT_A_JOINT * lengths[3]
 
 
-def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
-    """Refuse assembly modes in which a moving link stands still: a parallelogram, or a kite whose joints coincide."""
+def _standing_of_four_bar(size: FourBar, a: complex, b: complex) -> Sequence[tuple[Message, Sequence[complex]]]:
+    return (
+        (message("the coupler only translates"), (size.a - size.c, size.b - size.d, b - a - size.d)),
+        (message("the rocker stands still"), (size.a - size.b, size.c - size.d, b)),
+    )
 
-    def same(first: complex, second: complex) -> bool:
-        return abs(first - second) <= _AT_A_JOINT * size.b
 
-    still: Message | None = None
-    if isinstance(size, SliderCrank):
-        still = message("the slider stands still") if same(size.a, size.b) and same(b, 0) else None
-    elif same(size.a, size.c) and same(size.b, size.d) and same(b - a, size.d):
-        still = message("the coupler only translates")
-    elif same(size.a, size.b) and same(size.c, size.d) and same(b, 0):
-        still = message("the rocker stands still")
-    if still:
-        raise LinkageError(
-            "{still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank "
-            "would turn with that link does not move",
-            still=still,
-        )
+def _slider_folds(size: SliderCrank) -> bool:
+    return abs(size.a - size.b) <= _AT_A_JOINT * size.b
+
+
+def _standing_of_slider(size: SliderCrank, _: complex, b: complex) -> Sequence[tuple[Message, Sequence[complex]]]:
+    return ((message("the slider stands still"), (size.a - size.b, b)),)
+
+
+_SHAPES = {
+    FourBar: _Shape(_four_bar_folds, _standing_of_four_bar),
+    SliderCrank: _Shape(_slider_folds, _standing_of_slider),
+}

@@ -9,7 +9,7 @@ from __future__ import annotations
 from gruebler.base.errors import ChainError, TransformationError
 from gruebler.base.text import message
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.pairs import pair
+from gruebler.structure.chain.pairs import Pair, pair
 from gruebler.structure.transformations.places import (
     ChainBuilder,
     check_counting,
@@ -20,7 +20,9 @@ from gruebler.structure.transformations.places import (
 )
 from gruebler.structure.transformations.steps import Step
 
-_EQUIVALENTS = ("RR", "RP", "PR")
+
+def _replaces_roll_slide(first: Pair, second: Pair) -> bool:
+    return first.is_basic and second.is_basic and (first.is_turning or second.is_turning)
 
 
 def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | None = None) -> Step:
@@ -38,7 +40,7 @@ def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | 
     check_counting(chain)
     first, second = pairs_from_letters(pairs, 2, message("pair of joints"))
     letters = letters_of_pairs((first, second))
-    if letters not in _EQUIVALENTS:
+    if not _replaces_roll_slide(first, second):
         raise TransformationError("a roll-slide joint is replaced by RR, RP or PR, not by {pairs!r}", pairs=pairs)
     a, *rest = links_at(chain, joint)
     if not chain.joints[joint].pair.rolls_and_slides:
@@ -60,11 +62,7 @@ def restore_roll_slide(chain: Chain, link: str) -> Step:
     numbers = [k for k, joint in enumerate(chain.joints) if link in joint.links]
     joints = [chain.joints[k] for k in numbers]
     others = [a for joint in joints for a in joint.links if a != link]
-    if (
-        len(numbers) != 2
-        or any(j.count > 1 for j in joints)
-        or letters_of_pairs(j.pair for j in joints) not in _EQUIVALENTS
-    ):
+    if len(numbers) != 2 or any(j.count > 1 for j in joints) or not _replaces_roll_slide(*(j.pair for j in joints)):
         raise TransformationError(
             "{link} cannot be replaced by a roll-slide joint: it must be a binary link with two simple "
             "revolutes, or one revolute and one prismatic joint",

@@ -55,6 +55,7 @@ def exercise_linkage(exercise: Exercise) -> DrawnLinkage | None:
 def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
     """a, b, c, d: crank, coupler, rocker, frame; a, b, e: crank, connecting rod, eccentricity."""
     given = exercise.given
+    size: FourBar | SliderCrank
     lengths = {key: float(given[key]) for key in ("a", "b", "c", "d", "e") if isinstance(given.get(key), int | float)}
     if "b" not in lengths and {"a", "ratio"} <= {*given}:
         lengths["b"] = float(given["a"]) / float(given["ratio"])
@@ -62,13 +63,13 @@ def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
         solution = solve(exercise)
         lengths[free] = (solution.number(f"{free}_min") + solution.number(f"{free}_max")) / 2
     if {*"abcd"} <= {*lengths}:
-        size: FourBar | SliderCrank = FourBar(*(lengths[key] for key in "abcd"))
+        size, letters = FourBar(*(lengths[key] for key in "abcd")), _LETTERS
     elif {*"ab"} <= {*lengths} and not {*"cd"} & {*lengths} and "free" not in given:
         size = SliderCrank(lengths["a"], lengths["b"], lengths.get("e", 0.0))
+        letters = _LETTERS | {"frame": " "}
     else:
         return None
     phi = radians(float(given["phi"])) if "phi" in given else None
-    letters = _LETTERS | {"frame": "d" if isinstance(size, FourBar) else " "}
     return DrawnLinkage(linkage=size.linkage(), letters=letters, drive=phi) if size.limits else None
 
 

@@ -73,7 +73,7 @@ def _forms(relation: str, kinds: Iterable[type[ClosedForm]], lang: str) -> Itera
     for kind in kinds:
         sizes, seen = smallest_lengths(kind), set()
         for (condition, place), form in _KINDS[kind].items():
-            turned = "".join(sorted(place.translate(_OTHER_END))) if kind is FourBar else place
+            turned = "".join(sorted(place.translate(_OTHER_END)))
             if condition != relation or turned in seen:
                 continue
             seen.add(place)

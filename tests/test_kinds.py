@@ -1,0 +1,133 @@
+"""Kinds of elements, of linkages by their lengths and of cam followers: no code outside their rooms asks for one.
+
+What a kind does stands in its class or in a row of a table by kinds. To refuse all kinds but one is no such question.
+"""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import gruebler
+from gruebler.mechanics.linkages import elements
+from gruebler.mechanics.linkages.elements import Element
+
+SOURCE = Path(gruebler.__file__).parent
+
+
+class Family(NamedTuple):
+    """Kinds that stand in for one another."""
+
+    names: frozenset[str]
+    room: str
+    """Where they are defined, and may be told apart."""
+
+
+ELEMENTS = frozenset(
+    name for name, each in vars(elements).items() if isinstance(each, type) and issubclass(each, Element)
+) - {"Element"}
+FAMILIES = (
+    Family(ELEMENTS, "mechanics/linkages/elements.py"),
+    Family(frozenset({"FourBar", "SliderCrank", "InvertedSliderCrank"}), "mechanics/fourbar"),
+    Family(frozenset({"Flat", "Roller"}), "machines/cams"),
+)
+ALLOWED = {
+    "mechanics/linkages/wheels.py": "radii from tooth numbers, meshes that repeat others: of toothed wheels only",
+}
+"""Files that ask for a kind all the same, and why."""
+
+
+def kinds_in(node: ast.AST, known: set[str]) -> bool:
+    """Whether an expression names a kind, other than by making one."""
+    if isinstance(node, ast.Call):
+        return False
+    named = (isinstance(node, ast.Name) and node.id in known) or (
+        isinstance(node, ast.Attribute) and node.attr in known
+    )
+    return named or any(kinds_in(child, known) for child in ast.iter_child_nodes(node))
+
+
+def refusals(tree: ast.Module) -> Iterator[ast.expr]:
+    """The conditions of what does nothing but raise."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and not node.orelse and all(isinstance(each, ast.Raise) for each in node.body):
+            yield from ast.walk(node.test)
+
+
+def questions(tree: ast.Module, names: frozenset[str]) -> Iterator[int]:
+    """The lines in which a module asks for a kind."""
+    known = {
+        alias.asname or alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("gruebler")
+        for alias in node.names
+        if alias.name in names
+    }
+    known |= {
+        target.id
+        for node in tree.body
+        if isinstance(node, ast.Assign)
+        and isinstance(node.value, ast.BinOp | ast.Tuple)
+        and kinds_in(node.value, known)
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
+    refused = set(refusals(tree))
+    for node in ast.walk(tree):
+        match node:
+            case ast.Call(func=ast.Name("isinstance" | "issubclass"), args=[_, asked]):
+                if node not in refused and kinds_in(asked, known):
+                    yield node.lineno
+            case ast.Compare() if any(kinds_in(side, known) for side in (node.left, *node.comparators)):
+                yield node.lineno
+            case ast.MatchClass() if kinds_in(node.cls, known):
+                yield node.lineno
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.room)
+def test_no_code_asks_for_a_kind(family):
+    asked = {}
+    for path in sorted(SOURCE.rglob("*.py")):
+        lines = [*questions(ast.parse(path.read_text(encoding="utf-8")), family.names)]
+        if lines and family.room not in path.as_posix():
+            asked[path.relative_to(SOURCE).as_posix()] = lines
+    assert {name: lines for name, lines in asked.items() if name not in ALLOWED} == {}
+    assert family.names != ELEMENTS or {*ALLOWED} == {*asked}
+
+
+IMPORT = "from gruebler.mechanics.linkages import Line, Pin\n"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "isinstance(e, Pin)",
+        "not isinstance(e, (Line, Pin))",
+        "isinstance(e, Pin | Line)",
+        "type(e) is Pin",
+        "type(e) in {Pin}",
+        "{type(a), type(b)} == {Pin, Line}",
+        "ROUND = (Pin, Line)\nisinstance(e, ROUND)",
+        "match e:\n    case Pin(x, y):\n        pass",
+        "if isinstance(e, Pin):\n    x = 1",
+        "if not isinstance(e, Pin):\n    raise E\nelse:\n    x = 1",
+    ],
+)
+def test_such_questions_are_found(line):
+    assert [*questions(ast.parse(IMPORT + line), ELEMENTS)]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "e.is_pin",
+        "e == Pin(1, 2)",
+        "ROWS = {Pin: 1}",
+        "made = Pin(1, 2)",
+        "if not isinstance(e, Pin):\n    raise E",
+    ],
+)
+def test_other_lines_are_none(line):
+    assert not [*questions(ast.parse(IMPORT + line), ELEMENTS)]
