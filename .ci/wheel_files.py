@@ -1,7 +1,8 @@
 """Compare the files of a wheel with those of the source tree: python .ci/wheel_files.py WHEEL.
 
 The wheel must hold every tracked file of the package and of the catalogs, byte for byte, and beside them the compiled
-module alone: then what the tests say of the source tree holds for what is installed.
+module alone: then what the tests say of the source tree holds for what is installed. Catalogs of translators (.po) are
+left out: programs read the .mo beside them.
 """
 
 import subprocess
@@ -18,6 +19,8 @@ def expected_files() -> dict[str, Path]:
     tracked = subprocess.run(["git", "ls-files", *FOLDERS], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     files = {"gruebler_command.py": ROOT / "src" / "gruebler_command.py"}
     for name in tracked.split("\n")[:-1]:
+        if name.endswith(".po"):
+            continue
         folder = next(folder for folder in FOLDERS if name.startswith(f"{folder}/"))
         files[FOLDERS[folder] + name.removeprefix(folder)] = ROOT / name
     return files
