@@ -9,14 +9,14 @@ from typing import NamedTuple
 from gruebler.mechanics.kinematics.kernel_records import PRP, RPP, RPR, RRP, RRR
 
 
-class PlacedJoint(NamedTuple):
+class DyadJoint(NamedTuple):
     """A joint of a dyad in a position: its point, and the direction of its line."""
 
     point: complex
     line: complex
 
 
-Side = Callable[[PlacedJoint, PlacedJoint, PlacedJoint], float]
+Side = Callable[[DyadJoint, DyadJoint, DyadJoint], float]
 """Of the first outer, the inner and the second outer joint: positive in one assembly mode, negative in the other."""
 
 
@@ -32,15 +32,15 @@ class DyadForm:
     """Whether what the kernel takes a root of is a distance in parts of the size, and no sine."""
 
 
-def _side_of_line(first: PlacedJoint, inner: PlacedJoint, second: PlacedJoint) -> float:
+def _side_of_line(first: DyadJoint, inner: DyadJoint, second: DyadJoint) -> float:
     return ((second.point - first.point).conjugate() * (inner.point - first.point)).imag
 
 
-def _along_outer_slide(first: PlacedJoint, inner: PlacedJoint, second: PlacedJoint) -> float:
+def _along_outer_slide(first: DyadJoint, inner: DyadJoint, second: DyadJoint) -> float:
     return (second.line.conjugate() * (inner.point - first.point)).real
 
 
-def _along_inner_slide(first: PlacedJoint, inner: PlacedJoint, second: PlacedJoint) -> float:
+def _along_inner_slide(first: DyadJoint, inner: DyadJoint, second: DyadJoint) -> float:
     return (inner.line.conjugate() * (second.point - first.point)).real
 
 

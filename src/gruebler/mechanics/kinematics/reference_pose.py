@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contacts import reference_angles
-from gruebler.mechanics.kinematics.dyad_forms import PlacedJoint
+from gruebler.mechanics.kinematics.dyad_forms import DyadJoint
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 
@@ -74,7 +74,7 @@ def _drive(plan: Plan, k: int) -> float:
 
 def _sign(plan: Plan, dyad: Dyad) -> float:
     _, outer, _, inner, _, _, other, *_ = plan.operation(dyad)
-    joints = (PlacedJoint(_put(plan, element), _line(plan, element)) for element in (outer, inner, other))
+    joints = (DyadJoint(_put(plan, element), _line(plan, element)) for element in (outer, inner, other))
     return -1.0 if dyad.form.side is not None and dyad.form.side(*joints) < 0 else 1.0
 
 
