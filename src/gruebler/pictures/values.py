@@ -218,9 +218,9 @@ def draw(
 def animate(
     value: object,
     *,
+    drives: ArrayLike | Mapping[str, object] | None = None,
     branch: Branch = None,
     between: tuple[float, float] | None = None,
-    drives: ArrayLike | Mapping[str, object] | None = None,
     curves: Sequence[PointLike] | None = None,
     planets: Mapping[str, int] | None = None,
     teeth: bool | None = None,
@@ -235,10 +235,10 @@ def animate(
 
     Args:
         value: what moves; also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
-        branch: of a linkage: the assembly mode, such as ``"+-"``.
-        between: of a linkage: drive values (radians, or lengths) between which it moves; by default the full range.
         drives: of a linkage: (rows, drives) a piecewise straight path of its drives; of a train: speeds or turns by
             link.
+        branch: of a linkage: the assembly mode, such as ``"+-"``.
+        between: of a linkage: drive values (radians, or lengths) between which it moves; by default the full range.
         curves: of a linkage: points or joints whose paths are drawn.
         planets: of a train: the numbers of equal planets by name.
         teeth: of a train: whether gears have involute teeth.

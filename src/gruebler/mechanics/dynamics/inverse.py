@@ -141,7 +141,7 @@ class InverseDynamics(Tabled):
 
 @door_that_raises(LinkageError)
 def inverse_dynamics(
-    motion: Motion, loads: Loads, *, times: ArrayLike = 0.0, friction: Friction | PerJoint | None = None
+    motion: Motion, loads: Loads, *, friction: Friction | PerJoint | None = None, times: ArrayLike = 0.0
 ) -> InverseDynamics:
     """What drives and joints carry in a motion, by two independent methods.
 
@@ -152,8 +152,8 @@ def inverse_dynamics(
     Args:
         motion: Solved with speeds and accelerations: ``move(linkage, drives, speed=...)``.
         loads: What acts, and the masses; motors are not asked, since their effort is what is looked for.
-        times: At which loads are taken that depend on the time; (rows,) or one.
         friction: As in `statics`.
+        times: At which loads are taken that depend on the time; (rows,) or one.
 
     Returns:
         `InverseDynamics`: ``drive`` (rows, drives) in N times the unit of length (N of slides), ``statics`` with all

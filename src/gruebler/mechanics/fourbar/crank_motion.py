@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -26,9 +27,40 @@ class CrankRates(NamedTuple):
     jerk: Reals
 
 
+class CrankAndOutput(ABC):
+    """What a crank and an output that follows it say of their motion, in the plane as in space."""
+
+    __slots__ = ()
+
+    crank: CrankRates
+    output: CrankRates
+    reason: Message | None
+
+    @property
+    def message(self) -> str:
+        """The reason in English; empty if there is none."""
+        return str(self.reason or "")
+
+    @property
+    def complete(self) -> bool:
+        """Whether every pose is assembled and every rate determined."""
+        return self.reason is None
+
+    @property
+    def assembled(self) -> npt.NDArray[np.bool_]:
+        """Which poses can be assembled."""
+        return np.isfinite(self.output.value)
+
+    @property
+    def ratio(self) -> Reals:
+        """The transmission ratio i, the crank's velocity by the output's; infinite in a dead centre."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(self.crank.velocity / self.output.velocity)
+
+
 @compared_by_value
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class CrankMotion:
+class CrankMotion(CrankAndOutput):
     """The poses of a linkage over crank angles, in closed form.
 
     Angles in radians, counted from the x-axis (from A0 to B0, or along the slider's path); rates per unit of the time
@@ -56,21 +88,6 @@ class CrankMotion:
     """Of an inverted slider-crank the way r of the block along the guide, from A to B: the foot of B0 on the guide."""
 
     @property
-    def message(self) -> str:
-        """The reason in English; empty if there is none."""
-        return str(self.reason or "")
-
-    @property
-    def complete(self) -> bool:
-        """Whether every pose is assembled and every rate determined."""
-        return self.reason is None
-
-    @property
-    def assembled(self) -> npt.NDArray[np.bool_]:
-        """Which poses can be assembled."""
-        return np.isfinite(self.coupler.value)
-
-    @property
     def transmission_angle(self) -> Reals:
         """The transmission angle, folded to at most pi/2."""
         return np.minimum(self.mu, np.pi - self.mu)
@@ -79,12 +96,6 @@ class CrankMotion:
     def deviation_angle(self) -> Reals:
         """The deviation angle alpha, pi/2 less the transmission angle."""
         return np.pi / 2 - self.transmission_angle
-
-    @property
-    def ratio(self) -> Reals:
-        """The transmission ratio i, the crank's velocity by the output's; infinite in a dead centre."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.asarray(self.crank.velocity / self.output.velocity)
 
     def point(self, u: float, v: float = 0.0) -> CrankRates:
         """The coupler point u along AB from A and v to the left: its path, velocity, acceleration and jerk."""

@@ -186,9 +186,9 @@ def coupler_curve(
     linkage: LinkageLike,
     point: PointLike,
     *,
+    drives: ArrayLike | None = None,
     branch: Branch = None,
     tolerance: float | None = None,
-    drives: ArrayLike | None = None,
 ) -> CouplerCurve:
     """The path of a point of any linkage with one drive, over a full turn or range.
 
@@ -196,11 +196,11 @@ def coupler_curve(
         linkage: a linkage with one drive, or with several and a path of them.
         point: a point that moves: its name, ``(link, x, y)``, or ``(x, y)`` on the coupler of a four-bar
             (`Linkage.points_named`).
+        drives: (rows, drives) a straight path of the drives, from its first row to its last; events then have the part
+            of it, 0 to 1, instead of a drive value.
         branch: the assembly mode, as for `move`.
         tolerance: how far the polygon may be off; 1/10,000 of the linkage's size, or of the path's extent
             if that is larger, if it is left out.
-        drives: (rows, drives) a straight path of the drives, from its first row to its last; events then have the part
-            of it, 0 to 1, instead of a drive value.
 
     Returns:
         `CouplerCurve`: the polygon (rows, 2), cusps, inflections, double points and extremes, in the linkage's unit;

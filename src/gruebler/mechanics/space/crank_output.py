@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.text import Message
-from gruebler.mechanics.fourbar.crank_motion import CrankRates, crank_rates, determined_rates
+from gruebler.mechanics.fourbar.crank_motion import CrankAndOutput, CrankRates, crank_rates, determined_rates
 from gruebler.mechanics.fourbar.extremes import TURN, CrankRange, cannot_assemble
 from gruebler.mechanics.space.power_series import cosine_and_sine, product
 
@@ -25,7 +25,7 @@ Condition = Callable[[Reals, Reals], tuple[Reals, Reals, Reals]]
 
 @compared_by_value
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class OutputMotion:
+class OutputMotion(CrankAndOutput):
     """How the output of a linkage in space follows its crank: angles in radians, rates per unit of time.
 
     A pose that cannot be assembled is NaN, and so are rates that the crank does not determine; ``message`` says so.
@@ -41,27 +41,6 @@ class OutputMotion:
     """1 on the branch ``+``, -1 on ``-``."""
     reason: Message | None = None
     """Why some pose is not assembled or some rate not determined; None if all are."""
-
-    @property
-    def message(self) -> str:
-        """The reason in English; empty if there is none."""
-        return str(self.reason or "")
-
-    @property
-    def complete(self) -> bool:
-        """Whether every pose is assembled and every rate determined."""
-        return self.reason is None
-
-    @property
-    def assembled(self) -> npt.NDArray[np.bool_]:
-        """Which poses can be assembled."""
-        return np.isfinite(self.output.value)
-
-    @property
-    def ratio(self) -> Reals:
-        """The transmission ratio i, the crank's velocity by the output's; infinite in a dead centre."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.asarray(self.crank.velocity / self.output.velocity)
 
 
 def series_of(rates: CrankRates) -> Reals:

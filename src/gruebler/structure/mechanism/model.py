@@ -146,6 +146,10 @@ class Mechanism(Immutable):
         chain = Chain(joints, links=links, space=space)
         return cls(chain, str(graph.graph["frame"]), [drive.strip() for drive in drives if drive.strip()])
 
+    def to_networkx(self) -> nx.MultiGraph:
+        """The graph of networkx that `from_networkx` takes back: `link_graph`."""
+        return self.link_graph()
+
     def link_graph(self) -> nx.MultiGraph:
         """The graph of the chain (`Chain.link_graph`) with the attributes ``frame`` and ``drives``, as in the text.
 
