@@ -56,6 +56,7 @@ _OPTIONS = {
     "fixed_pivots": "--fixed-pivot",
     "curve_parameters": "--curve-parameter",
     "region": "--region",
+    "lengths": "--length",
 }
 """The options for keys of task files."""
 _TASK_OPTIONS = {
@@ -130,6 +131,7 @@ def add(parser: Parser) -> None:
         """
         task TASK  a .toml, .json or .csv file; CSV columns x,y or x,y,crank or x,y,angle
         --closed  the points are a closed curve
+        --fixed-pivot X Y float ...  a given pivot on the frame; give it twice for both
         """
     )
     dead = parser.add_command(
@@ -152,6 +154,8 @@ def add(parser: Parser) -> None:
         kind.take(
             """
             --region X1 Y1 X2 Y2 float  region for the fixed pivots
+            --length LINK L ...  a given distance of the pins of crank, coupler, rocker, frame (or another link);
+                repeatable
             --structure MECHANISM ...  fit this mechanism instead: a text or a catalog entry; several are compared
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
                 atlas, else 4)
@@ -248,11 +252,19 @@ def _demands(arguments: argparse.Namespace) -> Demands:
             raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
     with _keys_as_options():
         return Demands(
+            lengths=_lengths(arguments.length),
             crank=arguments.crank,
             transmission=radians(arguments.transmission),
             size_ratio=arguments.size_ratio,
             region=region,
         )
+
+
+def _lengths(rows: Sequence[tuple[str, str]]) -> tuple[tuple[str, float], ...]:
+    try:
+        return tuple((link, float(length)) for link, length in rows)
+    except ValueError as error:
+        raise SynthesisError("--length: expected a link and its length, but found {found}", found=error) from None
 
 
 def _task(arguments: argparse.Namespace) -> Task:
@@ -275,7 +287,9 @@ def _task(arguments: argparse.Namespace) -> Task:
         kind = next(name for name, kind_of_task in _TASKS.items() if isinstance(task, kind_of_task))
         raise SynthesisError("{task}: this is a task for 'synthesise {kind}'", task=arguments.task, kind=kind)
     if isinstance(task, PathTask):
-        return replace(task, closed=task.closed or arguments.closed)
+        with _keys_as_options():
+            pivots = (*task.fixed_pivots, *arguments.fixed_pivot)
+            return replace(task, closed=task.closed or arguments.closed, fixed_pivots=pivots)
     if isinstance(task, PositionTask):
         with _keys_as_options():
             return replace(

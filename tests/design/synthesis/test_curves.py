@@ -11,7 +11,9 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis import Demands, PathTask, pareto, synthesise_path, synthesise_structures
 from gruebler.design.synthesis.closure import DesignClosure
-from gruebler.design.synthesis.curves import _limit_of_turning, atlas, fit_curve, linkages_of
+from gruebler.design.synthesis.curve_starts import atlas
+from gruebler.design.synthesis.curves import fit_curve, linkages_of
+from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, curve_points
 from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
@@ -80,23 +82,12 @@ def test_known_curves():
     assert fit_curve(np.linspace(0, 2, 30) + 0j, closed=False)[0].error < 1e-3
 
 
-@pytest.mark.parametrize("kind", ROWS, ids=lambda kind: kind.name)
-def test_slopes_of_the_limit_of_turning_against_differences(kind):
-    rows = ROWS[kind][:, None] + np.random.default_rng(7).uniform(-0.4, 0.4, (len(ROWS[kind]), 200))
-    slope = _limit_of_turning(kind, rows)[1]
-    for k in range(len(rows)):
-        step = np.zeros((len(rows), 1))
-        step[k] = 1e-7
-        ends = [_limit_of_turning(kind, rows + s * step)[0] for s in (1, -1)]
-        assert slope[k] == pytest.approx((ends[0] - ends[1]) / 2e-7, abs=1e-6)
-
-
 def test_cranks_turn_below_the_limit_of_turning():
     """Against the classes of Grashof, all kinds of shortest and longest links among them."""
     rows = np.zeros((9, 400))
     lengths = np.random.default_rng(8).uniform(1, 4, (4, 400))
     rows[[4, 5, 6, 2]] = lengths
-    turns = _limit_of_turning(FOUR_BAR, rows)[0] < 0
+    turns = crank_turns(FOUR_BAR, rows)
     assert 40 < np.count_nonzero(turns) < 360
     for four, turning in zip(lengths.T, turns, strict=True):
         assert (FourBar(*four.tolist()).type.key in ("crank_rocker", "double_crank")) == turning
@@ -107,8 +98,8 @@ def test_a_triangle_is_drawn_by_a_linkage_at_the_limit_of_turning():
     corners = [0, 3, 1.5 + 2.6j, 0]
     z = np.concatenate([a + (b - a) * np.linspace(0, 1, 22, endpoint=False) for a, b in pairwise(corners)])
     best = fit_curve(z, closed=True)[0]
-    slack = _limit_of_turning(best.kind, best.row[:, None])[0][0]
-    assert -1e-4 < slack < 0
+    limits = FitLimits(kind=best.kind, turning=True)
+    assert -1e-4 < limits.values(best.row[:, None], best.phi[None])[0, 0] < 2e-6
     assert best.error < 0.0146  # pylinkage's four-bar: 0.01535
 
 

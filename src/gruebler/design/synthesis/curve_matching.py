@@ -6,6 +6,7 @@ Every curve of a book has the same number of places, evenly along it. docs/theor
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 
@@ -14,6 +15,15 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 PLACES = 64
 """Places on each curve of a book."""
 _WINDOWS = (8, 12, 16, 24, 32, 48)  # pieces of a curve, in such places, for open targets
+
+
+class Held(Enum):
+    """What a similarity that puts curves onto a target may not move."""
+
+    NOTHING = "nothing"
+    ORIGIN = "origin"
+    ALL = "all"
+    """Only the mirror image in the x axis is left."""
 
 
 @compared_by_value
@@ -58,7 +68,9 @@ def drive_angles(phi: Reals, at: Reals) -> Reals:
     return np.asarray(np.interp(at - laps * PLACES, np.arange(PLACES + 1), whole) + 2 * np.pi * laps)
 
 
-def best_matches(book: Complexes, z: Complexes, number: int, *, closed: bool) -> list[CurveMatch]:
+def best_matches(
+    book: Complexes, z: Complexes, number: int, *, closed: bool, held: Held = Held.NOTHING
+) -> list[CurveMatch]:
     """The curves (or pieces of them, for an open target) most like a target, the best first.
 
     Args:
@@ -66,6 +78,7 @@ def best_matches(book: Complexes, z: Complexes, number: int, *, closed: bool) ->
         z: (points,) the target.
         number: how many are returned.
         closed: whether the target is closed.
+        held: what the similarity may not move.
     """
     spectrum = np.fft.fft(book, axis=1)
     matches: list[CurveMatch] = []
@@ -79,16 +92,16 @@ def best_matches(book: Complexes, z: Complexes, number: int, *, closed: bool) ->
                     rows, along = np.roll(target[::-1], 1), (-parts) % 1.0
                 elif back:
                     rows, along = target[::-1], 1 - parts
-                matches += _matched(book, spectrum, rows, along * length, number, mirrored=mirrored)
+                matches += _matched(book, spectrum, rows, along * length, number, mirrored=mirrored, held=held)
     matches.sort(key=lambda match: match.gap)
     return matches[:number]
 
 
 def _matched(
-    book: Complexes, spectrum: Complexes, target: Complexes, along: Reals, number: int, *, mirrored: bool
+    book: Complexes, spectrum: Complexes, target: Complexes, along: Reals, number: int, *, mirrored: bool, held: Held
 ) -> list[CurveMatch]:
     count = len(target)
-    middle = complex(target.mean())
+    middle = complex(target.mean()) if held is Held.NOTHING else 0j
     centred = target - middle
     energy = float(np.sum(np.abs(centred) ** 2))
     padded = np.zeros(PLACES, np.complex128)
@@ -99,16 +112,18 @@ def _matched(
     sums = np.cumsum(np.concatenate([np.zeros((len(around), 1)), around], axis=1), axis=1)
     squares = np.cumsum(np.concatenate([np.zeros((len(around), 1)), np.abs(around) ** 2], axis=1), axis=1)
     begins = np.arange(PLACES)
-    mean = (sums[:, begins + count] - sums[:, begins]) / count
+    mean = (sums[:, begins + count] - sums[:, begins]) / count * (held is Held.NOTHING)
     spread = (squares[:, begins + count] - squares[:, begins]).real - count * np.abs(mean) ** 2
     with np.errstate(invalid="ignore", divide="ignore"):
         likeness = np.abs(inner) ** 2 / (np.maximum(spread, 1e-12) * energy)
+        if held is Held.ALL:
+            likeness = (2 * inner.real - spread) / energy
     best = np.argmax(likeness, axis=1)
     rows = np.arange(len(best))
     matches = []
     for n in np.argsort(-likeness[rows, best])[:number]:
         begin = best[n]
-        turn = complex(inner[n, begin] / spread[n, begin])
+        turn = 1 + 0j if held is Held.ALL else complex(inner[n, begin] / spread[n, begin])
         shift = middle - turn * complex(mean[n, begin])
         matches.append(
             CurveMatch(

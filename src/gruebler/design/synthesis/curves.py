@@ -6,18 +6,18 @@ mirror image; least squares with exact derivatives makes the best of each. docs/
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
-from typing import NamedTuple
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
-from gruebler.design.synthesis.curve_matching import PLACES, CurveMatch, best_matches, drive_angles, evenly_along
+from gruebler.design.synthesis.curve_starts import CurveStart, neighbours, timed_neighbours, transformed
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, GuidingDyad
+from gruebler.design.synthesis.fit_limits import FitLimits
 from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
 from gruebler.design.synthesis.judging import Demands, best_of
 from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
@@ -29,117 +29,12 @@ from gruebler.mechanics.linkages import Linkage
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
 _NEAR = 1e-3  # of the size: if the best of the first come nearer, more are not tried
 _STEPS = 300
-_MARGIN = 1e-6  # sizes: so far from the limit of a crank that turns fully
+_GAIN = 1e-9  # of the sum of squares: a smaller gain ends the search
+_POWER = 8  # of distances: designs are judged by the largest one
+_STUCK = 1e5  # where so much damping does not help, nothing does
 _MET = 1e-10  # of the size: fits that come so near are equally good, and the most alike at the start comes first
 ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CurveAtlas:
-    """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
-
-    kind: FourBarKind
-    rows: Reals
-    """(unknowns, linkages)"""
-    side: Reals
-    phi: Reals
-    """(linkages, places) crank angles of places evenly along the curve."""
-    z: Complexes
-    """(linkages, places)"""
-
-
-def _halton(count: int, base: int) -> Reals:
-    """Van der Corput's numbers: spread evenly, the same everywhere."""
-    n = np.arange(1, count + 1)
-    values, part = np.zeros(count), 1.0
-    while n.any():
-        part /= base
-        values += part * (n % base)
-        n = n // base
-    return values
-
-
-@cache
-def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
-    """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
-    count = count or (90_000 if kind is FOUR_BAR else 12_000)
-    first, second, third, fourth, fifth = (_halton(count, base) for base in (2, 3, 5, 7, 11))
-    spread = np.log(6.0)
-    if kind is FOUR_BAR:
-        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (first, second, third))
-        zero = 0 * b
-        rows = np.stack([zero, zero, d, zero, zero + 1, b, c, zero, zero])
-    else:
-        b, h = np.exp(spread * first) * 1.05, 3 * second
-        zero = 0 * b
-        rows = np.stack([zero, zero, zero, h, zero + 1, b, zero, zero])
-    reach = np.maximum(rows[kind.unknowns.index("b")], 1.0)
-    w = reach * (0.5 + 2.0 * np.sqrt(fourth) * np.exp(2j * np.pi * fifth))
-    rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
-    rows = rows[:, _turns(kind, rows)]
-    side = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)
-    phi = np.linspace(0, 2 * np.pi, 2 * PLACES + 1)
-    z = curve_points(kind, rows[:, :, None], phi[None, :], side[:, None]).z
-    good = np.isfinite(z).all(axis=1)
-    rows, side, z = rows[:, good], side[good], z[good]
-    at = evenly_along(z, phi)
-    return CurveAtlas(
-        kind=kind, rows=rows, side=side, phi=at, z=curve_points(kind, rows[:, :, None], at, side[:, None]).z
-    )
-
-
-class _Start(NamedTuple):
-    """A neighbour of the target, placed on it."""
-
-    gap: float
-    """What the best similarity leaves, relative to the target's spread."""
-    row: Reals
-    side: float
-    phi: Reals
-    """(points,) crank angles of the target's points, in the plane."""
-
-
-def _neighbours(kind: FourBarKind, z: Complexes, closed: bool, number: int) -> list[_Start]:
-    """The nearest curves of the atlas, or pieces of them, up to a similarity."""
-    book = atlas(kind)
-    return [_placed(book, match) for match in best_matches(book.z, z, number, closed=closed)]
-
-
-def _placed(book: CurveAtlas, match: CurveMatch) -> _Start:
-    """A curve of the atlas turned, scaled and shifted onto the target."""
-    n = match.number
-    row = _transformed(book.kind, book.rows[:, n], match.turn, match.shift)
-    angle = drive_angles(book.phi[n], match.at) + float(np.angle(match.turn))
-    side = float(book.side[n])
-    if match.mirrored:
-        row, angle, side = _mirrored(book.kind, row), -angle, -side
-    return _Start(match.gap, row, side, angle)
-
-
-def _transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) -> Reals:
-    r = dict(zip(kind.unknowns, row, strict=True))
-    scale = abs(turn)
-    for name in ("a", "b", "c", "u", "v"):
-        if name in r:
-            r[name] *= scale
-    pairs = [("a0x", "a0y")] + ([("b0x", "b0y")] if "b0x" in r else [])
-    for x, y in pairs:
-        z = turn * complex(r[x], r[y]) + shift
-        r[x], r[y] = z.real, z.imag
-    if "h" in r:
-        r["angle"] += float(np.angle(turn))
-        r["h"] = r["h"] * scale + float(np.imag(np.exp(-1j * r["angle"]) * shift))
-    return np.array([r[name] for name in kind.unknowns])
-
-
-def _mirrored(kind: FourBarKind, row: Reals) -> Reals:
-    """In the x axis; the branch of a four-bar changes, and that of a slider-crank stays but for the direction."""
-    r = dict(zip(kind.unknowns, row, strict=True))
-    for name in ("a0y", "b0y", "v", "h", "angle"):
-        if name in r:
-            r[name] = -r[name]
-    return np.array([r[name] for name in kind.unknowns])
 
 
 @compared_by_value
@@ -164,6 +59,9 @@ def fit_curve(
     kinds: tuple[FourBarKind, ...] = (FOUR_BAR, SLIDER_CRANK),
     starts: int | None = None,
     number: int = 6,
+    demands: Demands | None = None,
+    pivots: tuple[complex, ...] = (),
+    power: int = 2,
 ) -> list[Fit]:
     """The linkages whose coupler curves come nearest to points in the mean, the best first.
 
@@ -175,35 +73,63 @@ def fit_curve(
         starts: how many neighbours of each kind are made better; by default 40, and 240 if these do not come near, or
             too few of them meet fewer than nine points of an open curve exactly.
         number: how many are returned.
+        demands: limits that no linkage passes: region, size ratio, transmission angle, lengths, a crank that turns.
+        pivots: one or both of the fixed pivots, in the plane of the points.
+        power: of the distances whose sum is made as small as possible at the end; a high one lowers the largest.
 
     Cost: 1 s for the atlas at the first call, then about 0.5 s, 2 s for curves that no linkage comes near.
     """
     if starts is None:
+        fitted = partial(fit_curve, z, closed=closed, timing=timing, kinds=kinds, number=number)
+        fitted = partial(fitted, demands=demands, pivots=pivots, power=power)
         first, more = _STARTS
-        fits = fit_curve(z, closed=closed, timing=timing, kinds=kinds, starts=first, number=number)
+        fits = fitted(starts=first)
         enough, near = (number, _MET) if not closed and len(z) < MOST_POINTS else (1, _NEAR)
         if timing is not None or (len(fits) >= enough and fits[enough - 1].error < near):
             return fits
-        return fit_curve(z, closed=closed, timing=timing, kinds=kinds, starts=more, number=number)
+        return fitted(starts=more)
     size = _extent(z)
     middle = z.mean()
     reduced = (z - middle) / size
-    fits = []
-    for kind in kinds:
-        _starts = (
-            _neighbours(kind, reduced, closed, starts)
+    placed: list[tuple[Fit, FitLimits]] = []
+    for limits in _limits(demands, pivots, kinds, closed, (complex(middle), size)):
+        begins = (
+            neighbours(reduced, limits, closed=closed, number=starts)
             if timing is None
-            else _timed_neighbours(kind, reduced, timing, starts)
+            else timed_neighbours(limits.kind, reduced, timing, starts)
         )
-        fits += _improved(kind, reduced, _starts, timing, turning=closed)
-    fits.sort(key=lambda fit: max(fit.error, _MET))
-    chosen: list[Fit] = []
-    for fit in fits:
-        if all(fit.kind is not o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o in chosen):
-            chosen.append(fit)
+        placed += [(fit, limits) for fit in _improved(reduced, begins, timing, limits)]
+    chosen = _different(placed, number)
+    if power > 2:
+        chosen = _evened(reduced, timing, power, chosen)
+    return [replace(fit, row=transformed(fit.kind, fit.row, complex(size), complex(middle))) for fit, _ in chosen]
+
+
+def _different(fits: list[tuple[Fit, FitLimits]], number: int) -> list[tuple[Fit, FitLimits]]:
+    """The best fits of different shapes, so many; the best of each kind are the first."""
+    fits.sort(key=lambda each: max(each[0].error, _MET))
+    firsts = {fit.kind.name: k for k, (fit, _) in reversed([*enumerate(fits)])}.values()
+    chosen: list[tuple[Fit, FitLimits]] = []
+    for k in sorted(range(len(fits)), key=lambda k: (k not in firsts, k)):
+        fit = fits[k][0]
+        if all(fit.kind is not o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o, _ in chosen):
+            chosen.append(fits[k])
         if len(chosen) == number:
             break
-    return [replace(fit, row=_transformed(fit.kind, fit.row, complex(size), complex(middle))) for fit in chosen]
+    return chosen
+
+
+def _evened(
+    z: Complexes, timing: Reals | None, power: int, fits: list[tuple[Fit, FitLimits]]
+) -> list[tuple[Fit, FitLimits]]:
+    """The fits with a higher mean of their distances made small, in the same order: the largest distances fall."""
+    evened = list(fits)
+    for limits in {id(limits): limits for _, limits in fits}.values():
+        of_limits = [k for k, (_, own) in enumerate(fits) if own is limits]
+        starts = [CurveStart(0.0, fits[k][0].row, fits[k][0].side, fits[k][0].phi) for k in of_limits]
+        for k, fit in zip(of_limits, _improved(z, starts, timing, limits, power), strict=True):
+            evened[k] = fit, limits
+    return evened
 
 
 def _shape(fit: Fit) -> Reals:
@@ -214,166 +140,151 @@ def _shape(fit: Fit) -> Reals:
     return np.asarray(np.log(np.array(lengths) + 1e-3))
 
 
+_LENGTHS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "frame"}
+"""The names of lengths that a demand may give, as the numbers of a fit."""
+
+
+def _limits(
+    demands: Demands | None,
+    pivots: Sequence[complex],
+    kinds: Iterable[FourBarKind],
+    closed: bool,
+    unit: tuple[complex, float],
+) -> Iterator[FitLimits]:
+    """What linkages of the kinds keep to, about an origin and in units of a size; for each side that a pivot can be."""
+    wanted, (origin, size) = demands or Demands(), unit
+    region = None
+    if wanted.region is not None:
+        low, high = ((complex(*wanted.region[k : k + 2]) - origin) / size for k in (0, 2))
+        region = low.real, low.imag, high.real, high.imag
+    lengths = {_LENGTHS[name]: length / size for name, length in wanted.lengths if name in _LENGTHS}
+    places = [(p - origin) / size for p in pivots]
+    for kind in kinds:
+        if (len(places) == 2 or {"c", "frame"} & set(lengths)) and kind is not FOUR_BAR:
+            continue
+        sides: list[dict[str, complex]] = [{}]
+        if places:
+            sides = [dict(zip(names, places, strict=False)) for names in (("a0", "b0"), ("b0", "a0"))]
+        for given in sides[: 2 if kind is FOUR_BAR else 1]:
+            held = {name: value for name, value in lengths.items() if name in kind.unknowns}
+            for name, place in given.items():
+                held |= {name + "x": place.real, name + "y": place.imag}
+            yield FitLimits(
+                kind=kind,
+                turning=closed or wanted.crank,
+                region=region,
+                size_ratio=wanted.size_ratio,
+                transmission=wanted.transmission,
+                frame=lengths.get("frame", 0.0),
+                held=held,
+            )
+
+
 def _extent(z: Complexes) -> float:
     """The longest side of the smallest upright rectangle about points."""
     return float(max(np.ptp(z.real), np.ptp(z.imag)))
 
 
-def _timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: int) -> list[_Start]:
-    """Curves of the atlas whose points at these crank angles are similar to the target."""
-    book = atlas(kind, 12000)
-    starts = []
-    target = z - z.mean()
-    energy = float(np.sum(np.abs(target) ** 2))
-    for mirrored in (False, True):
-        wanted, turned = (np.conj(target), -(timing - timing[0])) if mirrored else (target, timing - timing[0])
-        for begin in 2 * np.pi * np.arange(24) / 24:
-            angles = begin + turned
-            w = curve_points(kind, book.rows[:, :, None], angles[None, :], book.side[:, None]).z
-            mean = w.mean(axis=1)
-            inner = np.conj(w - mean[:, None]) @ wanted
-            spread = np.sum(np.abs(w - mean[:, None]) ** 2, axis=1)
-            likeness = np.abs(inner) ** 2 / (spread * energy)
-            for n in np.argsort(-likeness)[: max(3, number // 8)]:
-                turn = complex(inner[n] / spread[n])
-                middle = np.conj(z.mean()) if mirrored else z.mean()
-                row = _transformed(kind, book.rows[:, n], turn, complex(middle - turn * mean[n]))
-                phi, side = angles + float(np.angle(turn)), float(book.side[n])
-                if mirrored:
-                    row, phi, side = _mirrored(kind, row), -phi, -side
-                starts.append(_Start(1 - float(likeness[n]), row, side, phi))
-    starts.sort(key=lambda start: start.gap)
-    return starts[:number]
-
-
 def _improved(
-    kind: FourBarKind, z: Complexes, starts: list[_Start], timing: Reals | None, *, turning: bool
+    z: Complexes, starts: list[CurveStart], timing: Reals | None, limits: FitLimits, power: int = 2
 ) -> list[Fit]:
     """Levenberg and Marquardt's method for all starts at once; free crank angles are eliminated point by point.
 
-    With ``turning`` the crank has to stay one that turns fully.
+    A start beyond a limit comes back first, with the least change of its curve; then no step passes a limit.
     """
     if not starts:
         return []
+    kind = limits.kind
     rows = np.array([start.row for start in starts]).T  # (unknowns, starts)
     phi = np.array([start.phi for start in starts])
     side = np.array([start.side for start in starts])
     if kind is SLIDER_CRANK:
         side = _slider_branches(rows, phi, side, z)
+    for name, value in limits.held.items():
+        rows[kind.unknowns.index(name)] = value
     damping = np.full(len(starts), 1e-3)
-    cost = _cost(kind, rows, phi, side, z, turning=turning)
-    unknowns = len(kind.unknowns)
+    cost, passed = _cost(kind, rows, phi, side, z, power), limits.passed(rows, phi)
+    open_ = np.arange(len(starts))
     for _ in range(_STEPS):
-        curve = curve_points(kind, rows[:, :, None], phi, side[:, None], slopes=True)
-        rest = curve.z - z
-        if timing is None:
-            normal = 1j * curve.by_crank / np.maximum(np.abs(curve.by_crank), 1e-12)
-            value = np.real(np.conj(normal) * rest)
-            matrix = np.real(np.conj(normal) * curve.by_sizes).transpose(1, 2, 0)
-        else:
-            slopes = np.concatenate([curve.by_sizes, curve.by_crank[None]]).transpose(1, 2, 0)
-            value = np.concatenate([rest.real, rest.imag], axis=1)
-            matrix = np.concatenate([slopes.real, slopes.imag], axis=1)
-        value, matrix = np.nan_to_num(value), np.nan_to_num(matrix)
-        gram = np.einsum("nij,nik->njk", matrix, matrix)
-        right = np.einsum("nij,ni->nj", matrix, value)
-        weight = np.einsum("njj->nj", gram) + 1e-9
-        gram = gram + damping[:, None, None] * np.einsum("nj,jk->njk", weight, np.eye(weight.shape[1]))
-        step = -np.linalg.solve(gram, right[:, :, None])[:, :, 0]
-        if turning:
-            step = _within_limit(kind, rows, gram, step)
-        trial_rows = rows + step[:, :unknowns].T
-        if timing is None:
-            moved = rest + np.einsum("knm,nk->nm", curve.by_sizes, step)
-            along = -np.real(np.conj(curve.by_crank) * moved) / np.maximum(np.abs(curve.by_crank) ** 2, 1e-12)
-            trial_phi = phi + np.clip(np.nan_to_num(along), -0.3, 0.3)
-        else:
-            trial_phi = phi + step[:, -1:]
-        trial = _cost(kind, trial_rows, trial_phi, side, z, turning=turning)
-        better = trial < cost
-        rows = np.where(better, trial_rows, rows)
-        phi = np.where(better[:, None], trial_phi, phi)
-        gain = np.where(better, cost - trial, 0.0)
-        cost = np.where(better, trial, cost)
-        damping = np.clip(np.where(better, damping * 0.3, damping * 4.0), 1e-12, 1e6)
-        met = cost < 1e-28
-        if not (((gain > 1e-10 * cost) | (damping < 1e5)) & ~met).any() or (met.any() and len(z) > unknowns):
+        here = rows[:, open_], phi[open_], side[open_], damping[open_]
+        trial_rows, trial_phi = _step(z, timing, limits, here, passed[open_], power)
+        trial, beyond = _cost(kind, trial_rows, trial_phi, side[open_], z, power), limits.passed(trial_rows, trial_phi)
+        outside = passed[open_] > 0
+        nearer = np.where(outside, beyond < passed[open_], (beyond == 0) & (trial < cost[open_]))
+        better = nearer & np.isfinite(trial)
+        with np.errstate(invalid="ignore"):
+            small = better & ~outside & (cost[open_] - trial <= _GAIN * cost[open_])
+        at = open_[better]
+        rows[:, at], phi[at], cost[at], passed[at] = (
+            trial_rows[:, better],
+            trial_phi[better],
+            trial[better],
+            beyond[better],
+        )
+        damping[open_] = np.clip(np.where(better, here[3] * 0.3, here[3] * 4.0), 1e-12, 1e6)
+        met = (cost[open_] < 1e-14**power) & (passed[open_] == 0)
+        open_ = open_[~(small | met | (damping[open_] >= _STUCK))]
+        if not len(open_) or (met.any() and len(z) > len(rows)):
             break
-    errors = np.sqrt(cost / len(z))
+    errors = np.where(passed == 0, np.sqrt(_cost(kind, rows, phi, side, z) / len(z)), np.inf)
     return [
         Fit(kind=kind, row=rows[:, n], side=float(side[n]), phi=phi[n], error=float(errors[n]))
         for n in np.flatnonzero(errors < np.inf)
     ]
 
 
+def _step(
+    z: Complexes,
+    timing: Reals | None,
+    limits: FitLimits,
+    here: tuple[Reals, Reals, Reals, Reals],
+    passed: Reals,
+    power: int,
+) -> tuple[Reals, Reals]:
+    """The next numbers and crank angles of linkages, from their numbers, crank angles, branches and dampings."""
+    rows, phi, side, damping = here
+    curve = curve_points(limits.kind, rows[:, :, None], phi, side[:, None], slopes=True)
+    by_sizes, by_crank = np.nan_to_num(curve.by_sizes) * limits.free[:, None, None], np.nan_to_num(curve.by_crank)
+    rest = np.nan_to_num(curve.z - z)
+    if timing is None:
+        normal = 1j * by_crank / np.maximum(np.abs(by_crank), 1e-12)
+        value = np.real(np.conj(normal) * rest)
+        matrix = np.real(np.conj(normal) * by_sizes).transpose(1, 2, 0)
+    else:
+        slopes = np.concatenate([by_sizes, by_crank[None]]).transpose(1, 2, 0)
+        value = np.concatenate([rest.real, rest.imag], axis=1)
+        matrix = np.concatenate([slopes.real, slopes.imag], axis=1)
+    if power > 2:  # weights that make squares powers; by the second derivative, so that no step is too long
+        distance = np.abs(rest) / np.maximum(np.abs(rest).max(axis=1, keepdims=True), 1e-300)
+        weights = np.tile(distance ** (power / 2 - 1), (1, value.shape[1] // len(z)))
+        value, matrix = value * weights / np.sqrt(power - 1), matrix * weights[:, :, None] * np.sqrt(power - 1)
+    gram = matrix.transpose(0, 2, 1) @ matrix
+    right = np.einsum("nij,ni->nj", matrix, value)
+    weight = np.einsum("njj->nj", gram) + 1e-9
+    gram = gram + damping[:, None, None] * np.einsum("nj,jk->njk", weight, np.eye(weight.shape[1]))
+    step = -np.linalg.solve(gram, right[:, :, None])[:, :, 0]
+    step = limits.kept(rows, phi, gram, step, np.where(passed > 0, 1 / (1 + 100 * damping), 1.0))
+    change = step[:, : len(rows)]
+    if timing is not None:
+        return rows + change.T, phi + step[:, -1:]
+    moved = rest + np.einsum("knm,nk->nm", by_sizes, change)
+    along = -np.real(np.conj(by_crank) * moved) / np.maximum(np.abs(by_crank) ** 2, 1e-12)
+    return rows + change.T, phi + np.clip(along, -0.3, 0.3)
+
+
 def _slider_branches(rows: Reals, phi: Reals, side: Reals, z: Complexes) -> Reals:
     """The branch that lies nearer to the target: a mirror image may or may not change it."""
-    costs = [_cost(SLIDER_CRANK, rows, phi, sign * np.ones_like(side), z, turning=False) for sign in (1.0, -1.0)]
+    costs = [_cost(SLIDER_CRANK, rows, phi, sign * np.ones_like(side), z) for sign in (1.0, -1.0)]
     return np.where(costs[0] <= costs[1], 1.0, -1.0)
 
 
-def _cost(kind: FourBarKind, rows: Reals, phi: Reals, side: Reals, z: Complexes, *, turning: bool) -> Reals:
-    """The sum of squared distances of each start; infinite where it cannot be assembled or a length is not positive."""
+def _cost(kind: FourBarKind, rows: Reals, phi: Reals, side: Reals, z: Complexes, power: int = 2) -> Reals:
+    """The sum of powers of distances of each start; infinite where it cannot be assembled or a length is too small."""
     w = curve_points(kind, rows[:, :, None], phi, side[:, None]).z
-    cost = np.sum(np.abs(w - z) ** 2, axis=1)
+    cost = np.sum(np.abs(w - z) ** power, axis=1)
     lengths = rows[[kind.unknowns.index(name) for name in ("a", "b", "c") if name in kind.unknowns]]
     bad = ~np.isfinite(cost) | (lengths < 1e-3).any(axis=0) | (np.abs(rows) > 100).any(axis=0)
-    if turning:
-        bad |= ~_turns(kind, rows)
     return np.where(bad, np.inf, cost)
-
-
-def _within_limit(kind: FourBarKind, rows: Reals, gram: Reals, step: Reals) -> Reals:
-    """(starts, numbers) the steps, those beyond the limit of a crank that turns fully changed to the best along it.
-
-    Curves with corners are drawn by linkages at this limit; a step that is only refused there ends the search.
-    """
-    step = step.copy()
-    unknowns = len(rows)
-    slack, slope = _limit_of_turning(kind, rows)
-    normal = np.zeros_like(step)
-    normal[:, :unknowns] = slope.T
-    beyond = slack + np.einsum("nk,nk->n", normal, step) + _MARGIN
-    at_limit = (beyond > 0) & np.isfinite(beyond)
-    if not at_limit.any():
-        return step
-    along = np.linalg.solve(gram[at_limit], normal[at_limit][:, :, None])[:, :, 0]
-    step[at_limit] -= along * (beyond[at_limit] / np.einsum("nk,nk->n", normal[at_limit], along))[:, None]
-    for _ in range(3):  # the limit is curved: back to it
-        slack, slope = _limit_of_turning(kind, rows + step[:, :unknowns].T)
-        excess = np.where(at_limit, np.maximum(slack + _MARGIN, 0), 0)
-        step[:, :unknowns] -= (slope * (excess / np.sum(slope**2, axis=0))).T
-    return step
-
-
-def _limit_of_turning(kind: FourBarKind, rows: Reals) -> tuple[Reals, Reals]:
-    """(starts,) a length that is negative where the crank turns fully, by Grashof; (unknowns, starts) its slopes."""
-    r = dict(zip(kind.unknowns, rows, strict=True))
-    slope = dict.fromkeys(kind.unknowns, np.zeros(rows.shape[1]))
-    if kind is SLIDER_CRANK:
-        sine, cosine = np.sin(r["angle"]), np.cos(r["angle"])
-        offset = r["h"] - (cosine * r["a0y"] - sine * r["a0x"])
-        side = np.sign(offset)
-        slope |= {"a": np.ones_like(side), "b": -np.ones_like(side), "h": side, "a0x": side * sine}
-        slope |= {"a0y": -side * cosine, "angle": side * (sine * r["a0y"] + cosine * r["a0x"])}
-        slack = r["a"] + np.abs(offset) - r["b"]
-    else:
-        x, y = r["b0x"] - r["a0x"], r["b0y"] - r["a0y"]
-        frame = np.hypot(x, y)
-        lengths = np.stack([r["a"], r["b"], r["c"], frame])
-        place = np.arange(4)[:, None]
-        shortest = np.where(r["a"] <= frame, 0, 3)  # another one makes the length positive
-        sign = -1.0 + 2 * (place == lengths.argmax(axis=0)) + 2 * (place == shortest)
-        slack = np.sum(sign * lengths, axis=0)
-        slope |= {name: sign[k] for k, name in enumerate("abc")}
-        slope |= {"a0x": -sign[3] * x / frame, "a0y": -sign[3] * y / frame}
-        slope |= {"b0x": sign[3] * x / frame, "b0y": sign[3] * y / frame}
-    return slack, np.array([slope[name] for name in kind.unknowns])
-
-
-def _turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:
-    """Whether the crank turns fully."""
-    return np.asarray(_limit_of_turning(kind, rows)[0] < 0)
 
 
 def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Progress | None = None) -> SynthesisResult:
@@ -384,7 +295,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     if len(task) < 5:
         raise SynthesisError("a whole curve needs at least five points, not {count}", count=len(task))
     timing = np.array(task.crank_angles) if task.crank_angles else None
-    fits = fit_curve(task.z, closed=task.closed, timing=timing, number=4 * number)
+    fits = _fits(task, demands, timing, 4 * number, power=_POWER)
     limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
     accepted, rejected = _judged_fits(task, replace(demands, tolerance=limit), fits, number, progress)
     accepted = in_order_of(accepted, ["error"])
@@ -396,21 +307,30 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
 
+def _fits(task: PathTask, demands: Demands, timing: Reals | None, number: int, *, power: int = 2) -> list[Fit]:
+    pivots = tuple(complex(*p) for p in task.fixed_pivots)
+    return fit_curve(
+        task.z, closed=task.closed, timing=timing, number=number, demands=demands, pivots=pivots, power=power
+    )
+
+
 def fit_open_points(
-    task: PathTask, demands: Demands, *, number: int = 6, progress: Progress | None = None
+    task: PathTask, demands: Demands, parameters: int, *, number: int = 6, progress: Progress | None = None
 ) -> SynthesisResult:
-    """Six to eight points of an open curve: some of the infinitely many linkages that meet them exactly.
+    """Up to eight points of an open curve: some of the infinitely many linkages that meet them exactly.
+
+    So many parameters of the four-bars are left free by points, pivots and lengths.
 
     Curves of the atlas, or pieces of them, pass similar points in their order; least squares makes many of them meet
     the points. If none does, the nearest are rejected designs.
     """
-    fits = fit_curve(task.z, closed=False, number=4 * number)
+    fits = _fits(task, demands, None, 4 * number)
     exact = [fit for fit in fits if fit.error < _MET]
     accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
     note = message(
         "There are infinitely many solutions, a family of {parameters} parameters: {count} of them were found by least "
         "squares from linkages with similar curves.",
-        parameters=MOST_POINTS - len(task),
+        parameters=parameters,
         count=len(exact),
     )
     count = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
@@ -431,8 +351,8 @@ def _judged_fits(
     return ranked(designs)
 
 
-def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:
-    """The linkage of a fit in the position of its first point."""
+def linkages_of(fit: Fit, *, unit: str = "mm", named: bool = False) -> list[Linkage]:
+    """The linkage of a fit in the position of its first point; with ``named`` its crank is the link that drives."""
     r = dict(zip(fit.kind.unknowns, (float(v) for v in fit.row), strict=True))
     phi = float(fit.phi[0])
     pivot = complex(r["a0x"], r["a0y"])
@@ -442,14 +362,17 @@ def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:
     far = pin + r["b"] * theta
     own = GuidingDyad(CRANK, pin, pivot)
     if fit.kind is FOUR_BAR:
-        return four_bar_linkages(own, GuidingDyad(CRANK, far, complex(r["b0x"], r["b0y"])), point, unit=unit)
+        other = GuidingDyad(CRANK, far, complex(r["b0x"], r["b0y"]))
+        if named:
+            return [linkage_of_dyads(own, other, point, unit)]
+        return four_bar_linkages(own, other, point, unit=unit)
     slide = complex(np.exp(1j * r["angle"]))
     return [linkage_of_dyads(own, GuidingDyad(SLIDER, far, far, slide), point, unit)]
 
 
 def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:
     try:
-        linkages = linkages_of(fit, unit=task.unit)
+        linkages = linkages_of(fit, unit=task.unit, named=bool(demands.lengths))
     except LinkageError:
         return []
 

@@ -236,7 +236,7 @@ def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Des
     if task.stroke is not None:
         linkage = linkage.scaled(task.stroke)
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = faults_of_size(ratio, inside, demands)
+    reasons = faults_of_size(linkage, ratio, inside, demands)
     if member.transmission < demands.transmission:
         reasons.append(transmission_fault(member.transmission))
     centres = member.linkage.dead_centres

@@ -7,7 +7,7 @@ the linkage's reference pose without regard to the drive, the places where it me
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.immutable import settle
 from gruebler.base.text import Message, joined, message
 from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
@@ -53,6 +54,8 @@ class Demands:
     """The longest length of a link is at most so many times the shortest."""
     region: tuple[float, float, float, float] | None = None
     """The fixed pivots lie in this rectangle: least x, least y, greatest x, greatest y."""
+    lengths: tuple[tuple[str, float], ...] = ()
+    """Links with the given distance of their pins: crank, coupler, rocker, frame, or other names of links."""
     tolerance: float = EXACT
     """How far a target may be missed, relative to the size of the task."""
     one_branch: bool = True
@@ -92,6 +95,37 @@ class Demands:
                 name="region",
                 value=self.region,
             )
+        settle(self, lengths=_given_lengths(self.lengths))
+
+    @property
+    def limits_of_size(self) -> bool:
+        """Whether lengths, the place of the pivots or the transmission angle are limited."""
+        return bool(self.lengths) or self.region is not None or self.transmission > 0
+
+
+def _given_lengths(value: object) -> tuple[tuple[str, float], ...]:
+    """Pairs of a link and a positive length, of a table or a sequence, each link once."""
+    rows = list(value.items()) if isinstance(value, Mapping) else value
+    if not isinstance(rows, Sequence) or isinstance(rows, str):
+        raise SynthesisError(
+            "{name}: expected links with their lengths, but found {value!r}", name="lengths", value=value
+        )
+    pairs: dict[str, float] = {}
+    for row in rows:
+        if isinstance(row, str) or not isinstance(row, Sequence) or len(row) != 2 or not isinstance(row[0], str):
+            raise SynthesisError(
+                "{name}: expected links with their lengths, but found {value!r}", name="lengths", value=row
+            )
+        link, length = row
+        if not (_is_number(length) and 0 < length < np.inf) or link in pairs:
+            raise SynthesisError(
+                "{name}: expected one length above 0 for each link, but found {link} = {value}",
+                name="lengths",
+                link=link,
+                value=length,
+            )
+        pairs[link] = float(length)
+    return tuple(pairs.items())
 
 
 def _is_number(value: object) -> bool:
@@ -123,7 +157,7 @@ def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], 
 def missing_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, form: str) -> Design:
     """The design of a linkage whose point has the path of another one that misses its targets, a cognate of it."""
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = (*faults_of_size(ratio, inside, demands), verdict.reasons[-1])
+    reasons = (*faults_of_size(linkage, ratio, inside, demands), verdict.reasons[-1])
     return Design(
         linkage=linkage, verdict=replace(verdict, size_ratio=ratio, inside=inside, reasons=reasons), form=form
     )
@@ -143,7 +177,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     True
     """
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = faults_of_size(ratio, inside, demands)
+    reasons = faults_of_size(linkage, ratio, inside, demands)
     try:
         course = circuit(linkage, step=0.05)
         limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
@@ -205,7 +239,7 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
         drives: (targets, drives) their values at the targets; between two targets they go evenly.
     """
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = faults_of_size(ratio, inside, demands)
+    reasons = faults_of_size(linkage, ratio, inside, demands)
     between = np.linspace(0, len(drives) - 1, _ROWS * (len(drives) - 1) + 1)
     rows = np.stack([np.interp(between, np.arange(len(drives)), column) for column in drives.T], axis=1)
     error = np.inf
@@ -242,9 +276,20 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
     )
 
 
-def faults_of_size(ratio: float, inside: bool, demands: Demands) -> list[Message]:
-    """What speaks against a linkage before it moves: the place of its pivots, the ratio of its lengths."""
+def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demands) -> list[Message]:
+    """What speaks against a linkage before it moves: the place of its pivots, its lengths and their ratio."""
     faults = []
+    for link, wanted in demands.lengths:
+        distances = _distances_of_pins(linkage, link)
+        if not any(abs(length - wanted) <= EXACT * max(wanted, linkage.size) for length in distances):
+            faults.append(
+                message(
+                    "the length of the {link} is not {wanted:g}, but {found}",
+                    link=message(link),
+                    wanted=wanted,
+                    found=joined(f"{length:.6g}" for length in distances) if distances else "–",
+                )
+            )
     if not inside:
         faults.append(message("a fixed pivot lies outside the region"))
     if ratio > demands.size_ratio:
@@ -286,11 +331,14 @@ def _in_another_order(error: float) -> Message:
 
 def size_ratio(linkage: Linkage) -> float:
     """The longest distance of two pins of a link by the shortest; points on slides do not count."""
-    lengths = []
-    for link in linkage.mechanism.chain.links:
-        pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and e.is_pin]
-        lengths += [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
+    lengths = [length for link in linkage.mechanism.chain.links for length in _distances_of_pins(linkage, link)]
     return max(lengths) / min(lengths) if lengths else 1.0
+
+
+def _distances_of_pins(linkage: Linkage, link: str) -> list[float]:
+    """The distances of the pins of a link, each with each."""
+    pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and e.is_pin]
+    return [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
 
 
 def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | None) -> bool:

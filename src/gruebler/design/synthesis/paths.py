@@ -46,10 +46,11 @@ def synthesise_path(
 
     Nine points, five points and two fixed pivots, five points with crank angles, and the finite mixed tasks have
     finitely many solutions, all of which are found. Fewer points have infinitely many: up to five are met with several
-    choices of the crank angles, six to eight by linkages whose curves are similar; where pivots or coupler angles are
-    given, points on a smooth curve through them are added until the number is finite. For more points, and for a closed
-    curve, the four-bars that come nearest are sought; of a closed curve with nine points those that pass through all of
-    them come first.
+    choices of the crank angles, six to eight by linkages whose curves are similar, and so are fewer where a region, one
+    pivot, lengths or a transmission angle is demanded; where both pivots or coupler angles are given, points on a
+    smooth curve through them are added until the number is finite. For more points, and for a closed curve, the
+    linkages that come nearest are sought, within the demands; of a closed curve with nine points the four-bars that
+    pass through all of them come first.
 
     Args:
         task: points, perhaps with coupler angles, crank angles or fixed pivots.
@@ -93,6 +94,12 @@ class _Run:
         return not (self.oriented or self.task.fixed_pivots or self.task.closed)
 
     @property
+    def sought(self) -> bool:
+        """Whether one of infinitely many linkages is sought that keeps to limits: a given pivot, lengths, a region."""
+        limited = len(self.task.fixed_pivots) == 1 or (self.points_alone and self.demands.limits_of_size)
+        return limited and not (self.oriented or self.task.closed) and free_parameters(self.task, self.demands) > 0
+
+    @property
     def poses(self) -> int:
         """Positions besides the first."""
         return max(0, len(self.oriented) - 1)
@@ -100,6 +107,8 @@ class _Run:
     @property
     def too_many(self) -> bool:
         """Whether no linkage meets all that is given."""
+        if len(self.task.fixed_pivots) == 1:
+            return True
         needed = 4 if self.task.fixed_pivots else MOST_POINTS - 1 - 2 * self.poses
         return self.task.closed or needed < len(self.task) - 1 - self.poses or self.poses > 3
 
@@ -114,7 +123,14 @@ def _open_points(run: _Run) -> SynthesisResult:
     from gruebler.design.synthesis.curves import fit_open_points
 
     _check_general(run.task)
-    return fit_open_points(run.task, run.demands, number=run.number, progress=run.progress)
+    return fit_open_points(
+        run.task, run.demands, free_parameters(run.task, run.demands), number=run.number, progress=run.progress
+    )
+
+
+def free_parameters(task: PathTask, demands: Demands) -> int:
+    """How many numbers of a four-bar points, pivots and lengths leave free; negative if they are too many."""
+    return MOST_POINTS - len(task) - 2 * len(task.fixed_pivots) - len(demands.lengths)
 
 
 def _nearest(run: _Run) -> SynthesisResult:
@@ -122,10 +138,10 @@ def _nearest(run: _Run) -> SynthesisResult:
     from gruebler.design.synthesis.curves import fit_path
 
     task = run.task
-    if run.oriented or task.fixed_pivots:
-        raise SynthesisError("this number of points is met by least squares, without coupler angles and fixed pivots")
+    if run.oriented:
+        raise SynthesisError("this number of points is met by least squares, without coupler angles")
     through: tuple[Design, ...] = ()
-    if len(task) == MOST_POINTS and not _crowded(task):
+    if len(task) == MOST_POINTS and not task.fixed_pivots and not _crowded(task):
         through = _exact(replace(run, task=replace(task, closed=False)), PROBLEMS[0]).designs
     return _with_exact(fit_path(task, run.demands, number=run.number, progress=run.progress), through, run.number)
 
@@ -465,6 +481,7 @@ class _Method(NamedTuple):
 _METHODS = (
     _Method(lambda run: bool(run.task.crank_angles), _with_crank_angles),
     _Method(lambda run: len(run.oriented) == len(run.task) > 1 and not run.task.closed, _as_positions),
+    _Method(lambda run: run.sought, _open_points),
     _Method(lambda run: run.points_alone and len(run.task) <= MOST_TIMED, _sampled),
     _Method(lambda run: run.points_alone and len(run.task) < MOST_POINTS, _open_points),
     _Method(lambda run: run.too_many, _nearest),

@@ -160,7 +160,7 @@ class PathTask:
 
     Args of the constructor, all but the first optional: ``angles`` of the coupler, one for each point or None where it
     is free (mixed tasks); ``crank_angles`` for prescribed timing, one for each point, only their differences count;
-    ``fixed_pivots``, two of them; ``closed`` for a whole curve of many points.
+    ``fixed_pivots``, one or two of them; ``closed`` for a whole curve of many points.
 
     Raises `SynthesisError` for two equal points and for angles or pivots that do not fit.
 
@@ -195,9 +195,9 @@ class PathTask:
                     points=len(rows),
                     count=len(values),
                 )
-        if len(pivots) not in (0, 2):
-            raise SynthesisError("fixed_pivots: expected two, but found {count}", count=len(pivots))
-        if pivots and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
+        if len(pivots) > 2:
+            raise SynthesisError("fixed_pivots: expected one or two, but found {count}", count=len(pivots))
+        if len(pivots) == 2 and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
             raise SynthesisError("fixed_pivots: the two pivots coincide")
         self._check_distinct()
         self._check_timing()

@@ -1,0 +1,192 @@
+"""Where the fitting of curves begins: coupler curves of an atlas that are like a target, placed on it.
+
+The atlas holds curves of linkages whose crank turns fully. docs/theory/synthesis-curves.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes, Reals
+from gruebler.design.synthesis.curve_matching import (
+    PLACES,
+    CurveMatch,
+    Held,
+    best_matches,
+    drive_angles,
+    evenly_along,
+)
+from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
+from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, FourBarKind, curve_points
+
+_CANDIDATES = 1500  # neighbours that are placed to see which of them keep within limits
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CurveAtlas:
+    """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
+
+    kind: FourBarKind
+    rows: Reals
+    """(unknowns, linkages)"""
+    side: Reals
+    phi: Reals
+    """(linkages, places) crank angles of places evenly along the curve."""
+    z: Complexes
+    """(linkages, places)"""
+
+
+def _halton(count: int, base: int) -> Reals:
+    """Van der Corput's numbers: spread evenly, the same everywhere."""
+    n = np.arange(1, count + 1)
+    values, part = np.zeros(count), 1.0
+    while n.any():
+        part /= base
+        values += part * (n % base)
+        n = n // base
+    return values
+
+
+@cache
+def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
+    """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
+    count = count or (90_000 if kind is FOUR_BAR else 12_000)
+    first, second, third, fourth, fifth = (_halton(count, base) for base in (2, 3, 5, 7, 11))
+    spread = np.log(6.0)
+    if kind is FOUR_BAR:
+        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (first, second, third))
+        zero = 0 * b
+        rows = np.stack([zero, zero, d, zero, zero + 1, b, c, zero, zero])
+    else:
+        b, h = np.exp(spread * first) * 1.05, 3 * second
+        zero = 0 * b
+        rows = np.stack([zero, zero, zero, h, zero + 1, b, zero, zero])
+    reach = np.maximum(rows[kind.unknowns.index("b")], 1.0)
+    w = reach * (0.5 + 2.0 * np.sqrt(fourth) * np.exp(2j * np.pi * fifth))
+    rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
+    rows = rows[:, crank_turns(kind, rows)]
+    side = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)
+    phi = np.linspace(0, 2 * np.pi, 2 * PLACES + 1)
+    z = curve_points(kind, rows[:, :, None], phi[None, :], side[:, None]).z
+    good = np.isfinite(z).all(axis=1)
+    rows, side, z = rows[:, good], side[good], z[good]
+    at = evenly_along(z, phi)
+    return CurveAtlas(
+        kind=kind, rows=rows, side=side, phi=at, z=curve_points(kind, rows[:, :, None], at, side[:, None]).z
+    )
+
+
+class CurveStart(NamedTuple):
+    """A neighbour of the target, placed on it."""
+
+    gap: float
+    """What the best similarity leaves, relative to the target's spread."""
+    row: Reals
+    side: float
+    phi: Reals
+    """(points,) crank angles of the target's points, in the plane."""
+
+
+def neighbours(z: Complexes, limits: FitLimits, *, closed: bool, number: int) -> list[CurveStart]:
+    """The nearest curves of the atlas, or pieces of them, up to a similarity that leaves given pivots where they are.
+
+    Of those that pass limits the ones come first that are both alike and hardly beyond.
+    """
+    kind, (own, far) = limits.kind, limits.pivots
+    book = atlas(kind)
+    frame = book.rows[kind.unknowns.index("b0x")] if kind is FOUR_BAR else np.ones(len(book.z))
+    # A given pivot is the origin, a given frame runs from there to 1.
+    origin = frame if own is None and far is not None else np.zeros(len(frame))
+    unit = frame if own is not None and far is not None else np.ones(len(frame))
+    turn = 1 + 0j if own is None or far is None else far - own
+    shift = own if own is not None else far if far is not None else 0j
+    held = (Held.NOTHING, Held.ORIGIN, Held.ALL)[(own is not None) + (far is not None)]
+    matches = best_matches(
+        np.asarray((book.z - origin[:, None]) / unit[:, None], np.complex128),
+        (z - shift) / turn,
+        _CANDIDATES if limits.narrow else number,
+        closed=closed,
+        held=held,
+    )[:_CANDIDATES]
+    starts = []
+    for match in matches:
+        n = match.number
+        scale = match.turn / float(unit[n])
+        placed = replace(match, turn=scale, shift=match.shift - scale * float(origin[n]))
+        starts.append(_moved(kind, _placed(book, placed), turn, shift))
+    if not limits.narrow:
+        return starts
+    rows, phi = np.array([start.row for start in starts]).T, np.array([start.phi for start in starts])
+    order = np.argsort(np.sqrt([start.gap for start in starts]) + limits.passed(rows, phi), kind="stable")
+    return [starts[k] for k in order[:number]]
+
+
+def _placed(book: CurveAtlas, match: CurveMatch) -> CurveStart:
+    """A curve of the atlas turned, scaled and shifted onto the target."""
+    n = match.number
+    start = CurveStart(match.gap, book.rows[:, n], float(book.side[n]), drive_angles(book.phi[n], match.at))
+    start = _moved(book.kind, start, match.turn, match.shift)
+    if match.mirrored:
+        return CurveStart(match.gap, _mirrored(book.kind, start.row), -start.side, -start.phi)
+    return start
+
+
+def _moved(kind: FourBarKind, start: CurveStart, turn: complex, shift: complex) -> CurveStart:
+    return start._replace(row=transformed(kind, start.row, turn, shift), phi=start.phi + float(np.angle(turn)))
+
+
+def transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) -> Reals:
+    """The numbers of a linkage that is turned, scaled and shifted."""
+    r = dict(zip(kind.unknowns, row, strict=True))
+    scale = abs(turn)
+    for name in ("a", "b", "c", "u", "v"):
+        if name in r:
+            r[name] *= scale
+    pairs = [("a0x", "a0y")] + ([("b0x", "b0y")] if "b0x" in r else [])
+    for x, y in pairs:
+        z = turn * complex(r[x], r[y]) + shift
+        r[x], r[y] = z.real, z.imag
+    if "h" in r:
+        r["angle"] += float(np.angle(turn))
+        r["h"] = r["h"] * scale + float(np.imag(np.exp(-1j * r["angle"]) * shift))
+    return np.array([r[name] for name in kind.unknowns])
+
+
+def _mirrored(kind: FourBarKind, row: Reals) -> Reals:
+    """In the x axis; the branch of a four-bar changes, and that of a slider-crank stays but for the direction."""
+    r = dict(zip(kind.unknowns, row, strict=True))
+    for name in ("a0y", "b0y", "v", "h", "angle"):
+        if name in r:
+            r[name] = -r[name]
+    return np.array([r[name] for name in kind.unknowns])
+
+
+def timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: int) -> list[CurveStart]:
+    """Curves of the atlas whose points at these crank angles are similar to the target."""
+    book = atlas(kind, 12000)
+    starts = []
+    target = z - z.mean()
+    energy = float(np.sum(np.abs(target) ** 2))
+    for mirrored in (False, True):
+        wanted, turned = (np.conj(target), -(timing - timing[0])) if mirrored else (target, timing - timing[0])
+        for begin in 2 * np.pi * np.arange(24) / 24:
+            angles = begin + turned
+            w = curve_points(kind, book.rows[:, :, None], angles[None, :], book.side[:, None]).z
+            mean = w.mean(axis=1)
+            inner = np.conj(w - mean[:, None]) @ wanted
+            spread = np.sum(np.abs(w - mean[:, None]) ** 2, axis=1)
+            likeness = np.abs(inner) ** 2 / (spread * energy)
+            for n in np.argsort(-likeness)[: max(3, number // 8)]:
+                turn = complex(inner[n] / spread[n])
+                middle = np.conj(z.mean()) if mirrored else z.mean()
+                row = transformed(kind, book.rows[:, n], turn, complex(middle - turn * mean[n]))
+                phi, side = angles + float(np.angle(turn)), float(book.side[n])
+                if mirrored:
+                    row, phi, side = _mirrored(kind, row), -phi, -side
+                starts.append(CurveStart(1 - float(likeness[n]), row, side, phi))
+    starts.sort(key=lambda start: start.gap)
+    return starts[:number]

@@ -1,0 +1,238 @@
+"""Limits that a fitted linkage keeps to while it is improved: a crank that turns, places, lengths, transmission angle.
+
+Each limit is a function of the linkage's numbers that is negative inside. docs/theory/synthesis-curves.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Reals
+from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind
+
+_MARGIN = 1e-6  # sizes: so far from each limit
+_HELD = 1e-10  # sizes: a frame of a given length is as near to it
+_PUT_BACK = 3  # times, since limits are curved
+_PIVOTS = ("a0x", "a0y", "b0x", "b0y")
+_STEP = 1e-30  # of a complex difference, which loses no digit
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitLimits:
+    """What a linkage of a kind has to keep to, in the units of its numbers."""
+
+    kind: FourBarKind
+    turning: bool = False
+    """The crank turns fully."""
+    region: tuple[float, float, float, float] | None = None
+    """Of the fixed pivots: least x, least y, greatest x, greatest y."""
+    size_ratio: float = np.inf
+    """The longest length of a link by the shortest."""
+    transmission: float = 0.0
+    """The least transmission angle: over the whole turn of a crank that turns fully, else at the points."""
+    frame: float = 0.0
+    """The given length of the frame; 0 where it is free."""
+    held: Mapping[str, float] = field(default_factory=dict)
+    """Numbers that do not change."""
+
+    @property
+    def pivots(self) -> tuple[complex | None, complex | None]:
+        """The given pivots of crank and rocker; None where free."""
+        own, far = (
+            complex(self.held[x], self.held[y]) if x in self.held else None for x, y in (_PIVOTS[:2], _PIVOTS[2:])
+        )
+        return own, far
+
+    @property
+    def narrow(self) -> bool:
+        """Whether most curves of the atlas, put onto a target, pass a limit."""
+        lengths = bool(self.frame) or bool(set(self.held) - set(_PIVOTS))
+        return self.region is not None or self.transmission > 0 or lengths
+
+    @property
+    def free(self) -> Reals:
+        """(unknowns,) 1 for each number that may change, else 0."""
+        return np.array([float(name not in self.held) for name in self.kind.unknowns])
+
+    def values(self, rows: NDArray[Any], phi: Reals) -> NDArray[Any]:
+        """(limits, ..., starts) how far each limit is passed; negative inside. Margins are part of them.
+
+        Args:
+            rows: (unknowns, ..., starts), complex ones too: all is analytic but where two of its parts are equal.
+            phi: (starts, points) crank angles.
+        """
+        r = dict(zip(self.kind.unknowns, rows, strict=True))
+        limits = []
+        if self.turning:
+            limits.append(_slack(self.kind, r) + _MARGIN)
+        for name, low, high in self._sides:
+            limits += [low - r[name] + _MARGIN, r[name] - high + _MARGIN]
+        if self.size_ratio < np.inf:
+            lengths = _lengths(self.kind, r)
+            limits += [p / self.size_ratio - q + _MARGIN for p, q in permutations(lengths, 2)]
+        if self.transmission > 0:
+            cosines = _cosines(self.kind, r, None if self.turning else phi)
+            most = np.cos(self.transmission)
+            limits += [_largest(cosines) - most + _MARGIN, _largest(-cosines) - most + _MARGIN]
+        if self.frame:
+            frame = _frame(r)
+            limits += [frame - self.frame - _HELD, self.frame - frame - _HELD]
+        return np.array(limits) if limits else np.zeros((0, *rows.shape[1:]))
+
+    @property
+    def _sides(self) -> list[tuple[str, float, float]]:
+        """The pivots' coordinates that a region bounds, with their bounds."""
+        if self.region is None:
+            return []
+        bounds = (self.region[::2], self.region[1::2])
+        return [(name, *bounds[k % 2]) for k, name in enumerate(_PIVOTS) if name in self.kind.unknowns]
+
+    def passed(self, rows: Reals, phi: Reals) -> Reals:
+        """(starts,) by how much each start passes the limit that it passes most; 0 inside."""
+        values = self.values(rows, phi)
+        return np.asarray(np.maximum(np.max(values, axis=0, initial=0.0) - _MARGIN / 2, 0.0))
+
+    def slopes(self, rows: Reals, phi: Reals) -> Reals:
+        """(limits, unknowns, starts) how the limits change with the numbers that are not held."""
+        moved = rows[:, None, :] + 1j * _STEP * np.eye(len(rows))[:, :, None]
+        return np.asarray(self.values(moved, phi).imag / _STEP * self.free[:, None])
+
+    def kept(self, rows: Reals, phi: Reals, gram: Reals, step: Reals, share: Reals) -> Reals:
+        """(starts, numbers) the steps, those beyond a limit changed to the best within all, put back if these bend.
+
+        Curves with corners are drawn by linkages at a limit; a step that is only refused there ends the search.
+
+        Args:
+            rows: (unknowns, starts).
+            phi: (starts, points) crank angles.
+            gram: (starts, numbers, numbers) what a change costs.
+            step: (starts, numbers) the unknowns first.
+            share: (starts,) of a limit that is passed already, which part is to be made up for.
+        """
+        step = step.copy()
+        unknowns = len(rows)
+        values = self.values(rows, phi)
+        if not len(values):
+            return step
+        asked = np.where(values > 0, share * values, values)
+        beyond = self._within(gram, step, asked, self.slopes(rows, phi))
+        alike = np.broadcast_to(np.eye(unknowns), (len(step), unknowns, unknowns))
+        for _ in range(_PUT_BACK):
+            moved = rows + step[:, :unknowns].T
+            excess = self.values(moved, phi)
+            excess = np.where(beyond & (share == 1), excess, -np.inf)
+            if not (excess > 0).any():
+                break
+            back = np.zeros((len(step), unknowns))
+            self._within(alike, back, excess, self.slopes(moved, phi))
+            step[:, :unknowns] += back
+        return step
+
+    @staticmethod
+    def _within(gram: Reals, step: Reals, values: Reals, slopes: Reals) -> NDArray[np.bool_]:
+        """Change steps in place to the nearest within linear limits; which were changed."""
+        normal = np.zeros((len(step), len(values), step.shape[1]))
+        normal[:, :, : slopes.shape[1]] = slopes.transpose(2, 0, 1)
+        beyond = values.T + np.einsum("nik,nk->ni", normal, step)
+        changed = np.asarray((beyond > 0).any(axis=1) & np.isfinite(normal).all(axis=(1, 2)))
+        at = np.flatnonzero(changed)
+        worst = beyond[at].argmax(axis=1)
+        only = normal[at, worst]
+        along = np.linalg.solve(gram[at], only[:, :, None])[:, :, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            shift = along * (beyond[at, worst] / np.einsum("nk,nk->n", only, along))[:, None]
+        shift = np.nan_to_num(shift, posinf=0.0, neginf=0.0)
+        # One limit is enough for most; where another one is passed then, all are looked at together.
+        others = ((beyond[at] - np.einsum("nik,nk->ni", normal[at], shift)) > _MARGIN / 4).any(axis=1)
+        for k in np.flatnonzero(others):
+            shift[k] = _nearest_within(gram[at[k]], normal[at[k]], beyond[at[k]])
+        step[at] -= shift
+        return changed
+
+
+def _nearest_within(gram: Reals, normal: Reals, beyond: Reals) -> Reals:
+    """The shift s of least s' gram s with normal s >= beyond; none where there is no such shift.
+
+    A problem of least distance, solved by least squares that are not negative: Lawson and Hanson, Solving Least Squares
+    Problems, chapter 23.
+    """
+    from scipy.optimize import nnls
+
+    root = np.linalg.cholesky(gram)
+    some = np.isfinite(beyond)
+    conditions = np.linalg.solve(root, normal[some].T)
+    scale = np.linalg.norm(conditions, axis=0) + np.abs(beyond[some])
+    kept = scale > 0
+    system = (np.vstack([conditions, beyond[some]]) / np.where(kept, scale, 1.0))[:, kept]
+    aim = np.zeros(len(system))
+    aim[-1] = 1.0
+    try:
+        multipliers, _ = nnls(system, aim)
+    except RuntimeError:  # it takes too many steps: the step is left, and refused if it passes a limit
+        return np.zeros(len(gram))
+    rest = system @ multipliers - aim
+    if abs(rest[-1]) < 1e-12:
+        return np.zeros(len(gram))
+    return np.asarray(np.linalg.solve(root.T, -rest[:-1] / rest[-1]))
+
+
+def crank_turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:
+    """(linkages,) whether the crank turns fully, by Grashof."""
+    return np.asarray(_slack(kind, dict(zip(kind.unknowns, rows, strict=True))) < 0)
+
+
+def _slack(kind: FourBarKind, r: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    """A length that is negative where the crank turns fully."""
+    if kind is SLIDER_CRANK:
+        return np.asarray(r["a"] + _magnitude(_offset(r)) - r["b"])
+    lengths = np.array(_lengths(kind, r))
+    place = np.arange(4).reshape(4, *(1,) * (lengths.ndim - 1))
+    shortest = np.where(lengths[0].real <= lengths[3].real, 0, 3)  # another one makes the length positive
+    sign = -1.0 + 2 * (place == lengths.real.argmax(axis=0)) + 2 * (place == shortest)
+    return np.asarray(np.sum(sign * lengths, axis=0))
+
+
+def _lengths(kind: FourBarKind, r: Mapping[str, NDArray[Any]]) -> list[NDArray[Any]]:
+    """The distances of the pins of each link."""
+    return [r["a"], r["b"], r["c"], _frame(r)] if kind is FOUR_BAR else [r["a"], r["b"]]
+
+
+def _frame(r: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    return np.asarray(np.sqrt((r["b0x"] - r["a0x"]) ** 2 + (r["b0y"] - r["a0y"]) ** 2))
+
+
+def _offset(r: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    """The distance of the slide from the crank's pivot, to its left."""
+    return np.asarray(r["h"] - np.cos(r["angle"]) * r["a0y"] + np.sin(r["angle"]) * r["a0x"])
+
+
+def _cosines(kind: FourBarKind, r: Mapping[str, NDArray[Any]], phi: Reals | None) -> NDArray[Any]:
+    """(..., starts, places) cosines of the transmission angle: at crank angles, or where it is extreme over a turn."""
+    a, b = r["a"][..., None], r["b"][..., None]
+    if kind is SLIDER_CRANK:
+        offset = _offset(r)[..., None]
+        pin = a * np.array([1.0, -1.0]) if phi is None else a * np.sin(phi - r["angle"][..., None])
+        return np.asarray((offset - pin) / b)
+    c = r["c"][..., None]
+    if phi is None:
+        square = (_frame(r)[..., None] + a * np.array([1.0, -1.0])) ** 2
+    else:
+        x, y = (r["b0" + axis][..., None] - r["a0" + axis][..., None] for axis in "xy")
+        square = (x - a * np.cos(phi)) ** 2 + (y - a * np.sin(phi)) ** 2
+    return np.asarray((b * b + c * c - square) / (2 * b * c))
+
+
+def _magnitude(value: NDArray[Any]) -> NDArray[Any]:
+    return np.asarray(np.where(value.real < 0, -value, value))
+
+
+def _largest(values: NDArray[Any]) -> NDArray[Any]:
+    """The largest along the last axis, by its real part."""
+    at = np.asarray(np.nan_to_num(values.real, nan=-np.inf).argmax(axis=-1))[..., None]
+    return np.asarray(np.take_along_axis(values, at, axis=-1)[..., 0])
