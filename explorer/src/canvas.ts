@@ -2,7 +2,7 @@
 
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
-import type { PointRecord } from "./model";
+import type { PointRecord, Target } from "./model";
 import { origin, type Pair, place, placesOf, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
 import type { Viewport } from "./viewport";
@@ -31,6 +31,7 @@ export class Painter {
         const all = placesOf(rows, point.link, ...point.at);
         this.trace(values.length, ownColour(number), 2, (row) => viewport.screen(all[2 * row]!, all[2 * row + 1]!));
       });
+    this.paintTargets(linkage.model.targets ?? []);
     if (rows.order < 1) return;
     if (shown.hodographs) this.paintHodographs(linkage);
     if (shown.poles) this.paintCentrodes(linkage, shown.link);
@@ -57,6 +58,27 @@ export class Painter {
       last = here;
     }
     pen.stroke();
+  }
+
+  /** What the linkage was designed for: rings with numbers, positions with their direction. */
+  private paintTargets(targets: Target[]): void {
+    const { pen, viewport } = this;
+    pen.strokeStyle = pen.fillStyle = this.colour("--purple");
+    pen.lineWidth = 2;
+    pen.font = "12px system-ui, sans-serif";
+    for (const [k, [x, y, degrees]] of targets.entries()) {
+      const [u, v] = viewport.screen(x, y);
+      pen.beginPath();
+      pen.arc(u, v, 6, 0, 7);
+      const phi = ((degrees ?? 0) * Math.PI) / 180;
+      const [c, s] = [Math.cos(phi), -Math.sin(phi)];
+      if (degrees !== null) {
+        pen.moveTo(u + 6 * c, v + 6 * s);
+        pen.lineTo(u + 26 * c, v + 26 * s);
+      }
+      pen.stroke();
+      pen.fillText(String(k + 1), u + 8, v - 8);
+    }
   }
 
   /** The curves of the pole of a link, in the plane and on the link. */

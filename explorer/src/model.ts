@@ -75,12 +75,17 @@ export interface PairRecord {
   free: { turn: boolean; along: boolean; across: boolean };
 }
 
+/** A place that is to be met, with the angle of a position in degrees. */
+export type Target = [number, number, number | null];
+
 export interface Model {
   version: number;
   name: string;
-  /** Whether it has other sizes than what its name and its source stand for. */
   /** Whether it moves from the start. */
   plays?: boolean;
+  /** What it was designed for. */
+  targets?: Target[];
+  /** Whether it has other sizes than what its name and its source stand for. */
   changed?: boolean;
   /** The name in several languages, if it has such. */
   names: Record<string, string>;

@@ -1,17 +1,20 @@
-/** The view of the synthesis: points that a coupler point is to pass, clicked into a plane; four-bars that do it. */
+/** The view of the synthesis: what a linkage is to do, put into a plane or a table; designs that do it play over it. */
 
-import { h, renew, svg, thumbnail } from "./dom";
-import { angle, number, parsed, t } from "./language";
-import type { LinkageDocument, Model } from "./model";
+import { choice, h, renew, svg, thumbnail } from "./dom";
+import { Ghost, type Moving } from "./ghost";
+import { angle, number, t } from "./language";
+import type { LinkageDocument, Model, Target } from "./model";
+import { rowsTable, targetMark, tip } from "./targets";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
 
-interface Item {
+interface Item extends Moving {
   document: LinkageDocument;
   picture: string;
   form: string;
   transmission: number | null;
   error: number | null;
+  size: number;
 }
 
 interface Designs {
@@ -20,42 +23,77 @@ interface Designs {
   items: Item[];
 }
 
+type Kind = "positions" | "points" | "function" | "dead-centres";
+type Order = "error" | "size" | "transmission";
+
+/** The rows of each kind at first, and how few there are at least. */
+const FEWEST: Record<Kind, number> = { positions: 3, points: 5, function: 3, "dead-centres": 1 };
+
 const WIDE = 240;
 const HIGH = 150; // the plane, in units of length
-const FEWEST = 5; // fewer points leave infinitely many four-bars
 const STEP = 10; // between lines of its grid
+const NEAR = 4;
 
 export class SynthesisView implements View {
   readonly element = h("div", { class: "view", "data-page": "synthesis" });
-  points: [number, number][] = [];
+  private kind: Kind = "points";
+  private readonly rows: Record<Kind, number[][]> = {
+    positions: [],
+    points: [],
+    function: [
+      [0, 0],
+      [45, 25],
+      [90, 60],
+    ],
+    "dead-centres": [[60, 1.2]],
+  };
+  private pivots: number[][] = [];
+  private putsPivots = false;
   private closed = false;
   private crank = true;
   private least = 20; // degrees
+  private order: Order = "error";
   private designs: Designs | null = null;
-  private moving = -1;
-  private readonly plane = svg("svg", {
-    class: "plane",
-    viewBox: `${-WIDE / 2} ${-HIGH / 2} ${WIDE} ${HIGH}`,
-    role: "application",
-    tabindex: 0,
-  });
+  private shownItem: Item | null = null;
+  /** What the pointer takes along. */
+  private held: ((at: [number, number]) => void) | null = null;
+  private readonly marks = svg("g");
+  private readonly ghost = new Ghost(() => this.element.classList.contains("shown"));
+  private readonly plane = svg(
+    "svg",
+    { class: "plane", role: "application", tabindex: 0 },
+    this.marks,
+    this.ghost.element,
+  );
   private readonly list = h("div", {});
   private readonly found = h("div", {});
   private readonly status = h("div", { class: "form" });
 
   constructor(private readonly page: Page) {
     this.plane.addEventListener("pointerdown", (event) => this.down(event));
-    this.plane.addEventListener("pointermove", (event) => this.moving >= 0 && this.put(this.moving, this.at(event)));
-    this.plane.addEventListener("pointerup", () => (this.moving = -1));
-    this.plane.addEventListener("pointercancel", () => (this.moving = -1));
+    this.plane.addEventListener("pointermove", (event) => this.held?.(this.at(event)));
+    for (const event of ["pointerup", "pointercancel"]) this.plane.addEventListener(event, () => (this.held = null));
+  }
+
+  appeared(): void {
+    this.play(this.shownItem);
   }
 
   /** Other points, out of a file. */
   take(points: [number, number][], closed: boolean): void {
-    this.points = points;
+    this.kind = "points";
+    this.rows.points = points;
     this.closed = closed;
     this.designs = null;
     this.arrange();
+  }
+
+  private get points(): number[][] {
+    return this.rows[this.kind];
+  }
+
+  private get planar(): boolean {
+    return this.kind === "points" || this.kind === "positions";
   }
 
   arrange(): void {
@@ -71,25 +109,49 @@ export class SynthesisView implements View {
       "data-field": "least",
       onchange: () => (this.least = Number(least.value)),
     });
-    this.plane.setAttribute("aria-label", t("Points that are to be passed"));
+    const kinds: [Kind, string][] = [
+      ["points", t("Points of a path")],
+      ["positions", t("Positions of a link")],
+      ["function", t("Angles of crank and rocker")],
+      ["dead-centres", t("Dead centres")],
+    ];
+    const hints: Record<Kind, string> = {
+      points: t(
+        "Click points in the order in which a coupler point is to pass them; drag them to move them. " +
+          "Five to nine points are met exactly where that is possible, more as closely as possible.",
+      ),
+      positions: t(
+        "Click three to five places through which the coupler is to be carried; " +
+          "its arrow turns when its end is dragged.",
+      ),
+      function: t("While the crank turns by the first angle, the rocker turns by the second: three to five pairs."),
+      "dead-centres": t("A crank that drives a rocker to and fro: its swing, and the slow time to the quick one."),
+    };
+    const clicks: [string, string][] = [
+      ["", t("A click puts a position")],
+      ["pivot", t("A click puts a fixed pivot")],
+    ];
+    this.plane.setAttribute("aria-label", t("What is to be met"));
+    const open = this.kind === "points";
     renew(
       this.element,
       h(
         "div",
         { class: "page" },
-        h("h2", {}, t("A four-bar through points")),
-        h(
-          "p",
-          { class: "note" },
-          t(
-            "Click points in the order in which a coupler point is to pass them; drag them to move them. " +
-              "Five to nine points are met exactly where that is possible, more as closely as possible.",
-          ),
-        ),
+        h("h2", {}, t("Synthesis")),
+        choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.turnTo(kind as Kind)),
+        h("p", { class: "note" }, hints[this.kind]),
         h(
           "div",
-          { class: "two" },
-          h("div", { class: "chain-picture" }, this.plane),
+          { class: "two wide" },
+          h(
+            "div",
+            {},
+            this.kind === "positions"
+              ? choice(t("Click"), clicks, this.putsPivots ? "pivot" : "", (value) => (this.putsPivots = value !== ""))
+              : null,
+            h("div", { class: "chain-picture" }, this.plane),
+          ),
           h(
             "div",
             {},
@@ -97,15 +159,7 @@ export class SynthesisView implements View {
             h(
               "div",
               { class: "form" },
-              option(
-                t("closed curve"),
-                this.closed,
-                (on) => {
-                  this.closed = on;
-                  this.draw();
-                },
-                "closed",
-              ),
+              open ? option(t("closed curve"), this.closed, (on) => this.close(on), "closed") : null,
               option(t("the crank turns fully"), this.crank, (on) => (this.crank = on), "crank"),
               h("label", {}, t("transmission angle from"), least, "°"),
             ),
@@ -117,7 +171,13 @@ export class SynthesisView implements View {
                 { class: "key", "data-act": "synthesise", onclick: () => void this.search() },
                 t("Find four-bars"),
               ),
-              h("button", { class: "plain", "data-act": "clear", onclick: () => this.clear() }, t("Remove all points")),
+              this.planar
+                ? h(
+                    "button",
+                    { class: "plain", "data-act": "clear", onclick: () => this.clear() },
+                    t("Remove all points"),
+                  )
+                : null,
             ),
             this.status,
           ),
@@ -129,67 +189,113 @@ export class SynthesisView implements View {
     this.showDesigns();
   }
 
+  private turnTo(kind: Kind): void {
+    this.kind = kind;
+    this.designs = null;
+    this.play(null);
+    renew(this.status);
+    this.arrange();
+  }
+
+  private close(on: boolean): void {
+    this.closed = on;
+    this.draw();
+  }
+
   private at(event: PointerEvent): [number, number] {
-    const box = this.plane.getScreenCTM()!.inverse();
+    const box = this.marks.getScreenCTM()!.inverse();
     const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(box);
     const round = (value: number) => Math.round(value * 10) / 10;
     return [round(point.x), round(-point.y)];
   }
 
   private down(event: PointerEvent): void {
+    if (!this.planar) return;
     const [x, y] = this.at(event);
     this.plane.setPointerCapture(event.pointerId);
-    const near = this.points.findIndex(([u, v]) => Math.hypot(u - x, v - y) < 4);
-    if (near >= 0) this.moving = near;
+    const near = ([u, v]: number[]) => Math.hypot(u! - x, v! - y) < NEAR;
+    const move = (row: number[]) => {
+      this.held = ([u, v]) => {
+        [row[0], row[1]] = [u, v];
+        this.draw();
+      };
+    };
+    const turned = this.kind === "positions" && this.points.find((row) => near(tip(row)));
+    const here = [...this.points, ...(this.kind === "positions" ? this.pivots : [])].find(near);
+    if (turned) {
+      this.held = ([u, v]) => {
+        turned[2] = Math.round((Math.atan2(v - turned[1]!, u - turned[0]!) * 180) / Math.PI);
+        this.draw();
+      };
+    } else if (here) move(here);
     else {
-      this.points.push([x, y]);
-      this.moving = this.points.length - 1;
+      const pivot = this.kind === "positions" && this.putsPivots;
+      const row = this.kind === "positions" && !pivot ? [x, y, 0] : [x, y];
+      (pivot ? this.pivots : this.points).push(row);
+      move(row);
       this.draw();
     }
   }
 
-  private put(k: number, [x, y]: [number, number]): void {
-    this.points[k] = [x, y];
-    this.draw();
-  }
-
   private clear(): void {
-    this.points = [];
+    this.rows[this.kind] = [];
+    this.pivots = [];
     this.designs = null;
+    this.play(null);
     this.draw();
     this.showDesigns();
   }
 
+  /** What is to be met, as the stage shows it. */
+  private get targets(): Target[] {
+    return this.planar ? this.points.map(([x, y, turn]) => [x!, y!, turn ?? null]) : [];
+  }
+
   private draw(): void {
     const lines: SVGElement[] = [];
-    for (let x = -WIDE / 2; x <= WIDE / 2; x += STEP)
-      lines.push(svg("path", { class: x === 0 ? "axis" : "mesh", d: `M${x} ${-HIGH / 2}V${HIGH / 2}` }));
-    for (let y = -HIGH / 2 + 5; y <= HIGH / 2; y += STEP)
-      lines.push(svg("path", { class: y === 0 ? "axis" : "mesh", d: `M${-WIDE / 2} ${y}H${WIDE / 2}` }));
-    const d =
-      this.points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${-y}`).join("") +
-      (this.closed && this.points.length > 2 ? "Z" : "");
-    const marks = this.points.map(([x, y], k) =>
-      svg(
-        "g",
-        { "data-point": String(k), transform: `translate(${x} ${-y})` },
-        svg("circle", { r: 2.6 }),
-        svg("text", { x: 3.4, y: -3.4 }, String(k + 1)),
-      ),
-    );
-    renew(this.plane, ...lines, svg("path", { class: "polygon", d }), ...marks);
-    const cell = (k: number, axis: 0 | 1) => {
-      const input = h("input", {
-        value: number(this.points[k]![axis], 6),
-        inputmode: "decimal",
-        "aria-label": `${t("Point {number}", { number: k + 1 })} ${axis ? "y" : "x"}`,
-        onchange: () => {
-          const value = parsed(input.value);
-          input.setAttribute("aria-invalid", String(!Number.isFinite(value)));
-          if (Number.isFinite(value)) this.put(k, axis ? [this.points[k]![0], value] : [value, this.points[k]![1]]);
-        },
-      });
-      return h("td", {}, input);
+    if (this.planar) {
+      for (let x = -WIDE / 2; x <= WIDE / 2; x += STEP)
+        lines.push(svg("path", { class: x === 0 ? "axis" : "mesh", d: `M${x} ${-HIGH / 2}V${HIGH / 2}` }));
+      for (let y = -HIGH / 2 + 5; y <= HIGH / 2; y += STEP)
+        lines.push(svg("path", { class: y === 0 ? "axis" : "mesh", d: `M${-WIDE / 2} ${y}H${WIDE / 2}` }));
+      for (let x = -100; x <= 100; x += 50)
+        lines.push(svg("text", { class: "tick", x: x + 1, y: HIGH / 2 - 2 }, `${x}`));
+      if (this.kind === "points") {
+        const d = this.points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${-y!}`).join("");
+        lines.push(svg("path", { class: "polygon", d: d + (this.closed && this.points.length > 2 ? "Z" : "") }));
+      }
+      for (const [k, row] of this.points.entries()) lines.push(targetMark(row, k));
+      if (this.kind === "positions")
+        for (const [x, y] of this.pivots)
+          lines.push(svg("path", { class: "pivot", d: `M${x} ${-y!}l4 6h-8z`, "data-pivot": "" }));
+    }
+    renew(this.marks, ...lines);
+    this.look();
+    this.drawList();
+  }
+
+  private drawList(): void {
+    const heads: Record<Kind, string[]> = {
+      points: ["x", "y"],
+      positions: ["x", "y", "φ [°]"],
+      function: [t("Crank [°]"), t("Rocker [°]")],
+      "dead-centres": [t("Swing [°]"), t("Time ratio")],
+    };
+    const names = heads[this.kind];
+    const single = this.kind === "dead-centres";
+    const titles: Record<Kind, string> = {
+      points: t("Point"),
+      positions: t("Position"),
+      function: t("Pair"),
+      "dead-centres": t("Dead centres"),
+    };
+    const title = titles[this.kind];
+    const last = this.points.at(-1) ?? [];
+    const table = (rows: number[][], name: string, head: string[]) =>
+      rowsTable(rows, name, head, !single, () => this.draw());
+    const add = () => {
+      this.points.push(last.map((value) => value + 30));
+      this.draw();
     };
     renew(
       this.list,
@@ -197,58 +303,54 @@ export class SynthesisView implements View {
         ? h(
             "div",
             { class: "points" },
-            h(
-              "table",
-              {},
-              h("tr", {}, h("th", {}, t("Point")), h("th", {}, "x"), h("th", {}, "y"), h("th", {}, "")),
-              ...this.points.map((_, k) =>
-                h(
-                  "tr",
-                  {},
-                  h("td", {}, String(k + 1)),
-                  cell(k, 0),
-                  cell(k, 1),
-                  h(
-                    "td",
-                    {},
-                    h(
-                      "button",
-                      {
-                        class: "quiet",
-                        "aria-label": t("Remove {name}", { name: t("Point {number}", { number: k + 1 }) }),
-                        onclick: () => {
-                          this.points.splice(k, 1);
-                          this.draw();
-                        },
-                      },
-                      "×",
-                    ),
-                  ),
-                ),
-              ),
-            ),
+            table(this.points, title, names),
+            this.kind === "positions" && this.pivots.length ? table(this.pivots, t("Fixed pivot"), ["x", "y"]) : null,
           )
         : h("p", { class: "note" }, t("No points yet.")),
+      this.kind === "function"
+        ? h("button", { class: "plain", "data-act": "pair", onclick: add }, t("Another pair"))
+        : "",
     );
   }
 
   private async search(): Promise<void> {
-    if (this.points.length < FEWEST)
+    const count = FEWEST[this.kind];
+    if (this.points.length < count)
       return renew(
         this.status,
-        h("span", { class: "error", role: "alert" }, t("Give at least {count} points.", { count: FEWEST })),
+        h("span", { class: "error", role: "alert" }, t("Give at least {count} points.", { count })),
       );
-    const question = { points: this.points, closed: this.closed, crank: this.crank, transmission: this.least };
+    const question = {
+      kind: this.kind,
+      rows: this.points,
+      pivots: this.kind === "positions" ? this.pivots : [],
+      closed: this.kind === "points" && this.closed,
+      crank: this.crank,
+      transmission: this.least,
+    };
     const found = await awaited(this.status, (progress) => this.page.ask<Designs>("synthesise", question, progress));
     if (!found) return;
     this.designs = found;
     this.showDesigns();
+    this.play(this.sorted()[0] ?? null);
     this.found.scrollIntoView({ block: "nearest", behavior: "smooth" });
+  }
+
+  private sorted(): Item[] {
+    const worth = ({ error, size, transmission }: Item) =>
+      ({ error: Math.abs(error ?? 0), size, transmission: -(transmission ?? 0) })[this.order];
+    const tiny = (value: number) => (Math.abs(value) < 1e-9 ? 0 : value);
+    return [...(this.designs?.items ?? [])].sort((one, two) => tiny(worth(one)) - tiny(worth(two)) || 0);
   }
 
   private showDesigns(): void {
     const { designs } = this;
     if (!designs) return renew(this.found);
+    const orders: [Order, string][] = [
+      ["error", t("by deviation")],
+      ["size", t("by size")],
+      ["transmission", t("by transmission angle")],
+    ];
     renew(
       this.found,
       h("h2", {}, t("{count} designs", { count: designs.total })),
@@ -257,40 +359,67 @@ export class SynthesisView implements View {
         { class: "note" },
         designs.refused ? t("{count} others do not meet what is asked.", { count: designs.refused }) : "",
       ),
-      h(
-        "div",
-        { class: "cards", "data-list": "designs" },
-        ...designs.items.map((item) =>
-          h(
-            "button",
-            {
-              class: "card",
-              onclick: () => void this.open(item),
-            },
-            thumbnail(item.picture, item.form),
-            h("b", {}, item.form),
-            h("span", {}, item.transmission === null ? "" : `μ ≥ ${angle((item.transmission * Math.PI) / 180, 3)}`),
-            h(
-              "span",
-              {},
-              item.error === null
-                ? ""
-                : t("deviation {value} %", { value: number(100 * (Math.abs(item.error) < 1e-9 ? 0 : item.error), 2) }),
-            ),
-          ),
-        ),
-      ),
+      designs.items.length > 1
+        ? choice(t("Order"), orders, this.order, (order) => {
+            this.order = order as Order;
+            this.showDesigns();
+          })
+        : "",
+      h("div", { class: "cards sorted", "data-list": "designs" }, ...this.sorted().map((item) => this.card(item))),
     );
   }
 
+  private card(item: Item): HTMLElement {
+    const { form, transmission, error, size } = item;
+    const deviation = error === null ? null : 100 * (Math.abs(error) < 1e-9 ? 0 : error);
+    const play = () => this.play(item);
+    return h(
+      "button",
+      { class: "card", onclick: () => void this.open(item), onpointerenter: play, onfocus: play },
+      thumbnail(item.picture, form),
+      h("b", {}, form),
+      h("span", {}, transmission === null ? "" : `μ ≥ ${angle((transmission * Math.PI) / 180, 3)}`),
+      h("span", {}, deviation === null ? "" : t("deviation {value} %", { value: number(deviation, 2) })),
+      h("span", {}, t("size {value}", { value: number(size, 3) })),
+    );
+  }
+
+  // --- a design plays over its targets -------------------------------------------------------------------------------
+
+  /** Everything that is seen: the plane, and where the design that plays comes to. */
+  private look(): void {
+    const places = this.shownItem?.frames.flat() ?? [];
+    const fixed: [number, number][] =
+      this.planar || !places.length
+        ? [
+            [-WIDE / 2, -HIGH / 2],
+            [WIDE / 2, HIGH / 2],
+          ]
+        : [];
+    const [xs, ys] = [0, 1].map((axis) => [...fixed, ...places].map((place) => place[axis]!));
+    const [left, right, low, high] = [Math.min(...xs!), Math.max(...xs!), Math.min(...ys!), Math.max(...ys!)];
+    const room = places.length ? 0.04 * Math.max(right - left, high - low) : 0;
+    const box = [left - room, -high - room, right - left + 2 * room, high - low + 2 * room];
+    this.plane.setAttribute("viewBox", box.map((value) => value.toPrecision(6)).join(" "));
+  }
+
+  private play(item: Item | null): void {
+    this.shownItem = item;
+    this.look();
+    this.ghost.play(item);
+  }
+
   private async open(item: Item): Promise<void> {
+    const names: Record<Kind, string> = {
+      points: t("A design for {count} points", { count: this.points.length }),
+      positions: t("A design for {count} positions", { count: this.points.length }),
+      function: t("A design for {count} pairs of angles", { count: this.points.length }),
+      "dead-centres": t("A design for dead centres"),
+    };
     try {
-      this.page.open(
-        await this.page.ask<Model>("open_document", {
-          document: item.document,
-          name: t("A design for {count} points", { count: this.points.length }),
-        }),
-      );
+      const question = { document: item.document, name: names[this.kind] };
+      const model = await this.page.ask<Model>("open_document", question);
+      this.page.open({ ...model, targets: this.targets });
     } catch (error) {
       this.page.say((error as Error).message);
     }

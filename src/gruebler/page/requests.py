@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping
 from itertools import islice
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import msgspec
 
@@ -17,7 +17,6 @@ Progress = Callable[[str], None]
 Word = Annotated[str, msgspec.Meta(max_length=200)]
 ChainText = Annotated[str, msgspec.Meta(max_length=5_000)]
 _PAGE = 60  # pictures in one answer
-_MOST_DESIGNS = 24
 _MOST_MODES = 64
 
 
@@ -34,6 +33,7 @@ def _within(what: str) -> msgspec.Meta:
     return msgspec.Meta(ge=LISTED_CHAINS[what]["min"], le=LISTED_CHAINS[what]["max"])
 
 
+Row = Annotated[list[float], msgspec.Meta(min_length=2, max_length=3)]
 Number = Annotated[int, msgspec.Meta(ge=0, le=100)]
 
 
@@ -112,13 +112,13 @@ class Realise(_Params):
     seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
 
 
-class SynthesisePath(_Params):
-    """Points of the plane that a coupler point passes, in their order."""
+class SynthesiseTask(_Params):
+    """What a linkage is to do: the rows of its targets, angles in degrees."""
 
-    points: Annotated[
-        list[Annotated[list[float], msgspec.Meta(min_length=2, max_length=2)]],
-        msgspec.Meta(min_length=5, max_length=60),
-    ]
+    rows: Annotated[list[Row], msgspec.Meta(min_length=1, max_length=60)]
+    kind: Literal["points", "positions", "function", "dead-centres"] = "points"
+    pivots: Annotated[list[Row], msgspec.Meta(max_length=4)] = []
+    """Fixed pivots of a linkage through positions."""
     closed: bool = False
     crank: bool = True
     """Whether the drive must turn fully."""
@@ -327,32 +327,11 @@ def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     return {"model": model_of(linkage, name=""), "message": realisation.explain(lang)}
 
 
-def _synthesise(asked: SynthesisePath, lang: str, progress: Progress) -> dict[str, Any]:
-    from math import degrees, isfinite, radians
+def _synthesise(asked: SynthesiseTask, lang: str, progress: Progress) -> dict[str, Any]:
+    from gruebler.page.designs import design_records, task_of
 
-    from gruebler.design.synthesis import Demands, PathTask, synthesise
-    from gruebler.files import linkage_to_json
-    from gruebler.pictures.linkage.picture import draw_linkage
-
-    progress(translate("Looking for four-bars through {count} points", lang, count=len(asked.points)))
-    task = PathTask(tuple((x, y) for x, y in asked.points), closed=asked.closed)
-    result = synthesise(task, demands=Demands(crank=asked.crank, transmission=radians(asked.transmission)))
-    designs = [design for design in result.designs if design.verdict.accepted]
-    items = []
-    for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
-        progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
-        picture = draw_linkage(design.linkage, curves=list(design.linkage.points), lang=lang).svg(styled=False)
-        angle, error = degrees(design.verdict.transmission), design.verdict.error
-        items.append(
-            {
-                "document": linkage_to_json(design.linkage),
-                "picture": picture,
-                "form": design.form_in_language(lang),
-                "transmission": angle if isfinite(angle) else None,
-                "error": error if isfinite(error) else None,
-            }
-        )
-    return {"total": len(designs), "refused": len(result.designs) - len(designs), "items": items}
+    task = task_of(asked.kind, asked.rows, closed=asked.closed, pivots=asked.pivots)
+    return design_records(task, asked.crank, asked.transmission, lang, progress)
 
 
 def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
@@ -439,7 +418,7 @@ REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] =
     "modes": (ListModes, _modes),
     "chains": (ListChains, _chains),
     "realise": (Realise, _realise),
-    "synthesise": (SynthesisePath, _synthesise),
+    "synthesise": (SynthesiseTask, _synthesise),
     "measures": (OpenDocument, _measures),
     "export": (Export, _export),
     "open_file": (OpenFile, _open_file),

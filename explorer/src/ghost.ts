@@ -1,0 +1,43 @@
+/** A design that plays over its targets: bars of its links, and the curves of its points. */
+
+import { renew, svg } from "./dom";
+
+const PACE = 16; // frames of a motion in a second
+
+export interface Moving {
+  /** Places of the joints, then of the points, evenly in time. */
+  frames: [number, number][][];
+  /** Which of them each moving link has. */
+  members: number[][];
+  joints: number;
+}
+
+const spot = ([x, y]: [number, number]) => `${x},${-y}`;
+
+export class Ghost {
+  readonly element = svg("g", { class: "ghost", "data-ghost": "" });
+  private frame = 0;
+
+  /** It stands still while it is not seen. */
+  constructor(private readonly seen: () => boolean) {}
+
+  play(moving: Moving | null): void {
+    cancelAnimationFrame(this.frame);
+    if (!moving) return renew(this.element);
+    const { frames, members, joints } = moving;
+    const curves = frames[0]!.slice(joints).map((_, k) => {
+      const points = [...frames, frames[0]!].map((frame) => spot(frame[joints + k]!)).join(" ");
+      return svg("polyline", { class: "curve", points });
+    });
+    const bars = members.map(() => svg("polygon"));
+    renew(this.element, ...curves, ...bars);
+    const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const tick = (now: number) => {
+      const places = frames[Math.floor((now / 1000) * PACE) % frames.length]!;
+      for (const [k, bar] of bars.entries())
+        bar.setAttribute("points", members[k]!.map((one) => spot(places[one]!)).join(" "));
+      if (!still && this.seen()) this.frame = requestAnimationFrame(tick);
+    };
+    tick(performance.now());
+  }
+}

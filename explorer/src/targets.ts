@@ -1,0 +1,78 @@
+/** What a linkage is to meet: marks in the plane, and a table in which they are typed. */
+
+import { h, svg } from "./dom";
+import { number, parsed, t } from "./language";
+
+const ARM = 14; // of the arrow that shows the angle of a position
+
+/** A table whose cells change the rows; each row may be removed. */
+export function rowsTable(
+  rows: number[][],
+  title: string,
+  head: string[],
+  removable: boolean,
+  changed: () => void,
+): HTMLElement {
+  const called = (k: number) => t("{title} {number}", { title, number: k + 1 });
+  const cell = (row: number[], k: number, axis: number) => {
+    const input = h("input", {
+      value: number(row[axis]!, 6),
+      inputmode: "decimal",
+      "aria-label": `${called(k)} ${head[axis]}`,
+      onchange: () => {
+        const value = parsed(input.value);
+        input.setAttribute("aria-invalid", String(!Number.isFinite(value)));
+        if (!Number.isFinite(value)) return;
+        row[axis] = value;
+        changed();
+      },
+    });
+    return h("td", {}, input);
+  };
+  const cross = (k: number) => {
+    const remove = () => {
+      rows.splice(k, 1);
+      changed();
+    };
+    const name = t("Remove {name}", { name: called(k) });
+    return h("button", { class: "quiet", "aria-label": name, onclick: remove }, "×");
+  };
+  return h(
+    "table",
+    {},
+    h("tr", {}, h("th", {}, title), ...head.map((name) => h("th", {}, name)), h("th", {}, "")),
+    ...rows.map((row, k) =>
+      h(
+        "tr",
+        {},
+        h("td", {}, String(k + 1)),
+        ...head.map((_, axis) => cell(row, k, axis)),
+        h("td", {}, removable ? cross(k) : null),
+      ),
+    ),
+  );
+}
+
+/** The end of the arrow of a position. */
+export function tip([x, y, turn]: number[]): number[] {
+  const phi = ((turn ?? 0) * Math.PI) / 180;
+  return [x! + ARM * Math.cos(phi), y! + ARM * Math.sin(phi)];
+}
+
+/** A point with its number, and the arrow of a position. */
+export function targetMark(row: number[], k: number): SVGElement {
+  const [x, y, turn] = row;
+  const [u, v] = tip(row);
+  return svg(
+    "g",
+    { "data-point": String(k), transform: `translate(${x} ${-y!})` },
+    ...(turn === undefined
+      ? []
+      : [
+          svg("path", { class: "arm", d: `M0 0L${u! - x!} ${y! - v!}` }),
+          svg("circle", { class: "tip", r: 1.8, cx: u! - x!, cy: y! - v! }),
+        ]),
+    svg("circle", { r: 2.6 }),
+    svg("text", { x: 3.4, y: -3.4 }, String(k + 1)),
+  );
+}

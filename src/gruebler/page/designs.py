@@ -1,0 +1,102 @@
+"""What the synthesis view asks for and is answered: targets of four kinds, designs with the frames of their motions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import degrees, isfinite, radians
+from typing import Any
+
+import numpy as np
+
+from gruebler.base.errors import SynthesisError
+from gruebler.base.text import translate
+from gruebler.design.synthesis import (
+    DeadCentreTask,
+    Demands,
+    Design,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    Task,
+    synthesise,
+)
+from gruebler.files import linkage_to_json
+from gruebler.mechanics.linkages import Linkage
+from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.pictures.linkage.posed_linkage import posed_linkage
+
+_MOST_DESIGNS = 24
+_COLUMNS = 3  # of a position: x, y, angle
+_FRAMES = 48  # of a motion, there and back if it does not turn fully
+
+
+def task_of(
+    kind: str, rows: Sequence[Sequence[float]], *, closed: bool = False, pivots: Sequence[Sequence[float]] = ()
+) -> Task:
+    """The task of the rows of the page: lengths as they are, angles in degrees, those of a function from free starts.
+
+    >>> task_of("dead-centres", [[60, 1.2]]).swing
+    1.047...
+    """
+    columns = _COLUMNS if kind == "positions" else _COLUMNS - 1
+    if any(len(row) != columns for row in rows) or any(len(pivot) != _COLUMNS - 1 for pivot in pivots):
+        raise SynthesisError("{key}: expected {count} numbers in each row", key=kind, count=columns)
+    if kind == "positions":
+        places = tuple((x, y, radians(angle)) for x, y, angle in rows)
+        return PositionTask(places, fixed_pivots=tuple((x, y) for x, y in pivots))
+    if kind == "function":
+        angles = [tuple(radians(row[k]) for row in rows) for k in (0, 1)]
+        return FunctionTask(angles[0], angles[1], start_input=False, start_output=False)
+    if kind == "dead-centres":
+        swing, ratio = rows[0]
+        return DeadCentreTask(swing=radians(swing), time_ratio=ratio)
+    return PathTask(tuple((x, y) for x, y in rows), closed=closed)
+
+
+def design_records(
+    task: Task, crank: bool, transmission: float, lang: str, progress: Callable[[str], object]
+) -> dict[str, Any]:
+    """The accepted designs for a task, the best of them with pictures; the transmission angle in degrees.
+
+    >>> found = design_records(task_of("dead-centres", [[60, 1.2]]), True, 30.0, "en", print)
+    Looking for four-bars
+    ...
+    >>> found["total"] > 0, len(found["items"][0]["members"]), len(found["items"][0]["frames"][0])
+    (True, 3, 4)
+    """
+    progress(translate("Looking for four-bars", lang))
+    result = synthesise(task, demands=Demands(crank=crank, transmission=radians(transmission)))
+    designs = [design for design in result.designs if design.verdict.accepted]
+    items = []
+    for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
+        progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
+        items.append(_record(design, lang))
+    return {"total": len(designs), "refused": len(result.designs) - len(designs), "items": items}
+
+
+def _record(design: Design, lang: str) -> dict[str, Any]:
+    linkage, verdict = design.linkage, design.verdict
+    angle = degrees(verdict.transmission)
+    return {
+        "document": linkage_to_json(linkage),
+        "picture": draw_linkage(linkage, curves=list(linkage.points), lang=lang).svg(styled=False),
+        "form": design.form_in_language(lang),
+        "transmission": angle if isfinite(angle) else None,
+        "error": verdict.error if isfinite(verdict.error) else None,
+        "size": linkage.size,
+        **_frames(linkage),
+    }
+
+
+def _frames(linkage: Linkage) -> dict[str, Any]:
+    """Places of joints and points, evenly in time, and which of them each moving link has."""
+    posed = posed_linkage(linkage)
+    chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
+    points = linkage.points
+    places = np.stack([posed.path.point(name) for name in (*chain.joint_names(), *points)], axis=1)
+    places = places[:: max(1, len(places) // _FRAMES)]
+    rows = places if posed.repeats else np.concatenate([places, places[-2:0:-1]])
+    carried = [*(joint.links for joint in chain.joints), *((point.link,) for point in points.values())]
+    members = [[k for k, links in enumerate(carried) if link in links] for link in chain.links if link != frame]
+    digits = 5 - int(np.floor(np.log10(linkage.size)))
+    return {"frames": np.round(rows, digits).tolist(), "members": members, "joints": len(chain.joints)}

@@ -1,0 +1,115 @@
+"""Design on the page: positions with pivots, dead centres; designs play over their targets, which stay in Motion."""
+
+import json
+
+import numpy as np
+import pytest
+
+from gruebler.files import linkage_from_json
+from gruebler.mechanics.analysis.measuring import measures
+from gruebler.mechanics.kinematics import move
+
+VIEW = "gruebler.views.synthesis"
+
+
+@pytest.fixture
+def design(tab, server):
+    page = tab().open(server.address)
+    page.page.click('[data-view="synthesis"]')
+    return page
+
+
+def opened(page):
+    """The linkage of the first design, once it is open."""
+    page.page.locator('[data-list="designs"] .card').first.click()
+    page.until("gruebler.view === 'motion'")
+    return linkage_from_json(json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())")))
+
+
+def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(design):
+    view = design.page
+    view.click('[data-value="positions"]')
+    box = view.locator(".plane").bounding_box()
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return box["x"] + box["width"] * (0.5 + x / 240), box["y"] + box["height"] * (0.5 - y / 150)
+
+    for place in ((-40, 0), (0, 25), (35, 10)):
+        view.mouse.click(*at(*place))
+    view.mouse.move(*at(-26, 0))  # the end of the first arrow
+    view.mouse.down()
+    view.mouse.move(*at(-40 + 14, 3), steps=3)
+    view.mouse.up()
+    assert view.evaluate(f"{VIEW}.rows.positions[0][2]") == pytest.approx(np.degrees(np.arctan2(3, 14)), abs=1.5)
+    for number, angle in enumerate((12, 35, 70), 1):
+        field = view.locator(f'[aria-label="Position {number} φ [°]"]')
+        field.fill(str(angle))
+        field.press("Enter")
+    view.click('[data-value="pivot"]')
+    for pivot in ((-30, -40), (30, -40)):
+        view.mouse.click(*at(*pivot))
+    assert view.locator("[data-pivot]").count() == 2
+    view.locator('[data-field="crank"]').uncheck()
+    view.locator('[data-field="least"]').fill("0")
+    view.click('[data-act="synthesise"]')
+    view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
+    # it plays over the targets: three moving links, one curve
+    assert view.locator("[data-ghost] polygon").count() == 3
+    crank = view.locator("[data-ghost] polygon").first
+    before = crank.get_attribute("points")
+    view.wait_for_timeout(300)
+    assert crank.get_attribute("points") != before
+    targets = view.evaluate(f"{VIEW}.targets")
+    linkage = opened(design)
+    assert view.evaluate("gruebler.motion.linkage.model.targets") == targets
+    purple = """([x, y]) => {
+        const { viewport, canvas } = gruebler.motion.stage;
+        const [u, v] = viewport.screen(x, y);
+        const { data } = canvas.getContext("2d").getImageData(Math.round(u) - 9, Math.round(v) - 9, 18, 18);
+        const pixels = Array.from({ length: 324 }, (_, k) => data.slice(4 * k, 4 * k + 3).join());
+        return pixels.filter((colour) => colour === "155,79,131").length;
+    }"""
+    assert all(view.evaluate(purple, target[:2]) > 4 for target in targets)
+    # the library moves it through the three places, and its coupler turns as the arrows do
+    low, high = view.evaluate("[gruebler.motion.linkage.cycle.low, gruebler.motion.linkage.cycle.high]")
+    motion = move(linkage, np.linspace(low, high, 20_001)[1:-1])
+    (name,) = linkage.points
+    path = motion.point(name)
+    row = [int(np.argmin(np.hypot(*(path - target[:2]).T))) for target in targets]
+    np.testing.assert_allclose(path[row], [target[:2] for target in targets], atol=0.05)
+    joint = motion.point(next(one for one in linkage.mechanism.chain.joint_names() if "frame" not in one))
+    arms = np.degrees(np.unwrap(np.angle([complex(*(joint[k] - path[k])) for k in row])))
+    np.testing.assert_allclose(np.diff(arms), [23, 35], atol=0.2)
+
+
+def test_dead_centres_are_those_that_were_asked_for(design):
+    view = design.page
+    view.click('[data-value="dead-centres"]')
+    for name, value in (("Swing [°]", "48"), ("Time ratio", "1.25")):
+        field = view.locator(f'[aria-label="Dead centres 1 {name}"]')
+        field.fill(value)
+        field.press("Enter")
+    view.click('[data-act="synthesise"]')
+    cards = view.locator('[data-list="designs"] .card')
+    cards.nth(1).wait_for(timeout=60_000)
+    view.locator('[data-value="transmission"]').click()
+    angles = [float(text.split("≥")[1].strip(" °")) for text in cards.locator("span:text('μ')").all_text_contents()]
+    assert len(angles) > 2
+    assert angles == sorted(angles, reverse=True)
+    found = measures(opened(design))
+    first, second = (centre.output for centre in found.dead_centres)
+    assert abs(np.degrees(first - second)) == pytest.approx(48, abs=1e-6)
+    assert found.transmission is not None
+    assert np.degrees(found.transmission.smallest.mu) == pytest.approx(angles[0], abs=0.06)
+    facts = view.locator(".facts").inner_text()
+    assert "48°" in facts
+    assert "1.25" in facts
+
+
+def test_rows_of_another_length_are_refused_in_a_sentence():
+    from gruebler.base.errors import GrueblerError
+    from gruebler.page.requests import answer
+
+    for kind, row in (("positions", [1, 2]), ("points", [1, 2, 3]), ("dead-centres", [1, 2, 3])):
+        with pytest.raises(GrueblerError, match="numbers in each row"):
+            answer("synthesise", {"kind": kind, "rows": [row] * 5}, "en", print)
