@@ -51,20 +51,13 @@ TUPLES = {
 """Named tuples with more than four fields that are no arguments of kernels, and why each is a tuple by nature."""
 
 BY_POSITION = {
-    "AtlasTask": "links and mobility first, what is only wanted at times by keyword",
     "CamDisc": "an element of a joint: x and y first, like all of them",
     "Column": "name, unit and values, as a table is read",
-    "DeadCentreTask": "a task as users write it",
     "DrawnJoint": "name, x, y and links first, what few joints have by keyword",
-    "FunctionTask": "inputs and outputs, as users write them",
     "GenevaWheel": "an element of a joint: x and y first, like all of them",
     "Linkage": "mechanism, elements and points, as users write them",
-    "Loads": "forces and moments, as users write them",
     "Mesh": "two wheels and their numbers of teeth, as users write them",
     "NonCircular": "an element of a joint: x and y first, like all of them",
-    "PathTask": "points first, as users write them",
-    "PositionTask": "positions first, as users write them",
-    "Requirements": "links and mobility first, all others by keyword",
     "SpatialLinkage": "mechanism and joints, as users write them",
     "SchemaColumn": "a row of the table of columns, which reads like one",
     "Wheel": "an element of a joint: x and y first, like all of them",

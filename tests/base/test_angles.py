@@ -101,8 +101,8 @@ DOORS = {
     "Geneva": lambda: Geneva(4).move(np.arange(0, 361)),
     "PositionTask": lambda: PositionTask([(0, 0, 0), (3, 1, 22.5), (5, 2, 45)]),
     "PathTask": lambda: PathTask([(0, 0), (3, 1), (5, 2)], angles=[None, 10.5, 20.5]),
-    "FunctionTask": lambda: FunctionTask([10.5, 20, 30], [0.1, 0.2, 0.4]),
-    "FunctionTask, outputs": lambda: FunctionTask([0.1, 0.2, 0.3], [10.5, 20, 30]),
+    "FunctionTask": lambda: FunctionTask([10.5, 20, 30], outputs=[0.1, 0.2, 0.4]),
+    "FunctionTask, outputs": lambda: FunctionTask([0.1, 0.2, 0.3], outputs=[10.5, 20, 30]),
     "reference pose": lambda: gr.Linkage(
         CRANK_ROCKER.linkage().mechanism,
         {
@@ -142,7 +142,7 @@ def test_the_library_does_not_doubt_its_own_angles(capsys):
     assert gr.statics(motion, loads, friction=0.1).drive.shape == (4, 1)
     assert main(["statics", "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1", *AT]) == 0
     assert "radians" not in capsys.readouterr().err
-    FunctionTask(np.linspace(0, 4 * pi, 5), [0.0, 0.3, 0.5, 0.3, 0.1])  # two turns of the input
+    FunctionTask(np.linspace(0, 4 * pi, 5), outputs=[0.0, 0.3, 0.5, 0.3, 0.1])  # two turns of the input
 
 
 AT = ["--at", "0", "--at", "270", "--at", "1000"]
@@ -180,7 +180,7 @@ def test_lengths_are_not_angles():
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         gr.move(SLIDER, [900.0, 905.0, 950.0])
-        FunctionTask([0.1, 0.2, 0.3], [10, 20, 30], output="travel")
+        FunctionTask([0.1, 0.2, 0.3], outputs=[10, 20, 30], output="travel")
         gr.draw(crane, at=700.0)
         gr.draw(two, at=[0.0, 700.0])
     assert [each for each in caught if each.category is gr.UnitWarning] == []

@@ -96,7 +96,7 @@ def test_torques_with_inertia(id, gravity):
         assert np.mean(corners, axis=0) == pytest.approx(machine["masses"][load["link"]]["com_initial"], abs=1e-9)
         centre = f"centre of {load['link']}"
         forces[centre] = forces[centre] + np.array(load["force"])
-        held = gr.statics(motion, gr.Loads(forces, moments))
+        held = gr.statics(motion, gr.Loads(forces, moments=moments))
         assert held.drive[-1, 0] == pytest.approx(row["torque"][gravity], rel=0, abs=2e-11 * largest)
         assert held.work[-1, 0] == pytest.approx(row["torque"][gravity], rel=0, abs=2e-11 * largest)
 

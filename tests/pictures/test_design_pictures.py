@@ -81,7 +81,7 @@ def test_the_plot_of_a_function_marks_its_pairs():
     assert "structural error in °" in written
     marks = texts(design_figure(task, design))
     assert {"1", "5", "1′", "5′"} <= set(marks)
-    table = FunctionTask(task.inputs, task.outputs, start_input=False, start_output=False)
+    table = FunctionTask(task.inputs, outputs=task.outputs, start_input=False, start_output=False)
     assert not any("error" in text for text in texts(function_plot(table, synthesise(table).designs[0])))
 
 

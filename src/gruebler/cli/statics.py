@@ -107,9 +107,9 @@ def _loads(arguments: argparse.Namespace) -> Loads:
         )
     )
     if arguments.gravity is None:
-        return Loads(forces, moments, masses=masses)
+        return Loads(forces, moments=moments, masses=masses)
     x, y = option_numbers("--gravity", arguments.gravity, 2)
-    return Loads(forces, moments, masses=masses, gravity=(x, y))
+    return Loads(forces, moments=moments, masses=masses, gravity=(x, y))
 
 
 def _added(option: str, given: Sequence[str], count: int) -> dict[Any, ArrayLike]:

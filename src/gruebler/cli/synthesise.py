@@ -272,7 +272,10 @@ def _task(arguments: argparse.Namespace) -> Task:
     if arguments.action == "dead-centres" and arguments.task is None:
         with _keys_as_options():
             return DeadCentreTask(
-                _radians(arguments.swing), arguments.stroke, _radians(arguments.crank_angle), arguments.time_ratio
+                swing=_radians(arguments.swing),
+                stroke=arguments.stroke,
+                crank_angle=_radians(arguments.crank_angle),
+                time_ratio=arguments.time_ratio,
             )
     if arguments.action == "function" and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
         with _keys_as_options():

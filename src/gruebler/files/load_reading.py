@@ -277,7 +277,7 @@ def loads_from_json(data: Any, linkage: Linkage) -> Loads:
         gravity = (x, y)
     return Loads(
         {point: reader.force(point, raw) for point, raw in record.forces.items()},
-        {
+        moments={
             reader.link("loads.moments", link): reader.amount(f"loads.moments.{link}", raw, "moment")
             for link, raw in record.moments.items()
         },

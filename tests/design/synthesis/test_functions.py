@@ -43,7 +43,8 @@ def solve(case, starts):
     assume(np.isfinite(out).all() and np.ptp(out) > 0.05 and np.ptp(phi) < 2 * np.pi)
     output = "travel" if isinstance(linkage, SliderCrank) else "angle"
     free = [0.0 if start else 0.37 for start in starts]
-    task = FunctionTask(tuple(phi - free[0]), tuple(out - free[1]), output, *starts)
+    begins = dict(zip(("start_input", "start_output"), starts, strict=True))
+    task = FunctionTask(tuple(phi - free[0]), outputs=tuple(out - free[1]), output=output, **begins)
     try:
         return synthesise_function(task, number=4), phi
     except SynthesisError:
@@ -94,7 +95,7 @@ def test_five_pairs_with_free_starts_have_at_most_three_solutions(case):
 def test_three_pairs_against_freudensteins_equation():
     """Second method: the lengths fulfil Freudenstein's equation as printed, with R1 = d/c, R2 = d/a, R3."""
     phi, psi = np.radians([40.0, 45, 50]), np.radians([70.0, 76, 83])
-    found = synthesise_function(FunctionTask(tuple(phi), tuple(psi)))
+    found = synthesise_function(FunctionTask(tuple(phi), outputs=tuple(psi)))
     linkage = (*found.designs, *found.rejected)[0].linkage
     a, b, c, d = (linkage.length(*row) for row in _ROWS)
     sign_a = 1 if abs(np.exp(1j * linkage.reference_pose["crank"].angle) - np.exp(1j * phi[0])) < 1e-6 else -1
@@ -210,7 +211,7 @@ def test_a_design_that_does_not_follow_the_function_throughout_has_no_optimum():
     assert not found.designs
     assert "no minimax optimum is near" in str(found.rejected[0].verdict.reasons[-1])
     with pytest.raises(SynthesisError, match="as an expression, not a table"):
-        synthesise_function(FunctionTask([0.8, 1.2, 1.7], [0.9, 1.1, 1.5]), minimax=True)
+        synthesise_function(FunctionTask([0.8, 1.2, 1.7], outputs=[0.9, 1.1, 1.5]), minimax=True)
 
 
 @pytest.mark.parametrize(
@@ -244,16 +245,16 @@ def test_functions_without_values_and_too_many_pairs():
     with pytest.raises(SynthesisError, match="the same value"):
         FunctionLaw("x^2", interval=(-1, 1), input_swing=1, output_swing=1)
     with pytest.raises(SynthesisError, match="at most 3"):
-        synthesise_function(FunctionTask([0.1, 0.2, 0.3, 0.4], [1, 2, 3, 4]))
+        synthesise_function(FunctionTask([0.1, 0.2, 0.3, 0.4], outputs=[1, 2, 3, 4]))
 
 
 def test_a_table_from_zero_names_free_starts():
     """With both angles 0 at the first pair all links lie on the line of the frame."""
-    table = [np.radians([0.0, 30.0, 60.0]), np.radians([0.0, 10.0, 40.0])]
-    fixed = synthesise_function(FunctionTask(*table))
+    inputs, outputs = np.radians([0.0, 30.0, 60.0]), np.radians([0.0, 10.0, 40.0])
+    fixed = synthesise_function(FunctionTask(inputs, outputs=outputs))
     assert not fixed.designs
     assert "with free starts only their differences count" in str(fixed.notes[-1])
-    free = synthesise_function(FunctionTask(*table, start_input=False, start_output=False))
+    free = synthesise_function(FunctionTask(inputs, outputs=outputs, start_input=False, start_output=False))
     assert free.designs
     assert not [note for note in free.notes if "free starts" in str(note)]
 
@@ -262,12 +263,16 @@ def test_a_long_table_with_free_starts_is_met_by_least_squares():
     """Pairs of a four-bar give it back; of log10, which no four-bar follows, the nearest one is accepted as such."""
     phi = 0.4 + np.linspace(0, 1.2, 12)
     psi = np.unwrap(np.asarray(FourBar(0.8, 1.5, 1.2, 1.0).motion(phi).output.value))
-    found = synthesise_function(FunctionTask(tuple(phi), tuple(psi), "angle", False, False))
+    found = synthesise_function(
+        FunctionTask(tuple(phi), outputs=tuple(psi), output="angle", start_input=False, start_output=False)
+    )
     assert found.count.theorem == 0  # too many conditions, not too few
     assert comes_back(found, FourBar(0.8, 1.5, 1.2, 1.0), phi)
     assert found.designs[0].verdict.error < 1e-9
     x = np.linspace(1, 2, 12)
-    table = FunctionTask(tuple(x - 1), tuple(np.log10(x) / np.log10(2)), "angle", False, False)
+    table = FunctionTask(
+        tuple(x - 1), outputs=tuple(np.log10(x) / np.log10(2)), output="angle", start_input=False, start_output=False
+    )
     found = synthesise_function(table)
     errors = [design.verdict.error for design in found.designs]
     assert errors == sorted(errors)

@@ -208,8 +208,10 @@ def test_mirrored_and_scaled_functions_have_such_designs(seed, scale, mirror, ou
     other = scale * outputs if output == "travel" else outputs
     # In the x axis angles change their sign; the travel, along x, does not.
     sign = -1 if mirror else 1
-    moved = FunctionTask(tuple(sign * inputs), tuple(other if output == "travel" else sign * other), output, **starts)
-    plain = synthesise(FunctionTask(tuple(inputs), tuple(outputs), output, **starts))
+    moved = FunctionTask(
+        tuple(sign * inputs), outputs=tuple(other if output == "travel" else sign * other), output=output, **starts
+    )
+    plain = synthesise(FunctionTask(tuple(inputs), outputs=tuple(outputs), output=output, **starts))
     same_designs(plain, synthesise(moved), scale if output == "travel" else 1.0)
 
 

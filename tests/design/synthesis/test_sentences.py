@@ -78,14 +78,14 @@ def too_long():
             "expected 2 to 5",
             "2 bis 5 Genauigkeitspunkte",
         ),
-        (lambda: FunctionTask([0, 0.5, 0.5], [1, 2, 3]), "inputs 2 and 3 are equal", "sind gleich"),
+        (lambda: FunctionTask([0, 0.5, 0.5], outputs=[1, 2, 3]), "inputs 2 and 3 are equal", "sind gleich"),
         (
-            lambda: FunctionTask([0, 0.5], [1, 2, 3]),
+            lambda: FunctionTask([0, 0.5], outputs=[1, 2, 3]),
             "as many inputs as outputs",
             "gleich viele Antriebs- und",
         ),
         (
-            lambda: synthesise(FunctionTask([0, 0.1, 0.2, 0.3], [1, 2, 3, 4])),
+            lambda: synthesise(FunctionTask([0, 0.1, 0.2, 0.3], outputs=[1, 2, 3, 4])),
             "leave a start free",
             "Anfangswert frei lassen",
         ),
@@ -140,7 +140,13 @@ def test_families_of_infinitely_many_solutions_are_named(count, english, german)
     ],
 )
 def test_families_of_functions_are_named(count, free, theorem, sentence):
-    task = FunctionTask((0.3, 0.7, 1.2, 1.5)[:count], (0.4, 0.9, 1.1, 1.3)[:count], "angle", free < 1, free < 2)
+    task = FunctionTask(
+        (0.3, 0.7, 1.2, 1.5)[:count],
+        outputs=(0.4, 0.9, 1.1, 1.3)[:count],
+        output="angle",
+        start_input=free < 1,
+        start_output=free < 2,
+    )
     result = synthesise(task, number=4)
     assert result.count.theorem == theorem
     assert sentence in said(result)["en"]

@@ -250,7 +250,9 @@ def test_a_fit_does_not_depend_on_the_unit():
 
 
 def test_targets_of_functions_count_differences_only():
-    moved = FunctionTask([v + 0.4 for v in TASKS["function"].inputs], [v - 1 for v in TASKS["function"].outputs])
+    moved = FunctionTask(
+        [v + 0.4 for v in TASKS["function"].inputs], outputs=[v - 1 for v in TASKS["function"].outputs]
+    )
     assert compared_shift(moved) == pytest.approx(compared_shift(TASKS["function"]), abs=1e-9)
 
 

@@ -41,7 +41,7 @@ def tasks(draw):
     if kind == 2:
         return PathTask(points, crank_angles=tuple(0.3 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)))
     if kind == 3:
-        return FunctionTask([0.1 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)], turned)
+        return FunctionTask([0.1 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)], outputs=turned)
     if kind == 4:
         starts = draw(st.tuples(*[st.none() | angles] * 2))
         law = FunctionLaw(
@@ -112,8 +112,8 @@ def test_none_stands_for_what_is_not_given():
         (lambda: PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 0.5, 0.4)), "contradictory"),
         (lambda: PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 4, 7)), "within one turn"),
         (lambda: PathTask([(0, 0), (1, 1)], fixed_pivots=[(1, 1), (1, 1)]), "coincide"),
-        (lambda: FunctionTask([0, 0.5, 0.5], [1, 2, 3]), "inputs 2 and 3 are equal"),
-        (lambda: FunctionTask([0, 0.5], [1, 2, 3]), "as many inputs as outputs"),
+        (lambda: FunctionTask([0, 0.5, 0.5], outputs=[1, 2, 3]), "inputs 2 and 3 are equal"),
+        (lambda: FunctionTask([0, 0.5], outputs=[1, 2, 3]), "as many inputs as outputs"),
         (lambda: DeadCentreTask(swing=1, stroke=2, time_ratio=1), "one of swing and stroke"),
         (lambda: DeadCentreTask(swing=1, time_ratio=0.9), "at least 1"),
         (lambda: DeadCentreTask(swing=4, time_ratio=1), "between 0 and 180"),
@@ -121,13 +121,15 @@ def test_none_stands_for_what_is_not_given():
         (lambda: PathTask(5), "points: expected a list, but found '5'"),
         (lambda: PathTask([(0, 0), (1, 1)], angles="no"), "angles: expected a list"),
         (lambda: PathTask(None), "points: expected at least two, but found 0"),
-        (lambda: FunctionTask([0, 0.5], 1), "outputs: expected a list"),
+        (lambda: FunctionTask([0, 0.5], outputs=1), "outputs: expected a list"),
         (
             lambda: function_task(FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1), 9),
             "precision_points: expected 2 to 5",
         ),
         (
-            lambda: FunctionTask([0, 1], [0, 1], law=FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1)),
+            lambda: FunctionTask(
+                [0, 1], outputs=[0, 1], law=FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1)
+            ),
             "not those of the function",
         ),
     ],

@@ -171,7 +171,7 @@ def verdicts_of_drawn_tasks(kind, wanted):
             inputs, outputs = motion.angle("crank")[:count], np.unwrap(motion.angle("rocker"))[:count]
             if free:
                 inputs, outputs = inputs - 0.3, outputs + 0.4
-            task = FunctionTask(tuple(inputs), tuple(outputs), start_input=not free, start_output=not free)
+            task = FunctionTask(tuple(inputs), outputs=tuple(outputs), start_input=not free, start_output=not free)
             gaps = function_gaps(task)
         good, missed = assert_verdicts(synthesise(task), gaps)
         tried, accepted, out_of_reach = tried + 1, accepted + good, out_of_reach + missed

@@ -103,7 +103,7 @@ def test_a_load_is_a_number_a_text_a_curve_or_a_function():
         ({"K": ("3*sin(drive) + vx", 0.0)}, {}),
         ({"K": (lambda state: 3 * np.sin(state.drive) + state.vx, 0)}, {}),
     ]
-    first, *others = [statics(motion, Loads(forces, moments)).work for forces, moments in forms]
+    first, *others = [statics(motion, Loads(forces, moments=moments)).work for forces, moments in forms]
     for other in others:
         np.testing.assert_allclose(other, first, rtol=1e-12, atol=1e-12)
     turned = statics(motion, Loads(moments={"rocker": table})).work

@@ -362,7 +362,7 @@ def put_back(motion, loads, friction, rounds):
                     forces[point] = forces.get(point, 0.0) + np.stack([force.real, force.imag], axis=1)
                 else:
                     moments[link] = moments.get(link, 0.0) + sign * rubbing * friction.pin_radius
-        held = statics(motion, Loads(forces, moments))
+        held = statics(motion, Loads(forces, moments=moments))
     return held
 
 
@@ -371,7 +371,7 @@ def test_friction_put_back_as_a_load(name):
     """Statics without friction, the friction of its own forces as a load, and so on: the same efforts and forces."""
     linkage, rows, one, _ = MOVING[name]
     motion = move(linkage, rows[::60])
-    loads = Loads({"K": (30.0, -80.0)}, {one: 4.0 * linkage.size})
+    loads = Loads({"K": (30.0, -80.0)}, moments={one: 4.0 * linkage.size})
     friction = Friction(0.12, pin_radius=0.03 * linkage.size)
     held, rival = statics(motion, loads, friction=friction), put_back(motion, loads, friction, 80)
     assert np.allclose(held.drive, rival.drive, rtol=1e-9)
@@ -423,7 +423,7 @@ def test_every_link_is_in_equilibrium_and_power_adds_up(name, backward):
     linkage, rows, one, _ = MOVING[name]
     motion = move(linkage, rows[::60], speed=1.7)
     size = linkage.size
-    loads = Loads({"K": (30.0, -80.0)}, {one: 4.0 * size})
+    loads = Loads({"K": (30.0, -80.0)}, moments={one: 4.0 * size})
     friction = Friction(
         0.15, pin_radius=0.03 * size, guide_length=0.4 * size, guide_height=0.2 * size, backward=backward
     )
@@ -654,7 +654,7 @@ def test_a_block_in_a_guide():
 
 
 def test_two_drives_need_speeds():
-    loads, friction = Loads({"K": (1, -2)}, {"3": 0.5}), Friction(0.2, pin_radius=0.3)
+    loads, friction = Loads({"K": (1, -2)}, moments={"3": 0.5}), Friction(0.2, pin_radius=0.3)
     rows = np.array([[np.pi / 2, np.pi / 2], [1.6, 1.5]])
     with pytest.raises(LinkageError, match="with 2 drives the direction of friction depends on their speeds"):
         statics(move(FIVE_BAR, rows), loads, friction=friction)

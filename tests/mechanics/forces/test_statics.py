@@ -37,7 +37,7 @@ def moved(name):
 def test_rivals(name, fx, fy, one_moment, other_moment, mass):
     """Equilibrium of every link and virtual work give one effort of the drive."""
     motion, one, other = moved(name)
-    loads = Loads({"K": (fx, fy)}, {one: one_moment, other: other_moment}, masses={"K": mass})
+    loads = Loads({"K": (fx, fy)}, moments={one: one_moment, other: other_moment}, masses={"K": mass})
     held = statics(motion, loads)
     scale = (abs(fx) + abs(fy) + 10 * mass) * motion.linkage.size + abs(one_moment) + abs(other_moment)
     assert not held.singular.any()
@@ -50,7 +50,7 @@ def test_power_in_is_power_out(name):
     linkage, rows, one, _ = MOVING[name]
     motion = move(linkage, rows[::20], speed=2.5)
     force, moment = np.array([3.0, -8.0]), 40.0
-    held = statics(motion, Loads({"K": force}, {one: moment}))
+    held = statics(motion, Loads({"K": force}, moments={one: moment}))
     out = motion.point("K", 1) @ force + moment * motion.angular(one)
     assert np.allclose(held.drive[:, 0] * 2.5, -out, rtol=1e-9, atol=1e-9 * np.abs(out).max())
 
@@ -60,7 +60,7 @@ def test_free_bodies(name):
     """Oracle: forces and moments about an arbitrary point add up to zero on every link, and on the whole."""
     motion, one, _ = moved(name)
     linkage, chain = motion.linkage, motion.linkage.mechanism.chain
-    held = statics(motion, Loads({"K": (3, -8)}, {one: 40}))
+    held = statics(motion, Loads({"K": (3, -8)}, moments={one: 40}))
     place = linkage.points_named("K")[-1]
     about = 0.3 - 1.7j
     for link in set(chain.links) - {linkage.mechanism.frame}:
@@ -106,7 +106,7 @@ def test_two_force_members_and_a_joint_of_three_links():
 
 def test_two_drives():
     motion = move(FIVE_BAR, np.array([[np.pi / 2, np.pi / 2], [1.6, 1.5]]))
-    held = statics(motion, Loads({"K": (1, -2)}, {"3": 0.5}))
+    held = statics(motion, Loads({"K": (1, -2)}, moments={"3": 0.5}))
     assert np.allclose(held.drive, held.work, rtol=1e-12)
     assert held.drive.shape == (2, 2)
 

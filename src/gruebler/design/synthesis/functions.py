@@ -58,7 +58,7 @@ def synthesise_function(
     Raises `SynthesisError` for more pairs than can be met exactly, and for the minimax optimum of a table of pairs.
     Cost: below 1 ms and 10 ms for each verdict; a minimax optimum 0.3 s.
 
-    >>> task = FunctionTask([0.8, 1.2, 1.7], [0.9, 1.1, 1.5])
+    >>> task = FunctionTask([0.8, 1.2, 1.7], outputs=[0.9, 1.1, 1.5])
     >>> found = synthesise_function(task)
     >>> found.count.found, found.count.theorem
     (1, 1)

@@ -6,7 +6,7 @@ Every task is a value, checked when it is constructed; lengths are in the task's
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from math import isfinite, pi
 from typing import Any
 
@@ -95,6 +95,7 @@ class PositionTask:
     """
 
     positions: tuple[tuple[float, float, float], ...]
+    _: KW_ONLY
     moving_pivots: tuple[Pair, ...] = ()
     fixed_pivots: tuple[Pair, ...] = ()
     unit: str = "mm"
@@ -169,6 +170,7 @@ class PathTask:
     """
 
     points: tuple[Pair, ...]
+    _: KW_ONLY
     angles: tuple[float | None, ...] = ()
     crank_angles: tuple[float, ...] = ()
     fixed_pivots: tuple[Pair, ...] = ()
@@ -251,11 +253,12 @@ class FunctionTask:
 
     Raises `SynthesisError` for fewer than two pairs, for equal inputs, and for more than the four-bar can answer.
 
-    >>> FunctionTask([0.1, 0.5, 0.9], [0.2, 0.4, 1.0]).output
+    >>> FunctionTask([0.1, 0.5, 0.9], outputs=[0.2, 0.4, 1.0]).output
     'angle'
     """
 
     inputs: tuple[float, ...]
+    _: KW_ONLY
     outputs: tuple[float, ...]
     output: str = "angle"
     start_input: bool = True
@@ -315,7 +318,9 @@ def function_task(law: FunctionLaw, count: int = 5, *, output: str = "angle", un
             count=count,
         )
     inputs, outputs, start_input, start_output = _pairs_of(law, count)
-    return FunctionTask(inputs, outputs, output, start_input, start_output, unit, law)
+    return FunctionTask(
+        inputs, outputs=outputs, output=output, start_input=start_input, start_output=start_output, unit=unit, law=law
+    )
 
 
 @dataclass(frozen=True)
@@ -330,6 +335,7 @@ class DeadCentreTask:
     3.4271...
     """
 
+    _: KW_ONLY
     swing: float | None = None
     stroke: float | None = None
     crank_angle: float | None = None

@@ -38,9 +38,9 @@ class Loads:
 
     forces: Mapping[PointLike, Any] = field(default_factory=dict)
     """By point or joint: (x, y), or one for each row, (rows, 2); each of both may be a text or a `Law`."""
+    _: KW_ONLY
     moments: Mapping[str, Any] = field(default_factory=dict)
     """By link, counter-clockwise, in force times the linkage's unit: a number, or (rows,), a text, a `Law`."""
-    _: KW_ONLY
     masses: Mapping[PointLike, ArrayLike] = field(default_factory=dict)
     """By point or joint: each weighs its mass times ``gravity``."""
     gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)

@@ -46,17 +46,17 @@ class AtlasTask:
 
     Raises `GrueblerError` for invalid values.
 
-    >>> [(request.links, request.mobility) for request in AtlasTask("4-8", "1-2").requests()]
+    >>> [(request.links, request.mobility) for request in AtlasTask("4-8", mobility="1-2").requests()]
     [(4, 1), (6, 1), (8, 1), (5, 2), (7, 2)]
     """
 
     links: str
     """A number of links or a range, such as ``4-10``."""
+    _: KW_ONLY
     mobility: str = "1"
     """F, or a range."""
     fractionated: str = "none"
     """As `enumeration.Request`: ``none``, ``link``, ``joint`` or ``all``."""
-    _: KW_ONLY
     multiple_joints: str = "0"
     """As `enumeration.Request`: a number, a range or ``any``."""
     prismatic: str = "0"
@@ -117,7 +117,8 @@ class AtlasTask:
     def covers(self, links: int, mobility: int, prismatic: int, multiple_joints: int) -> bool:
         """Whether the atlas has all chains of these numbers, fractionated ones included.
 
-        >>> AtlasTask("4-8", "1-2").covers(7, 2, 0, 0), AtlasTask("4-8", "1-2", "all").covers(7, 2, 0, 0)
+        >>> task = AtlasTask("4-8", mobility="1-2")
+        >>> task.covers(7, 2, 0, 0), replace(task, fractionated="all").covers(7, 2, 0, 0)
         (False, True)
         """
         every = [request for request in self.requests() if (request.links, request.mobility) == (links, mobility)]

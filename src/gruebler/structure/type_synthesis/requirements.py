@@ -61,8 +61,8 @@ class Requirements:
     """All requirements; a field that is left out means no requirement."""
 
     links: int
-    mobility: int = 1
     _: KW_ONLY
+    mobility: int = 1
     prismatic: int = 0
     """The exact number of sliding joints; the other counts likewise."""
     rolling: int = 0
