@@ -1,8 +1,8 @@
 """Compare the files of a wheel with those of the source tree: python .ci/wheel_files.py WHEEL.
 
-The wheel must hold every tracked file of the package and of the catalogs, byte for byte, and beside them the compiled
-module alone: then what the tests say of the source tree holds for what is installed. Catalogs of translators (.po) are
-left out: programs read the .mo beside them.
+The wheel must hold every tracked file of the package, of the catalogs and of the tables of counts, byte for byte, and
+beside them the compiled module alone: then what the tests say of the source tree holds for what is installed. Catalogs
+of translators (.po) are left out: programs read the .mo beside them.
 """
 
 import subprocess
@@ -11,7 +11,7 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = {"src/gruebler": "gruebler", "catalogs": "gruebler/catalogs"}
+FOLDERS = {"src/gruebler": "gruebler", "catalogs": "gruebler/catalogs", "docs/tables": "gruebler/tables"}
 
 
 def expected_files() -> dict[str, Path]:

@@ -91,6 +91,27 @@ def second_method(most: int | None = None) -> Rows:
             yield links, assortment, count.get(row.assortment, 0), row.graphs, row.checked, row.chains
 
 
+_SAMPLES = dict.fromkeys((6, 8, 10, 12), 200_000) | {
+    14: 2 * 10**6,
+    16: 2 * 10**6,
+    18: 10**7,
+    20: 6 * 10**7,
+    22: 8 * 10**7,
+    24: 3 * 10**7,
+}
+
+
+def sampled_chains(most: int | None = None) -> Rows:
+    """Chains with F = 1, estimated from random pairings by a pebble game, beyond the lists too."""
+    from tests.structure.enumeration.sampling_oracle import sampled_chains as sampled
+
+    yield "links", "estimate", "standard_deviation", "samples"
+    for links, samples in _SAMPLES.items():
+        if links <= (most or links):
+            found = sampled(links, samples)
+            yield links, round(found.chains), round(found.deviation, 2 if links < 12 else None), found.samples
+
+
 def assur_groups(most: int | None = None) -> Rows:
     """Assur groups of simple turning joints."""
     yield "links", "groups"
@@ -157,6 +178,7 @@ TABLES: dict[str, Callable[[int | None], Rows]] = {
         driven_by_class,
         epicyclic_trains,
         second_method,
+        sampled_chains,
     )
 }
 

@@ -43,6 +43,7 @@ WINGS = {
         {"assur"},
         {"transformations", "type_synthesis"},
         {"atlas"},
+        {"count_tables"},
     ],
     "machines": [{"cams", "gears", "geneva"}],
     "mechanics": [

@@ -13,7 +13,7 @@ from tests.commands import run_main as run
 def test_the_parser_knows_what_there_is():
     assert tuple(KINDS) == _KINDS
     choices = {action.dest: action.choices for action in command("table").parser("en")._actions}
-    assert choices["name"] == tuple(TABLES)
+    assert choices["name"] == (*TABLES, "counts")
 
 
 def test_list_and_show(capsys):
@@ -101,6 +101,23 @@ def test_tables(capsys, name):
     assert (status, err) == (0, "")
     assert out.splitlines()
     assert json.loads(run(capsys, "table", name, "--json")[1])[0]["rows"]
+
+
+def test_tables_of_counts(capsys, tmp_path):
+    """They are listed, printed with their methods, and written byte for byte as they are stored."""
+    assert run(capsys, "table", "counts")[1].splitlines()[1].split()[:2] == ["chains", "60"]
+    out = run(capsys, "table", "counts", "assur_groups", "--lang", "de")[1]
+    assert "Zweites Verfahren: 1, 2, 10, 173 im Druck (Peisach 2007)" in out
+    printed = json.loads(run(capsys, "table", "counts", "assur_groups", "--json")[1])
+    assert printed["rows"][3] == {"links": 8, "groups": 173}
+    path = tmp_path / "groups.csv"
+    assert run(capsys, "table", "counts", "assur_groups", "-o", str(path))[0] == 0
+    assert path.read_text().startswith("links,groups\n2,1\n4,2\n6,10\n8,173\n")
+    assert run(capsys, "table", "counts", "assur_groups", "--decimal-comma", "-o", str(path))[0] == 0
+    assert path.read_text().startswith("links;groups\n2;1\n")
+    assert "'chains'" in run(capsys, "table", "counts", "chian")[2]
+    assert "only tables of counts" in run(capsys, "table", "joints", "-o", str(path))[2]
+    assert "takes one table" in run(capsys, "table", "counts", "-o", str(path))[2]
 
 
 def test_an_answer_is_given_once(capsys):

@@ -55,7 +55,7 @@ JSON = {
     "simulate": [[ENGINE, "--until", "0.1", "--at", "10", "--speed", "300", "--rows", "3"]],
     "statics": [["lambda", "--load", "C=0,-10", "--moment", "rocker=5", "--range", "0:90:30"]],
     "synthesise": [["dead-centres", "--swing", "60", "--time-ratio", "1.2"]],
-    "table": [["joints"], ["grashof"]],
+    "table": [["joints"], ["grashof"], ["counts", "chains"]],
     "variants": [["--links", "4", "--prismatic", "1"]],
 }
 

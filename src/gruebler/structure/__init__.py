@@ -1,4 +1,4 @@
-"""Structure: chains, mobility, isomorphism, mechanisms, enumeration, Assur groups, variants, the atlas."""
+"""Structure: chains, mobility, isomorphism, mechanisms, enumeration, Assur groups, variants, the atlas, counts."""
 
 from lazy_loader import attach_stub
 
