@@ -4,6 +4,8 @@ import { BuildView } from "./build";
 import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
 import { ExercisesView } from "./exercises";
+import { languageMenu, tabs, viewNames } from "./header";
+import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { type Icon, icon } from "./icons";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
@@ -172,23 +174,6 @@ export class App implements Page {
     this.show(name);
   }
 
-  /** Arrows, Home and End lead from tab to tab. */
-  private stepTab(event: KeyboardEvent, keys: string[]): void {
-    const here = keys.indexOf(this.view);
-    const steps: Record<string, number> = {
-      ArrowLeft: (here + keys.length - 1) % keys.length,
-      ArrowRight: (here + 1) % keys.length,
-      Home: 0,
-      End: keys.length - 1,
-    };
-    const next = keys[steps[event.key] ?? -1];
-    if (next === undefined) return;
-    event.preventDefault();
-    event.stopPropagation();
-    this.turnTo(next);
-    this.header.querySelector<HTMLElement>(`[data-view="${next}"]`)?.focus();
-  }
-
   /** The view whose changes are undone: one that draws, else the motion. */
   private get undoing(): View {
     const view = this.views[this.view];
@@ -219,35 +204,8 @@ export class App implements Page {
 
   private arrangeHeader(): void {
     this.host.lang = currentLanguage();
-    const names: Record<string, string> = {
-      build: t("Draw"),
-      structure: t("Structure"),
-      motion: t("Motion"),
-      synthesis: t("Synthesis"),
-      catalog: t("Catalog"),
-      exercises: t("Exercises"),
-    };
+    const names = viewNames();
     const keys = Object.keys(this.views);
-    const tabs =
-      keys.length < 2
-        ? null
-        : h(
-            "nav",
-            { role: "tablist", onkeydown: (event: KeyboardEvent) => this.stepTab(event, keys) },
-            ...keys.map((key) =>
-              h(
-                "button",
-                {
-                  role: "tab",
-                  tabindex: key === this.view ? 0 : -1,
-                  "data-view": key,
-                  "aria-selected": String(key === this.view),
-                  onclick: () => this.turnTo(key),
-                },
-                names[key]!,
-              ),
-            ),
-          );
     const [back, forth] = this.undoing.undoable!;
     const tool = (sign: Icon, title: string, act: () => void, disabled = false) =>
       h(
@@ -256,34 +214,16 @@ export class App implements Page {
         icon(sign),
       );
     const file = h("input", { type: "file", hidden: true, onchange: () => void this.openFile(file.files?.[0]) });
-    const language = h(
-      "select",
-      {
-        "aria-label": t("Language"),
-        onchange: () => {
-          setLanguage(language.value as Language);
-          this.arrange();
-        },
-      },
-      ...(
-        [
-          ["en", "English"],
-          ["de", "Deutsch"],
-        ] as const
-      ).map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)),
-    );
     if (keys.length > 1)
       for (const key of keys) {
         this.views[key]!.element.setAttribute("role", "tabpanel");
         this.views[key]!.element.setAttribute("aria-label", names[key]!);
       }
     if (this.linkable) document.title = this.name ? `${this.name} – gruebler` : "gruebler";
-    // on a phone the tabs are wider than the screen
-    requestAnimationFrame(() => tabs?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" }));
     renew(
       this.header,
       h("h1", {}, "gruebler ", h("small", {}, this.name)),
-      ...(tabs ? [tabs] : []),
+      ...(keys.length > 1 ? [tabs(keys, this.view, (key) => this.turnTo(key))] : []),
       h("span", { class: "spring" }),
       tool("undo", t("Undo"), () => this.undoing.undo?.(), !back),
       tool("redo", t("Redo"), () => this.undoing.redo?.(), !forth),
@@ -294,8 +234,8 @@ export class App implements Page {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
         this.motion.stage.recoloured();
       }),
-      tool("keys", t("Keys"), () => this.help()),
-      language,
+      tool("keys", t("Keys"), () => showKeys(this.root)),
+      languageMenu(() => this.arrange()),
     );
   }
 
@@ -471,7 +411,7 @@ export class App implements Page {
       event.preventDefault();
       return;
     }
-    if (event.key === "?") this.help();
+    if (event.key === "?") showKeys(this.root);
     else if (this.view !== "motion") return;
     else if (event.key === " " && target.tagName !== "BUTTON" && target.tagName !== "SUMMARY") this.motion.toggle();
     else if (event.key === "ArrowRight") this.motion.nudge(event.shiftKey ? 10 : 1);
@@ -481,27 +421,6 @@ export class App implements Page {
     else if (event.key === "0") this.motion.stage.fit();
     else return;
     event.preventDefault();
-  }
-
-  private help(): void {
-    const rows: [string, string][] = [
-      [t("Space"), t("play and pause")],
-      ["Esc", t("give up a drag")],
-      ["← →", t("move the drive by 1°, with Shift by 10°")],
-      ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
-      ["Ctrl Z, Ctrl Y", t("undo, redo")],
-      ["+ − 0", t("zoom, show everything")],
-      ["?", t("this list")],
-    ];
-    const dialog = h(
-      "dialog",
-      { "aria-label": t("Keys") },
-      h("table", {}, ...rows.map(([key, text]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, text)))),
-      h("form", { method: "dialog" }, h("button", { class: "key" }, t("Close"))),
-    );
-    dialog.addEventListener("close", () => dialog.remove());
-    this.root.append(dialog);
-    dialog.showModal();
   }
 }
 

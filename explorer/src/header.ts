@@ -1,0 +1,61 @@
+/** Parts of the header: the tabs of the views, the choice of the language. */
+
+import { h } from "./dom";
+import { currentLanguage, type Language, setLanguage, t } from "./language";
+
+/** The names of the views in the language of the page. */
+export function viewNames(): Record<string, string> {
+  return {
+    build: t("Draw"),
+    structure: t("Structure"),
+    motion: t("Motion"),
+    synthesis: t("Synthesis"),
+    catalog: t("Catalog"),
+    exercises: t("Exercises"),
+  };
+}
+
+/** A tab for each view; arrows, Home and End lead from one to the next, which keeps the focus. */
+export function tabs(keys: string[], chosen: string, turnTo: (key: string) => void): HTMLElement {
+  const names = viewNames();
+  const step = (event: KeyboardEvent) => {
+    const here = keys.indexOf(chosen);
+    const steps: Record<string, number> = {
+      ArrowLeft: (here + keys.length - 1) % keys.length,
+      ArrowRight: (here + 1) % keys.length,
+      Home: 0,
+      End: keys.length - 1,
+    };
+    const next = keys[steps[event.key] ?? -1];
+    if (next === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const header = (event.currentTarget as Element).parentElement!;
+    turnTo(next);
+    header.querySelector<HTMLElement>(`[data-view="${next}"]`)?.focus();
+  };
+  const tab = (key: string) => {
+    const here = key === chosen;
+    const state = { tabindex: here ? 0 : -1, "data-view": key, "aria-selected": String(here) };
+    return h("button", { role: "tab", ...state, onclick: () => turnTo(key) }, names[key]!);
+  };
+  const list = h("nav", { role: "tablist", onkeydown: step }, ...keys.map(tab));
+  // on a phone they are wider than the screen
+  requestAnimationFrame(() => list.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" }));
+  return list;
+}
+
+/** The languages of the page; after a choice everything is laid out anew. */
+export function languageMenu(arrange: () => void): HTMLElement {
+  const choose = () => {
+    setLanguage(menu.value as Language);
+    arrange();
+  };
+  const languages = Object.entries({ en: "English", de: "Deutsch" });
+  const menu = h(
+    "select",
+    { "aria-label": t("Language"), onchange: choose },
+    ...languages.map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)),
+  );
+  return menu;
+}
