@@ -227,10 +227,12 @@ def test_dimensions_say_where_they_come_from():
     assert len(SIZED) >= 43
     printed = {record.id for record in SIZED if record.dimensions.source}
     assert printed == {
+        "chebyshev",
         "conchoid",
         "crane",
         "crane_cyl",
         "crankrocker",
+        "jansen",
         "kurbelschleife",
         "lambda",
         "mzc",
