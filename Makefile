@@ -6,7 +6,7 @@ READY  := $(VENV)/.ready
 INSTALLED := $(VENV)/.installed
 
 .PHONY: help demo test docs messages slow wheel-test test-blas lowest-packages test-lowest test-newest page core test-core \
-	core-sanitize core-sanitize-python torture mutants bench evidence clean
+	core-sanitize core-sanitize-python torture mutants bench evidence paper clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -27,6 +27,7 @@ help:
 	@echo "make page        core/page/motion.wasm.gz from the kernels, and the built page; needs node"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 	@echo "make evidence    the numbers of docs/tables derived again, contracted graphs by a second method"
+	@echo "make paper       the paper of paper/manuscript.md with its numbers and figures in build/paper"
 
 # Reinstalled only when pyproject.toml or the C++ sources change: repeated calls start at once. What did not change is not
 # compiled again.
@@ -180,6 +181,9 @@ bench: $(READY)
 evidence: $(READY)
 	$(BIN)/python -m benchmarks.tables --check
 	$(BIN)/python -m benchmarks.evidence
+
+paper: $(READY)
+	$(BIN)/python -m paper.fill build/paper
 
 clean:
 	rm -rf $(VENV) build dist src/gruebler/_core*.so src/gruebler/_core*.pyd

@@ -1,0 +1,1 @@
+"""The paper on what was counted: manuscript and what fills in its numbers."""
