@@ -17,6 +17,7 @@ SHARED = {
     "add": "the protocol of a command: its arguments",
     "run": "the protocol of a command: what it does",
     "read": "one word: of a file, and at the front door of a catalog entry or lengths as well",
+    "measures": "one question: in the plane, and at the front door in space as well (typed twice, for each answer)",
     "move": "one question: in the plane, and at the front door in space as well (typed twice, for each answer)",
     "main": "where a process begins",
     "central_crank_rocker": "a fact of dead centres: constructed, and as an exercise",

@@ -11,7 +11,7 @@ from .machines.gears import Train
 from .machines.geneva import Geneva
 from .mechanics.analysis import drive_range, motion_roles
 from .mechanics.analysis.circuit_ranges import rotatability
-from .mechanics.analysis.measuring import Measures, measures
+from .mechanics.analysis.measuring import Measures
 from .mechanics.dynamics import equilibria, inverse_dynamics, linearised, simulate
 from .mechanics.forces import Gas, Loads, Motor, RigidBody, Spring, Statics, TorsionSpring, statics
 from .mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -21,7 +21,7 @@ from .mechanics.kinematics.drive_rows import rpm
 from .mechanics.kinematics.solve import assembly_modes
 from .mechanics.linkages import Linkage
 from .mechanics.screws import SpatialLinkage, freedoms
-from .mechanics.space import move
+from .mechanics.space import measures, move
 from .page.notebook import explore
 from .pictures.values import animate, draw, plot
 from .structure.assur import assur_groups, decompose

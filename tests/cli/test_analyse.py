@@ -164,8 +164,8 @@ REFUSED = [
     (["fourbar:1,2,3,4"], "did you mean 'four-bar'?"),
     (["crankroker"], "did you mean crankrocker"),
     (
-        ["winch_screw"],
-        "the screws of its joints in one position, not the dimensions of its links: `gruebler check winch_screw",
+        ["tri"],
+        "the screws of its joints in one position, not the dimensions of its links: `gruebler check tri",
     ),
     (["R(0-1) R(1-2) R(2-0)"], "has no dimensions, which `gruebler realise` finds; give a file"),
     (["none.toml"], "none.toml: cannot be read"),
@@ -302,10 +302,13 @@ def test_refused_accelerations(capsys, arguments, words):
 def test_a_file_of_screws_is_told_from_one_of_sizes(capsys, tmp_path):
     path = tmp_path / "winch.json"
     path.write_text(json.dumps(screws_to_json(entries()["winch_screw"].placed())), encoding="utf-8")
-    status, out, err = run(capsys, str(path))
-    assert (status, out) == (2, "")
+    status, out, _ = run(capsys, str(path), "--range", "0:90:45")
+    assert status == 0
+    assert "that is 12 mm" in out
+    assert main(["plot", str(path)]) == 2
+    said = capsys.readouterr().err
     assert (
-        f"has the screws of its joints in one position, not the dimensions of its links: `gruebler check {path}" in err
+        f"has the screws of its joints in one position, not the dimensions of its links: `gruebler check {path}" in said
     )
     assert main(["check", str(path)]) == main(["check", str(path), "--explain"]) == 0
 

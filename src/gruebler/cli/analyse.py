@@ -17,7 +17,7 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of_word, with_points
+from gruebler.cli.linkage_inputs import linkage_of_word, spatial_of_word, with_points
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
@@ -76,6 +76,11 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
+    spatial = spatial_of_word(arguments.linkage, language_of_names(arguments))
+    if spatial is not None:
+        from gruebler.cli.analyse_space import analyse_in_space
+
+        return analyse_in_space(arguments, spatial)
     linkage, shown_range = linkage_of_word(arguments.linkage, language_of_names(arguments))
     linkage = with_points(linkage, arguments.point)
     turning = turning_drives(linkage)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -10,8 +11,9 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.mechanics.space.following import setting
 from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
-from gruebler.mechanics.space.moving import move
+from gruebler.mechanics.space.moving import moved
 
 _ROWS = 72  # of a turn, or of as many sizes of a slide
 
@@ -35,6 +37,9 @@ class SpatialRange:
         return np.linspace(self.low + low, self.high - high, count)
 
 
+_setting = lru_cache(maxsize=8)(setting)
+
+
 def spatial_range(linkage: SpatialLinkage) -> SpatialRange:
     """The range of the one drive of a linkage, followed from its reference pose upwards and downwards.
 
@@ -49,21 +54,27 @@ def spatial_range(linkage: SpatialLinkage) -> SpatialRange:
         )
     turning = drives[0].turning
     most = 2 * pi if turning else 3 * linkage.size
-    up = move(linkage, np.linspace(0.0, most, _ROWS + 1))
+    steps = np.linspace(0.0, most, _ROWS + 1)[:, None]
+    still = np.zeros((0, *steps.shape))
+    up = moved(_setting(linkage), steps, still)
     if turning and up.complete:
         return SpatialRange(low=0.0, high=2 * pi, full=True, stops=(None, None))
-    down = move(linkage, np.linspace(0.0, -most, _ROWS + 1))
+    down = moved(_setting(linkage), -steps, still)
     ends = [-most if down.stop is None else down.stop.drives[0], most if up.stop is None else up.stop.drives[0]]
     return SpatialRange(low=ends[0], high=ends[1], full=False, stops=(down.stop, up.stop))
 
 
-def followed(linkage: SpatialLinkage, values: Reals, order: int | None = None) -> SpatialMotion:
+def followed(linkage: SpatialLinkage, values: Reals, order: int = 0) -> SpatialMotion:
     """The motion over values of the drives, (rows, drives), reached from the reference pose; only those rows.
+
+    Derivatives up to the order are those by the drives' common time, in which each has the speed 1.
 
     Raises `LinkageError` if one of them cannot be reached.
     """
     path = np.concatenate([np.zeros((1, values.shape[1])), values])
-    motion = move(linkage, path, order=order, speed=None if order is None else 1.0)
+    rates = np.zeros((order, *path.shape))
+    rates[:1] = 1.0
+    motion = moved(_setting(linkage), path, rates)
     if motion.stop is not None:
         raise LinkageError("{reason}", reason=motion.stop.message)
     return replace(

@@ -1,0 +1,71 @@
+"""`gruebler analyse` of a linkage in space: degree of freedom, measures of its drive, a table of its motion."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import Any
+
+import numpy as np
+
+from gruebler.base.columns import shown
+from gruebler.base.errors import GrueblerError
+from gruebler.cli.drive_rows import given_rows
+from gruebler.cli.linkage_inputs import SpatialWord
+from gruebler.cli.output import print_json, write_table
+from gruebler.cli.printed_file import is_table
+from gruebler.cli.tables import print_table, print_text
+from gruebler.files.screws import screws_to_json
+from gruebler.mechanics.screws import freedoms
+from gruebler.mechanics.space import SpatialMeasures, measures
+from gruebler.mechanics.space.drive_range import followed
+from gruebler.mechanics.space.measuring import spatial_table
+
+_ONLY_IN_PLANE = ("speed", "acceleration", "jerk", "branch", "poles", "curvature", "planes")
+_ROWS = 25  # of the table, where no rows are given
+
+
+def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int:
+    """Print measures and table; the status is 0, or an error says which rows cannot be reached."""
+    linkage = spatial.linkage
+    for option in _ONLY_IN_PLANE:
+        if getattr(arguments, option):
+            raise GrueblerError("--{option} does not go with a linkage in space", option=option)
+    drives = linkage.mechanism.drives
+    rows = given_rows(arguments.range, arguments.at, [drive.turning for drive in drives])
+    measured: SpatialMeasures | None = None
+    table = None
+    if len(drives) == 1:
+        measured = measures(linkage, output=arguments.output[0] if arguments.output else None)
+        rows = measured.rows(_ROWS) if rows is None else rows
+    if rows is not None:
+        motion = followed(linkage, np.asarray(rows), order=2 if len(drives) == 1 else 0)
+        table = spatial_table(motion, arguments.output, arguments.point)
+    if table is not None and is_table(arguments.out):
+        write_table(arguments.out, table.columns, arguments.lang, decimal_comma=arguments.decimal_comma)
+    freedom = freedoms(linkage)
+    if arguments.json:
+        document: dict[str, Any] = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()}
+        if measured is not None:
+            document["measures"] = measured.to_json()
+        columns = () if table is None else table.columns
+        print_json(
+            document
+            | {
+                "columns": [{"name": column.name, "unit": column.unit} for column in columns],
+                "rows": [
+                    [float(value) if math.isfinite(value) else None for value in row]
+                    for row in zip(*(column.values for column in columns), strict=True)
+                ],
+            }
+        )
+        return 0
+    print_text(freedom.summary(arguments.lang))
+    if measured is not None:
+        print_text(measured.explain(arguments.lang))
+    if table is not None and not is_table(arguments.out):
+        print()
+        print_table(
+            [column.header for column in table], shown(table.columns, arguments.lang), numbers=range(len(table.columns))
+        )
+    return 0

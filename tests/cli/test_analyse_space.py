@@ -1,0 +1,46 @@
+"""`gruebler analyse` of linkages in space."""
+
+import json
+from math import cos
+
+import pytest
+
+from gruebler.files.screws import write_screws
+from tests.commands import run_command
+from tests.mechanics.screws import machines
+
+
+@pytest.fixture
+def hooke(tmp_path):
+    path = tmp_path / "hooke.toml"
+    write_screws(path, machines.hooke(0.5).with_drives([0]))
+    return str(path)
+
+
+def test_measures_and_table(capsys, hooke):
+    status, text, _ = run_command(capsys, "analyse", hooke, "--range", "0:90:45")
+    assert status == 0
+    assert text.startswith("Mobility: counted -2, generic 0, instant 1, finite 1.")
+    assert f"from {cos(0.5):.6g} at" in text
+    assert "R(0-out)" in text.splitlines()[-4]
+
+
+def test_json_has_all_digits(capsys, hooke):
+    status, text, _ = run_command(capsys, "analyse", hooke, "--json", "--range", "0:90:45")
+    document = json.loads(text)
+    assert status == 0
+    assert document["measures"]["least_ratio"]["value"] == pytest.approx(cos(0.5), abs=1e-12)
+    assert [row[0] for row in document["rows"]] == pytest.approx([0, 45, 90])
+    assert document["columns"][1] == {"name": "R(0-out)", "unit": "°"}
+
+
+def test_without_drives_the_freedoms_are_said(capsys):
+    status, text, _ = run_command(capsys, "analyse", "susp_5link", "--lang", "de")
+    assert status == 0
+    assert text.startswith("Laufgrad: gezählt 6")
+
+
+def test_what_does_not_go_is_said(capsys, hooke):
+    status, _, refused = run_command(capsys, "analyse", hooke, "--poles")
+    assert status == 2
+    assert "--poles does not go with a linkage in space" in refused

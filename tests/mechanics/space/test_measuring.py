@@ -1,0 +1,100 @@
+"""Measures in space against closed forms of the universal joint, RSSR, Bennett and spherical four-bar."""
+
+from math import cos, pi, tau
+
+import numpy as np
+import pytest
+
+import gruebler as gr
+from gruebler.base.errors import LinkageError
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.space import RSSR, Bennett, SphericalFourBar, measures
+from gruebler.mechanics.space.drive_range import followed
+from gruebler.mechanics.space.measuring import spatial_table
+from gruebler.teaching.catalog import entry
+from tests.mechanics.screws import machines
+
+WIPER = RSSR(a=30, b=140, c=80, d=100, twist=0.7, rocker_offset=40)
+
+
+@pytest.mark.parametrize("bend", [0.3, pi / 6])
+def test_hookes_joint_has_its_speed_ratio(bend):
+    """Its ratio lies between cos δ and 1 / cos δ, a quarter turn apart; it has no dead centre."""
+    measured = measures(machines.hooke(bend).with_drives([0]))
+    assert measured.range.full
+    assert measured.turns == 1
+    assert measured.dead_centres == ()
+    assert measured.least_ratio.value == pytest.approx(cos(bend), abs=1e-12)
+    assert measured.greatest_ratio.value == pytest.approx(1 / cos(bend), abs=1e-12)
+    assert abs(cos(measured.greatest_ratio.at - measured.least_ratio.at)) < 1e-8
+    cross = [row for row in measured.joints if "cross" in row.joint]
+    assert [row.highest - row.lowest for row in cross] == pytest.approx([2 * bend] * 2, abs=1e-9)
+    assert f"from {cos(bend):.6g} at" in measured.explain()
+
+
+def test_two_cross_joints_have_the_ratio_1():
+    measured = measures(machines.cardan(0.5, 0.5).with_drives([0]))
+    assert [each.value for each in measured.ratios] == pytest.approx([1.0], abs=1e-12)
+    assert "1, constant" in measured.explain()
+    assert "1, konstant" in measured.explain("de")
+
+
+def test_dead_centres_of_a_spherical_four_bar_are_those_of_its_closed_form():
+    bar = SphericalFourBar(0.5, 1.2, 1.0, 1.3)
+    start = 0.8
+    measured = measures(bar.linkage(start))
+    assert measured.range.full
+    assert len(measured.dead_centres) == 2
+    closed = bar.dead_centres
+    wanted = sorted((each.drive - start) % tau for each in (closed.outer, closed.inner))
+    assert sorted(each.drive for each in measured.dead_centres) == pytest.approx(wanted, abs=1e-9)
+    assert measured.travel == pytest.approx(bar.swing, abs=1e-10)
+
+
+def test_an_rssr_swings_as_its_closed_form():
+    measured = measures(WIPER.linkage(0.3))
+    assert measured.output == "R(frame-rocker)"
+    assert measured.travel == pytest.approx(WIPER.swing(), abs=1e-10)
+    wanted = sorted((each.drive - 0.3) % tau for each in WIPER.dead_centres())
+    assert sorted(each.drive for each in measured.dead_centres) == pytest.approx(wanted, abs=1e-9)
+
+
+def test_bennetts_ratio_is_the_extreme_one_of_its_closed_form():
+    bennett = Bennett(3.0, 0.6, 1.0)
+    measured = measures(bennett.linkage())
+    assert measured.turns == -1
+    first = np.linspace(0, tau, 200_001)
+    ratio = abs(bennett.speed_ratio(first))
+    assert abs(measured.least_ratio.value) == pytest.approx(ratio.max(), rel=1e-8)
+    assert abs(measured.greatest_ratio.value) == pytest.approx(ratio.min(), rel=1e-8)
+
+
+def test_a_winch_travels_by_its_lead():
+    measured = gr.measures(entry("winch_screw").placed())
+    assert measured.travel == pytest.approx(12.0, abs=1e-9)
+    assert measured.least_ratio.value == pytest.approx(-12 / tau, abs=1e-12)
+    assert measured.range.stops == (None, None)
+
+
+def test_ends_of_a_range_have_their_reasons():
+    places = {0: {"z": (0, 0, 1)}, 1: (2, 0, 0), 2: (3.125, 0.5, 0), 3: {"at": (4, 0, 0), "z": (0, 0, 1)}}
+    mechanism = gr.Mechanism.parse("spatial: R(0-1) S(1-2) S(2-3) R(0-3); drive=R(0-1)")
+    measured = measures(SpatialLinkage(mechanism, places))
+    assert not measured.range.full
+    assert measured.explain().count("the drives stand at a limit") == 2
+    assert measured.to_json()["ends"] == [stop.explain() for stop in measured.range.stops]
+
+
+def test_a_table_has_rates_by_the_drive():
+    linkage = machines.hooke(0.5).with_drives([0])
+    h = 1e-4
+    motion = followed(linkage, np.array([[0.7 - h], [0.7], [0.7 + h]]), order=2)
+    table = spatial_table(motion, points=["R(in-cross)"])
+    output = np.radians(table["R(0-out)"])
+    assert table["R(0-out)′"][1] == pytest.approx((output[2] - output[0]) / (2 * h), abs=1e-7)
+    assert [column.unit for column in table][:4] == ["°", "°", "", "1/rad"]
+    assert table["R(in-cross) vx"][1] == pytest.approx(0, abs=1e-12)  # the middle of the cross stays
+    with pytest.raises(LinkageError, match="without branch and speed"):
+        measures(linkage, speed=3.0)
+    with pytest.raises(LinkageError, match="expected a joint of two links that is no ball"):
+        measures(WIPER.linkage(0.3), output="S(crank-rod)")
