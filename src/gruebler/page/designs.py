@@ -46,7 +46,7 @@ def task_of(
         return PositionTask(places, fixed_pivots=tuple((x, y) for x, y in pivots))
     if kind == "function":
         angles = [tuple(radians(row[k]) for row in rows) for k in (0, 1)]
-        return FunctionTask(angles[0], angles[1], start_input=False, start_output=False)
+        return FunctionTask(angles[0], outputs=angles[1], start_input=False, start_output=False)
     if kind == "dead-centres":
         swing, ratio = rows[0]
         return DeadCentreTask(swing=radians(swing), time_ratio=ratio)
