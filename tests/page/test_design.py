@@ -113,3 +113,13 @@ def test_rows_of_another_length_are_refused_in_a_sentence():
     for kind, row in (("positions", [1, 2]), ("points", [1, 2, 3]), ("dead-centres", [1, 2, 3])):
         with pytest.raises(GrueblerError, match="numbers in each row"):
             answer("synthesise", {"kind": kind, "rows": [row] * 5}, "en", print)
+
+
+def test_each_kind_of_rows_is_its_task():
+    from gruebler.page.designs import task_of
+
+    pairs = task_of("function", [[0, 0], [90, 45], [180, 60]])
+    assert (pairs.inputs[1], pairs.outputs[1]) == pytest.approx((np.pi / 2, np.pi / 4))
+    assert task_of("dead-centres", [[90, 1.5]]).swing == pytest.approx(np.pi / 2)
+    assert task_of("positions", [[0, 0, 90], [1, 2, 0]], pivots=[[3, 4]]).fixed_pivots == ((3, 4),)
+    assert task_of("points", [[k, k * k] for k in range(6)], closed=True).closed
