@@ -65,17 +65,17 @@ struct Inverse {
 
 // Nearly the inverse of the centres; false if there is none.
 bool invert(const DiscSystem& system, Inverse& inverse) {
-    for (int c = 0; c < unknowns; ++c) {
-        Matrix matrix;
-        Lanes right;
-        right.clear();
-        right.set(c, one);
-        for (int k = 0; k < unknowns; ++k)
-            for (int i = 0; i < unknowns; ++i) matrix.column[k].set(i, system.derivative[i][k].centre);
-        Complex x[unknowns];
-        if (!solve(matrix, right, x)) return false;
-        for (int i = 0; i < unknowns; ++i) inverse.entry[i][c] = x[i];
+    Matrix matrix;
+    Lanes units[unknowns];
+    Complex columns[unknowns][unknowns];
+    for (int k = 0; k < unknowns; ++k) {
+        units[k].clear();
+        units[k].set(k, one);
+        for (int i = 0; i < unknowns; ++i) matrix.column[k].set(i, system.derivative[i][k].centre);
     }
+    if (!solve(matrix, units, columns)) return false;
+    for (int c = 0; c < unknowns; ++c)
+        for (int i = 0; i < unknowns; ++i) inverse.entry[i][c] = columns[c][i];
     return true;
 }
 
@@ -186,8 +186,8 @@ void evaluate_equations(const Candidates& candidates, bool sharp, double* values
             z[i] = {number[0], number[1]};
         }
         Matrix matrix;
-        Lanes value;
-        evaluate<Wanted::value>(z, task, still, shape, matrix, value);
+        Lanes value, none;
+        evaluate<Wanted::values>(z, task, still, shape, matrix, value, none);
         if (sharp) evaluate_sharply(z, task, shape, value);
         for (int i = 0; i < unknowns; ++i) {
             *values++ = value.re[i];

@@ -33,9 +33,10 @@ struct Matrix {
     Lanes column[lanes];
 };
 
-// Gauss with row scaling and pivoting: the x with matrix x = right; false for a singular matrix. Both are spent. Rows
-// keep their lanes; those that have been pivots are taken no more.
-inline bool solve(Matrix& matrix, Lanes& right, Complex* x) {
+// Gauss with row scaling and pivoting: the x with matrix x = right, for some right sides at once; false for a singular
+// matrix. Both are spent. Rows keep their lanes; those that have been pivots are taken no more.
+template <int sides>
+bool solve(Matrix& matrix, Lanes (&right)[sides], Complex (&x)[sides][lanes]) {
     constexpr double too_large = 1e300;
     alignas(64) double scale[lanes] = {};
     for (const Lanes& column : matrix.column)
@@ -54,7 +55,7 @@ inline bool solve(Matrix& matrix, Lanes& right, Complex* x) {
         }
     };
     for (Lanes& column : matrix.column) to_one_size(column);
-    to_one_size(right);
+    for (Lanes& side : right) to_one_size(side);
 
     int row[lanes];                  // the pivots in their order, then the other rows
     alignas(64) double left[lanes];  // 1 for rows that have not been pivots
@@ -87,12 +88,13 @@ inline bool solve(Matrix& matrix, Lanes& right, Complex* x) {
             factor.im[i] = left[i] * quotient.im;
         }
         for (int c = k + 1; c < lanes; ++c) matrix.column[c].subtract(matrix.column[c].at(chosen), factor);
-        right.subtract(right.at(chosen), factor);
+        for (Lanes& side : right) side.subtract(side.at(chosen), factor);
     }
-    for (int k = lanes - 1; k >= 0; --k) {
-        x[k] = right.at(row[k]) * inverse[k];
-        right.subtract(x[k], matrix.column[k]);
-    }
+    for (int k = lanes - 1; k >= 0; --k)
+        for (int side = 0; side < sides; ++side) {
+            x[side][k] = right[side].at(row[k]) * inverse[k];
+            right[side].subtract(x[side][k], matrix.column[k]);
+        }
     return true;
 }
 

@@ -79,16 +79,17 @@ Dyad<Number> second_dyad(const Complex* z) {
 // The columns of the unknowns of each dyad.
 inline constexpr int first_columns[4] = {0, 1, 4, 5}, second_columns[4] = {2, 3, 6, 7};
 
-// What is evaluated: the equations at z, and how fast they change as the task does.
-enum class Wanted { value, motion };
+// The derivatives by the unknowns, the values of the equations at z, and, if wanted, how fast they change as the task does.
+enum class Wanted { values, values_and_rates };
 
-// The derivatives by the unknowns, and what is wanted besides.
 template <Wanted wanted>
 void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Shape shape, Matrix& jacobian,
-              Lanes& out) {
+              Lanes& values, Lanes& rates) {
+    constexpr bool with_rates = wanted == Wanted::values_and_rates;
     const Dyad<Complex> first = first_dyad<Complex>(z), second = second_dyad<Complex>(z);
     for (Lanes& column : jacobian.column) column.clear();
-    out.clear();
+    values.clear();
+    if (with_rates) rates.clear();
     for (int j = 0; j < shape.positions; ++j) {
         const Complex t = p.t.at(j), s = p.s.at(j), g = p.g.at(j), h = conjugate_turn(g);
         const Coefficients<Complex> turn{g, h, one};
@@ -99,12 +100,11 @@ void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Sh
             jacobian.column[columns[2]].set(row, by.a);
             jacobian.column[columns[3]].set(row, by.ac);
             const Coefficients<Complex> k = coefficients(dyad, t, s);
-            if constexpr (wanted == Wanted::value) {
-                out.set(row, of_position(k, g, h));
-            } else {
+            values.set(row, of_position(k, g, h));
+            if constexpr (with_rates) {
                 const Complex dg = speed.g.at(j), dh = -dg / ((one + g) * (one + g));
-                out.set(row, by_t(dyad, s, turn) * speed.t.at(j) + by_s(dyad, t, turn) * speed.s.at(j) + k.a * dg +
-                                 k.b * dh);
+                rates.set(row, by_t(dyad, s, turn) * speed.t.at(j) + by_s(dyad, t, turn) * speed.s.at(j) + k.a * dg +
+                                   k.b * dh);
             }
         };
         write(2 * j, first, first_columns);
@@ -112,7 +112,8 @@ void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Sh
     }
     // One iteration a point, none depends on another: a processor does several at once.
     Matrix& __restrict matrix = jacobian;
-    Lanes& __restrict rest = out;
+    Lanes& __restrict value = values;
+    Lanes& __restrict rate = rates;
     for (int q = 0; q < shape.points; ++q) {
         const int j = shape.positions + q, row = shape.positions + j;
         const Complex t = p.t.at(j), s = p.s.at(j);
@@ -128,15 +129,15 @@ void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Sh
         matrix.column[5].set(row, by.ac);
         matrix.column[6].set(row, by_other.a);
         matrix.column[7].set(row, by_other.ac);
-        if constexpr (wanted == Wanted::value)
-            rest.set(row, of_point(m));
-        else
-            rest.set(row, (by_t(first, s, u) + by_t(second, s, v)) * speed.t.at(j) +
+        value.set(row, of_point(m));
+        if constexpr (with_rates)
+            rate.set(row, (by_t(first, s, u) + by_t(second, s, v)) * speed.t.at(j) +
                               (by_s(first, t, u) + by_s(second, t, v)) * speed.s.at(j));
     }
     for (int r = shape.equations(); r < unknowns; ++r) {
         jacobian.column[r].set(r, one);
-        out.set(r, wanted == Wanted::value ? z[r] - p.fixed.at(r) : -speed.fixed.at(r));
+        values.set(r, z[r] - p.fixed.at(r));
+        if (with_rates) rates.set(r, -speed.fixed.at(r));
     }
 }
 

@@ -14,9 +14,10 @@ constexpr double fine = 1e-4;       // paths with finer steps have them througho
 constexpr double shortest = 1e-10;  // a step
 constexpr std::int64_t most_steps = 20000;
 constexpr double first_step = 0.02;
-constexpr double shorter = 0.4, longer = 1.6, much_longer = 1.5;
-constexpr int good_steps = 2;  // in a row, and the next is longer
+constexpr double shorter = 0.4;  // a step that was not taken
 constexpr int corrections = 3;
+constexpr int most_known = 4;  // places from which the next one is predicted
+constexpr int most_known_far_out = 2;  // rounding spoils slopes there, and more places multiply what it does
 constexpr double converged = 1e-9;
 constexpr double converged_far_out = 1e-7;  // a third correction of that size is as good as rounding lets it get
 constexpr double converging = 0.1;          // each correction at most this part of the last one
@@ -25,6 +26,10 @@ constexpr double last_digit = 1e-15, nearly = 1e-12, halting = 0.5;
 
 constexpr std::int64_t work_of_a_step = 1024;  // in the steps of the watch, of some nanoseconds
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// By the first correction of the last step, as a part of what is allowed: from 0.1 to 0.3 of it the step stays. Errors of the
+// prediction go with its sixth or eighth power, so that the others are soon there, too.
+double change_of_step(double part) { return part > 0.3 ? 0.7 : part > 0.1 ? 1 : part > 0.02 ? 1.3 : 1.6; }
 
 struct Point {
     Complex z[unknowns];
@@ -76,101 +81,122 @@ public:
     Tracker(Shape shape, const double* begin, const double* end, double loose)
         : shape_(shape), way_(Way::between(Parameters::read(begin), Parameters::read(end))), loose_(loose) {}
 
-    Point here;
     std::int64_t steps = 0;
+
+    // Where the path begins or has ended.
+    Point& here() { return known_[0].place; }
 
     // Follows the path from here; false if the watch ends the work.
     bool follow(PathEnd& end, Watch& watch) {
         end = PathEnd::arrived;
         steps = 0;
-        double time = 0, step = first_step;
-        int good = 0;
-        bool first_slope = false;  // known, of a step that was not taken
-        while (time < 1) {
+        double step = first_step;
+        begin();
+        while (known_[0].time < 1) {
             if (!spend(watch, work_of_a_step)) return false;
             ++steps;
             if (steps > most_steps || step < shortest) {
-                end = norm(here) > quite_far ? PathEnd::infinite : PathEnd::failed;
+                end = norm(here()) > quite_far ? PathEnd::infinite : PathEnd::failed;
                 return true;
             }
-            step = step < 1 - time ? step : 1 - time;
-            bool quick = false;
-            if (predict(time, step, first_slope) && correct(quick)) {
-                time += step;
-                here = next_;
-                first_slope = false;
-                if (norm(here) > far) {
-                    end = PathEnd::infinite;
-                    return true;
-                }
-                if (++good >= good_steps) {
-                    step *= longer;
-                    good = 0;
-                }
-                if (quick) step *= much_longer;
-            } else {
+            const double left = 1 - known_[0].time;
+            step = step < left ? step : left;
+            next_.time = step < left ? known_[0].time + step : 1;
+            predict();
+            double first_change = 0;
+            if (!correct(first_change)) {
                 step *= shorter;
-                good = 0;
+                continue;
+            }
+            step *= change_of_step(first_change / loose_);
+            keep();
+            if (norm(here()) > far) {
+                end = PathEnd::infinite;
+                return true;
             }
         }
         return true;
     }
 
 private:
+    // A place of the path, and how fast the path goes there.
+    struct Known {
+        double time;
+        Point place, slope;
+    };
+
     Shape shape_;
     Way way_;
     double loose_;
     Parameters task_;  // of the moment
     Matrix jacobian_;
-    Lanes right_;
-    Point slopes_[4], next_;
+    Lanes right_[2];
+    Complex solution_[2][unknowns];
+    Known known_[most_known], next_;  // the last first
+    int count_ = 0;
 
-    // How fast the path goes at a place and a time; false where that is not known.
-    bool slope(const Point& place, double time, Point& out) {
-        way_.at(time, task_);
-        evaluate<Wanted::motion>(place.z, task_, way_.speed, shape_, jacobian_, right_);
-        if (!solve(jacobian_, right_, out.z)) return false;
-        for (Complex& u : out.z) u = -u;
+    void begin() {
+        known_[0].time = 0;
+        count_ = 1;
+        next_ = known_[0];
+        evaluate_and_solve(next_);
+        known_[0].slope = next_.slope;
+    }
+
+    void keep() {
+        count_ = count_ < most_known ? count_ + 1 : count_;
+        for (int i = count_ - 1; i > 0; --i) known_[i] = known_[i - 1];
+        known_[0] = next_;
+    }
+
+    // Hermite: the polynomial with the last places and slopes, of degree 2 k - 1 for k of them.
+    void predict() {
+        const int most = norm(here()) > large ? most_known_far_out : most_known, count = count_ < most ? count_ : most;
+        const double time = next_.time;
+        Point& place = next_.place;
+        for (Complex& u : place.z) u = {0, 0};
+        for (int i = 0; i < count; ++i) {
+            const Known& own = known_[i];
+            double base = 1, slope = 0;  // Lagrange's polynomial, and its derivative at its own time
+            for (int j = 0; j < count; ++j) {
+                if (j == i) continue;
+                const double gap = 1 / (own.time - known_[j].time);
+                base *= (time - known_[j].time) * gap;
+                slope += gap;
+            }
+            const double away = time - own.time, square = base * base;
+            const double of_place = (1 - 2 * away * slope) * square, of_slope = away * square;
+            for (int k = 0; k < unknowns; ++k)
+                place.z[k] = place.z[k] + of_place * own.place.z[k] + of_slope * own.slope.z[k];
+        }
+    }
+
+    // The correction of a place, and the slope there; false for a singular matrix.
+    bool evaluate_and_solve(Known& at) {
+        way_.at(at.time, task_);
+        evaluate<Wanted::values_and_rates>(at.place.z, task_, way_.speed, shape_, jacobian_, right_[0], right_[1]);
+        if (loose_ < fine || norm(at.place) > large) evaluate_sharply(at.place.z, task_, shape_, right_[0]);
+        if (!solve(jacobian_, right_, solution_)) return false;
+        for (int k = 0; k < unknowns; ++k) at.slope.z[k] = -solution_[1][k];
         return true;
     }
 
-    void go(double step, const Point& slope) {
-        for (int i = 0; i < unknowns; ++i) next_.z[i] = here.z[i] + step * slope.z[i];
-    }
-
-    // Runge and Kutta's step of order four. The task of its end is left in `task_`.
-    bool predict(double time, double step, bool& first_slope) {
-        if (!first_slope && !slope(here, time, slopes_[0])) return false;
-        first_slope = true;
-        go(0.5 * step, slopes_[0]);
-        if (!slope(next_, time + step * 0.5, slopes_[1])) return false;
-        go(0.5 * step, slopes_[1]);
-        if (!slope(next_, time + step * 0.5, slopes_[2])) return false;
-        go(step, slopes_[2]);
-        if (!slope(next_, time + step, slopes_[3])) return false;
-        const double sixth = step / 6;
-        for (int i = 0; i < unknowns; ++i)
-            next_.z[i] = here.z[i] + sixth * (slopes_[0].z[i] + 2 * slopes_[1].z[i] + 2 * slopes_[2].z[i] +
-                                              slopes_[3].z[i]);
-        return true;
-    }
-
-    // Newton's method from the prediction; whether it converges at once, and whether the first correction was enough.
-    bool correct(bool& quick) {
+    // Newton's method from the prediction; whether it converges at once. What the next correction would be is told by the last
+    // two: near by it squares their quotient, far out, where rounding spoils the matrix, each is the same part of the one
+    // before. The slope is that before the last correction, too small to change what is predicted from it.
+    bool correct(double& first_change) {
         double last = infinity;
         for (int turn = 0; turn < corrections; ++turn) {
-            evaluate<Wanted::value>(next_.z, task_, way_.speed, shape_, jacobian_, right_);
-            if (loose_ < fine || norm(next_) > large) evaluate_sharply(next_.z, task_, shape_, right_);
+            if (!evaluate_and_solve(next_)) return false;
             Point correction;
-            if (!solve(jacobian_, right_, correction.z)) return false;
-            subtract(next_, correction);
-            const double change = relative(correction, next_);
+            for (int k = 0; k < unknowns; ++k) correction.z[k] = solution_[0][k];
+            subtract(next_.place, correction);
+            const double change = relative(correction, next_.place);
             if (!(change < loose_)) return false;
-            if (change < (turn < corrections - 1 ? converged : converged_far_out)) {
-                quick = turn == 0;
-                return true;
-            }
-            if (turn > 0 && change > converging * last) return false;
+            if (turn == 0) first_change = change;
+            const double part = turn > 0 ? change / last : 1, next = change * part * (norm(next_.place) > large ? 1 : part);
+            if (next < converged || (turn == corrections - 1 && change < converged_far_out)) return true;
+            if (turn > 0 && part > converging) return false;
             last = change;
         }
         return false;
@@ -180,13 +206,15 @@ private:
 // Newton's method for one solution; returns the last relative step.
 double sharpen(Point& point, const Parameters& task, const Parameters& still, Shape shape) {
     Matrix jacobian;
-    Lanes residuals;
+    Lanes residuals[1], none;
     double last = infinity, step = infinity;
     for (int turn = 0; turn < newton_steps; ++turn) {
-        evaluate<Wanted::value>(point.z, task, still, shape, jacobian, residuals);
-        evaluate_sharply(point.z, task, shape, residuals);
+        evaluate<Wanted::values>(point.z, task, still, shape, jacobian, residuals[0], none);
+        evaluate_sharply(point.z, task, shape, residuals[0]);
+        Complex solution[1][unknowns];
+        if (!solve(jacobian, residuals, solution)) return infinity;
         Point correction;
-        if (!solve(jacobian, residuals, correction.z)) return infinity;
+        for (int k = 0; k < unknowns; ++k) correction.z[k] = solution[0][k];
         subtract(point, correction);
         last = step;
         step = relative(correction, point);
@@ -200,10 +228,10 @@ double sharpen(Point& point, const Parameters& task, const Parameters& still, Sh
 bool track(const Paths& paths, Watch& watch) {
     Tracker tracker({paths.positions, paths.points}, paths.begin, paths.end, paths.loose);
     for (std::int64_t k = 0; k < paths.count; ++k) {
-        tracker.here = read(paths.starts + 2 * unknowns * k);
+        tracker.here() = read(paths.starts + 2 * unknowns * k);
         PathEnd end;
         if (!tracker.follow(end, watch)) return false;
-        write(tracker.here, paths.ends + 2 * unknowns * k);
+        write(tracker.here(), paths.ends + 2 * unknowns * k);
         paths.status[k] = static_cast<std::int64_t>(end);
         paths.steps[k] = tracker.steps;
     }

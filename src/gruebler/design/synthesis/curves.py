@@ -365,7 +365,7 @@ def linkages_of(fit: Fit, *, unit: str = "mm", named: bool = False) -> list[Link
         other = GuidingDyad(CRANK, far, complex(r["b0x"], r["b0y"]))
         if named:
             return [linkage_of_dyads(own, other, point, unit)]
-        return four_bar_linkages(own, other, point, unit=unit)
+        return list(four_bar_linkages(own, other, point, unit=unit))
     slide = complex(np.exp(1j * r["angle"]))
     return [linkage_of_dyads(own, GuidingDyad(SLIDER, far, far, slide), point, unit)]
 

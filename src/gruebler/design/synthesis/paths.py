@@ -363,15 +363,16 @@ def _judged(task: PathTask, demands: Demands, pairs: Iterable[Sequence[GuidingDy
     """The designs of a class: cognates have the same path, so that where one misses a point, so do the others."""
     missed: DesignVerdict | None = None
     for own, other in pairs:
+        linkages = four_bar_linkages(own, other, complex(task.z[first]), unit=task.unit)
         try:
-            linkages = four_bar_linkages(own, other, complex(task.z[first]), unit=task.unit)
+            if missed is not None:
+                design = missing_alike(next(linkages), missed, demands, "RR-RR")
+            else:
+                design = best_of(linkages, partial(_targets, task, first), demands, "RR-RR")
         except LinkageError:
             continue
-        if missed is not None:
-            yield missing_alike(linkages[0], missed, demands, "RR-RR")
-            continue
-        design = best_of(linkages, partial(_targets, task, first), demands, "RR-RR")
-        missed = design.verdict if design.verdict.misses else None
+        if design.verdict.misses:
+            missed = design.verdict
         yield design
 
 

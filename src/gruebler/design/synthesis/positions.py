@@ -6,9 +6,9 @@ five leave four dyads, and more are met by least squares.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from itertools import combinations
 from math import comb
 
@@ -191,11 +191,11 @@ def _judged_pairs(
         if progress is not None:
             progress(done, len(pairs))
         form = f"{guiding_dyad.kind.form}-{two.kind.form}"
+        linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
         try:
-            linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
+            designs.append(best_of(linkages, partial(_targets, task), demands, form))
         except LinkageError:
             continue  # two dyads with a common pivot are no linkage
-        designs.append(best_of(linkages, partial(_targets, task), demands, form))
     return designs
 
 
@@ -206,10 +206,11 @@ def _targets(task: PositionTask, linkage: Linkage) -> Targets:
 
 def four_bar_linkages(
     first_dyad: GuidingDyad, second_dyad: GuidingDyad, point: complex, *, unit: str = "mm"
-) -> list[Linkage]:
+) -> Iterator[Linkage]:
     """The linkage of two dyads in its first position with a coupler point P, driven at each side: the better first.
 
-    The side that turns fully drives; of two that do not, each is tried. Raises `LinkageError` if pivots coincide.
+    The side that turns fully drives; of two that do not, each is tried. Each is built when it is asked for. Raises
+    `LinkageError` if pivots coincide.
     """
     orders = [(first_dyad, second_dyad), (second_dyad, first_dyad)]
     if not (first_dyad.slides or second_dyad.slides):
@@ -225,7 +226,7 @@ def four_bar_linkages(
             orders = orders[:1]
     elif first_dyad.kind.pairs[0].is_sliding and not second_dyad.kind.pairs[0].is_sliding:
         orders.reverse()
-    return [linkage_of_dyads(first, second, point, unit) for first, second in orders]
+    return (linkage_of_dyads(first, second, point, unit) for first, second in orders)
 
 
 def linkage_of_dyads(first_dyad: GuidingDyad, other_dyad: GuidingDyad, point: complex, unit: str) -> Linkage:
@@ -241,9 +242,13 @@ def linkage_of_dyads(first_dyad: GuidingDyad, other_dyad: GuidingDyad, point: co
         for (symbol, place), links in zip(dyad.joints, (f"frame-{side}", f"{side}-coupler"), strict=True):
             parts.append(f"{symbol}({links})")
             places[parts[-1]] = place
-    mechanism = Mechanism.parse(f"{parts[0]} {parts[1]} {parts[3]} {parts[2]}; frame=frame; drive={parts[0]}")
+    mechanism = _mechanism(f"{parts[0]} {parts[1]} {parts[3]} {parts[2]}; frame=frame; drive={parts[0]}")
     points = {"P": ("coupler", point.real, point.imag)}
     return Linkage.from_drawing(mechanism, places, points, unit=unit, outputs=[second])
+
+
+_mechanism = cache(Mechanism.parse)
+"""A synthesis gives some hundred linkages of few mechanisms."""
 
 
 def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
