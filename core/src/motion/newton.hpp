@@ -36,7 +36,7 @@ NewtonEnd newton(const Conditions& conditions, double* x, int n, int steps, Line
 
 // Whether a position that Newton's method has left (arrived, or not, but with the conditions satisfied) is singular: of the
 // Jacobian, its rows and angles scaled, a pivot vanishes but for what a position is off there, the root of rounding.
-bool is_singular(const Conditions& conditions, const double* x, int n, bool arrived, LinearRoom& room);
+bool is_singular(const Conditions& conditions, const double* x, int n, bool has_arrived, LinearRoom& room);
 
 // Closes a group near a singular position and leaves what its Jacobian does not hold as it is: damped Gauss-Newton steps, in
 // which directions with a singular value below 1e-6 of the largest hardly change.

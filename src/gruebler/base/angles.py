@@ -62,7 +62,7 @@ def _behind(angles: npt.NDArray[np.float64]) -> float | None:
     return float(round(end)) if turns and abs(turns - round(turns)) < _EVEN * len(angles) else None
 
 
-def warn_of_degrees(name: str, values: ArrayLike, *, path: bool = False, once: bool = False) -> None:
+def warn_of_degrees(name: str | Message, values: ArrayLike, *, path: bool = False, once: bool = False) -> None:
     """`UnitWarning` at the line of the user if angles in radians look like degrees; see `doubt_of_angles`."""
     doubt = doubt_of_angles(values, path=path, once=once)
     if doubt is None:

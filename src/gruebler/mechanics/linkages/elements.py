@@ -123,7 +123,7 @@ class Line(Element):
     def checked(self, where: Where) -> Line:
         """See `Element.checked`; warns of an angle that looks like degrees."""
         x, y, angle = (_number(value, where) for value in (self.x, self.y, self.angle))
-        warn_of_degrees(str(where), angle)
+        warn_of_degrees(where, angle)
         return Line(x, y, angle)
 
 

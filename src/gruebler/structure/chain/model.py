@@ -237,8 +237,17 @@ class Chain(Immutable):
 
     def joint_names(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> tuple[str, ...]:
         """A unique text for each joint: ``R(a-b)``, or ``R(a-b)#2`` where it repeats."""
+        if (alphabet := Alphabet(alphabet)) not in self._names_by_alphabet:
+            self._names_by_alphabet[alphabet] = self._joint_names(alphabet)
+        return self._names_by_alphabet[alphabet]
+
+    @cached_property
+    def _names_by_alphabet(self) -> dict[Alphabet, tuple[str, ...]]:
+        return {}
+
+    def _joint_names(self, alphabet: Alphabet) -> tuple[str, ...]:
         seen: Counter[tuple[str, tuple[str, ...]]] = Counter()
-        symbols = notation.symbols_for((j.pair for j in self.joints), self.space, Alphabet(alphabet))
+        symbols = notation.symbols_for((j.pair for j in self.joints), self.space, alphabet)
         names = []
         for j in self.joints:
             seen[j.key] += 1
