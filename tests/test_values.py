@@ -96,7 +96,7 @@ def kernel(each: type) -> bool:
 RECORDS = {
     "gruebler.files.linkage_records.Dimensions": "the sizes that files of linkages and entries of the catalog have",
     "gruebler.files.tasks._Record": "the unit that every kind of task has",
-    "gruebler.page.requests._Params": "what all parameters refuse",
+    "gruebler.page.params.Params": "what all parameters refuse",
 }
 """Records of files that are never made themselves, only those that have their fields, too. Their metaclass is none
 of an ABC."""

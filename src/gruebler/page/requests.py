@@ -5,158 +5,33 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping
 from itertools import islice
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import msgspec
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import translate
-from gruebler.page.page import LISTED_CHAINS
+from gruebler.page.params import (
+    CatalogId,
+    DescribeDrawing,
+    DescribeStructure,
+    Export,
+    ListCatalog,
+    ListChains,
+    ListModes,
+    MarkAnswers,
+    NewExercise,
+    Nothing,
+    OpenDocument,
+    OpenFile,
+    Params,
+    Realise,
+    SynthesiseTask,
+)
 
 Progress = Callable[[str], None]
-Word = Annotated[str, msgspec.Meta(max_length=200)]
-ChainText = Annotated[str, msgspec.Meta(max_length=5_000)]
 _PAGE = 60  # pictures in one answer
 _MOST_MODES = 64
-
-
-class _Params(msgspec.Struct, forbid_unknown_fields=True):
-    pass
-
-
-class Nothing(_Params):
-    """No parameters."""
-
-
-def _within(what: str) -> msgspec.Meta:
-    """What a number of chains that are listed may be."""
-    return msgspec.Meta(ge=LISTED_CHAINS[what]["min"], le=LISTED_CHAINS[what]["max"])
-
-
-Row = Annotated[list[float], msgspec.Meta(min_length=2, max_length=3)]
-Number = Annotated[int, msgspec.Meta(ge=0, le=100)]
-
-
-class ListCatalog(_Params):
-    """Words that must all occur in a machine's name, remark, source or links, in either language; access features."""
-
-    words: Word = ""
-    pairs: Word = ""
-    """Symbols or names of joint types that must occur."""
-    joints: Word = ""
-    """Numbers of joints by type, such as ``R:4,P:0``."""
-    links: Number | None = None
-    mobility: Number | None = None
-    drive_joints: Number | None = None
-    drive_joints_at_frame: Number | None = None
-    output_links: Number | None = None
-    output_links_at_frame: Number | None = None
-    binary: Number | None = None
-    ternary: Number | None = None
-    multiple_joints: Number | None = None
-
-
-class CatalogId(_Params):
-    """A machine of the catalog, or an exercise."""
-
-    id: Word
-
-
-class OpenDocument(_Params):
-    """A linkage as plain data (`gruebler.files.linkage_to_json`)."""
-
-    document: dict[str, Any]
-    name: Word = ""
-    source: Word = ""
-
-
-class DescribeStructure(_Params):
-    """A chain or mechanism as text."""
-
-    text: ChainText
-    at_frame: bool = True
-    """Whether only drives at the frame are listed."""
-    document: dict[str, Any] = {}
-    """A linkage of this chain, which says what its higher pairs are."""
-    names: dict[str, Word] = {}
-    """How a reader calls the links, as far as they are in the chain."""
-
-
-class DescribeDrawing(_Params):
-    """A chain that is drawn: its joints as text, its frame, the numbers of the joints that are driven."""
-
-    joints: ChainText
-    frame: Word
-    drives: Annotated[list[Number], msgspec.Meta(max_length=20)] = []
-
-
-class ListModes(_Params):
-    """A linkage at values of its drives, in radians or lengths."""
-
-    document: dict[str, Any]
-    drives: Annotated[list[float], msgspec.Meta(min_length=1, max_length=20)]
-
-
-class ListChains(_Params):
-    """Chains of turning joints."""
-
-    links: Annotated[int, _within("links")]
-    mobility: Annotated[int, _within("mobility")] = 1
-    start: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
-
-
-class Realise(_Params):
-    """A mechanism for which dimensions are wanted."""
-
-    text: ChainText
-    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
-
-
-class SynthesiseTask(_Params):
-    """What a linkage is to do: the rows of its targets, angles in degrees."""
-
-    rows: Annotated[list[Row], msgspec.Meta(min_length=1, max_length=60)]
-    kind: Literal["points", "positions", "function", "dead-centres"] = "points"
-    pivots: Annotated[list[Row], msgspec.Meta(max_length=4)] = []
-    """Fixed pivots of a linkage through positions."""
-    closed: bool = False
-    crank: bool = True
-    """Whether the drive must turn fully."""
-    transmission: Annotated[float, msgspec.Meta(ge=0, le=90)] = 0.0
-    """The least transmission angle, in degrees."""
-
-
-class Export(_Params):
-    """A linkage and the kind of file that is wanted of it."""
-
-    document: dict[str, Any]
-    kind: Word
-    """``gif``, ``html``, ``pdf``, or the name of a format of `gruebler.files`."""
-    name: Word = ""
-    zoom: Annotated[float, msgspec.Meta(ge=0.5, le=4)] = 1.25
-    """Pixels of a moving picture for one of the drawing."""
-
-
-class OpenFile(_Params):
-    """A file that the reader opens."""
-
-    name: Annotated[str, msgspec.Meta(min_length=1, max_length=200)]
-    base64: Annotated[str, msgspec.Meta(max_length=400_000)]
-
-
-class NewExercise(_Params):
-    """A fresh task."""
-
-    kind: Word
-    level: Annotated[int, msgspec.Meta(ge=1, le=3)] = 1
-    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
-
-
-class MarkAnswers(_Params):
-    """Answers to a task by key."""
-
-    id: Word
-    answers: dict[Word, Word]
 
 
 def answer(method: str, params: Mapping[str, Any], lang: str, progress: Progress) -> Any:
@@ -407,7 +282,7 @@ def _tried_task(asked: CatalogId, lang: str, _: Progress) -> dict[str, Any]:
     return tried_task(asked.id, lang)
 
 
-REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] = {
+REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = {
     "catalog": (ListCatalog, _list_catalog),
     "picture": (CatalogId, _catalog_picture),
     "moving": (CatalogId, _moving),

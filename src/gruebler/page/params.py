@@ -1,0 +1,151 @@
+"""What each request of the page is given, with its limits: types by which parameters are checked as they are read."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from gruebler.page.page import LISTED_CHAINS
+
+Word = Annotated[str, msgspec.Meta(max_length=200)]
+ChainText = Annotated[str, msgspec.Meta(max_length=5_000)]
+Number = Annotated[int, msgspec.Meta(ge=0, le=100)]
+
+
+class Params(msgspec.Struct, forbid_unknown_fields=True):
+    """Parameters of a request; others are refused."""
+
+
+class Nothing(Params):
+    """No parameters."""
+
+
+def _within(what: str) -> msgspec.Meta:
+    """What a number of chains that are listed may be."""
+    return msgspec.Meta(ge=LISTED_CHAINS[what]["min"], le=LISTED_CHAINS[what]["max"])
+
+
+Row = Annotated[list[float], msgspec.Meta(min_length=2, max_length=3)]
+
+
+class ListCatalog(Params):
+    """Words that must all occur in a machine's name, remark, source or links, in either language; access features."""
+
+    words: Word = ""
+    pairs: Word = ""
+    """Symbols or names of joint types that must occur."""
+    joints: Word = ""
+    """Numbers of joints by type, such as ``R:4,P:0``."""
+    links: Number | None = None
+    mobility: Number | None = None
+    drive_joints: Number | None = None
+    drive_joints_at_frame: Number | None = None
+    output_links: Number | None = None
+    output_links_at_frame: Number | None = None
+    binary: Number | None = None
+    ternary: Number | None = None
+    multiple_joints: Number | None = None
+
+
+class CatalogId(Params):
+    """A machine of the catalog, or an exercise."""
+
+    id: Word
+
+
+class OpenDocument(Params):
+    """A linkage as plain data (`gruebler.files.linkage_to_json`)."""
+
+    document: dict[str, Any]
+    name: Word = ""
+    source: Word = ""
+
+
+class DescribeStructure(Params):
+    """A chain or mechanism as text."""
+
+    text: ChainText
+    at_frame: bool = True
+    """Whether only drives at the frame are listed."""
+    document: dict[str, Any] = {}
+    """A linkage of this chain, which says what its higher pairs are."""
+    names: dict[str, Word] = {}
+    """How a reader calls the links, as far as they are in the chain."""
+
+
+class DescribeDrawing(Params):
+    """A chain that is drawn: its joints as text, its frame, the numbers of the joints that are driven."""
+
+    joints: ChainText
+    frame: Word
+    drives: Annotated[list[Number], msgspec.Meta(max_length=20)] = []
+
+
+class ListModes(Params):
+    """A linkage at values of its drives, in radians or lengths."""
+
+    document: dict[str, Any]
+    drives: Annotated[list[float], msgspec.Meta(min_length=1, max_length=20)]
+
+
+class ListChains(Params):
+    """Chains of turning joints."""
+
+    links: Annotated[int, _within("links")]
+    mobility: Annotated[int, _within("mobility")] = 1
+    start: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
+
+
+class Realise(Params):
+    """A mechanism for which dimensions are wanted."""
+
+    text: ChainText
+    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+
+
+class SynthesiseTask(Params):
+    """What a linkage is to do: the rows of its targets, angles in degrees."""
+
+    rows: Annotated[list[Row], msgspec.Meta(min_length=1, max_length=60)]
+    kind: Literal["points", "positions", "function", "dead-centres"] = "points"
+    pivots: Annotated[list[Row], msgspec.Meta(max_length=4)] = []
+    """Fixed pivots of a linkage through positions."""
+    closed: bool = False
+    crank: bool = True
+    """Whether the drive must turn fully."""
+    transmission: Annotated[float, msgspec.Meta(ge=0, le=90)] = 0.0
+    """The least transmission angle, in degrees."""
+
+
+class Export(Params):
+    """A linkage and the kind of file that is wanted of it."""
+
+    document: dict[str, Any]
+    kind: Word
+    """``gif``, ``html``, ``pdf``, or the name of a format of `gruebler.files`."""
+    name: Word = ""
+    zoom: Annotated[float, msgspec.Meta(ge=0.5, le=4)] = 1.25
+    """Pixels of a moving picture for one of the drawing."""
+
+
+class OpenFile(Params):
+    """A file that the reader opens."""
+
+    name: Annotated[str, msgspec.Meta(min_length=1, max_length=200)]
+    base64: Annotated[str, msgspec.Meta(max_length=400_000)]
+
+
+class NewExercise(Params):
+    """A fresh task."""
+
+    kind: Word
+    level: Annotated[int, msgspec.Meta(ge=1, le=3)] = 1
+    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+
+
+class MarkAnswers(Params):
+    """Answers to a task by key."""
+
+    id: Word
+    answers: dict[Word, Word]
