@@ -42,8 +42,19 @@ def test_a_four_bar_in_words(capsys):
     assert "Roles:" not in out  # they have the names of their roles
     assert "time ratio 1.12." in out
     assert "Other assembly modes there: -." in out
+    assert "These are 2 of at most 2 assembly modes, complex ones included." in out
     rows = [line for line in out.splitlines() if line.split() and line.split()[0].isdigit()]
     assert [int(row.split()[0]) for row in rows] == list(range(0, 361, 15))
+
+
+@pytest.mark.parametrize(
+    ("machine", "possible", "most"), [("pumpjack", 6, 6), ("jansen", 8, 8), ("slidercrank", None, 2)]
+)
+def test_real_modes_and_possible_ones(capsys, machine, possible, most):
+    """A triad has six modes (Hunt 1983), three dyads have 2^3; with a slide the number is not known."""
+    document, _ = table(capsys, machine)
+    assert document["possible_modes"] == possible
+    assert 1 <= len(document["other_branches"]) + 1 <= most
 
 
 def test_german(capsys):

@@ -30,7 +30,7 @@ from gruebler.mechanics.analysis.table import default_rows, motion_table
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import read_branch
 from gruebler.mechanics.kinematics.drive_rows import rpm as per_minute
-from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_quietly
+from gruebler.mechanics.kinematics.solve import all_branches, cached_plan, move_quietly, possible_modes
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import branch_text
 from gruebler.structure.chain.pairs import Alphabet
@@ -287,6 +287,16 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
         print(translate("Assembly mode: {branch}.", lang, branch=branch_text(measures.branch)))
         if others := _others(linkage, measures):
             print(translate("Other assembly modes there: {others}.", lang, others=", ".join(others)))
+        possible = possible_modes(linkage)
+        if possible is not None and "…" not in others:
+            print(
+                translate(
+                    "These are {found} of at most {possible} assembly modes, complex ones included.",
+                    lang,
+                    found=len(others) + 1,
+                    possible=possible,
+                )
+            )
     print()
 
 
@@ -323,6 +333,7 @@ def _document(
     document: dict[str, Any] = {"linkage": linkage_to_json(linkage)}
     if measures is not None:
         document |= {"measures": measures.to_json(), "other_branches": _others(linkage, measures)}
+        document["possible_modes"] = possible_modes(linkage)
         around = _circuit(linkage, measures)
         if isinstance(around, LinkageError):
             document |= {"roles": None, "rotatability": None}

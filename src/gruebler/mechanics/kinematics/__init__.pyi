@@ -11,7 +11,7 @@ from .circuits import Circuit, MonotonePiece, circuit
 from .drive_rows import from_degrees
 from .motion import Motion, Stop
 from .poses import Poses
-from .solve import all_branches, move
+from .solve import all_branches, move, possible_modes
 
 __all__ = [
     "Circuit",
@@ -29,5 +29,6 @@ __all__ = [
     "inverted_slider_cranks",
     "move",
     "move_many",
+    "possible_modes",
     "slider_cranks",
 ]

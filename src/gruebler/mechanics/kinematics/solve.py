@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
+from math import prod
 from operator import attrgetter
 
 import numpy as np
@@ -31,6 +32,7 @@ from gruebler.mechanics.kinematics.reference_pose import ReferencePose, check_re
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch, branch_text
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
+from gruebler.structure.assur import AssurError, count_modes, decompose
 
 _OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
 _DOUBTFUL = 1e-6  # a root below it may be wrong by as much as 1e-16 over it, and so may the pose
@@ -275,7 +277,8 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
         drives: a value for each drive: angles in radians, displacements in the linkage's unit.
 
     Returns:
-        The modes as texts that ``branch`` takes, such as ``"+-"``.
+        The modes as texts that ``branch`` takes, such as ``"+-"``; `possible_modes` of the room says how many there can
+        be.
 
     Raises:
         LinkageError: drives that do not fix the motion, values that are no numbers.
@@ -299,6 +302,28 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
     warn_of_path(plan, row)
     modes = all_branches(plan, row[0])
     return [branch_text(labels) for labels in modes]
+
+
+def possible_modes(linkage: Linkage) -> int | None:
+    """How many assembly modes almost all linkages of this structure have, complex ones included.
+
+    No dimensions have more that are isolated, so no more are real. None if a joint does not turn, if the drives leave
+    something undetermined, or if a group is larger than what is counted: there the number is not known.
+
+    Theory: docs/theory/counting-modes.md
+
+    >>> from gruebler.mechanics.fourbar import FourBar, SliderCrank
+    >>> possible_modes(FourBar(25, 70, 40, 70).linkage()), possible_modes(SliderCrank(20, 50).linkage())
+    (2, None)
+    """
+    decomposition = decompose(linkage.mechanism)
+    turning = all(joint.pair.is_turning for group in decomposition.groups for joint in group.shape.chain.joints)
+    if not (turning and decomposition.complete):
+        return None
+    try:
+        return prod(count_modes(group.shape) for group in decomposition.groups)
+    except AssurError:
+        return None
 
 
 def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:
