@@ -161,7 +161,8 @@ def files() -> dict[str, str]:
     entries = list(sequences())
     head = (
         "Drafts of entries for the OEIS, made from docs/tables by `python -m benchmarks.oeis`. None is sent. Before "
-        "one is, its first terms must be searched in the OEIS; A233288 is known to be there."
+        "one is, its first terms must be searched in the OEIS. A233288 is known to be there; for the trusses and the "
+        "Assur groups a search by their terms in stored pages of the OEIS found nothing; no others were searched."
     )
     drafts = "\n".join([textwrap.fill(head, 110) + "\n", *(entry.draft() for entry in entries)])
     return {entry.file: entry.b_file() for entry in entries} | {"drafts.txt": drafts}
