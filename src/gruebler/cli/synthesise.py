@@ -188,7 +188,7 @@ def run(arguments: argparse.Namespace) -> int:
         _check_picture(arguments.draw)
     demands = _demands(arguments)
     task = _task(arguments)
-    orders = [name.strip() for name in arguments.sort.split(",") if name.strip()]
+    orders = _orders(arguments)
     in_order_of((), orders)  # a wrong name is refused before the work
     result = _solved(arguments, task, demands)
     if orders:
@@ -212,6 +212,10 @@ def run(arguments: argparse.Namespace) -> int:
             if path is not None:
                 print(translate("{path} is not written: no design was accepted.", arguments.lang, path=path))
     return 0 if result.designs else 1
+
+
+def _orders(arguments: argparse.Namespace) -> list[str]:
+    return [name.strip() for name in arguments.sort.split(",") if name.strip()]
 
 
 def _design_to_write(arguments: argparse.Namespace, shown: SynthesisResult) -> Design | None:
@@ -362,7 +366,7 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
     more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
     match task:
         case PositionTask():
-            return synthesise_positions(task, demands, progress=progress, **more)
+            return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
         case FunctionTask():
             return synthesise_function(task, demands, minimax=arguments.minimax, **more)
         case DeadCentreTask():

@@ -81,7 +81,7 @@ def test_the_transmission_angle_of_the_range_is_the_least_of_a_dense_motion(resu
     for design in result.designs:
         if not design.verdict.turns_fully:
             continue
-        whole = move(design.linkage, np.linspace(0, 2 * np.pi, 2001) + design.drives[0], order=2)
+        whole = move(design.linkage, np.linspace(0, 2 * np.pi, 20001) + design.drives[0], order=2)
         angles = transmission_angle(whole)
         assert design.transmission_over_range == pytest.approx(angles.min(), abs=1e-4)
         way = move(

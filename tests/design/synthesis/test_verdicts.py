@@ -291,8 +291,13 @@ def test_targets_are_marked_where_links_have_numbers():
 
 
 def test_a_task_far_from_the_origin_is_judged_all_the_same():
-    """At 1e7 lengths from the origin rounding ends some circuits: their linkages are rejected, without an error."""
+    """At 3e4 sizes from the origin rounding ends some circuits: their linkages are rejected, without an error."""
     rows = [(0, 0, 0), (200, 90, np.radians(20)), (320, 100, np.radians(46))]
-    near, far = (synthesise(PositionTask([(x + off, y + off, a) for x, y, a in rows]), number=9) for off in (0, 1e7))
+    near, middle, far = (
+        synthesise(PositionTask([(x + off, y + off, a) for x, y, a in rows]), number=9) for off in (0, 1e6, 1e7)
+    )
     assert len(far.designs) + len(far.rejected) == len(near.designs) + len(near.rejected)
-    assert len(far.designs) > 0.5 * len(near.designs)
+    assert len(far.designs) >= 1
+    assert len(middle.designs) == len(near.designs) == 9
+    ratios = [sorted(design.verdict.size_ratio for design in result.designs) for result in (middle, near)]
+    assert ratios[0] == pytest.approx(ratios[1], rel=1e-6)

@@ -7,6 +7,7 @@ five leave four dyads, and more are met by least squares.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
 from itertools import combinations
@@ -28,7 +29,8 @@ from gruebler.design.synthesis.dyads import (
     misfit,
     sliding_dyads,
 )
-from gruebler.design.synthesis.judging import Demands, best_of
+from gruebler.design.synthesis.judging import Demands, best_of, judge_design
+from gruebler.design.synthesis.pair_search import Nearby, best_pairs
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import PositionTask
@@ -41,6 +43,10 @@ NEAR = 0.05
 _FARTHEST = 1e3
 """Sizes. A circle about a pivot farther away is a line within some 1e-4 sizes; the search for it creeps to infinity and
 stops anywhere, while the sliding dyad that is meant is fitted as such."""
+
+_SAMPLE = {2: 256, 3: 256, 4: 300}
+"""Dyads of a family that are taken, by the number of positions: each is tried with each."""
+_PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
 DYADS = message("dyads")
 _FAMILIES = {
@@ -128,14 +134,20 @@ def _halved(given: Displacements) -> complex:
 
 
 def synthesise_positions(
-    task: PositionTask, demands: Demands | None = None, *, number: int = 16, progress: Progress | None = None
+    task: PositionTask,
+    demands: Demands | None = None,
+    *,
+    number: int = 16,
+    sort: Sequence[str] = (),
+    progress: Progress | None = None,
 ) -> SynthesisResult:
     """All linkages of two dyads that carry a body through positions.
 
     Args:
         task: the positions.
         demands: what a design has to do besides; by default one branch and the order of the task.
-        number: of dyads that are taken from each infinite family (two to four positions).
+        number: of designs that are taken from an infinite family (two to four positions).
+        sort: by what the best of a family are sought: names as for `SynthesisResult.sorted_by`.
         progress: called with the pairs of dyads that are judged, and their number.
 
     Raises `SynthesisError` for positions that infinitely many dyads of no known family serve. Cost: 1 ms for the dyads
@@ -148,11 +160,15 @@ def synthesise_positions(
     (4, 4, 6)
     """
     wanted = demands or Demands()
-    dyads = guiding_dyads(task, number, wanted.region)
+    searched = len(task) < 5 and not (task.moving_pivots or task.fixed_pivots or task.curve_parameters)
+    dyads = guiding_dyads(task, _SAMPLE[len(task)] if searched else number, wanted.region)
     if len(task) > 5:
         return _approximate(task, wanted, dyads, progress)
-    candidates = _judged_pairs(task, wanted, dyads, progress)
     notes: list[Message] = []
+    if searched:
+        candidates = _judged_best(task, wanted, dyads, number, sort, progress, notes)
+    else:
+        candidates = _judged_pairs(task, wanted, list(combinations(dyads, 2)), progress)
     complex_dyads = len(dyads)
     if len(task) == 5:
         displacements, *_ = Displacements.of(task.origins, task.turns)
@@ -183,10 +199,12 @@ def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Desi
 
 
 def _judged_pairs(
-    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], progress: Progress | None
+    task: PositionTask,
+    demands: Demands,
+    pairs: Sequence[tuple[GuidingDyad, GuidingDyad]],
+    progress: Progress | None,
 ) -> list[Design]:
     designs = []
-    pairs = list(combinations(dyads, 2))
     for done, (guiding_dyad, two) in enumerate(pairs, 1):
         if progress is not None:
             progress(done, len(pairs))
@@ -197,6 +215,67 @@ def _judged_pairs(
         except LinkageError:
             continue  # two dyads with a common pivot are no linkage
     return designs
+
+
+def _judged_best(
+    task: PositionTask,
+    demands: Demands,
+    dyads: Sequence[GuidingDyad],
+    number: int,
+    sort: Sequence[str],
+    progress: Progress | None,
+    notes: list[Message],
+) -> list[Design]:
+    """The designs of the best pairs of a family, and of its sliding dyads with some of it; notes on the search."""
+    turning = [dyad for dyad in dyads if not dyad.slides]
+    sliding = [dyad for dyad in dyads if dyad.slides]
+    designs: list[Design] = []
+    if len(turning) > 1:
+        near = _near_on_curve(task) if len(task) == 4 else partial(_near_in_plane, task)
+        best = best_pairs(task, turning, demands, near, orders=sort, number=number)
+        notes += best.notes
+        for done, (first, second) in enumerate(best.pairs, 1):
+            linkage = linkage_of_dyads(first, second, complex(task.origins[0]), task.unit)
+            form = f"{first.kind.form}-{second.kind.form}"
+            designs.append(judge_design(linkage, _targets(task, linkage), demands, form))
+            if progress is not None:
+                progress(done, len(best.pairs))
+    some = turning[:: max(1, len(turning) // number)]
+    pairs = [(dyad, slide) for dyad in some for slide in sliding] + list(combinations(sliding, 2))
+    return designs + _judged_pairs(task, demands, pairs, progress)
+
+
+def _near_on_curve(task: PositionTask) -> Nearby:
+    """Dyads of four positions near one of them, by their places along the circle-point curve."""
+    curves = burmester_curves(task)
+    moving = np.concatenate([piece.moving for piece in curves.pieces])
+    along = np.concatenate(curves.parameters())
+    places: dict[GuidingDyad, float] = {}
+
+    def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+        at = places.get(dyad)
+        if at is None:
+            at = float(along[np.abs(moving - dyad.moving).argmin()])
+        others: list[GuidingDyad] = []
+        for place in (at + share * width for share in (-1.0, -0.5, 0.5, 1.0)):
+            if 0 <= place <= 1:
+                with suppress(SynthesisError):  # the curve has a gap there
+                    places[other := curves.at(place)] = place
+                    others.append(other)
+        return others
+
+    return near
+
+
+def _near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+    """Dyads of two or three positions whose pivots on the body are near that of one."""
+    reach = _PLANE * width * task.size
+    pivots = [dyad.moving + reach * turn for turn in (1, 1j, -1, -1j, 0.5, 0.5j, -0.5, -0.5j)]
+    others: list[GuidingDyad] = []
+    for pivot in pivots:
+        with suppress(SynthesisError):  # it serves any dyad
+            others += guiding_dyads(replace(task, moving_pivots=((pivot.real, pivot.imag),), fixed_pivots=()))
+    return [other for other in others if not other.slides]
 
 
 def _targets(task: PositionTask, linkage: Linkage) -> Targets:
@@ -319,7 +398,7 @@ def _approximate(
 ) -> SynthesisResult:
     """More than five positions: the pairs of fitted dyads, judged by how near they come to each position."""
     tolerance = demands.tolerance if demands.tolerance > 1e-6 else NEAR
-    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads, progress)
+    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), list(combinations(dyads, 2)), progress)
     accepted, rejected = ranked(designs)
     accepted = in_order_of(accepted, ["error"])
     note = message(

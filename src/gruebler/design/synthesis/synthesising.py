@@ -48,7 +48,8 @@ def synthesise(
         sort: one or several of ``error``, ``transmission`` (on the way through the targets), ``range-transmission``
             (over the whole range of the drive), ``size``, ``size-ratio``, ``links``, ``full-turn``; of designs that
             are equal in the first the second decides. By default a full turn comes first, then the transmission angle;
-            where targets are only approached, the error.
+            where targets are only approached, the error. Families of two to four
+            positions are searched for the best by these.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         starts: of structures: how many are improved of each mechanism.
@@ -94,7 +95,10 @@ def synthesise(
         "executor": executor,
         "progress": progress,
     }
-    result = _solved(task, structures, demands, {name: value for name, value in options.items() if value is not None})
+    given: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
+    if orders and structures is None and isinstance(task, PositionTask):
+        given["sort"] = orders
+    result = _solved(task, structures, demands, given)
     return result.sorted_by(*orders) if orders else result
 
 

@@ -1,0 +1,252 @@
+"""Pairs of dyads out of a family that do what is demanded: all of a fine sample in closed form, the best made better.
+
+Two to four positions leave families of dyads, every two of which are a four-bar. Circuit, branch, order, full turn and
+transmission angle of each pair follow from its lengths and crank angles. docs/theory/synthesis-positions.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import degrees
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Reals
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.tasks import PositionTask
+
+Flags = NDArray[np.bool_]
+Nearby = Callable[[GuidingDyad, float], list[GuidingDyad]]
+"""Dyads of the family near one, within a width: part of the family's own length or size."""
+
+_WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
+_APART = 4  # places in the sample: designs nearer to a better one are not listed
+_LOOKED_AT = 2000  # pairs for each design that is wanted
+_ALIKE = 0.05  # sizes: pivots of two designs that are improved differ by more
+BUILDABLE = 20.0
+"""The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
+USUAL = ("full-turn", "transmission", "size-ratio")
+"""By what designs are sorted unless the caller says otherwise."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PairFacts:
+    """What the four-bars of pairs of RR dyads do: entry (i, j) is driven at dyad i of the first list."""
+
+    lengths: Reals
+    """(4, n, m) crank, coupler, rocker, frame."""
+    moves: Flags
+    """All positions lie on one branch, and the crank meets them in order."""
+    turns: Flags
+    transmission: Reals
+    """The least transmission angle on the way through the positions, in radians."""
+    inside: Flags
+    """Both fixed pivots lie in the region."""
+
+    @property
+    def size_ratio(self) -> Reals:
+        """(n, m) the longest length by the shortest."""
+        return np.asarray(self.lengths.max(axis=0) / np.maximum(self.lengths.min(axis=0), 1e-300), np.float64)
+
+    def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
+        """The demands by their names, each with the pairs that meet it."""
+        strict = demands.one_branch and demands.in_order
+        met = [(message("one branch and order"), self.moves if strict else np.ones_like(self.moves))]
+        if demands.crank:
+            met.append((message("a drive that turns fully"), self.turns))
+        if demands.transmission > 0:
+            angle = message("a transmission angle of {angle:g}°", angle=degrees(demands.transmission))
+            met.append((angle, self.transmission >= demands.transmission))
+        ratio = message("a size ratio of {ratio:g}", ratio=demands.size_ratio)
+        met.append((ratio, self.size_ratio <= demands.size_ratio))
+        if demands.region is not None:
+            met.append((message("the region"), self.inside))
+        return met
+
+    def costs(self, orders: Sequence[str]) -> list[Reals]:
+        """(n, m) what is to be small, the most important first."""
+        known: Mapping[str, Reals] = {
+            "transmission": -self.transmission,
+            "range-transmission": -self.transmission,
+            "size": np.asarray(self.lengths.max(axis=0), np.float64),
+            "size-ratio": self.size_ratio,
+            "full-turn": np.asarray(1.0 - self.turns, np.float64),
+        }
+        return [known[name] for name in (*orders, *USUAL) if name in known]
+
+
+def pair_facts(
+    task: PositionTask, first: Sequence[GuidingDyad], second: Sequence[GuidingDyad], demands: Demands
+) -> PairFacts:
+    """What all pairs of two lists of RR dyads do, in closed form. Cost: 2 us a pair."""
+    (pins, own), (far_pins, far) = (_places(task, dyads) for dyads in (first, second))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        frame = far[None, :] - own[:, None]
+        a, c = (np.abs(p[:, 0] - m) for p, m in ((pins, own), (far_pins, far)))
+        b, d = np.abs(far_pins[None, :, 0] - pins[:, None, 0]), np.abs(frame)
+        a, c = np.broadcast_to(a[:, None], b.shape), np.broadcast_to(c[None, :], b.shape)
+        arm = far_pins[None] - pins[:, None]
+        side = np.sign(np.imag(np.conj(arm) * (far[None, :, None] - pins[:, None])))
+        angle = np.angle((pins - own[:, None])[:, None] / frame[..., None])
+        # Crank angles from the frame that can be assembled: cosines from `low` to `high`.
+        low = (a * a + d * d - (b + c) ** 2) / (2 * a * d)
+        high = (a * a + d * d - (b - c) ** 2) / (2 * a * d)
+        turns = (low < -1) & (high > 1)
+        split = (low >= -1) & (high <= 1)
+        passes_back = (low < -1) & ~turns
+        angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
+        steps = np.diff(angle, axis=2)
+        cyclic = steps % (2 * np.pi)
+        forward = cyclic.sum(axis=2) < 2 * np.pi
+        backward = ((-steps) % (2 * np.pi)).sum(axis=2) < 2 * np.pi
+        ordered = np.where(turns, forward | backward, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
+        travel = np.where(forward, cyclic.sum(axis=2), -((-steps) % (2 * np.pi)).sum(axis=2))
+        travel = np.where(turns, travel, angle[..., -1] - angle[..., 0])
+        same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
+        moves = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & ordered & same_part
+        cosines = [_extreme(angle[..., 0], travel, at) for at in (0.0, np.pi)]
+        mu = [np.abs(b * b + c * c - a * a - d * d + 2 * a * d * cosine) / (2 * b * c) for cosine in cosines]
+        transmission = np.arccos(np.clip(np.maximum(*mu), 0, 1))
+    lengths = np.array([a, b, c, d])
+    # Two dyads with a common pivot are no linkage.
+    usable = np.isfinite(transmission) & (lengths.min(axis=0) > 1e-9 * lengths.max(axis=0))
+    return PairFacts(
+        lengths=lengths,
+        moves=np.asarray(moves & usable),
+        turns=np.asarray(turns & usable),
+        transmission=np.where(usable, transmission, 0.0),
+        inside=np.asarray(_inside(own, demands)[:, None] & _inside(far, demands)[None, :]),
+    )
+
+
+def _places(task: PositionTask, dyads: Sequence[GuidingDyad]) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """The moving pivots in all positions, (dyads, positions), and the fixed ones."""
+    moving = np.array([dyad.moving for dyad in dyads], np.complex128)
+    seen = (moving - task.origins[0]) / task.turns[0]
+    return task.origins + seen[:, None] * task.turns, np.array([dyad.fixed for dyad in dyads], np.complex128)
+
+
+def _extreme(begin: Reals, travel: Reals, at: float) -> Reals:
+    """The cosine nearest to that of an angle, over a travel from a begin: its own if the angle is passed."""
+    low, high = np.minimum(begin, begin + travel), np.maximum(begin, begin + travel)
+    passed = np.floor((high - at) / (2 * np.pi)) > np.floor((low - at) / (2 * np.pi))
+    ends = np.cos(low), np.cos(high)
+    nearest = np.maximum(*ends) if at == 0 else np.minimum(*ends)
+    return np.where(passed, np.cos(at), nearest)
+
+
+def _inside(pivots: NDArray[np.complex128], demands: Demands) -> Flags:
+    if demands.region is None:
+        return np.ones(len(pivots), bool)
+    x1, y1, x2, y2 = demands.region
+    return np.asarray((x1 <= pivots.real) & (pivots.real <= x2) & (y1 <= pivots.imag) & (pivots.imag <= y2))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundPairs:
+    """Pairs to be judged, the driven dyad first, and what there is to say of the search."""
+
+    pairs: tuple[tuple[GuidingDyad, GuidingDyad], ...]
+    notes: tuple[Message, ...]
+
+
+def best_pairs(
+    task: PositionTask,
+    dyads: Sequence[GuidingDyad],
+    demands: Demands,
+    near: Nearby,
+    *,
+    orders: Sequence[str] = (),
+    number: int = 16,
+) -> FoundPairs:
+    """The best pairs of a sample of a family, each made better within it; those that fail least if none meets all.
+
+    Args:
+        task: two to four positions.
+        dyads: a sample of the family in the order of the family, RR ones.
+        demands: what counts besides.
+        near: dyads of the family near one of them.
+        orders: what is best, by the names of `results.ORDERS`.
+        number: of pairs, at most.
+
+    Cost: 2 us for each pair of the sample, 10 ms for each one that is made better.
+    """
+    if demands.size_ratio == Demands().size_ratio:
+        demands = replace(demands, size_ratio=BUILDABLE)
+    facts = pair_facts(task, dyads, dyads, demands)
+    met = facts.met(demands)
+    fails = np.sum([~flags for _, flags in met], axis=0)
+    good = fails == 0
+    notes = [
+        message(
+            "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands. "
+            "The best are improved within the family to {step:.1g} of it.",
+            dyads=len(dyads),
+            pairs=len(dyads) * (len(dyads) - 1),
+            count=int(np.count_nonzero(good)),
+            step=_WIDTHS[-1],
+        )
+    ]
+    if not good.any():
+        notes += _tightest(met)
+    ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
+    chosen: list[tuple[int, int]] = []
+    for rank in ranks[: _LOOKED_AT * number]:
+        i, j = divmod(int(rank), len(dyads))
+        apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in ((i, j), (j, i)))
+        if apart and i != j and (good[i, j] or not good.any()):
+            chosen.append((i, j))
+        if len(chosen) == 2 * number:
+            break
+    pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
+    for i, j in chosen:
+        pair = dyads[i], dyads[j]
+        if good.any():
+            pair = _improved(task, pair, demands, near, orders)
+        if all(_gap(pair, other) > _ALIKE * task.size for other in pairs):
+            pairs.append(pair)
+        if len(pairs) == number:
+            break
+    return FoundPairs(pairs=tuple(pairs), notes=tuple(notes))
+
+
+def _gap(first: tuple[GuidingDyad, GuidingDyad], second: tuple[GuidingDyad, GuidingDyad]) -> float:
+    """The sum of the distances of the pivots of two linkages, whichever dyad drives."""
+    return min(
+        sum(abs(a.moving - b.moving) + abs(a.fixed - b.fixed) for a, b in zip(first, other, strict=True))
+        for other in (second, second[::-1])
+    )
+
+
+def _tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
+    """The demand without which the most pairs remain; branch and order are the task itself, and not given up."""
+    counts = [
+        int(np.count_nonzero(np.logical_and.reduce([flags for k, (_, flags) in enumerate(met) if k != left])))
+        for left in range(1, len(met))
+    ]
+    best = int(np.argmax(counts))
+    if not counts[best]:
+        return []
+    return [message("Without the demand of {demand} there are {count:,}.", demand=met[best + 1][0], count=counts[best])]
+
+
+def _improved(
+    task: PositionTask,
+    pair: tuple[GuidingDyad, GuidingDyad],
+    demands: Demands,
+    near: Nearby,
+    orders: Sequence[str],
+) -> tuple[GuidingDyad, GuidingDyad]:
+    """The best pair nearby, on finer and finer grids about the best so far."""
+    for width in _WIDTHS:
+        first, second = ([dyad, *near(dyad, width)] for dyad in pair)
+        facts = pair_facts(task, first, second, demands)
+        fails = np.sum([~flags for _, flags in facts.met(demands)], axis=0).astype(float)
+        best = np.lexsort([cost.ravel() for cost in reversed([fails, *facts.costs(orders)])])[0]
+        i, j = divmod(int(best), len(second))
+        pair = first[i], second[j]
+    return pair

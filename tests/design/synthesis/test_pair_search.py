@@ -1,0 +1,70 @@
+"""Families of dyads: closed forms of all pairs against the verdict by motion, and the best pairs by a measure."""
+
+import numpy as np
+import pytest
+
+from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
+from gruebler.design.synthesis.judging import judge_design
+from gruebler.design.synthesis.pair_search import pair_facts
+from gruebler.design.synthesis.positions import _targets, guiding_dyads, linkage_of_dyads
+
+FOUR = [(2.071235, -0.032527, 19.8126), (2.036152, 1.429641, 44.4843), (0.706012, 1.606846, 68.1715)]
+FOUR += [(0.329970, 2.223983, 92.2134)]
+TASK = PositionTask([(x, y, np.radians(a)) for x, y, a in FOUR])
+
+
+def _against_motion(seed, count, samples):
+    """How often the closed form says yes, where `move` and the circuit of the linkage say the same."""
+    rng = np.random.default_rng(seed)
+    angles = np.cumsum(rng.uniform(0.1, 0.5, count))
+    z = np.cumsum(rng.uniform(0.2, 1, count) * np.exp(1j * rng.uniform(0, 2, count)))
+    task = PositionTask(list(zip(z.real, z.imag, angles, strict=True)))
+    dyads = [dyad for dyad in guiding_dyads(task, 60) if not dyad.slides]
+    facts = pair_facts(task, dyads, dyads, Demands())
+    moving = np.argwhere(facts.moves & (facts.size_ratio < 50))
+    others = np.argwhere(~facts.moves & (facts.size_ratio < 50))
+    for pairs in (moving, others):
+        for i, j in rng.permutation(pairs)[:samples]:
+            linkage = linkage_of_dyads(dyads[i], dyads[j], complex(task.origins[0]), "mm")
+            verdict = judge_design(linkage, _targets(task, linkage), Demands(), "RR-RR").verdict
+            assert verdict.accepted == facts.moves[i, j], (seed, i, j, verdict.reasons)
+            if verdict.accepted:
+                assert verdict.turns_fully == facts.turns[i, j]
+                assert verdict.transmission == pytest.approx(facts.transmission[i, j], abs=2e-3)
+                assert verdict.size_ratio == pytest.approx(facts.size_ratio[i, j], rel=1e-9)
+    return len(moving)
+
+
+@pytest.mark.parametrize("count", [3, 4])
+def test_closed_forms_of_pairs_against_the_verdict_by_motion(count):
+    assert sum(_against_motion(seed, count, 3) for seed in range(6)) > 100
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [3, 4])
+def test_closed_forms_of_a_thousand_pairs_against_the_verdict_by_motion(count):
+    assert sum(_against_motion(seed, count, 5) for seed in range(100, 200)) > 1000
+
+
+def test_a_crank_is_found_where_a_grid_of_dyads_had_none():
+    """Another program (900 points of the curves, all pairs, ratio below 20) came to 19.3 degrees over the full turn."""
+    found = synthesise_positions(TASK, Demands(crank=True), number=4)
+    best = found.designs[0]
+    assert best.verdict.turns_fully
+    assert best.verdict.size_ratio <= 20
+    assert np.degrees(best.transmission_over_range) >= 19.3
+    assert not [design for design in found.rejected if design.form == "RR-RR"]
+
+
+def test_the_measure_that_is_asked_for_steers_the_search():
+    by_angle = synthesise_positions(TASK, number=4).designs[0]
+    by_size = synthesise_positions(TASK, number=4, sort=["size-ratio"]).sorted_by("size-ratio").designs[0]
+    assert by_size.verdict.size_ratio < min(3.0, by_angle.verdict.size_ratio)
+
+
+def test_where_there_is_none_the_tightest_demand_is_named():
+    found = synthesise_positions(TASK, Demands(crank=True, transmission=np.radians(40)), number=4)
+    assert not found.designs
+    notes = " ".join(map(str, found.notes))
+    assert "0 meet all demands" in notes
+    assert "Without the demand of a transmission angle of 40° there are " in notes
