@@ -13,7 +13,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
-from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
+from gruebler.mechanics.fourbar.coupler_points import on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
     CrankRates,
@@ -114,8 +114,22 @@ class FourBar(Lengths):
         return self.grashof.explain(lang)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
-        """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""
-        return four_bar_linkage(self, points, unit)
+        """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left).
+
+        Frame, crank, coupler, rocker.
+        """
+        return Linkage(
+            Mechanism.parse(_FOUR_BAR),
+            {
+                "frame": {"R(frame-crank)": (0, 0), "R(frame-rocker)": (self.d, 0)},
+                "crank": {"R(frame-crank)": (0, 0), "R(crank-coupler)": (self.a, 0)},
+                "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-rocker)": (self.b, 0)},
+                "rocker": {"R(frame-rocker)": (0, 0), "R(coupler-rocker)": (self.c, 0)},
+            },
+            on_coupler(points),
+            unit=unit,
+            outputs=["rocker"],
+        )
 
     @property
     def grashof(self) -> Grashof:
@@ -299,19 +313,3 @@ class FourBar(Lengths):
 
 
 _FOUR_BAR = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); drive=R(frame-crank)"
-
-
-def four_bar_linkage(size: FourBar, points: CouplerPoints | None = None, unit: str = "mm") -> Linkage:
-    """Frame, crank, coupler, rocker; coupler points (u along AB, v to the left)."""
-    return Linkage(
-        Mechanism.parse(_FOUR_BAR),
-        {
-            "frame": {"R(frame-crank)": (0, 0), "R(frame-rocker)": (size.d, 0)},
-            "crank": {"R(frame-crank)": (0, 0), "R(crank-coupler)": (size.a, 0)},
-            "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-rocker)": (size.b, 0)},
-            "rocker": {"R(frame-rocker)": (0, 0), "R(coupler-rocker)": (size.c, 0)},
-        },
-        on_coupler(points),
-        unit=unit,
-        outputs=["rocker"],
-    )

@@ -14,7 +14,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
-from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
+from gruebler.mechanics.fourbar.coupler_points import on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
     CrankRates,
@@ -84,8 +84,22 @@ class InvertedSliderCrank(Lengths):
         return offset_sentence(self.type, self.turning, lang, a=self.a, d=self.d, e=self.e)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
-        """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""
-        return inverted_slider_crank_linkage(self, points, unit)
+        """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left).
+
+        Frame, crank, coupler (a rod through the block), block swivelling about B0.
+        """
+        return Linkage(
+            Mechanism.parse(_INVERTED),
+            {
+                "frame": {"R(frame-crank)": (0, 0), "R(frame-block)": (self.d, 0)},
+                "crank": {"R(frame-crank)": (0, 0), "R(crank-coupler)": (self.a, 0)},
+                "coupler": {"R(crank-coupler)": (0, 0), "P(coupler-block)": (0, self.e, 0)},
+                "block": {"R(frame-block)": (0, 0), "P(coupler-block)": (0, 0, 0)},
+            },
+            on_coupler(points),
+            unit=unit,
+            outputs=["block"],
+        )
 
     @property
     def type(self) -> LinkageType:
@@ -214,21 +228,3 @@ class InvertedSliderCrank(Lengths):
 
 
 _INVERTED = "R(frame-crank) R(crank-coupler) P(coupler-block) R(frame-block); drive=R(frame-crank)"
-
-
-def inverted_slider_crank_linkage(
-    size: InvertedSliderCrank, points: CouplerPoints | None = None, unit: str = "mm"
-) -> Linkage:
-    """Frame, crank, coupler (a rod through the block), block swivelling about B0; points (u from A, v)."""
-    return Linkage(
-        Mechanism.parse(_INVERTED),
-        {
-            "frame": {"R(frame-crank)": (0, 0), "R(frame-block)": (size.d, 0)},
-            "crank": {"R(frame-crank)": (0, 0), "R(crank-coupler)": (size.a, 0)},
-            "coupler": {"R(crank-coupler)": (0, 0), "P(coupler-block)": (0, size.e, 0)},
-            "block": {"R(frame-block)": (0, 0), "P(coupler-block)": (0, 0, 0)},
-        },
-        on_coupler(points),
-        unit=unit,
-        outputs=["block"],
-    )

@@ -13,7 +13,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.immutable import settle
-from gruebler.mechanics.fourbar.coupler_points import CouplerPoints, on_coupler
+from gruebler.mechanics.fourbar.coupler_points import on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
     CrankRates,
@@ -153,8 +153,22 @@ class SliderCrank(Lengths):
         return offset_sentence(self.type, self.turning, lang, a=self.a, b=self.b, e=self.e)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
-        """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""
-        return slider_crank_linkage(self, points, unit)
+        """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left).
+
+        Frame, crank, coupler (connecting rod), slider; the slider's way is counted from below the crank's pivot.
+        """
+        return Linkage(
+            Mechanism.parse(_SLIDER_CRANK),
+            {
+                "frame": {"R(frame-crank)": (0, 0), "P(frame-slider)": (0, self.e, 0)},
+                "crank": {"R(frame-crank)": (0, 0), "R(crank-coupler)": (self.a, 0)},
+                "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-slider)": (self.b, 0)},
+                "slider": {"R(coupler-slider)": (0, 0), "P(frame-slider)": (0, 0, 0)},
+            },
+            on_coupler(points),
+            unit=unit,
+            outputs=["slider"],
+        )
 
     @property
     def type(self) -> LinkageType:
@@ -327,19 +341,3 @@ class SliderCrank(Lengths):
 
 
 _SLIDER_CRANK = "R(frame-crank) R(crank-coupler) R(coupler-slider) P(frame-slider); drive=R(frame-crank)"
-
-
-def slider_crank_linkage(size: SliderCrank, points: CouplerPoints | None = None, unit: str = "mm") -> Linkage:
-    """Frame, crank, coupler (connecting rod), slider; the slider's way is counted from below the crank's pivot."""
-    return Linkage(
-        Mechanism.parse(_SLIDER_CRANK),
-        {
-            "frame": {"R(frame-crank)": (0, 0), "P(frame-slider)": (0, size.e, 0)},
-            "crank": {"R(frame-crank)": (0, 0), "R(crank-coupler)": (size.a, 0)},
-            "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-slider)": (size.b, 0)},
-            "slider": {"R(coupler-slider)": (0, 0), "P(frame-slider)": (0, 0, 0)},
-        },
-        on_coupler(points),
-        unit=unit,
-        outputs=["slider"],
-    )

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gruebler.base.errors import LinkageError
+from gruebler.mechanics.analysis.courses import motion_rows
 from gruebler.mechanics.geometry.series import taylor_series
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages.points import PointLike
@@ -57,7 +58,7 @@ def tangent_contact(
     if isinstance(highest, bool) or not isinstance(highest, int) or not 2 <= highest <= 30:
         raise LinkageError("highest must be a whole number from 2 to 30, not {highest!r}", highest=highest)
     least, size = as_positive("tolerance", tolerance), motion.size
-    z = taylor_series(_row(motion, row), highest).complex_point(point)[:, 0]
+    z = taylor_series(motion_rows(motion, np.array([row])), highest).complex_point(point)[:, 0]
     speed = abs(z[1])
     if speed <= 1e-9 * max(float(np.abs(z[1:4]).max()), 1e-9 * size):
         raise LinkageError("the point stands still there: a cusp has no order of contact")
@@ -78,20 +79,4 @@ def tangent_contact(
         at=complex(z[0]),
         direction=direction,
         remainder=float(scaled[: large[0]].max(initial=0.0)),
-    )
-
-
-def _row(motion: Motion, row: int) -> Motion:
-    from dataclasses import replace
-
-    pick = slice(row, row + 1 or None)
-    return replace(
-        motion,
-        drives=motion.drives[pick],
-        places=motion.places[:, pick],
-        turns=motion.turns[pick],
-        rates=motion.rates[:, pick],
-        whole=motion.whole[pick],
-        roots=motion.roots[pick],
-        unknowns=motion.unknowns[pick],
     )
