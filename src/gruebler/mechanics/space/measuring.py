@@ -27,6 +27,7 @@ from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.drive_range import SpatialRange, followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
 from gruebler.mechanics.space.tree import motions
+from gruebler.structure.chain.spaces import Freedom
 
 _ROWS = 145
 _ASIDE = 0.0123  # radians: rows do not begin at the reference pose, where a symmetric linkage often stops
@@ -140,7 +141,7 @@ class SpatialMeasures:
             yield _OUTPUT.filled(joint=title(self.output), turns=self.turns)
         else:
             (row,) = (row for row in self.joints if (row.joint, row.freedom) == (self.output, self.freedom))
-            texts = [self._value(v, row.freedom[0] != "T") for v in (row.lowest, row.highest, self.travel)]
+            texts = [self._value(v, Freedom(row.freedom).turns) for v in (row.lowest, row.highest, self.travel)]
             yield _SWINGS.filled(joint=title(self.output), low=texts[0], high=texts[1], travel=texts[2])
         if self.dead_centres:
             yield _CENTRES.filled(centres=joined([drive(each.drive) for each in self.dead_centres], "; "))
@@ -160,7 +161,7 @@ class SpatialMeasures:
     def _extent(self, row: JointRange) -> Message:
         if row.full:
             return message("full turns")
-        return self._value(row.highest - row.lowest, row.freedom[0] != "T")
+        return self._value(row.highest - row.lowest, Freedom(row.freedom).turns)
 
     def _value(self, value: float, turns: bool) -> Message:
         if turns:
@@ -182,7 +183,7 @@ def spatial_table(motion: SpatialMotion, outputs: Sequence[str] = (), points: Se
     below = "rad" if turning[0] else unit
     for output in outputs or (None,):
         number, freedom = output_freedom(linkage, output)
-        name, turns = linkage.mechanism.chain.joint_names()[number], freedom[0] != "T"
+        name, turns = linkage.mechanism.chain.joint_names()[number], Freedom(freedom).turns
         for order in range(min(motion.order, 2) + 1):
             values = against_frame(linkage, number) * motion.joint(number, freedom, order)
             degree = turns and not order
@@ -306,7 +307,7 @@ def _measured(linkage: SpatialLinkage, output: str | None) -> SpatialMeasures:
             for zero in rests[freedoms.index((number, freedom))]
         ),
         ratios=tuple(sorted([*ratios, *([] if span.full and ratios else ends)], key=lambda each: each.at)),
-        turns=round(float(value[-1] - value[0]) * sign / tau) if span.full and freedom[0] != "T" else 0,
+        turns=round(float(value[-1] - value[0]) * sign / tau) if span.full and Freedom(freedom).turns else 0,
     )
 
 
@@ -399,7 +400,7 @@ def _joint_range(name: str, freedom: str, value: Reals, span: SpatialRange, zero
     net = float(value[-1] - value[0])
     ends = [] if span.full and extremes else [0.0, net] if span.full else value[[0, -1]].tolist()
     extent = [*extremes, *ends]
-    turns = freedom[0] != "T"
+    turns = Freedom(freedom).turns
     return JointRange(
         joint=name,
         freedom=freedom,
