@@ -1,6 +1,11 @@
 """Exercises on the page: figures, choices, hints by the likely mistake, the linkage to try, the score."""
 
+import re
+
 import pytest
+
+from gruebler.page.tasks import marked_task, task_record
+from gruebler.teaching.exercises import KINDS
 
 KIND = "gruebler.views.exercises"
 
@@ -23,25 +28,40 @@ def exercises(tab, server):
     return opened
 
 
-def test_every_kind_has_a_figure_and_wrong_answers_a_hint(exercises):
+def size_of(svg: str) -> tuple[float, float]:
+    """Width and height of a figure, in its own units: pixels at the size in which it is drawn."""
+    _, _, width, height = map(float, re.search(r'viewBox="([^"]*)"', svg)[1].split())
+    return width, height
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_has_a_figure_and_wrong_answers_a_hint(kind, level):
+    task = task_record(kind, level, 5, "en")
+    assert min(size_of(task["figure"])) > 60
+    numbers = [one["key"] for one in task["asked"] if not one["choices"]]
+    marks = marked_task(task["id"], dict.fromkeys(numbers, "123456.789"), "en")["marks"]
+    assert numbers
+    assert [mark["key"] for mark in marks if mark["mark"] == "wrong"] == numbers
+    assert all(mark["hint"].count(" ") >= 2 for mark in marks)
+
+
+def test_the_page_shows_kinds_figure_and_hints(exercises):
     page = exercises()
     kinds = page.page.locator('[aria-label="Theory"] button')
-    assert kinds.count() == 6
+    assert kinds.count() == len(KINDS) == 6
     page.page.locator('[aria-label="Level"] button').nth(1).click()
-    for number in range(6):
-        kinds.nth(number).click()
-        page.until(f"{KIND}.task.id.startsWith({KIND}.kind + '-2-')")
-        box = page.page.locator('[aria-label="The figure of the task"]').bounding_box()
-        assert min(box["width"], box["height"]) > 60
-        for field in page.page.locator("input[data-answer]").all():
-            field.fill("123456.789")
-        page.page.click('[data-act="mark"]')
-        wrong = page.page.locator('[data-state="wrong"]')
-        wrong.first.wait_for()
-        assert wrong.count() == page.page.locator("input[data-answer]").count()
-        assert all(hint.count(" ") >= 2 for hint in page.page.locator("[id^=hint-]").all_text_contents())
-        assert page.page.locator("[id^=hint-]").count() == wrong.count()
-    assert page.page.locator(".score").text_content().endswith("0 of 6 solved")
+    kinds.nth(5).click()
+    page.until(f"{KIND}.task.id.startsWith({KIND}.kind + '-2-')")
+    box = page.page.locator('[aria-label="The figure of the task"]').bounding_box()
+    assert min(box["width"], box["height"]) > 60
+    for field in page.page.locator("input[data-answer]").all():
+        field.fill("123456.789")
+    page.page.click('[data-act="mark"]')
+    wrong = page.page.locator('[data-state="wrong"]')
+    wrong.first.wait_for()
+    assert page.page.locator("[id^=hint-]").count() == wrong.count() == page.page.locator("input[data-answer]").count()
+    assert page.page.locator(".score").text_content().endswith("0 of 1 solved")
 
 
 def test_a_task_is_chosen_marked_mended_and_tried(exercises):
