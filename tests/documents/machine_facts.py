@@ -37,10 +37,12 @@ class Structure(NamedTuple):
 # the entry states as assumed.
 STRUCTURES = (
     Structure("belt", "003, chapter 1", 3, {1: 2, 2: 1}),
+    Structure("bennett", "not in the documents", 4, {1: 4}, 1, b=6),
     Structure("cam", "figure 1.4", 3, {1: 2, 2: 1}),
     Structure("cam_rocker", "figure 1.4, variant", 4, {1: 3, 2: 1}),
     Structure("cam_rocker_flat", "figure 1.4, variant", 3, {1: 2, 2: 1}),
     Structure("cam_roller", "figure 1.4, variant", 4, {1: 3, 2: 1}),
+    Structure("cardan_shaft", "not in the documents", 4, {1: 2, 2: 2}, 1, b=6),
     Structure("chebyshev", "not in the documents", 4, {1: 4}),
     Structure("compressor", "figure 1.3", 4, {1: 4}, printed="1"),
     Structure("conchoid", "section 3.5.4", 4, {1: 4}),
@@ -110,6 +112,7 @@ STRUCTURES = (
     Structure("toolbox", "figure 3.5", 4, {1: 4}),
     Structure("toolbox2", "figure 3.5, variant", 5, {1: 6}, 1),
     Structure("tri", "section 2.3", 3, {1: 3}, printed="0"),
+    Structure("universal_joint", "not in the documents", 4, {1: 4}),
     Structure("vcomp", "exercise 6", 6, {1: 7}, printed="1"),
     Structure("watt_axle", "exercise 18", 4, {1: 4}),
     Structure("watt_engine", "not in the documents", 6, {1: 7}),

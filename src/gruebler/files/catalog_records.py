@@ -116,7 +116,7 @@ class MotionQuantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw
 
     kind: Literal["straight", "swing", "stroke", "dwell", "ratio", "turns"]
     of: str
-    """A point or joint that runs straight; a link, or the joint of a slide, otherwise."""
+    """A point or joint that runs straight; a link, or the joint of a slide, otherwise. In space a joint."""
     range: tuple[float, float] | None = None
     """Drive values in degrees or the unit; without them those of the dimensions, else a full turn."""
     drive: str | None = None
@@ -417,8 +417,10 @@ _ALL_NUMBERS = tuple(dict.fromkeys(key for keys in MOTION_NUMBERS.values() for k
 
 
 def _check_quantity(entry: Entry, claim: MotionQuantity, where: str) -> None:
-    if entry.dimensions is None:
+    if entry.dimensions is None and entry.screws is None:
         raise CatalogError("{where}: an entry without dimensions has no motion to state", where=where)
+    if entry.dimensions is None and (claim.range, claim.drive, claim.direction) != (None, None, None):
+        raise CatalogError("{where}: in space without range, drive and direction", where=where)
     given = tuple(key for key in _ALL_NUMBERS if getattr(claim, key) is not None)
     if given != tuple(claim.numbers):
         raise CatalogError(

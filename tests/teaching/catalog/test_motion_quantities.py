@@ -119,6 +119,9 @@ KNOWN = [
     ("wiper", 0, {"degrees": 0}),
     ("cam_roller", 0, {"length": 20}),
     ("cam", 1, {"degrees": 210}),  # rise and fall of 75 degrees each
+    ("universal_joint", 0, {"least": sqrt(3) / 2, "greatest": 2 / sqrt(3)}),  # cos 30 degrees and its reciprocal
+    ("cardan_shaft", 0, {"least": 1, "greatest": 1}),
+    ("bennett", 0, {"least": -sqrt(3), "greatest": -1 / sqrt(3)}),  # tan(x/2) tan(y/2) = sin 60 / sin 30
 ]
 
 
@@ -195,6 +198,17 @@ def test_claims_that_say_nothing_are_refused(tmp_path, right, wrong, words):
     with pytest.raises(CatalogError) as caught:
         read_entry(path)
     assert words in str(caught.value)
+
+
+def test_claims_in_space_are_of_all_that_the_drive_can_reach(tmp_path):
+    path = tmp_path / "bennett.toml"
+    text = (Path(catalog_folder()) / "machines" / "bennett.toml").read_text(encoding="utf-8")
+    path.write_text(text.replace('kind = "ratio"', 'kind = "ratio"\nrange = [0, 90]'), encoding="utf-8")
+    with pytest.raises(CatalogError, match="in space without range"):
+        read_entry(path)
+    dwell = MotionQuantity(kind="dwell", of="R(frame-follower)", degrees=1.0)
+    (wrong,) = wrong_quantities(msgspec.structs.replace(entry("bennett"), quantities=(dwell,)))
+    assert "not derived in space" in str(wrong)
 
 
 def test_claims_hold_in_german_names():

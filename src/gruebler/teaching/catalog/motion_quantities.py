@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from math import radians
+from math import degrees, radians
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,7 +20,11 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.teaching.catalog.claims import WrongClaim
+
+if TYPE_CHECKING:
+    from gruebler.mechanics.space.measuring import SpatialMeasures
 
 _ROWS = 361
 _ROUNDED = 5e-3  # of the printed number
@@ -35,7 +40,7 @@ def wrong_quantities(entry: Entry) -> Iterator[WrongClaim]:
     >>> list(wrong_quantities(entry("lambda")))
     []
     """
-    linkage = entry.linkage()
+    linkage = _moving(entry)
     for number, claim in enumerate(entry.quantities, 1):
         where = f"quantities {number}, {claim.kind} {claim.of}"
         try:
@@ -89,8 +94,15 @@ class _Run:
         return motion.displacement(self.claim.of, order)
 
 
-def derived_numbers(entry: Entry, claim: MotionQuantity, linkage: Linkage | None = None) -> dict[str, float]:
-    """The numbers of a claim as the entry's dimensions give them.
+def _moving(entry: Entry) -> Linkage | SpatialLinkage:
+    placed = entry.placed() if entry.dimensions is None else None
+    return placed if isinstance(placed, SpatialLinkage) else entry.linkage()
+
+
+def derived_numbers(
+    entry: Entry, claim: MotionQuantity, linkage: Linkage | SpatialLinkage | None = None
+) -> dict[str, float]:
+    """The numbers of a claim as the entry's dimensions give them; in space over all that the drive can reach.
 
     `LinkageError` where the linkage cannot be moved so far, or has no such point, link or joint.
 
@@ -99,7 +111,9 @@ def derived_numbers(entry: Entry, claim: MotionQuantity, linkage: Linkage | None
     >>> {key: round(value, 3) for key, value in derived_numbers(record, record.quantities[0]).items()}
     {'length': 80.0, 'band': 0.195}
     """
-    linkage = entry.linkage() if linkage is None else linkage
+    linkage = _moving(entry) if linkage is None else linkage
+    if isinstance(linkage, SpatialLinkage):
+        return _derived_in_space(linkage, claim)
     mechanism = linkage.mechanism
     drive = 0
     if claim.drive is not None:
@@ -167,4 +181,20 @@ _DERIVED: Mapping[str, Callable[[_Run], dict[str, float]]] = {
     "dwell": _dwell,
     "ratio": _ratio,
     "turns": _turns,
+}
+
+
+def _derived_in_space(linkage: SpatialLinkage, claim: MotionQuantity) -> dict[str, float]:
+    from gruebler.mechanics.space.measuring import measures
+
+    if claim.kind not in _IN_SPACE:
+        raise LinkageError("{kind} is not derived in space", kind=claim.kind)
+    return _IN_SPACE[claim.kind](measures(linkage, output=claim.of))
+
+
+_IN_SPACE: Mapping[str, Callable[[SpatialMeasures], dict[str, float]]] = {
+    "swing": lambda measured: {"degrees": degrees(measured.travel)},
+    "stroke": lambda measured: {"length": measured.travel},
+    "ratio": lambda measured: {"least": measured.least_ratio.value, "greatest": measured.greatest_ratio.value},
+    "turns": lambda measured: {"turns": float(measured.turns)},
 }
