@@ -195,6 +195,7 @@ def test_no_source_is_left_in_english():
     english = re.compile(r"\b(and|of|the|section|exercise|figure|variant|lengths|machine|chapter|not|is)\b")
     sources = [entry.source for entry in entries().values()] + [task.source for task in exercises().values()]
     sources += [entry.dimensions.source for entry in entries().values() if entry.dimensions is not None]
-    german = [source_text(source, "de") for source in sources]
+    title = "Design of Machinery"  # of a book: it stays
+    german = [source_text(source, "de").replace(title, "") for source in sources]
     assert [text for text in german if english.search(text)] == []
     assert any(english.search(source_text(source, "en")) for source in sources)
