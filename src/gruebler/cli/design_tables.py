@@ -20,6 +20,11 @@ _COLUMNS = (
     *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),
     message("lengths"),
     message("error"),
+    message("shift"),
+)
+_SHIFT = message(
+    "Shift: how far the most sensitive target moves if all lengths are wrong by 0.1 %, in the worst case; each drive "
+    "keeps its value."
 )
 _ANGLES = message(
     "µ: the minimum transmission angle on the way through the targets, and over the whole range of the drive as "
@@ -76,6 +81,8 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
         ]
         low = [_LOW] if any(mu < GOOD for mu in angles) else []
         print_text(joined([_ANGLES, *low], " ").in_language(lang))
+        if any(design.sensitivity is not None for design in shown.designs):
+            print_text(_SHIFT.in_language(lang))
         _print_missing_optima(shown, lang)
         if any(design.form == FITTED for design in shown.designs):
             _print_pareto(shown, lang)
@@ -125,7 +132,21 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
         *(_transmission(mu, lang) for mu in (verdict.transmission, design.transmission_over_range)),
         _lengths(design.linkage, lang),
         _error(design, lang),
+        _shift(design, lang),
     ]
+
+
+def _shift(design: Design, lang: str) -> str:
+    """How far a target moves at most for each quantity that is not the drive's own: lengths, and angles in degrees."""
+    if design.targets is None or design.sensitivity is None:
+        return ""
+    worst = design.sensitivity.worst.max(axis=0, initial=0.0)
+    shifts = zip(design.targets.probes, map(float, worst), strict=True)
+    return " ".join(
+        f"{number(degrees(shift / probe.length), lang, '.2g')}°" if probe.link else number(shift, lang, ".2g")
+        for probe, shift in shifts
+        if shift > EXACT * design.targets.size
+    )
 
 
 def _transmission(mu: float, lang: str) -> str:

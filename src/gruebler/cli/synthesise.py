@@ -165,8 +165,8 @@ def add(parser: Parser) -> None:
             --crank  only designs whose drive turns fully
             --transmission DEG float =0  minimum transmission angle on the way through the targets
             --size-ratio R float =10000  limit of longest to shortest length
-            --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio, links,
-                full-turn; of equal ones the second key decides
+            --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
+                sensitivity, links, full-turn; of equal ones the second key decides
             --number N int  give the N best designs only, where there are infinitely many or targets are approached
             --rejected  also list the rejected designs with their reasons
             """

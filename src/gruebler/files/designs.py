@@ -7,6 +7,7 @@ from typing import Any
 
 from gruebler.base.plain_data import plain
 from gruebler.design.synthesis.results import Design, SynthesisResult, pareto
+from gruebler.design.synthesis.sensitivity import Sensitivity
 from gruebler.files.linkages import linkage_to_json
 from gruebler.files.tasks import task_to_json
 
@@ -16,11 +17,12 @@ _ANGLES = dict.fromkeys(("transmission", "transmission_over_range"), degrees)
 def design_to_json(design: Design) -> dict[str, Any]:
     """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage.
 
-    The transmission angle over the whole range is only computed for accepted designs.
+    The transmission angle over the whole range and the sensitivity are only computed for accepted designs.
     """
     drives, verdict = design.linkage.mechanism.drives, design.verdict
     turning = bool(drives) and drives[0].turning
     keys = "accepted reasons assembles one_circuit one_branch in_order turns_fully size_ratio inside error"
+    sensitivity = design.sensitivity if verdict.accepted else None
     over_range = plain(design, "transmission_over_range", units=_ANGLES) if verdict.accepted else {}
     return {
         **plain(verdict, keys),
@@ -34,7 +36,21 @@ def design_to_json(design: Design) -> dict[str, Any]:
             for row in design.drive_rows
         ],
         **({} if design.optimum is None else {"minimax": design.optimum.to_json()}),
+        **({} if sensitivity is None else {"sensitivity": _sensitivity_to_json(design, sensitivity)}),
         "linkage": linkage_to_json(design.linkage),
+    }
+
+
+def _sensitivity_to_json(design: Design, sensitivity: Sensitivity) -> dict[str, Any]:
+    """For each target and quantity how far it moves per 0.1 % of each length; directions as arcs, by their length."""
+    return {
+        "relative": design.relative_sensitivity,
+        "worst": sensitivity.worst.tolist(),
+        "statistical": sensitivity.statistical.tolist(),
+        "lengths": [
+            {**plain(row, "link first other across length"), "moves": abs(sensitivity.moves[:, :, k]).tolist()}
+            for k, row in enumerate(sensitivity.lengths)
+        ],
     }
 
 

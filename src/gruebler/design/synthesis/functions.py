@@ -206,9 +206,11 @@ def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, opti
         size = abs(law.output_swing)
         probes, values = (Probe(link="crank", length=size), Probe(joint=3)), [size * np.exp(1j * phi), output + 0j]
     met = replace(demands, tolerance=max(demands.tolerance, 1.1 * optimum.error / size))  # 1.1: the error is rounded
-    design = judge_design(linkage, Targets(probes, np.stack(values, axis=1), size), met, solution.kind)
+    targets = Targets(probes, np.stack(values, axis=1), size)
+    design = judge_design(linkage, targets, met, solution.kind)
     verdict = replace(design.verdict, error=optimum.error / size)
-    return replace(design, verdict=verdict, drives=tuple(map(float, phi[1:-1])), optimum=optimum)
+    pairs = targets._replace(values=targets.values[1:-1])
+    return replace(design, verdict=verdict, drives=tuple(map(float, phi[1:-1])), optimum=optimum, targets=pairs)
 
 
 def _design(task: FunctionTask, demands: Demands, solution: Coordination) -> Design:

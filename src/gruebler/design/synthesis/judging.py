@@ -225,7 +225,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         error=float(missed_by),
         reasons=tuple(reasons),
     )
-    return Design(linkage=linkage, verdict=verdict, form=form, drives=drives)
+    return Design(linkage=linkage, verdict=verdict, form=form, drives=drives, targets=targets)
 
 
 def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form: str, drives: Reals) -> Design:
@@ -272,7 +272,11 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
         reasons=tuple(reasons),
     )
     return Design(
-        linkage=linkage, verdict=verdict, form=form, drive_rows=tuple(tuple(map(float, row)) for row in drives)
+        linkage=linkage,
+        verdict=verdict,
+        form=form,
+        drive_rows=tuple(tuple(map(float, row)) for row in drives),
+        targets=targets,
     )
 
 

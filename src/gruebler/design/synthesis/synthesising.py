@@ -46,10 +46,10 @@ def synthesise(
         structures: mechanisms that are fitted to the task instead of four-bars and slider-cranks.
         demands: what a design must do besides the task, such as a crank or a least transmission angle.
         sort: one or several of ``error``, ``transmission`` (on the way through the targets), ``range-transmission``
-            (over the whole range of the drive), ``size``, ``size-ratio``, ``links``, ``full-turn``; of designs that
-            are equal in the first the second decides. By default a full turn comes first, then the transmission angle;
-            where targets are only approached, the error. Families of two to four
-            positions are searched for the best by these.
+            (over the whole range of the drive), ``size``, ``size-ratio``, ``sensitivity`` (to wrong lengths),
+            ``links``, ``full-turn``; of designs that are equal in the first the second decides. By default a full turn
+            comes first, then the transmission angle; where targets are only approached, the error. Families of two to
+            four positions are searched for the best by these.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         starts: of structures: how many are improved of each mechanism.

@@ -1,0 +1,100 @@
+"""How far targets move when lengths change, against linkages whose lengths were changed, and by hand."""
+
+from math import hypot
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gruebler.design.synthesis import DeadCentreTask, PositionTask, synthesise
+from gruebler.design.synthesis.sensitivity import length_sensitivity
+from gruebler.design.synthesis.targets import Probe
+from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.kinematics import move
+
+PROBES = (Probe("P"), Probe(link="coupler", length=2.0), Probe(link="rocker"))
+STEP = 1e-6
+
+
+def measured(lengths, point, phi):
+    """The probes of a four-bar of lengths and coupler point (along, across) at crank angles."""
+    motion = move(FourBar(*lengths).linkage({"P": point}), phi)
+    return np.stack([probe.of_motion(motion) for probe in PROBES], axis=1)
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.integers(0, 10**6))
+def test_four_bars_against_changed_lengths(seed):
+    rng = np.random.default_rng(seed)
+    lengths = np.array([1.0, *rng.uniform(2.5, 3.5, 2), 0.0])
+    lengths[3] = rng.uniform(abs(lengths[1] - lengths[2]) + 1.2, lengths[1] + lengths[2] - 1.2)
+    point = rng.uniform(0.5, 2.0, 2)
+    phi = np.linspace(0.3, 4.0, 5) + rng.uniform(0, 2)
+    linkage = FourBar(*lengths).linkage({"P": tuple(point)})
+    linkage = linkage.with_reference_pose(move(linkage, phi[:1]).pose(0))
+    found = length_sensitivity(linkage, PROBES, phi[:, None])
+    along = point, np.array([-point[1], point[0]])
+    for k, row in enumerate(found.lengths):
+        both = []
+        for sign in (1, -1):
+            changed, moved = lengths.copy(), point.copy()
+            if row.other == "P":
+                moved = moved + sign * STEP * along[row.across]
+            else:
+                changed[("crank", "coupler", "rocker", "frame").index(row.link)] *= 1 + sign * STEP
+            both.append(measured(changed, moved, phi))
+        expected = 1e-3 * (both[0] - both[1]) / (2 * STEP)
+        assert np.abs(found.moves[:, :, k] - expected).max() <= 1e-8
+    assert sorted((row.link, row.other == "P", row.across) for row in found.lengths) == [
+        ("coupler", False, False),
+        ("coupler", True, False),
+        ("coupler", True, True),
+        ("crank", False, False),
+        ("frame", False, False),
+        ("rocker", False, False),
+    ]
+
+
+def test_slider_crank_by_hand():
+    """x = r cos(phi) + sqrt(l^2 - (r sin(phi) - e)^2), differentiated by r, l and e."""
+    r, length, e = 1.0, 3.0, 0.5
+    linkage = SliderCrank(r, length, e).linkage()
+    phi = np.array([0.4, 1.2, 2.1])
+    linkage = linkage.with_reference_pose(move(linkage, phi[:1]).pose(0))
+    found = length_sensitivity(linkage, (Probe(joint=3),), phi[:, None])
+    height = r * np.sin(phi) - e
+    root = np.sqrt(length**2 - height**2)
+    rates = {"crank": r * (np.cos(phi) - height * np.sin(phi) / root), "coupler": length**2 / root}
+    rates["frame"] = e * height / root
+    expected = np.stack([rates[row.link] for row in found.lengths], axis=1)
+    assert found.moves.shape == (3, 1, 3)
+    assert np.abs(np.abs(found.moves[:, 0]) - 1e-3 * np.abs(expected)).max() <= 1e-12
+    assert found.worst[:, 0] == pytest.approx(1e-3 * np.abs(expected).sum(axis=1), rel=1e-9)
+    assert found.statistical[:, 0] == pytest.approx(1e-3 * np.sqrt((expected**2).sum(axis=1)), rel=1e-9)
+
+
+def test_worst_case_is_that_of_all_signs():
+    rng = np.random.default_rng(1)
+    linkage = FourBar(1.0, 3.0, 2.5, 3.2).linkage({"P": (1.2, 0.8)})
+    found = length_sensitivity(linkage, PROBES, rng.uniform(0.5, 0.9, (3, 1)))
+    count = len(found.lengths)
+    signs = 1 - 2 * (np.arange(2**count)[:, None] >> np.arange(count) & 1)
+    every = np.abs(found.moves @ signs.T).max(axis=2)
+    assert found.worst == pytest.approx(every, rel=1e-9)
+
+
+def test_designs_tell_their_sensitivity():
+    task = PositionTask(((0, 0, 0), (1, 0.5, 0.3), (1.6, 1.4, 0.8)))
+    design = synthesise(task).designs[0]
+    found = design.sensitivity
+    assert synthesise(DeadCentreTask(stroke=50, time_ratio=1.2), number=2).designs[0].sensitivity is None
+    assert found is not None
+    assert found.moves.shape[:2] == (3, 2)
+    assert design.relative_sensitivity == pytest.approx(
+        max(hypot(*row) for row in found.worst) / design.targets.size, rel=1e-12
+    )
+    ranked = synthesise(task, sort="sensitivity").designs
+    values = [each.relative_sensitivity for each in ranked]
+    assert values == pytest.approx(sorted(values), rel=1e-8)
+    assert values[0] < values[-1]
