@@ -125,8 +125,8 @@ def test_on_a_terminal_a_picture_goes_into_a_new_file(capsys, monkeypatch, tmp_p
     """What is there already is not written over; elsewhere the SVG is printed."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    words = {"draw": [FOUR_BAR], "plot": [FOUR_BAR, "--kind", "transmission"]}
-    for command in ("draw", "draw", "plot"):
+    words = {"draw": [FOUR_BAR], "animate": [FOUR_BAR], "plot": [FOUR_BAR, "--kind", "transmission"]}
+    for command in ("draw", "draw", "plot", "animate"):
         status, out, err = run(capsys, command, *words[command])
         assert (status, out) == (0, "")
         assert err.startswith("Written: four-bar-25-70-40-70")
@@ -134,4 +134,5 @@ def test_on_a_terminal_a_picture_goes_into_a_new_file(capsys, monkeypatch, tmp_p
         "four-bar-25-70-40-70.svg",
         "four-bar-25-70-40-70-2.svg",
         "four-bar-25-70-40-70-transmission.svg",
+        "four-bar-25-70-40-70-moving.svg",
     }

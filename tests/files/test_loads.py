@@ -84,7 +84,7 @@ links = st.sampled_from(["crank", "coupler", "rocker"])
 everything = st.builds(
     Loads,
     st.dictionaries(point, st.tuples(amount, amount)),
-    st.dictionaries(links, amount),
+    moments=st.dictionaries(links, amount),
     masses=st.dictionaries(point, size),
     gravity=place,
     bodies=st.dictionaries(links, st.builds(RigidBody, size, place, size)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from gruebler.base.errors import GrueblerError
-from gruebler.cli.draw import entry_of, linkage_and_range, picture_suffix
+from gruebler.cli.draw import entry_of, linkage_and_range, picture_path, picture_suffix
 from gruebler.cli.drive_rows import driven_path, given_rows
 from gruebler.cli.linkage_inputs import SpatialWord, spatial_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
@@ -41,8 +41,9 @@ def add(parser: Parser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write the animation into a file, or as SVG on standard output."""
+    """Write the animation into a file, on a terminal into a new one; else as SVG on standard output."""
     dark = arguments.dark
+    arguments.out = picture_path(arguments.out, arguments.linkage, "moving")
     suffix = picture_suffix(arguments.out, dark, _SUFFIXES)
     record = entry_of(arguments.linkage, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)

@@ -192,7 +192,9 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     record = entry_of(arguments.chain, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
     if has_sizes:
-        thing: Chain | Mechanism = mechanism_of(arguments.chain, None, [], arguments.lang)
+        in_space = spatial_of_word(arguments.chain, arguments.lang)
+        placed = linkage_of_word(arguments.chain, arguments.lang)[0] if in_space is None else in_space.linkage
+        thing: Chain | Mechanism = placed.mechanism
     else:
         thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive, arguments.lang)
     names = german(record, arguments.lang)

@@ -105,8 +105,10 @@ class SpatialWord(NamedTuple):
 
 def spatial_of_word(word: str, lang: str = "en") -> SpatialWord | None:
     """The linkage in space or on the sphere, or one given by screws in a file; None for every other word."""
+    from gruebler.files.values import is_of_another_program
+
     path = Path(word)
-    if path.suffix.lower() in (".toml", ".json") and path.is_file():
+    if path.suffix.lower() in (".toml", ".json") and path.is_file() and not is_of_another_program(path):
         from gruebler.files.screws import read_any_linkage
 
         value = read_any_linkage(path)

@@ -142,7 +142,7 @@ def equilibria(linkage: LinkageLike, loads: Loads, *, branch: Branch = None, at:
         >>> loads = Loads(bodies={"coupler": RigidBody(0.5, (35, 0), 200.0)})
         >>> print(equilibria(FourBar(25, 70, 40, 70), loads))
         R(frame-crank) = 88.58°: unstable
-        R(frame-crank) = 251.6°: stable, 3.81395 Hz
+        R(frame-crank) = 251.6°: stable, 3.814 Hz
 
     See Also:
         `linearised`, `simulate`, `circuit`

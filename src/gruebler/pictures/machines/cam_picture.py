@@ -56,7 +56,7 @@ def draw_cam(cam: Cam, *, at: float | None = None, plot: bool = False, lang: str
 
     Raises `gruebler.CamError` for an angle that is no finite number.
 
-    >>> from gruebler.machines.cams import read_lift
+    >>> from gruebler.machines.cams import Roller, read_lift
     >>> cam = Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), base=40, follower=Roller(10, offset=5))
     >>> draw_cam(cam, at=1.0).title
     'Cam with a translating roller follower'
