@@ -40,7 +40,7 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
         rows = measured.rows(_ROWS) if rows is None else rows
     if rows is not None:
         motion = followed(linkage, np.asarray(rows), order=2 if len(drives) == 1 else 0)
-        table = spatial_table(motion, arguments.output, arguments.point)
+        table = spatial_table(motion, arguments.output, arguments.point, arguments.lang)
     if table is not None and is_table(arguments.out):
         write_table(arguments.out, table.columns, arguments.lang, decimal_comma=arguments.decimal_comma)
     freedom = freedoms(linkage)

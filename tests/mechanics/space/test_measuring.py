@@ -93,6 +93,8 @@ def test_a_table_has_rates_by_the_drive():
     output = np.radians(table["R(0-out)"])
     assert table["R(0-out)′"][1] == pytest.approx((output[2] - output[0]) / (2 * h), abs=1e-7)
     assert [column.unit for column in table][:4] == ["°", "°", "", "1/rad"]
+    german = [column.name for column in spatial_table(motion, lang="de")]
+    assert german == ["D(0-in)", "D(0-out)", "D(0-out)′", "D(0-out)′′"]
     assert table["R(in-cross) vx"][1] == pytest.approx(0, abs=1e-12)  # the middle of the cross stays
     with pytest.raises(LinkageError, match="without branch and speed"):
         measures(linkage, speed=3.0)

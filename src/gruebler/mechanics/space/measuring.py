@@ -27,6 +27,7 @@ from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.drive_range import SpatialRange, followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
 from gruebler.mechanics.space.tree import motions
+from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Freedom
 
 _ROWS = 145
@@ -169,26 +170,29 @@ class SpatialMeasures:
         return message("{length:n} {unit}", length=float(f"{value:.6g}") + 0.0, unit=self.linkage.unit)
 
 
-def spatial_table(motion: SpatialMotion, outputs: Sequence[str] = (), points: Sequence[str] = ()) -> Table:
+def spatial_table(
+    motion: SpatialMotion, outputs: Sequence[str] = (), points: Sequence[str] = (), lang: str = "en"
+) -> Table:
     """A motion as a table: drives, outputs, places of points, and their derivatives by the drive as far as it has them.
 
-    It is taken to be moved with a speed of 1. Angles are in degrees, in rates in radians.
+    It is taken to be moved with a speed of 1. Angles are in degrees, in rates in radians; joints have the language's
+    letters.
     """
-    linkage, unit = motion.linkage, motion.linkage.unit
+    linkage, unit, alphabet = motion.linkage, motion.linkage.unit, Alphabet.of_language(lang)
     turning = [drive.turning for drive in linkage.mechanism.drives]
     columns = [
         Column(name, "°" if turns else unit, np.degrees(values) if turns else values)
-        for name, turns, values in zip(linkage.mechanism.drive_names(), turning, motion.drives.T, strict=True)
+        for name, turns, values in zip(linkage.mechanism.drive_names(alphabet), turning, motion.drives.T, strict=True)
     ]
     below = "rad" if turning[0] else unit
     for output in outputs or (None,):
         number, freedom = output_freedom(linkage, output)
-        name, turns = linkage.mechanism.chain.joint_names()[number], Freedom(freedom).turns
+        name, turns = linkage.mechanism.chain.joint_names(alphabet)[number], Freedom(freedom).turns
         for order in range(min(motion.order, 2) + 1):
             values = against_frame(linkage, number) * motion.joint(number, freedom, order)
             degree = turns and not order
             shown = "°" if degree else _unit_of_rate("rad" if turns else unit, below, order)
-            columns.append(Column(name + "′" * order, shown, np.degrees(values) if degree else values))
+            columns.append(Column(name + "′" * order, shown, np.degrees(values) if degree else values, float(turns)))
     for point in points:
         for order, letter in enumerate(("", "v", "a")[: motion.order + 1]):
             for axis, values in zip("xyz", motion.point(point, order).T, strict=True):
