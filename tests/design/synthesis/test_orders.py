@@ -26,6 +26,7 @@ VALUES = {
     "size-ratio": lambda design: design.verdict.size_ratio,
     "links": lambda design: len(design.linkage.mechanism.chain.links),
     "full-turn": lambda design: not design.verdict.turns_fully,
+    "sensitivity": lambda design: design.relative_sensitivity,
 }
 
 

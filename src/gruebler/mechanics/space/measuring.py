@@ -38,11 +38,12 @@ _STILL = 1e-9  # of the usual rate: smaller ones are 0 all the way
 _TURNS = message("The drive {drive} turns fully.")
 _BETWEEN = message("The drive {drive} moves from {low} to {high}.")
 _OPEN = message("It was followed no farther than three sizes of the linkage.")
-_OUTPUT = message("Output {joint}: it turns fully, {turns:g} times in a turn of the drive.")
+_WITH = message("Output {joint}: it turns fully in the sense of the drive, {turns:g} : 1.")
+_AGAINST = message("Output {joint}: it turns fully against the sense of the drive, {turns:g} : 1.")
 _SWINGS = message("Output {joint}: from {low} to {high}, that is {travel}.")
 _CENTRES = message("Dead centres of the output at {centres}.")
-_RATIO = message("Speed ratio, output by drive: from {least:.6g} at {first} to {most:.6g} at {second} of the drive.")
-_CONSTANT = message("Speed ratio, output by drive: {ratio:.6g}, constant.")
+_RATIO = message("Speed ratio, output by drive: from {least:.4g} at {first} to {most:.4g} at {second} of the drive.")
+_CONSTANT = message("Speed ratio, output by drive: {ratio:.4g}, constant.")
 _JOINTS = message("Relative motion at the joints: {joints}.")
 
 
@@ -139,7 +140,7 @@ class SpatialMeasures:
             yield _BETWEEN.filled(drive=driven, low=low, high=high)
             yield from (_OPEN if stop is None else stop.message for stop in self.range.stops)
         if self.turns:
-            yield _OUTPUT.filled(joint=title(self.output), turns=self.turns)
+            yield (_WITH if self.turns > 0 else _AGAINST).filled(joint=title(self.output), turns=abs(self.turns))
         else:
             (row,) = (row for row in self.joints if (row.joint, row.freedom) == (self.output, self.freedom))
             texts = [self._value(v, Freedom(row.freedom).turns) for v in (row.lowest, row.highest, self.travel)]
