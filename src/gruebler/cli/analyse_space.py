@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import math
 from typing import Any
 
 import numpy as np
 
-from gruebler.base.columns import shown
+from gruebler.base.columns import Table, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.cli.drive_rows import given_rows
 from gruebler.cli.linkage_inputs import SpatialWord
@@ -48,17 +47,7 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
         document: dict[str, Any] = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()}
         if measured is not None:
             document["measures"] = measured.to_json()
-        columns = () if table is None else table.columns
-        print_json(
-            document
-            | {
-                "columns": [{"name": column.name, "unit": column.unit} for column in columns],
-                "rows": [
-                    [float(value) if math.isfinite(value) else None for value in row]
-                    for row in zip(*(column.values for column in columns), strict=True)
-                ],
-            }
-        )
+        print_json(document | (Table(()) if table is None else table).to_json())
         return 0
     print_text(freedom.summary(arguments.lang))
     if measured is not None:

@@ -8,25 +8,6 @@ Closed forms as values: `SphericalFourBar`, `UniversalJoint`, `DoubleUniversalJo
 (docs/theory/closed-forms-in-space.md).
 """
 
-from gruebler.mechanics.space.bennett import Bennett
-from gruebler.mechanics.space.crank_output import OutputMotion
-from gruebler.mechanics.space.measuring import SpatialMeasures, measures
-from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
-from gruebler.mechanics.space.moving import move
-from gruebler.mechanics.space.rssr import RSSR
-from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
-from gruebler.mechanics.space.universal_joint import DoubleUniversalJoint, UniversalJoint
+from lazy_loader import attach_stub
 
-__all__ = [
-    "RSSR",
-    "Bennett",
-    "DoubleUniversalJoint",
-    "OutputMotion",
-    "SpatialMeasures",
-    "SpatialMotion",
-    "SpatialStop",
-    "SphericalFourBar",
-    "UniversalJoint",
-    "measures",
-    "move",
-]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

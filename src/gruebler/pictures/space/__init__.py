@@ -1,6 +1,5 @@
 """Linkages in space and on the sphere to scale, in isometric or oblique view, still and moving."""
 
-from gruebler.pictures.space.animation import animate_spatial
-from gruebler.pictures.space.picture import draw_spatial
+from lazy_loader import attach_stub
 
-__all__ = ["animate_spatial", "draw_spatial"]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
