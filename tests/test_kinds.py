@@ -15,6 +15,7 @@ from gruebler.mechanics.linkages import elements
 from gruebler.mechanics.linkages.elements import Element
 
 SOURCE = Path(gruebler.__file__).parent
+TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(SOURCE.rglob("*.py"))}
 
 
 class Family(NamedTuple):
@@ -89,8 +90,8 @@ def questions(tree: ast.Module, names: frozenset[str]) -> Iterator[int]:
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.room)
 def test_no_code_asks_for_a_kind(family):
     asked = {}
-    for path in sorted(SOURCE.rglob("*.py")):
-        lines = [*questions(ast.parse(path.read_text(encoding="utf-8")), family.names)]
+    for path, tree in TREES.items():
+        lines = [*questions(tree, family.names)]
         if lines and family.room not in path.as_posix():
             asked[path.relative_to(SOURCE).as_posix()] = lines
     assert {name: lines for name, lines in asked.items() if name not in ALLOWED} == {}

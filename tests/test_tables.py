@@ -75,7 +75,7 @@ def test_a_table_as_json_and_parquet():
         ("truss_modes", 11),
         ("driven_by_class", 10),
         ("epicyclic_trains", 6),
-        ("sampled_chains", 12),
+        ("sampled_chains", 8),
         pytest.param("second_method", 12, marks=pytest.mark.slow),
     ],
 )

@@ -64,7 +64,7 @@ WRONG = {
     "a Motion": MOTION,
     "a graph": nx.path_graph(3),
 }
-TASK = PathTask([(0, 0), (1, 2), (3, 1)])
+TASK = PathTask([(0, 0), (1, 2), (3, 1)], fixed_pivots=[(0, -3), (3, -3)])
 SQUARE = gr.Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)")
 ELEMENTS = {
     "frame": {"R(frame-crank)": (0, 0), "R(frame-rocker)": (70, 0)},

@@ -91,11 +91,11 @@ def built(rng: random.Random) -> Linkage:
     return Linkage.from_drawing(mechanism, places)
 
 
-def test_a_thousand_random_linkages(tmp_path):
+def test_four_hundred_random_linkages(tmp_path):
     rng = random.Random(16)
     records: list[dict] = []
     forms: Counter[str] = Counter()
-    while len(records) < 1000:
+    while len(records) < 400:
         try:
             linkage = built(rng)
             plan = cached_plan(linkage)
@@ -109,9 +109,9 @@ def test_a_thousand_random_linkages(tmp_path):
     for number, pair in enumerate(zip(records, found, strict=True)):
         check(f"random linkage {number}", *pair)
     assert {"RRR", "RRP", "RPR", "PRP", "RPP"} <= set(forms)
-    assert sum(count for form, count in forms.items() if len(form) > 3) > 100
+    assert sum(count for form, count in forms.items() if len(form) > 3) > 40
     stopped = sum(record["status"] != 0 for record in records)
-    assert 100 < stopped < 900  # ranges that end are among them
+    assert 40 < stopped < 360  # ranges that end are among them
 
 
 def test_trains_of_parallelograms_pass_their_change_points_together(tmp_path):

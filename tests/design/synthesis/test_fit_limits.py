@@ -100,6 +100,7 @@ def test_given_lengths_size_ratio_and_transmission_angle_are_kept():
     assert _ordered_miss(best, z) / 2 < 0.05
 
 
+@pytest.mark.slow
 def test_points_with_both_pivots_and_with_one():
     """More than five with both are approached, of fewer than seven with one some of infinitely many are exact."""
     points = [(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1), (4, -0.5), (3, -1)]

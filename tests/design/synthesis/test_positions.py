@@ -273,6 +273,7 @@ def test_three_positions_are_met_by_many_linkages_moved_by_the_solver():
         assert np.abs(np.exp(1j * turned) - task.turns / task.turns[0]).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_more_than_five_positions_come_back_too():
     task, _ = positions_of(KNOWN, np.radians(np.linspace(10, 150, 9)))
     found = synthesise_positions(task)
@@ -280,6 +281,7 @@ def test_more_than_five_positions_come_back_too():
     assert "least squares" in str(found.notes[0])
 
 
+@pytest.mark.slow
 def test_far_pivots_do_not_crowd_out_the_other_dyads():
     """Positions near a line, drawn by hand: a dyad that slides is good, and ever larger circles approach it."""
     rows = [(0, 0, 0), (1, 0.2, 10), (2, 0.3, 22), (3, 0.3, 31), (4, 0.1, 45), (5, -0.3, 52), (6, -0.8, 60)]

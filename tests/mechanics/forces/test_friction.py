@@ -444,7 +444,7 @@ def test_every_link_is_in_equilibrium_and_power_adds_up(name, backward):
 
 @pytest.mark.parametrize("name", BASIC)
 @given(mu=st.floats(1e-3, 1.0), fx=st.floats(-100, 100), fy=st.floats(-100, 100), radius=st.floats(0.0, 0.1))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=4, deadline=None)
 def test_efficiency_and_sense(name, mu, fx, fy, radius):
     """Between 0 and 1; friction costs the drive power in both senses, and its sign is that of the sense."""
     linkage, rows, _, _ = MOVING[name]
@@ -486,7 +486,7 @@ def test_less_and_less_friction_is_none(name):
 
 
 @given(scale=st.floats(0.01, 100), turn=st.floats(-4, 4), mirrored=st.booleans(), mu=st.floats(0.05, 0.5))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=8, deadline=None)
 def test_scale_rotation_mirror(scale, turn, mirrored, mu):
     """Of a crosshead with a cylinder: the same force of the drive, the same safety, moments times the scale."""
     mechanism = Mechanism.parse("R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)")

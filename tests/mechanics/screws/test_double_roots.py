@@ -128,7 +128,9 @@ def test_values_for_each_drive():
         freedoms(m.hooke(), at=[0.1, 0.2])
 
 
-@pytest.mark.parametrize("gap", [1e-7, pytest.param(1e-9, marks=pytest.mark.slow), 1e-10])
+@pytest.mark.parametrize(
+    "gap", [pytest.param(1e-7, marks=pytest.mark.slow), pytest.param(1e-9, marks=pytest.mark.slow), 1e-10]
+)
 def test_a_small_gap_is_a_gap(gap):
     """Bars of 1 and 1 between pins that are a little more than 2 apart: no rounding, in no unit."""
     home = {"0": (0, 0, 0), "1": (0, 0, 0), "2": (1, 0, 0)}
