@@ -36,13 +36,13 @@ def jansens_leg() -> Linkage:
     knee = meeting(ear, lower, 39.4, 36.7, -1)
     foot = meeting(knee, lower, 65.7, 49.0, -1)
     drawn = {number: (z.real, z.imag) for number, z in enumerate((0j, crank, upper, pivot, ear, knee, lower))}
-    return Linkage.from_drawing(Mechanism.parse(JANSEN), drawn, {"foot": ("7", foot.real, foot.imag)})
+    return Linkage.from_drawing(Mechanism.parse(JANSEN), drawn, points={"foot": ("7", foot.real, foot.imag)})
 
 
 def samples() -> dict[str, tuple[Linkage, str]]:
     """What is dragged, and at which joint."""
     bar = FourBar(25, 70, 40, 70).linkage({"K": (45, 40)})
-    six = Linkage.from_drawing(Mechanism.parse(CLASS_THREE), TRIANGLE, {"K": ("3", 70.0, 90.0)})
+    six = Linkage.from_drawing(Mechanism.parse(CLASS_THREE), TRIANGLE, points={"K": ("3", 70.0, 90.0)})
     return {
         "four-bar": (bar, "R(coupler-rocker)"),
         "Jansen's leg": (jansens_leg(), "R(2-3)"),

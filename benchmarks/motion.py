@@ -72,7 +72,7 @@ def leg(text: str) -> Linkage:
     places = [A0, p["c"], B0, p["upper"], p["lower"], p["left"], p["knee"], p["foot"]]
     mechanism = Mechanism.parse(text)
     joints = {k: places[k] for k in range(len(mechanism.chain.joints))}
-    return Linkage.from_drawing(mechanism, joints, {"foot": ("ghi", *p["foot"])} if "ghi" in text else {})
+    return Linkage.from_drawing(mechanism, joints, points={"foot": ("ghi", *p["foot"])} if "ghi" in text else {})
 
 
 def theirs(name: str) -> tuple[Callable[[], object], Callable[[], object]] | None:

@@ -6,6 +6,7 @@ import inspect
 import re
 from graphlib import TopologicalSorter
 from itertools import pairwise
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 
 import gruebler as gr
 from gruebler.base.text import error_in_language
+from gruebler.cli.commands import GROUPS
 from gruebler.design.synthesis import DeadCentreTask, PathTask
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.sheets.layout import page
@@ -286,6 +288,7 @@ def test_reports_and_sheets_show_themselves_in_notebooks():
 # --- the form of the front door -------------------------------------------------------------------
 
 FUNCTIONS = [name for name in gr.__all__ if inspect.isfunction(inspect.unwrap(getattr(gr, name)))]
+COMMANDS = [command.name.replace("-", "_") for _, commands in GROUPS for command in commands]
 # Optional arguments that are taken by place: a class of chains is (links, mobility), a diagram has its kind.
 BY_PLACE = {
     "chains": {"mobility"},
@@ -332,6 +335,49 @@ def test_docstrings_have_all_sections(name):
         assert hasattr(getattr(gr, first), rest) if rest else hasattr(gr, first)
     (page,) = re.findall(r"docs/theory/[\w-]+\.md", section["Theory"])
     assert (Path(__file__).parents[1] / page).is_file()
+
+
+CLASSES = [name for name in gr.__all__ if inspect.isclass(getattr(gr, name))]
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_classes_say_what_is_like_them_and_where_their_theory_stands(name):
+    text = inspect.getdoc(getattr(gr, name))
+    section = dict(re.findall(r"^(See Also|Theory):\n    (.+)$", text, re.MULTILINE))
+    others = re.findall(r"`(\w+)`", section["See Also"])
+    assert others
+    assert set(others) <= {*gr.__all__} - {name}
+    if not issubclass(getattr(gr, name), BaseException):
+        assert (Path(__file__).parents[1] / section["Theory"]).is_file()
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_methods_take_nothing_but_their_subject_by_place(name):
+    """What may be left out and is not the first argument is given by name."""
+    misplaced = [
+        f"{name}.{method}({p.name})"
+        for method, function in inspect.getmembers(getattr(gr, name), inspect.isroutine)
+        if not method.startswith("_") and hasattr(function, "__annotations__")  # Python's own have none
+        for k, p in enumerate(
+            p for p in inspect.signature(function).parameters.values() if p.name not in ("self", "cls")
+        )
+        if k and p.kind is p.POSITIONAL_OR_KEYWORD and p.default is not p.empty
+    ]
+    assert misplaced == []
+
+
+def test_names_of_commands_lead_to_names_of_the_library():
+    for command in COMMANDS:
+        if command not in {"completion", "demo", "gallery", "man"} | {
+            *gr.__all__
+        }:  # these have no function of their own
+            with pytest.raises(AttributeError, match="did you mean") as caught:
+                getattr(gr, command)
+            meant = re.search(r"mean '(.*)'", str(caught.value))[1]
+            assert attrgetter(meant)(gr) is not None
+    for wrong, meant in {"analyze": "measures", "motion": "move", "load": "read"}.items():
+        with pytest.raises(AttributeError, match=f"did you mean '{meant}'"):
+            getattr(gr, wrong)
 
 
 def test_the_method_is_chosen_and_said():

@@ -29,6 +29,32 @@ if TYPE_CHECKING:
 __version__ = "0.2.0"
 _opened, __dir__, __all__ = attach_stub(__name__, __file__)
 
+_MEANT = {
+    "analyse": "measures",
+    "analyze": "measures",
+    "assur": "decompose",
+    "atlas": "structure.atlas",
+    "balance": "mechanics.dynamics",
+    "catalog": "teaching.catalog",
+    "check": "mobility_report",
+    "construct": "teaching.constructions",
+    "convert": "files.convert",
+    "curve": "coupler_curve",
+    "dynamics": "inverse_dynamics",
+    "enumerate": "chains",
+    "exercise": "teaching.exercise",
+    "gears": "Train",
+    "grashof": "FourBar",
+    "load": "read",
+    "motion": "move",
+    "open": "read",
+    "save": "write",
+    "sheet": "teaching.sheet",
+    "solve": "move",
+    "table": "teaching.teaching_table",
+}
+"""What commands, and likely names that no name is like, are called here."""
+
 
 def __getattr__(name: str) -> Any:
     """A name of the front door, loaded; of another one it is said which was meant."""
@@ -36,7 +62,8 @@ def __getattr__(name: str) -> Any:
         return _opened(name)
     from gruebler.base.errors import nearest
 
-    suggestion = "" if name.startswith("_") else nearest(name, __all__)
+    meant = _MEANT.get(name, name)
+    suggestion = "" if name.startswith("_") else nearest(meant, [*__all__, *_MEANT.values()])
     # Without `obj`: with it Python would suggest the name a second time.
     raise AttributeError(f"gruebler has no attribute {name!r}{suggestion}", name=name)
 

@@ -113,7 +113,12 @@ GOOD = {
     "SpatialLinkage.from_dh": {"rows": [(np.pi / 2, 0, 1, 0)] * 4},
     "Spring": {"between": ("frame:0,40", "K"), "stiffness": 2},
     "TorsionSpring": {"between": ("frame", "crank"), "stiffness": 10},
-    "Train": {"meshes": [Mesh("sun", "planet", 24, 18, "arm"), Mesh("planet", "ring", 18, -60, "arm")]},
+    "Train": {
+        "meshes": [
+            Mesh(a="sun", b="planet", size_a=24, size_b=18, carrier="arm"),
+            Mesh(a="planet", b="ring", size_a=18, size_b=-60, carrier="arm"),
+        ]
+    },
     "animate": {"value": LENGTHS, "seconds": 0.1, "drives": None, "curves": (), **PICTURE},
     "assembly_modes": {"linkage": LENGTHS, "drives": 1.0},
     "assur_groups": {"links": 2},

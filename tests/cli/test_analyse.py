@@ -290,7 +290,7 @@ def test_acceleration_and_jerk_of_several_drives(capsys):
     rates = {"acceleration": [1, 2], "jerk": [3, 4]}
     motion = move(linkage, np.radians([[10, 20]]), speed=np.array([10, 20]) * math.pi / 30, order=3, **rates)
     for order, header in enumerate(("ω 2 rad/s", "α 2 rad/s²", "j 2 rad/s³"), 1):
-        assert columns[header] == pytest.approx(motion.angular("2", order).tolist(), rel=1e-12)
+        assert columns[header] == pytest.approx(motion.angular("2", order=order).tolist(), rel=1e-12)
 
 
 @pytest.mark.parametrize(

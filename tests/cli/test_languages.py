@@ -97,7 +97,7 @@ def test_an_entry_with_german_names_is_the_same_machine(id):
     assert len(set(names.values())) == len(names)
     assert german.chain() == english.chain().renamed(names)
     assert (german.frame, german.outputs) == (names.get(english.frame), tuple(names[k] for k in english.outputs))
-    assert german.chain() == type(german.chain()).parse(german.chain().text("german"), english.space)
+    assert german.chain() == type(german.chain()).parse(german.chain().text("german"), space=english.space)
     frame = english.frame or english.chain().links[0]
     drawn = Mechanism(english.chain(), frame, english.drives)
     assert drawn.renamed(names) == Mechanism(german.chain(), names[frame], german.drives)

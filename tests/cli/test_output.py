@@ -53,7 +53,11 @@ def test_pictures_are_valid_on_every_output(arguments):
 @pytest.mark.parametrize("start", ["=cmd|1", "+1", "-1", "@sum", "\tx", "\rx", "\nx"])
 def test_names_are_no_formulas_in_a_spreadsheet(start):
     values = np.array([-1.5, 2.0])
-    head, *rows = csv.reader(as_csv([Column(f"{start} x", "mm", values), Column("C y", "mm", values)]).splitlines(True))
+    head, *rows = csv.reader(
+        as_csv([Column(f"{start} x", unit="mm", values=values), Column("C y", unit="mm", values=values)]).splitlines(
+            True
+        )
+    )
     assert head == [f"'{start} x [mm]", "C y [mm]"]
     assert rows == [["-1.5", "-1.5"], ["2.0", "2.0"]]
 

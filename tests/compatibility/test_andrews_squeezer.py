@@ -83,7 +83,7 @@ def squeezer():
     return Linkage.from_drawing(
         mechanism,
         {name: (z.real, z.imag) for name, z in joints.items()},
-        {name: (link, z.real, z.imag) for name, (link, z) in ends.items()},
+        points={name: (link, z.real, z.imag) for name, (link, z) in ends.items()},
         unit="m",
     )
 
@@ -121,7 +121,7 @@ def test_rates_at_the_start():
     the mechanism begins in a position where P does not move.
     """
     motion = gr.move(squeezer(), [START["beta"]], speed=0.0, acceleration=14222.4439199541, order=2)
-    theta = motion.angular("K2", 2)[0] - motion.angular("K1", 2)[0]
+    theta = motion.angular("K2", order=2)[0] - motion.angular("K1", order=2)[0]
     assert theta == pytest.approx(-10666.8329399655, rel=1e-12)
     for link in ("K3", "K4", "K5", "K6", "K7"):
-        assert abs(motion.angular(link, 2)[0]) < 1e-8
+        assert abs(motion.angular(link, order=2)[0]) < 1e-8

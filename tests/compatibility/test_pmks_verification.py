@@ -35,7 +35,7 @@ def linkage_of(machine):
     points = {point["id"]: (point["link"], *point["initial"]) for point in machine.get("points", ())}
     points |= {f"centre of {link}": (link, *mass["com_initial"]) for link, mass in machine.get("masses", {}).items()}
     points |= {f"{j['id']} on {j['links'][0]}": (j["links"][0], *j["initial"]) for j in machine["joints"]}
-    return Linkage.from_drawing(mechanism, places, points, unit="m")
+    return Linkage.from_drawing(mechanism, places, points=points, unit="m")
 
 
 def size_of(machine):
@@ -68,12 +68,12 @@ def test_places_and_rates(id):
         motion = followed(machine, row)
         for name, figures in row["points"].items():
             for order in range(3):
-                found = motion.point(name_of(machine, name), order)[-1]
+                found = motion.point(name_of(machine, name), order=order)[-1]
                 bound = 2e-11 * size * speed**order
                 assert found == pytest.approx(figures[2 * order : 2 * order + 2], rel=0, abs=bound), (name, order)
         for link, (omega, alpha) in row["links"].items():
-            assert motion.angular(link, 1)[-1] == pytest.approx(omega, rel=0, abs=2e-11 * speed), link
-            assert motion.angular(link, 2)[-1] == pytest.approx(alpha, rel=0, abs=2e-11 * speed**2), link
+            assert motion.angular(link, order=1)[-1] == pytest.approx(omega, rel=0, abs=2e-11 * speed), link
+            assert motion.angular(link, order=2)[-1] == pytest.approx(alpha, rel=0, abs=2e-11 * speed**2), link
 
 
 @pytest.mark.parametrize("gravity", ["no_gravity", "gravity"])
@@ -89,8 +89,8 @@ def test_torques_with_inertia(id, gravity):
         forces, moments = {}, {}
         for link, mass in machine["masses"].items():
             centre = f"centre of {link}"
-            forces[centre] = mass["mass"] * (np.array(weight) - motion.point(centre, 2))
-            moments[link] = -mass["inertia"] * motion.angular(link, 2)
+            forces[centre] = mass["mass"] * (np.array(weight) - motion.point(centre, order=2))
+            moments[link] = -mass["inertia"] * motion.angular(link, order=2)
         # the force acts at the mean of three joints of a link, which is the centre of mass of that link
         corners = [j["initial"] for j in machine["joints"] if j["id"] in load["application_average"]]
         assert np.mean(corners, axis=0) == pytest.approx(machine["masses"][load["link"]]["com_initial"], abs=1e-9)
@@ -121,7 +121,7 @@ def test_inverse_dynamics_has_the_torques_and_all_reactions(id, gravity):
         names = {joint["id"]: f"R({'-'.join(joint['links'])})" for joint in machine["joints"]}
         for link, signs in machine["reaction_signs"].items():
             for joint, sign in signs.items():
-                found = sign * run.statics.force(names[joint], link)[-1]
+                found = sign * run.statics.force(names[joint], link=link)[-1]
                 assert found == pytest.approx(row["reactions"][gravity][joint], rel=0, abs=1e-11 * largest), (
                     joint,
                     link,

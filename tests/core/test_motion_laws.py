@@ -265,7 +265,7 @@ def test_two_drives_sweep_as_one() -> None:
     assert motion.closure_error < 1e-13
     seen = motion.point("R(2-3)")
     middle = (seen[2:] - seen[:-2]) / (turn[2] - turn[0])
-    assert np.abs(middle - motion.point("R(2-3)", 1)[1:-1]).max() < 1e-3 * np.abs(middle).max()
+    assert np.abs(middle - motion.point("R(2-3)", order=1)[1:-1]).max() < 1e-3 * np.abs(middle).max()
 
 
 def test_drives_may_move_one_after_the_other_and_rest() -> None:

@@ -76,7 +76,7 @@ def _parallel(phi: np.ndarray) -> np.ndarray:
 
 def mobility(text: str, space: str = "planar") -> int:
     """F by the formula."""
-    return counted(Chain.parse(text, space))
+    return counted(Chain.parse(text, space=space))
 
 
 def stated(place: str, states: str, derive: Any, value: Any, **more: Any) -> Fact:

@@ -65,7 +65,7 @@ def _drawings(draw):
     points = {'K, odd "name"\\': (draw(st.sampled_from(mechanism.chain.links)), *draw(place))}
     try:
         return Linkage.from_drawing(
-            mechanism, places, points, unit=draw(st.sampled_from(["mm", "in", "µm"])), outputs=outputs
+            mechanism, places, points=points, unit=draw(st.sampled_from(["mm", "in", "µm"])), outputs=outputs
         )
     except LinkageError:
         return None  # places that coincide

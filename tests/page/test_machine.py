@@ -116,7 +116,7 @@ def geared_crank() -> Linkage:
     chain = "R(frame-gear1) G(gear1-gear2) R(frame-gear2) R(gear2-rod) R(rod-slider) P(frame-slider)"
     places = {
         "R(frame-gear1)": (-50, 0),
-        "G(gear1-gear2)": {"gear1": Wheel(-50, 0, 20.0, 20), "gear2": Wheel(0, 0, 30.0, 30)},
+        "G(gear1-gear2)": {"gear1": Wheel(-50, 0, 20.0, teeth=20), "gear2": Wheel(0, 0, 30.0, teeth=30)},
         "R(frame-gear2)": (0, 0),
         "R(gear2-rod)": (15, 15),
         "R(rod-slider)": (90, 5),

@@ -50,7 +50,7 @@ def test_joint_forces_in_polar_form():
     """At 0° the crank's bearing carries m r w² (1 + r/l) = 960 N on the frame, away from the centre."""
     figure = gr.plot(run(), "forces").figure
     assert "R(frame-crank) on frame" in texts(figure)
-    tip = run().statics.force("R(frame-crank)", "frame")[0]
+    tip = run().statics.force("R(frame-crank)", link="frame")[0]
     np.testing.assert_allclose(tip, [2 * 0.03 * 100**2 * 1.6, 0.0], rtol=1e-12, atol=1e-9)
     assert {"0°", "500", "1000"} <= set(texts(figure))  # the axis goes on to the tip
     assert "R(coupler-slider) on slider" in gr.plot(run(), "forces", points=["R(coupler-slider)"]).svg()

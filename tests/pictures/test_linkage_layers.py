@@ -158,7 +158,7 @@ def test_the_scale_of_accelerations():
     figure = draw_linkage(SliderCrank(25, 70, 5).linkage(), at=0.7, show=["accelerations"])
     motion = move(SliderCrank(25, 70, 5).linkage(), [0.7], speed=1.0, order=2)
     names = ["R(crank-coupler)", "R(coupler-slider)"]
-    wanted = sorted(float(np.hypot(*motion.point(name, 2)[0])) for name in names)
+    wanted = sorted(float(np.hypot(*motion.point(name, order=2)[0])) for name in names)
     (bar,) = [s for s in styled(figure, "acceleration") if len(s.parts) == 3]
     unit = bar.parts[0][1].minus(bar.parts[0][0]).length / float(words(figure)[0].split()[0])
     found = sorted(

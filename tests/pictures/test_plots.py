@@ -200,7 +200,7 @@ def test_the_hodograph_of_a_crank_pin_is_a_circle():
 def test_a_hodograph_is_that_of_the_motion():
     read = Read(hodograph(WITH_POINT, ["K", "R(coupler-rocker)"]))
     (line,) = lines(hodograph(WITH_POINT, ["K", "R(coupler-rocker)"]), "line-1")
-    path = drive_cycle(WITH_POINT).at(np.linspace(0, 2 * np.pi, 3000), 1).point("K", 1)
+    path = drive_cycle(WITH_POINT).at(np.linspace(0, 2 * np.pi, 3000), 1).point("K", order=1)
     for point in read.values(line)[::5]:
         assert np.hypot(*(path - point).T).min() < 0.25
 

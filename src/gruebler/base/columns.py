@@ -7,7 +7,7 @@ import io
 import re
 from abc import ABC
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from itertools import count
 from typing import Any
 
@@ -32,6 +32,7 @@ class Column:
     """A quantity over the rows of a table."""
 
     name: str
+    _: KW_ONLY
     unit: str
     values: Reals
     """(rows,); NaN where it is not defined."""
@@ -44,7 +45,7 @@ class Column:
     def header(self) -> str:
         """Name and unit.
 
-        >>> Column("torque", "N·mm", np.zeros(1)).header
+        >>> Column("torque", unit="N·mm", values=np.zeros(1)).header
         'torque [N·mm]'
         """
         return f"{self.name} [{self.unit}]" if self.unit else self.name
@@ -93,7 +94,7 @@ class Table:
     def to_json(self) -> dict[str, Any]:
         """Name and unit of the columns, and the rows; null where a quantity is not defined or infinite.
 
-        >>> Table((Column("s", "mm", np.array([1.5, np.nan])),)).to_json()
+        >>> Table((Column("s", unit="mm", values=np.array([1.5, np.nan])),)).to_json()
         {'columns': [{'name': 's', 'unit': 'mm'}], 'rows': [[1.5], [None]]}
         >>> Table(()).to_json()
         {'columns': [], 'rows': []}
@@ -108,7 +109,7 @@ class Table:
     def structured(self) -> NDArray[np.void]:
         """A structured array, (rows,), of floats; its fields are the headers, with units.
 
-        >>> Table((Column("s", "mm", np.array([1.0, 2.0])),)).structured()["s [mm]"]
+        >>> Table((Column("s", unit="mm", values=np.array([1.0, 2.0])),)).structured()["s [mm]"]
         array([1., 2.])
         """
         headers = self._headers()
@@ -165,7 +166,8 @@ class Table:
     def __str__(self) -> str:
         """The first rows, for readers.
 
-        >>> print(Table((Column("s", "mm", np.array([1.0, 2.5])), Column("F", "N", np.array([np.nan, 7.0])))))
+        >>> ways = Column("s", unit="mm", values=np.array([1.0, 2.5]))
+        >>> print(Table((ways, Column("F", unit="N", values=np.array([np.nan, 7.0])))))
         s [mm]  F [N]
         1       –
         2.5     7
@@ -178,7 +180,10 @@ class Table:
 
     def _shown(self) -> tuple[list[str], list[list[str]]]:
         """Headers and the first rows."""
-        rows = shown(Column(c.name, c.unit, c.values[:ROWS_SHOWN], c.natural, c.noise) for c in self.columns)
+        rows = shown(
+            Column(c.name, unit=c.unit, values=c.values[:ROWS_SHOWN], natural=c.natural, noise=c.noise)
+            for c in self.columns
+        )
         return [column.header for column in self.columns], rows
 
 
@@ -199,7 +204,7 @@ class Tabled(ABC):  # noqa: B024 -- what it has is the same for all
 def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:
     """The rows as texts of four digits (`text.number`), noise as 0, an infinite value as ∞, a missing one as –.
 
-    >>> shown([Column("x", "", np.array([1.5, 1e-15, np.nan]))], "de")
+    >>> shown([Column("x", unit="", values=np.array([1.5, 1e-15, np.nan]))], "de")
     [['1,5'], ['0'], ['–']]
     """
     cells = []
@@ -237,7 +242,8 @@ def as_csv(columns: Iterable[Column], *, decimal_comma: bool = False) -> str:
         decimal_comma: Numbers with decimal commas and cells between semicolons, as spreadsheets expect them where the
             comma is the decimal sign.
 
-    >>> as_csv([Column("x", "mm", np.array([1.5])), Column("y", "mm", np.array([np.nan]))], decimal_comma=True)
+    >>> x = Column("x", unit="mm", values=np.array([1.5]))
+    >>> as_csv([x, Column("y", unit="mm", values=np.array([np.nan]))], decimal_comma=True)
     'x [mm];y [mm]\r\n1,5;\r\n'
     """
     columns = list(columns)

@@ -47,6 +47,9 @@ class GrueblerError(ValueError):
     >>> text = str(NotationError("{text!r} is not a chain", text="x" * 9000))
     >>> len(text), "… (9,002 characters) …" in text, text[-20:]
     (315, True, "xxxx' is not a chain")
+
+    See Also:
+        `UnitWarning`
     """
 
     def __init__(self, text: str | Template = "", /, **values: Any) -> None:
@@ -105,7 +108,14 @@ class TransformationError(GrueblerError):
 
 
 class UnitWarning(UserWarning):
-    """Angles, which are in radians everywhere, look as if they were degrees; `gruebler.base.angles` says when."""
+    """Angles, which are in radians everywhere, look as if they were degrees; `gruebler.base.angles` says when.
+
+    See Also:
+        `from_degrees`, `GrueblerError`
+
+    Theory:
+        docs/theory/kinematics.md
+    """
 
 
 def to_be_read(value: object) -> str:

@@ -163,12 +163,12 @@ def _path(arguments: argparse.Namespace) -> int:
 def _polygon(curve: CouplerCurve) -> list[Column]:
     linkage, z = curve.point_path.cycle.linkage, curve.points
     values = _values(curve, curve.drives)
-    units = ["°" if drive.turning else linkage.unit for drive in linkage.mechanism.drives]
+    drives = zip(linkage.mechanism.drive_names(), linkage.mechanism.drives, values.T, strict=True)
     return [
-        *(map(Column, linkage.mechanism.drive_names(), units, values.T)),
-        Column("x", linkage.unit, z.real),
-        Column("y", linkage.unit, z.imag),
-        Column("s", linkage.unit, curve.arcs),
+        *(Column(name, unit="°" if drive.turning else linkage.unit, values=own) for name, drive, own in drives),
+        Column("x", unit=linkage.unit, values=z.real),
+        Column("y", unit=linkage.unit, values=z.imag),
+        Column("s", unit=linkage.unit, values=curve.arcs),
     ]
 
 

@@ -205,7 +205,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
     def chain(self) -> Chain:
         """The chain of the entry, its links in the order of the file."""
-        written = Chain.parse(self.joints, self.space)
+        written = Chain.parse(self.joints, space=self.space)
         return Chain(written.joints, links=self.links, space=self.space)
 
     def linkage(self) -> Linkage:

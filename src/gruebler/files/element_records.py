@@ -77,7 +77,7 @@ def _wheel(record: ElementRecord, where: str) -> Wheel:
         radius = record.module * record.teeth / 2
     if radius is None and not record.teeth:
         raise LinkageError("{where}: expected a radius, teeth or a circle", where=where)
-    return Wheel(x, y, radius or 0.0, record.teeth, record.belt)
+    return Wheel(x, y, radius or 0.0, teeth=record.teeth, belt=record.belt)
 
 
 def _circle(record: ElementRecord, where: str) -> Circle:
@@ -86,13 +86,16 @@ def _circle(record: ElementRecord, where: str) -> Circle:
     return Circle(x, y, record.circle)
 
 
+_CAM_SIZES = ("roller", "offset", "flat", "scale", "arm", "distance", "face")
+
+
 def _cam(record: ElementRecord, where: str) -> CamDisc:
     assert record.cam is not None
-    x, y, angle = _directed(record, where)
+    place = _directed(record, where)
     if record.base is None:
         raise LinkageError("{where}.base: the radius of the base circle is missing", where=where)
-    sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
-    return CamDisc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
+    sizes = {name: getattr(record, name) for name in _CAM_SIZES}
+    return CamDisc(*place, lift=record.cam, base=record.base, **sizes)
 
 
 def _pins(record: ElementRecord, where: str) -> GenevaDriver:
@@ -102,12 +105,12 @@ def _pins(record: ElementRecord, where: str) -> GenevaDriver:
 
 def _slots(record: ElementRecord, where: str) -> GenevaWheel:
     assert record.slots is not None
-    return GenevaWheel(*_directed(record, where), record.slots, record.internal)
+    return GenevaWheel(*_directed(record, where), slots=record.slots, internal=record.internal)
 
 
 def _transfer(record: ElementRecord, where: str) -> NonCircular:
     assert record.transfer is not None
-    return NonCircular(*_directed(record, where), record.transfer, record.teeth)
+    return NonCircular(*_directed(record, where), transfer=record.transfer, teeth=record.teeth)
 
 
 def _directed(record: ElementRecord, where: str) -> tuple[float, float, float]:

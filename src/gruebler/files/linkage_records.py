@@ -113,7 +113,7 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
         assert sizes.places is not None
         places = _by_joint(mechanism, _aimed(mechanism, sizes.places), "places", slots=True)
         _refuse_rounded_axes(mechanism, places)
-        return Linkage.from_drawing(mechanism, places, points, unit=sizes.unit, outputs=chosen)
+        return Linkage.from_drawing(mechanism, places, points=points, unit=sizes.unit, outputs=chosen)
     assert sizes.elements is not None
     elements: dict[str, Mapping[str | int, object]] = {}
     for link, values in sizes.elements.items():
@@ -126,7 +126,7 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
     raw = sizes.reference_pose
     pose = None if raw is None else _reference_pose(raw, mechanism.chain.links)
     with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these were degrees
-        return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
+        return Linkage(mechanism, elements, points=points, unit=sizes.unit, reference_pose=pose, outputs=chosen)
 
 
 def _door(
@@ -151,7 +151,7 @@ def _by_joint(
     elements: dict[str | int, object] = {}
     for joint, raw in values.items():
         try:
-            number = mechanism.chain.joint_number(joint, LinkageError)
+            number = mechanism.chain.joint_number(joint, error=LinkageError)
         except LinkageError as error:
             raise LinkageError("{where}: {error}", where=where, error=error) from None
         if number in elements:

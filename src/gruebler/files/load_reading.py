@@ -99,7 +99,7 @@ class _Reader:
             return _told(where, lambda: RigidBody.bar(mass, start, end))
         if record.disc is not None:
             radius = record.disc
-            return _told(where, lambda: RigidBody.disc(mass, radius, centre))
+            return _told(where, lambda: RigidBody.disc(mass, radius, centre=centre))
         inertia = self.quantity(f"{where}.inertia", record.inertia, "inertia", 0.0)
         if record.about is None:
             return _told(where, lambda: RigidBody(mass, centre, inertia))
@@ -212,7 +212,7 @@ class _Reader:
 
     def motor(self, joint: str, raw: Any) -> Law:
         where, mechanism = f"loads.motors.{joint}", self.linkage.mechanism
-        number = _told("loads.motors", lambda: mechanism.chain.joint_number(joint, LinkageError))
+        number = _told("loads.motors", lambda: mechanism.chain.joint_number(joint, error=LinkageError))
         drive = next((drive for drive in mechanism.drives if drive.joint == number), None)
         if drive is None:
             raise LinkageError("loads.motors: {joint} is not driven", joint=joint)

@@ -262,7 +262,7 @@ def _built(drawing: PinDrawing, left_out: list[Message]) -> Linkage:
         drives = _likely_drives(made_chain, drawing.frame)
     mechanism = Mechanism(made_chain, drawing.frame, drives)
     places: dict[str | int, object] = {number: place for number, (_, _, place) in enumerate(chain)}
-    return Linkage.from_drawing(mechanism, places, points, unit=drawing.unit)
+    return Linkage.from_drawing(mechanism, places, points=points, unit=drawing.unit)
 
 
 def _connected(

@@ -82,7 +82,7 @@ def spatial_linkage_from_record(
     for name, raw in screws.points.items():
         point = convert_document(raw, PointRecord, LinkageError, f"screws.points.{name}")
         points[name] = (point.link, *point.at)
-    return SpatialLinkage(mechanism, places, screws.unit, points=points, outputs=outputs)
+    return SpatialLinkage(mechanism, places, unit=screws.unit, points=points, outputs=outputs)
 
 
 def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
@@ -95,7 +95,7 @@ def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
     """
     record = convert_document(document, SpatialRecord, LinkageError)
     try:
-        chain = Chain.parse(record.joints, record.space)
+        chain = Chain.parse(record.joints, space=record.space)
         if record.links is not None:
             chain = Chain(chain.joints, links=record.links, space=chain.space)
         mechanism = Mechanism(chain, chain.links[0] if record.frame is None else record.frame, record.drives)
@@ -109,7 +109,7 @@ def screws_to_json(linkage: SpatialLinkage) -> dict[str, Any]:
     mechanism, chain = linkage.mechanism, linkage.mechanism.chain
     names = chain.joint_names()
     angles = chain.space is Space.SPHERICAL
-    written = Chain.parse(chain.text(), str(chain.space))
+    written = Chain.parse(chain.text(), space=str(chain.space))
     links = {} if written.links == chain.links else {"links": list(chain.links)}
     return {
         "joints": chain.text(),

@@ -56,7 +56,7 @@ def chain_of_text(text: str, space: str | None = None) -> Chain:
         return decode(text.strip()).chain
     if ";" in text:
         return Mechanism.parse(text).chain
-    return Chain.parse(text, space)
+    return Chain.parse(text, space=space)
 
 
 def read_structures(path: Path, space: str | None = None) -> Iterator[Structure]:

@@ -75,6 +75,12 @@ class Geneva:
     (2.414214, 5.406981)
     >>> cross.motion_fraction, cross.dwell_fraction
     (0.25, 0.75)
+
+    See Also:
+        `Cam`, `Train`, `draw`, `animate`
+
+    Theory:
+        docs/theory/geneva.md
     """
 
     slots: int

@@ -203,7 +203,7 @@ def test_the_atlas_of_a_structure_against_the_solver_of_motion(text):
     for n in (0, 7001):
         places = {name: (z.real, z.imag) for name, z in zip(names, book.drawn[n], strict=True)}
         point = (structure.coupler_links[book.link[n]], book.point[n].real, book.point[n].imag)
-        drawing = Linkage.from_drawing(structure.mechanism, places, {"P": point})
+        drawing = Linkage.from_drawing(structure.mechanism, places, points={"P": point})
         path = circuit(drawing, step=0.02).samples.complex_point("P")
         assert np.abs(path[:, None] - book.z[n]).min(axis=0).max() < 0.02 * np.abs(
             np.ptp(path.real) + np.ptp(path.imag)

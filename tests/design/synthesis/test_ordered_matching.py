@@ -442,7 +442,7 @@ def test_a_drive_that_gains_a_turn_but_backs_up_on_the_way_does_not_turn_fully()
         six_bar = Mechanism.parse(f"R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive={drive}")
         joints = (0, crank[0], rocker[0], 3 + 0j, path[0], pin[0], pivot)
         places = {k: place(complex(z)) for k, z in enumerate(joints)}
-        drawn = Linkage.from_drawing(six_bar, places, {"P": ("4", *place(path[0]))})
+        drawn = Linkage.from_drawing(six_bar, places, points={"P": ("4", *place(path[0]))})
         assert circuit(drawn).closed
         return judge_design(drawn, point_targets("P", path[[0, 10]], 3.0), Demands(crank=True), "six-bar").verdict
 

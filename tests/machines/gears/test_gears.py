@@ -37,7 +37,10 @@ def differential(planets):
     return Train(
         mesh
         for k in range(planets)
-        for mesh in (Mesh("sun1", f"planet{k}", 30, 17, "arm"), Mesh("sun2", f"planet{k}", -64, 17, "arm"))
+        for mesh in (
+            Mesh(a="sun1", b=f"planet{k}", size_a=30, size_b=17, carrier="arm"),
+            Mesh(a="sun2", b=f"planet{k}", size_a=-64, size_b=17, carrier="arm"),
+        )
     )
 
 
@@ -126,7 +129,7 @@ def test_tooth_forces_give_the_same_torques(sun, planet, torque):
 
 @given(st.permutations(range(5)), speed, speed)
 def test_the_order_of_writing_is_nothing(order, first, second):
-    meshes = (*differential(2).meshes, Mesh("arm", "out", 20, 31))
+    meshes = (*differential(2).meshes, Mesh(a="arm", b="out", size_a=20, size_b=31))
     drives = {"sun1": first, "arm": second}
     one, other = speeds(Train(meshes), drives), speeds(Train(meshes[k] for k in order), drives)
     assert one.values == other.values

@@ -64,7 +64,7 @@ def check(linkage: Linkage, train: Train, drives: list[str], rates: dict[str, in
         if unit == Unit.TURNING:
             found = motion.angular(link)
         else:
-            found = motion.displacement(f"P(frame-{link})", 1) * (2 * np.pi if unit == Unit.PER_TURN else 1)
+            found = motion.displacement(f"P(frame-{link})", order=1) * (2 * np.pi if unit == Unit.PER_TURN else 1)
         assert found == pytest.approx(float(expected[link]), rel=1e-9, abs=1e-9 * largest)
 
 

@@ -289,7 +289,7 @@ def test_a_class_three_linkage_against_sampling(link: str) -> None:
     margin = 1e-4 * course.span.width
     drives = np.linspace(course.span.low + margin, course.span.high - margin, 20_001)
     motion = move(CLASS_III, np.concatenate([[course.start.drives[0, 0]], drives]), order=2)
-    track, rate = motion.angle(link)[1:], motion.angular(link, 1)[1:]
+    track, rate = motion.angle(link)[1:], motion.angular(link, order=1)[1:]
     cells = np.flatnonzero(np.sign(rate[:-1]) * np.sign(rate[1:]) < 0)
     found = dead_centres(course, find_output(CLASS_III, link))
     assert len(found) == len(cells)
@@ -297,7 +297,7 @@ def test_a_class_three_linkage_against_sampling(link: str) -> None:
         assert drives[cell] <= centre.drive <= drives[cell + 1]
         best = track[cell : cell + 2].max() if centre.kind == "maximum" else track[cell : cell + 2].min()
         assert centre.output == pytest.approx(best, abs=1e-6)
-    rates = motion.angular(link, 2)[1:]
+    rates = motion.angular(link, order=2)[1:]
     inside = [x for x in crossings(course, find_output(CLASS_III, link), 2) if drives[0] < x.drive < drives[-1]]
     assert len(inside) == np.count_nonzero(np.sign(rates[:-1]) * np.sign(rates[1:]) < 0)
 

@@ -122,9 +122,9 @@ def test_virtual_work_at_the_driving_leg() -> None:
     """Force in the coupler of a four-bar against an output torque: M = F c sin mu."""
     size = FourBar(25, 70, 40, 70)
     motion = move(size.linkage(), from_degrees(0, 359, 1), order=2)
-    rate = motion.angular("rocker", 1)
+    rate = motion.angular("rocker", order=1)
     coupler = motion.complex_point("R(coupler-rocker)") - motion.complex_point("R(crank-coupler)")
-    pin = motion.complex_point("R(crank-coupler)", 1)
+    pin = motion.complex_point("R(crank-coupler)", order=1)
     power = np.real(np.conj(coupler / np.abs(coupler)) * pin)  # of a unit force, at the crank pin
     assert 40 * np.sin(transmission_angle(motion)) * np.abs(rate) == pytest.approx(np.abs(power), abs=1e-9)
 

@@ -96,7 +96,7 @@ def test_bodies_of_shapes():
 
 def test_a_load_is_a_number_a_text_a_curve_or_a_function():
     motion = move(FOUR_BAR, ANGLES, speed=2.0)
-    wanted = 3 * np.sin(ANGLES) + motion.point("K", 1)[:, 0]
+    wanted = 3 * np.sin(ANGLES) + motion.point("K", order=1)[:, 0]
     table = Curve([(x, 3 * np.sin(x)) for x in ANGLES])
     forms = [
         ({"K": (np.stack([wanted, 0 * wanted], axis=1))}, {}),

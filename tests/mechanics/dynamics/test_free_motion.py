@@ -90,7 +90,7 @@ def squeezer():
     points["D"] = ("K3", *xy(b + (0.02 - 0.018j) * turned(gamma)))
     places = [0j, k1, p, b, g, h, a]
     linkage = Linkage.from_drawing(
-        mechanism, dict(zip(mechanism.chain.joint_names(), map(xy, places), strict=True)), points, unit="m"
+        mechanism, dict(zip(mechanism.chain.joint_names(), map(xy, places), strict=True)), points=points, unit="m"
     )
     masses = [0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498]
     inertias = [2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5]
@@ -162,7 +162,9 @@ def test_two_freedoms_exchange_their_coordinates_at_stretched_limits():
 def test_double_pendulum():
     # two unit masses on rods of 1 m: the equations in absolute angles, by hand
     mechanism = Mechanism.parse("R(0-1) R(1-2); frame=0; drive=R(0-1); drive=R(1-2)")
-    linkage = Linkage.from_drawing(mechanism, {"R(0-1)": (0, 0), "R(1-2)": (1, 0)}, {"E": ("2", 2.0, 0.0)}, unit="m")
+    linkage = Linkage.from_drawing(
+        mechanism, {"R(0-1)": (0, 0), "R(1-2)": (1, 0)}, points={"E": ("2", 2.0, 0.0)}, unit="m"
+    )
     loads = Loads(masses={LinkPoint("1", 1.0, 0.0): 1.0, "E": 1.0}, gravity=(0, -9.81))
 
     def by_hand(_, y):
@@ -200,7 +202,9 @@ def test_a_pendulum_of_any_amplitude_has_the_period_of_the_elliptic_integral(amp
 def test_small_motions_of_a_double_pendulum():
     """Masses m, m on rods l, l that hang: w² = (2 ± sqrt 2) g/l (Landau, Lifshitz, Mechanics, §23, problem 2)."""
     mechanism = Mechanism.parse("R(0-1) R(1-2); frame=0; drive=R(0-1); drive=R(1-2)")
-    linkage = Linkage.from_drawing(mechanism, {"R(0-1)": (0, 0), "R(1-2)": (0.4, 0)}, {"E": ("2", 0.8, 0)}, unit="m")
+    linkage = Linkage.from_drawing(
+        mechanism, {"R(0-1)": (0, 0), "R(1-2)": (0.4, 0)}, points={"E": ("2", 0.8, 0)}, unit="m"
+    )
     loads = Loads(masses={LinkPoint("1", 0.4, 0.0): 3.0, "E": 3.0}, gravity=(0, -9.81))
     found = linearised(linkage, loads, at=[-np.pi / 2, 0.0])
     wanted = np.sqrt((2 + np.array([-1, 1]) * np.sqrt(2)) * 9.81 / 0.4)

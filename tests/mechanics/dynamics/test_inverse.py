@@ -68,7 +68,7 @@ def test_the_foundation_feels_the_shaking_force_and_the_loads():
     exerted = run.statics.force("R(frame-crank)") + run.statics.force("R(frame-rocker)")
     left = exerted + run.shaking_force + (3, -7) + (0, -weight)
     assert np.abs(left).max() < ROUNDING * np.abs(exerted).max()
-    tips = [motion.complex_point((link, *body.centre), 2) * body.mass for link, body in bodies.items()]
+    tips = [motion.complex_point((link, *body.centre), order=2) * body.mass for link, body in bodies.items()]
     wanted = -sum(tips) * 1e-3  # mm/s2 to m/s2
     np.testing.assert_allclose(run.shaking_force @ [1, 1j], wanted, rtol=1e-12)
 

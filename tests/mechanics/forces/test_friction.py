@@ -309,7 +309,7 @@ def test_two_edges(phi, on, sleeve):
     )
     held = statics(motion, PUSHED, friction=friction)
     alpha = np.arcsin((25 * sin(radians(phi)) - 10) / 70)
-    way = np.sign(motion.displacement(SLIDE, 1)[0])
+    way = np.sign(motion.displacement(SLIDE, order=1)[0])
     offset = motion.displacement(SLIDE)[0] if on == "frame" else 0.0
     expected = by_edges(alpha, way, mu, length, height, offset, sleeve)
     assert len(expected) == 1
@@ -353,7 +353,7 @@ def put_back(motion, loads, friction, rounds):
             first, second = joint.links
             near, far = linkage.elements[number, first], linkage.elements[number, second]
             along = motion.turns[:, motion.link_index(first)] * np.exp(1j * getattr(near, "angle", 0.0))
-            pressed = held.force(number, second) @ [1, 1j]
+            pressed = held.force(number, link=second) @ [1, 1j]
             size = np.abs((np.conj(along) * pressed).imag) if joint.pair.is_sliding else np.abs(pressed)
             rubbing = size * friction.coefficient * senses[number]
             for link, end, sign in ((second, far, -1), (first, near, 1)):
@@ -379,7 +379,7 @@ def test_friction_put_back_as_a_load(name):
     assert held.friction.proved.all()
     for contact in held.friction.contacts:
         if not contact.slides:
-            both = (statics_.force(contact.joint, contact.link) for statics_ in (held, rival))
+            both = (statics_.force(contact.joint, link=contact.link) for statics_ in (held, rival))
             assert np.allclose(*both, rtol=1e-8, atol=1e-8)
 
 
@@ -396,7 +396,7 @@ def free_bodies(held, loads, point, moment_on):
             later = joint.links[1] if joint.pair.is_sliding else link
             end = linkage.element(number, later)
             at = motion.complex_point(LinkPoint(later, end.x, end.y))
-            mine = held.force(number, link) @ [1, 1j]
+            mine = held.force(number, link=link) @ [1, 1j]
             for k, drive in enumerate(linkage.mechanism.drives):
                 sign = -1 if link == linkage.reference(k)[0] else 1
                 if drive.joint == number and joint.pair.is_sliding:
@@ -406,7 +406,7 @@ def free_bodies(held, loads, point, moment_on):
                 elif drive.joint == number and link in linkage.reference(k):
                     moment += sign * held.drive[:, k]
             force += mine
-            moment += (np.conj(at - about) * mine).imag + held.couple(number, link)
+            moment += (np.conj(at - about) * mine).imag + held.couple(number, link=link)
         if link == linkage.points_named(point)[-1].link:
             load = complex(*loads.forces[point])
             force += load
@@ -431,7 +431,7 @@ def test_every_link_is_in_equilibrium_and_power_adds_up(name, backward):
     assert free_bodies(held, loads, "K", one) < 1e-9 * 100
     assert held.disagreement < 1e-12
     way = -1.7 if backward else 1.7
-    given = motion.point("K", 1) @ [30.0, -80.0] + loads.moments[one] * motion.angular(one)
+    given = motion.point("K", order=1) @ [30.0, -80.0] + loads.moments[one] * motion.angular(one)
     lost = held.drive[:, 0] * way + given * np.sign(way)
     rates = np.abs(held.friction.rates[..., 0] * 1.7)
     coefficient = [0.15 * (1 if c.slides else 0.03 * size) for c in held.friction.contacts]
@@ -500,7 +500,7 @@ def test_scale_rotation_mirror(scale, turn, mirrored, mu):
         linkage = Linkage.from_drawing(
             mechanism,
             {**drawn, "P(1-2)": (0, 0, float(np.angle(put(3 + 2j))))},
-            {"K": ("4", put(2 + 3j).real, put(2 + 3j).imag)},
+            points={"K": ("4", put(2 + 3j).real, put(2 + 3j).imag)},
         )
         force = put(30 - 80j) / abs(factor)
         friction = Friction(
@@ -634,7 +634,7 @@ def test_a_joint_of_three_links_has_two_pins():
     loads = Loads({"R(2-4)": (0, -50), "R(3-5)": (0, -20)})
     held = statics(motion, loads, friction=Friction({"R(1-2-3)": 0.2}, pin_radius=0.5))
     assert [(contact.joint, contact.link) for contact in held.friction.contacts] == [(1, "2"), (1, "3")]
-    pressed = [np.hypot(*held.force("R(1-2-3)", link).T) for link in "23"]
+    pressed = [np.hypot(*held.force("R(1-2-3)", link=link).T) for link in "23"]
     assert np.allclose(held.friction.friction, 0.2 * 0.5 * np.stack(pressed, axis=1))
     assert held.disagreement < 1e-13
 
@@ -661,7 +661,7 @@ def test_two_drives_need_speeds():
     motion = move(FIVE_BAR, rows, speed=(1.0, -0.4), order=1)
     held = statics(motion, loads, friction=friction)
     assert held.disagreement < 1e-13
-    power = held.drive @ [1.0, -0.4] + motion.point("K", 1) @ [1, -2] + 0.5 * motion.angular("3")
+    power = held.drive @ [1.0, -0.4] + motion.point("K", order=1) @ [1, -2] + 0.5 * motion.angular("3")
     turning = [motion.angular(b) - motion.angular(a) for a, b in ("01", "12", "23", "34", "04")]
     assert np.allclose(power, (held.friction.friction * np.abs(np.stack(turning, axis=1))).sum(axis=1))
     with pytest.raises(LinkageError, match="efficiency is that of one drive"):

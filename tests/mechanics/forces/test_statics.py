@@ -18,7 +18,7 @@ numbers = st.floats(-100, 100)
 FIVE_BAR = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)"),
     {0: (0, 0), 1: (0, 2), 2: (2, 4), 3: (4, 2), 4: (4, 0)},
-    {"K": ("2", 2.0, 4.0)},
+    points={"K": ("2", 2.0, 4.0)},
 )
 FORKED = Linkage.from_drawing(  # one pin for the crank and two rods: a V engine
     Mechanism.parse("R(0-1) R(1-2-3) R(2-4) R(3-5) P(0-4) P(0-5); frame=0; drive=R(0-1)"),
@@ -51,7 +51,7 @@ def test_power_in_is_power_out(name):
     motion = move(linkage, rows[::20], speed=2.5)
     force, moment = np.array([3.0, -8.0]), 40.0
     held = statics(motion, Loads({"K": force}, moments={one: moment}))
-    out = motion.point("K", 1) @ force + moment * motion.angular(one)
+    out = motion.point("K", order=1) @ force + moment * motion.angular(one)
     assert np.allclose(held.drive[:, 0] * 2.5, -out, rtol=1e-9, atol=1e-9 * np.abs(out).max())
 
 
@@ -72,7 +72,7 @@ def test_free_bodies(name):
             at = motion.complex_point(
                 LinkPoint(joint.links[1] if joint.pair.name == "prismatic" else link, end.x, end.y)
             )
-            mine = held.force(number, link) @ [1, 1j]
+            mine = held.force(number, link=link) @ [1, 1j]
             for k, drive in enumerate(linkage.mechanism.drives):
                 if drive.joint == number and joint.pair.name == "prismatic":
                     first, _ = linkage.reference(k)
@@ -82,7 +82,7 @@ def test_free_bodies(name):
                 elif drive.joint == number:
                     moment += (-1 if link == linkage.reference(k)[0] else 1) * held.drive[:, k]
             force += mine
-            moment += (np.conj(at - about) * mine).imag + held.couple(number, link)
+            moment += (np.conj(at - about) * mine).imag + held.couple(number, link=link)
         if link == place.link:
             force += 3 - 8j
             moment += (np.conj(motion.complex_point("K") - about) * (3 - 8j)).imag
@@ -95,11 +95,11 @@ def test_two_force_members_and_a_joint_of_three_links():
     """Unloaded rods carry along their length; the three forces on one pin add up to zero."""
     motion = move(FORKED, from_degrees(90, 130, 10), branch=None)
     held = statics(motion, Loads({"R(2-4)": (0, -50), "R(3-5)": (0, -20)}))
-    pin = sum(held.force("R(1-2-3)", link) for link in "123")
+    pin = sum(held.force("R(1-2-3)", link=link) for link in "123")
     assert np.abs(pin).max() < 1e-12
     foot = FORKED.element("R(1-2-3)", "2")
     rod = motion.point("R(2-4)") - motion.point(LinkPoint("2", foot.x, foot.y))
-    pull = held.force("R(1-2-3)", "2")
+    pull = held.force("R(1-2-3)", link="2")
     assert np.abs(rod[:, 0] * pull[:, 1] - rod[:, 1] * pull[:, 0]).max() < 1e-10
     assert held.disagreement < 1e-12
 
@@ -164,7 +164,7 @@ def test_a_load_on_a_slider_that_its_guide_takes():
     assert np.abs(held.work).max() < 1e-12
     assert held.disagreement < 1e-14
     assert held.couple("P(frame-slider)") == pytest.approx(np.full(30, -10.0))
-    assert held.couple("P(frame-slider)", "frame") == pytest.approx(np.full(30, 10.0))
+    assert held.couple("P(frame-slider)", link="frame") == pytest.approx(np.full(30, 10.0))
     assert not held.couple("R(crank-coupler)").any()
 
 
@@ -209,7 +209,7 @@ def test_wrong_questions():
     motion = move(FourBar(25, 70, 40, 70).linkage(), [0.1, 0.2])
     held = statics(motion, Loads(moments={"rocker": 1}))
     with pytest.raises(LinkageError, match="is not a joint of 'crank'"):
-        held.force("R(frame-rocker)", "crank")
+        held.force("R(frame-rocker)", link="crank")
     with pytest.raises(LinkageError, match="is not one of the joints"):
         held.force("R(frame-rokker)")
     with pytest.raises(LinkageError, match="has no rows"):

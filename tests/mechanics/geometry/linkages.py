@@ -20,12 +20,12 @@ SIX_BAR = Linkage.from_drawing(
         "R(0-4)": (2, 5.5),
         "R(4-h)": (3, 3.5),
     },
-    {"K": ("h", 1.0, 4.0)},
+    points={"K": ("h", 1.0, 4.0)},
 )
 CYLINDER = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)"),
     {"R(0-1)": (0, 0), "R(4-2)": (3, 2), "P(1-2)": (0, 0, atan2(2, 3)), "R(0-4)": (4, 0)},
-    {"K": ("4", 2.0, 3.0)},
+    points={"K": ("4", 2.0, 3.0)},
 )
 
 # linkage, drive values, a moving link, another moving link

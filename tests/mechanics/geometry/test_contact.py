@@ -27,7 +27,7 @@ def test_rivals_up_to_the_third_order(name):
     motion = move(linkage, rows[::25], speed=1, order=3)
     found = taylor_series(motion, 3)
     for k in range(4):
-        exact = motion.complex_point("K", k)
+        exact = motion.complex_point("K", order=k)
         assert abs(found.complex_point("K")[k] * factorial(k) - exact).max() < 1e-12 * abs(exact).max()
     assert found.order == 3
     k = motion.link_index(one)
@@ -78,7 +78,7 @@ def meyer_zur_capellen(lam, phi0):
         "R(coupler-rocker)": (-joint.real, joint.imag),
         "R(frame-rocker)": (-pivot.real, pivot.imag),
     }
-    linkage = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"K": ("coupler", 0.0, 1.0)})
+    linkage = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, points={"K": ("coupler", 0.0, 1.0)})
     return move(linkage, np.angle(joint - pivot))
 
 
@@ -129,7 +129,7 @@ def test_no_normal_acceleration_on_the_inflection_circle(name):
             on = circle.pole[row] - 0.5j * circle.shift[row] * (1 - np.exp(1j * angle))
             arm = complex(np.conj(motion.turns[row, k]) * (on - motion.places[0, row, k]))
             point = LinkPoint(one, arm.real, arm.imag)
-            velocity, acceleration = (motion.complex_point(point, order)[row] for order in (1, 2))
+            velocity, acceleration = (motion.complex_point(point, order=order)[row] for order in (1, 2))
             normal = (np.conj(velocity) * acceleration).imag / abs(velocity)
             assert abs(normal) < 1e-9 * max(abs(acceleration), abs(velocity))
             assert tangent_contact(motion, point, row, tolerance=1e-7).points in (3, 4, None)

@@ -73,7 +73,7 @@ def test_watt_touches_with_five_points():
         "R(coupler-rocker)": (0, -15),
         "R(frame-rocker)": (60, -15),
     }
-    watt = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"F": ("coupler", 0.0, 0.0)})
+    watt = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, points={"F": ("coupler", 0.0, 0.0)})
     found = coupler_curve(watt, "F")
     (middle,) = [one for one in found.inflections if abs(one.at) < 1e-6]
     assert (middle.points, middle.flat) == (5, False)

@@ -27,7 +27,7 @@ def test_a_point_on_the_inflection_circle_has_no_normal_acceleration(name, relat
     for angle in (0.3, 2.0, 4.0):
         there = middle + circle.diameter / 2 * np.exp(1j * angle) * circle.normal
         arm = np.conj(seen.turn) * (there - seen.places[0])
-        velocity, acceleration = seen.complex_point(arm, 1), seen.complex_point(arm, 2)
+        velocity, acceleration = seen.complex_point(arm, order=1), seen.complex_point(arm, order=2)
         known = np.isfinite(velocity)
         normal = (np.conj(velocity) * acceleration).imag[known]
         assert np.all(abs(normal) <= 1e-8 * abs(velocity[known]) * (abs(acceleration[known]) + abs(velocity[known])))
@@ -114,7 +114,7 @@ def test_meyer_zur_capellen(lam, phi0):
     if lam == 5 / 6:
         assert abs(length - 5.103103630798287) < 1e-12
         assert abs(2 * pivot.real - 4.714045207910317) < 1e-12
-    linkage = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"K": ("coupler", 0.0, 1.0)})
+    linkage = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, points={"K": ("coupler", 0.0, 1.0)})
     motion = move(linkage, np.angle(joint - pivot), speed=1, order=3)
     circle, path = inflection_circle(motion, "coupler"), path_curvature(motion, "K")
     assert abs(circle.pole[0]) < 1e-12

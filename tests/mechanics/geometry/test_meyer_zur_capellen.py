@@ -87,7 +87,7 @@ def test_the_law_of_deviation():
     assert math.isclose(abs(found.coefficient), 1.55006772785498e-4, rel_tol=1e-10)
     assert abs(found.place - (1.7777777777777777 + 7.856742013183862j)) < 1e-12
     assert abs(math.degrees(found.direction) % 180 - KAPPA) < 1e-10
-    speed = move(lever.size.linkage({"K": (lever.u, lever.v)}), math.pi, speed=1).complex_point("K", 1)[0]
+    speed = move(lever.size.linkage({"K": (lever.u, lever.v)}), math.pi, speed=1).complex_point("K", order=1)[0]
     assert abs(abs(speed) - 1.63299316) < 5e-9
     assert abs(abs(found.coefficient) * abs(speed) ** 6 - 0.00293938769) < 5e-12
 

@@ -158,7 +158,7 @@ def test_watt_guide_of_the_documents():
     watt = Linkage.from_drawing(
         Mechanism.parse("R(frame-one) R(one-rod) R(rod-other) R(frame-other); drive=R(frame-one)"),
         {0: left, 1: (0, 15), 2: (0, -15), 3: right},
-        {"F": ("rod", 0.0, 0.0)},
+        points={"F": ("rod", 0.0, 0.0)},
     )
     path = linkage_path(watt, "F")
     points = path(np.radians([-22.414108945517206, -16.042818263663154, 15.699043586584697, 21.130683484424303]))

@@ -80,7 +80,8 @@ def test_joints_and_rates_of_the_kept_links() -> None:
     alone = move(FourBar(25, 70, 40, 70).linkage(), PATH, speed=4)
     for order in range(3):
         assert np.allclose(
-            motions.complex_point("R(coupler-rocker)", order)[1], alone.complex_point("R(coupler-rocker)", order)
+            motions.complex_point("R(coupler-rocker)", order=order)[1],
+            alone.complex_point("R(coupler-rocker)", order=order),
         )
     shown = motions.point("R(coupler-rocker)")
     assert np.allclose(shown[1], alone.point("R(coupler-rocker)"))
@@ -89,7 +90,7 @@ def test_joints_and_rates_of_the_kept_links() -> None:
     with pytest.raises(LinkageError, match="'rocker' was not kept"):
         motions.angle("rocker")
     with pytest.raises(LinkageError, match="order from 0 to 2"):
-        motions.complex_point("R(crank-coupler)", 3)
+        motions.complex_point("R(crank-coupler)", order=3)
     with pytest.raises(LinkageError, match="not a joint of the links kept"):
         motions.complex_point("R(frame-crank)")
 

@@ -27,7 +27,7 @@ TOLERANCES = (1e-11, 1e-9, 1e-6, 1e-3)
 
 def flat_follower(lift=LIFT, base=60.0):
     mechanism = Mechanism.parse("R(0-cam) P(0-valve) G(cam-valve); frame=0; drive=R(0-cam)")
-    touch = {"cam": CamDisc(0, 0, 0, lift, base, flat=True), "valve": (0, base, 0)}
+    touch = {"cam": CamDisc(0, 0, 0, lift=lift, base=base, flat=True), "valve": (0, base, 0)}
     return Linkage.from_drawing(mechanism, {"R(0-cam)": (0, 0), "P(0-valve)": (0, base, pi / 2), "G(cam-valve)": touch})
 
 
@@ -35,7 +35,10 @@ def roller_follower(lift=LIFT, base=40.0, roller=10.0, offset=5.0):
     """The spin of the roller is a freedom of its own."""
     mechanism = Mechanism.parse("R(0-cam) P(0-tappet) R(tappet-roller) G(cam-roller); frame=0; drive=R(0-cam)")
     y = sqrt((base + roller) ** 2 - offset**2)
-    touch = {"cam": CamDisc(0, 0, 0, lift, base, roller, offset), "roller": Circle(offset, y, roller)}
+    touch = {
+        "cam": CamDisc(0, 0, 0, lift=lift, base=base, roller=roller, offset=offset),
+        "roller": Circle(offset, y, roller),
+    }
     places = {"R(0-cam)": (0, 0), "P(0-tappet)": (offset, y + 30, pi / 2), "R(tappet-roller)": (offset, y)}
     return Linkage.from_drawing(mechanism, {**places, "G(cam-roller)": touch})
 
@@ -45,7 +48,7 @@ def rocker_follower():
     mechanism = Mechanism.parse(
         "R(0-cam) R(0-rocker) G(cam-rocker) R(rocker-rod) R(rod-slider) P(0-slider); frame=0; drive=R(0-cam)"
     )
-    touch = {"cam": CamDisc(0, 0, 0.4, LIFT, 40), "rocker": (-17.0, 38.0)}
+    touch = {"cam": CamDisc(0, 0, 0.4, lift=LIFT, base=40), "rocker": (-17.0, 38.0)}
     touch["rocker"] = tuple(40 * x / hypot(-17, 38) for x in (-17.0, 38.0))
     places = {"R(0-cam)": (0, 0), "R(0-rocker)": (-80, 40), "R(rocker-rod)": (-70, 90), "R(rod-slider)": (0, 130)}
     return Linkage.from_drawing(mechanism, {**places, "P(0-slider)": (0, 130, 0), "G(cam-rocker)": touch})
@@ -53,7 +56,7 @@ def rocker_follower():
 
 def geneva(slots=4, pins=1, internal=False):
     mechanism = Mechanism.parse("R(0-driver) R(0-cross) G(driver-cross); frame=0; drive=R(0-driver)")
-    touch = {"driver": GenevaDriver(0, 0, 0, pins), "cross": GenevaWheel(100, 0, pi, slots, internal)}
+    touch = {"driver": GenevaDriver(0, 0, 0, pins), "cross": GenevaWheel(100, 0, pi, slots=slots, internal=internal)}
     return Linkage.from_drawing(mechanism, {"R(0-driver)": (0, 0), "R(0-cross)": (100, 0), "G(driver-cross)": touch})
 
 
@@ -68,7 +71,7 @@ def test_a_cam_gives_the_lift_for_which_it_is_made(linkage, joint):
     angle = motion.drives[:, 0]
     smooth = np.abs(np.mod(angle, 2 * pi)[:, None] - JOINTS).min(axis=1) > 1e-6
     for order, tolerance in enumerate(TOLERANCES):
-        found = motion.displacement(joint, order)
+        found = motion.displacement(joint, order=order)
         found -= found[300] if order == 0 else 0
         assert np.abs(found - read_lift(LIFT).at(angle, order))[smooth].max() < tolerance
 
@@ -85,7 +88,7 @@ def test_geneva_drives(slots, pins, internal):
     local = np.mod(motion.drives[:, 0] + pi / pins, 2 * pi / pins) - pi / pins
     smooth = np.abs(np.abs(local) - drive.engaged) > 1e-9  # the acceleration jumps at entry and exit
     for order, tolerance in enumerate(TOLERANCES):
-        found = motion.angular("cross", order)
+        found = motion.angular("cross", order=order)
         found -= found[0] - wanted[0][0] if order == 0 else 0
         assert np.abs(found - wanted[order])[smooth].max() < tolerance * max(1, np.abs(wanted[order]).max())
 
@@ -206,7 +209,7 @@ def test_dwells_are_those_of_the_lift(angles, name, flat):
 def test_velocities_in_a_dwell_are_exactly_zero():
     course = drive_cycle(flat_follower("rise 8 75; fall 8 75; dwell", 40.0))
     rates = course.at(np.radians(np.linspace(150.001, 359.999, 500)), 3)
-    assert [np.abs(rates.displacement("P(0-valve)", order)).max() for order in (1, 2, 3)] == [0, 0, 0]
+    assert [np.abs(rates.displacement("P(0-valve)", order=order)).max() for order in (1, 2, 3)] == [0, 0, 0]
 
 
 def test_short_lifts_are_seen_beside_long_dwells():
@@ -230,7 +233,7 @@ def test_dwells_are_seen_through_linkages():
     for row in rests[1:]:
         assert [one[:2] for one in row] == [pytest.approx(one[:2], abs=1e-9) for one in rests[0]]
     motion = move(rocker_follower(), np.radians(np.linspace(rests[0][0][0], rests[0][0][1], 50)), speed=1.0)
-    assert np.abs(motion.displacement("P(0-slider)", 1)[1:-1]).max() < 1e-12
+    assert np.abs(motion.displacement("P(0-slider)", order=1)[1:-1]).max() < 1e-12
     assert np.ptp(motion.displacement("P(0-slider)")) < 1e-12 * 80
 
 
@@ -272,7 +275,7 @@ def test_a_range_of_the_drive_may_end_in_a_dwell():
     for dwell in found.dwells:
         assert found.span.low <= dwell.begin < dwell.end <= found.span.high
         inside = move(swinging_cam(), np.linspace(dwell.begin, dwell.end, 9)[1:-1], speed=1.0)
-        assert np.abs(inside.displacement("P(0-valve)", 1)).max() < 1e-10
+        assert np.abs(inside.displacement("P(0-valve)", order=1)).max() < 1e-10
 
 
 SWING = "rise 8 60; dwell 60; fall 8 60; dwell"
@@ -315,6 +318,6 @@ def swinging_cam(lift=SWING, angle=0.3, base=40.0):
     mechanism = Mechanism.parse(
         "R(0-arm) R(arm-rod) R(rod-cam) R(0-cam) P(0-valve) G(cam-valve); frame=0; drive=R(0-arm)"
     )
-    touch = {"cam": CamDisc(0, 0, angle, lift, base, flat=True), "valve": (0, base, 0)}
+    touch = {"cam": CamDisc(0, 0, angle, lift=lift, base=base, flat=True), "valve": (0, base, 0)}
     places = {"R(0-arm)": (150, 0), "R(arm-rod)": (150, 60), "R(rod-cam)": (30, 45), "R(0-cam)": (0, 0)}
     return Linkage.from_drawing(mechanism, {**places, "P(0-valve)": (0, base, pi / 2), "G(cam-valve)": touch})

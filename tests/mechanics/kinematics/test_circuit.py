@@ -312,7 +312,7 @@ def test_roots_and_touches():
     made = circuit(FourBar(25, 70, 40, 70).linkage())
     top = max(made.point("R(crank-coupler)")[:, 1])
     assert top <= 25
-    touches = made.roots(lambda poses, order: poses.point("R(crank-coupler)", order)[:, 1] - 25 * (order == 0))
+    touches = made.roots(lambda poses, order: poses.point("R(crank-coupler)", order=order)[:, 1] - 25 * (order == 0))
     assert np.cos(made.at(touches).angle("crank")) == pytest.approx([0], abs=1e-6)
     with pytest.raises(LinkageError, match="finite positions"):
         made.at(float("nan"))

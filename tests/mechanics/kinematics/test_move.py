@@ -49,14 +49,14 @@ def judged(linkage, closed, output, branch, tolerance):
 @given(lengths, lengths, lengths, lengths, branches)
 def test_four_bars(a, b, c, d, branch):
     four_bar = FourBar(a, b, c, d)
-    judged(four_bar.linkage(), four_bar, lambda m, k: m.angular("rocker", k), branch, 1e-8)
+    judged(four_bar.linkage(), four_bar, lambda m, k: m.angular("rocker", order=k), branch, 1e-8)
 
 
 @settings(max_examples=40)
 @given(lengths, lengths, st.floats(-1, 1).map(lambda x: round(x, 3)), branches)
 def test_slider_cranks(a, b, e, branch):
     crank = SliderCrank(a, b, e)
-    judged(crank.linkage(), crank, lambda m, k: m.displacement("P(frame-slider)", k), branch, 1e-8)
+    judged(crank.linkage(), crank, lambda m, k: m.displacement("P(frame-slider)", order=k), branch, 1e-8)
 
 
 @settings(max_examples=40)
@@ -64,7 +64,7 @@ def test_slider_cranks(a, b, e, branch):
 def test_inverted_slider_cranks(a, d, e, branch):
     inverted = InvertedSliderCrank(a, d, e)
     # the closed form looks from B0 to A, the block's line from A to B0
-    judged(inverted.linkage(), inverted, lambda m, k: m.angular("block", k) + (pi if k == 0 else 0), branch, 1e-8)
+    judged(inverted.linkage(), inverted, lambda m, k: m.angular("block", order=k) + (pi if k == 0 else 0), branch, 1e-8)
 
 
 # --- every dyad and larger groups ------------------------------------------------------------------
@@ -170,7 +170,7 @@ def test_a_parallelogram_stays_one_over_ten_turns():
         assert worst(motion.angle("rocker"), motion.angle("crank")) < 1e-7
         assert np.abs(motion.angular("coupler")).max() < 1e-9
         assert np.abs(motion.angular("rocker") - 1).max() < 1e-9
-        assert np.abs(motion.angular("rocker", 2)).max() < 1e-7
+        assert np.abs(motion.angular("rocker", order=2)).max() < 1e-7
         assert motion.closure_error < 1e-12
 
 
@@ -195,7 +195,7 @@ def test_a_path_that_turns_back_in_a_change_point_is_retraced(path):
 def test_rates_at_rest_in_a_change_point():
     motion = move(FourBar(20, 50, 20, 50).linkage(), from_degrees(0, 90, 10), speed=0, acceleration=2.0)
     assert np.abs(motion.angular("rocker")).max() == 0
-    assert np.abs(motion.angular("rocker", 2) - 2).max() < 1e-9
+    assert np.abs(motion.angular("rocker", order=2) - 2).max() < 1e-9
 
 
 def test_a_rest_has_the_rates_that_are_given_for_it_on_a_way_into_a_change_point_and_back():
@@ -205,7 +205,7 @@ def test_a_rest_has_the_rates_that_are_given_for_it_on_a_way_into_a_change_point
     motion = move(FourBar(20, 50, 20, 50).linkage(), path, speed=speed, acceleration=bend)
     assert motion.complete
     assert motion.angular("rocker") == pytest.approx(speed, abs=1e-9)
-    assert motion.angular("rocker", 2) == pytest.approx(bend, abs=1e-9)
+    assert motion.angular("rocker", order=2) == pytest.approx(bend, abs=1e-9)
 
 
 def test_a_row_at_a_limit_says_that_rates_are_not_finite():
@@ -285,14 +285,14 @@ def test_a_class_three_group_ends_inside_without_a_jump():
 def test_two_drives_draw_a_straight_line():
     five = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); drive=R(0-1); drive=R(0-4)")
     linkage = Linkage.from_drawing(
-        five, {0: (0, 0), 1: (-1, 2), 2: (1.5, 4), 3: (4, 2), 4: (3, 0)}, {"K": ("2", 1.5, 4)}
+        five, {0: (0, 0), 1: (-1, 2), 2: (1.5, 4), 3: (4, 2), 4: (3, 0)}, points={"K": ("2", 1.5, 4)}
     )
     time = np.linspace(0, 1, 101)
     home = [linkage.reference_pose["1"].angle, linkage.reference_pose["4"].angle]
     path = np.array(home) + np.outer(time, [0.3, -0.2])
     motion = move(linkage, path, speed=[0.3, -0.2], order=2)
     assert motion.complete
-    velocity = motion.point("K", 1)
+    velocity = motion.point("K", order=1)
     moved = np.trapezoid(velocity, time, axis=0)
     assert moved == pytest.approx(motion.point("K")[-1] - motion.point("K")[0], rel=1e-4)
 
@@ -301,8 +301,8 @@ def test_a_cylinder_pushes_at_its_own_speed():
     linkage = drawn("cylinder")
     motion = move(linkage, np.linspace(3.2, 5, 50), speed=2.0, order=3)
     assert worst(motion.displacement("P(1-2)"), motion.drives[:, 0]) < 1e-13
-    assert worst(motion.displacement("P(1-2)", 1), 2.0) < 1e-12
-    assert np.abs(motion.displacement("P(1-2)", 2)).max() < 1e-11
+    assert worst(motion.displacement("P(1-2)", order=1), 2.0) < 1e-12
+    assert np.abs(motion.displacement("P(1-2)", order=2)).max() < 1e-11
 
 
 @pytest.mark.parametrize("path", [np.linspace(50, -200, 100), np.linspace(50, -200, 1001), [50.0, -50.0]])
@@ -367,7 +367,7 @@ def test_unknown_names_are_answered_with_the_nearest():
     with pytest.raises(LinkageError, match="known are K, R"):
         motion.point("L")
     with pytest.raises(LinkageError, match="solved up to order 1"):
-        motion.point("K", 2)
+        motion.point("K", order=2)
     with pytest.raises(LinkageError, match="not a sliding joint"):
         motion.displacement("R(frame-crank)")
 

@@ -35,7 +35,10 @@ CASES = [
 def pair(transfer, teeth=(0, 0), apart=100.0, turned=0.0, joint="G", start=0.0):
     """Two wheels in the frame; the first is drawn at ``start``, the line of centres points along ``turned``."""
     mechanism = Mechanism.parse(f"R(0-a) R(0-b) {joint}(a-b); frame=0; drive=R(0-a)")
-    first, second = NonCircular(0, 0, 0, transfer, teeth[0]), NonCircular(0, 0, 0, "inverse", teeth[1])
+    first, second = (
+        NonCircular(0, 0, 0, transfer=transfer, teeth=teeth[0]),
+        NonCircular(0, 0, 0, transfer="inverse", teeth=teeth[1]),
+    )
     centre = apart * np.exp(1j * turned)
     there = turned + pi - float(transfer_of(first, second).at(start)) if start else turned + pi
     touch = {
@@ -63,7 +66,7 @@ def test_elliptic_gears_against_their_closed_form(e):
     assert np.abs(miss).max() < 1e-9
     below = 1 + e**2 - 2 * e * np.cos(angle)
     assert np.abs(motion.angular("b") + (1 - e**2) / below).max() < 1e-9
-    assert np.abs(motion.angular("b", 2) - (1 - e**2) * 2 * e * np.sin(angle) / below**2).max() < 1e-7
+    assert np.abs(motion.angular("b", order=2) - (1 - e**2) * 2 * e * np.sin(angle) / below**2).max() < 1e-7
 
 
 @pytest.mark.parametrize(("text", "teeth"), [case for case in CASES if "ellipse" not in case[0]])
@@ -74,7 +77,7 @@ def test_the_turn_is_the_mean_and_the_lift(text, teeth):
     lift = read_lift(text)
     for order, tolerance in enumerate((1e-11, 1e-9, 1e-6)):
         wanted = radians(1) * lift.at(motion.drives[:, 0], order) + mean * (motion.drives[:, 0], 1, 0)[order]
-        found = -(motion.angular("b", order) if order else motion.angle("b"))
+        found = -(motion.angular("b", order=order) if order else motion.angle("b"))
         inside = np.ones(len(motion), bool)
         if order == 2:  # it jumps between the parts
             starts = np.array([span.start for span in lift.spans()])
@@ -148,7 +151,7 @@ def test_scale_and_rotation_change_nothing(case, factor, turned, start):
     assert plain.complete
     assert other.complete
     for order, tolerance in enumerate((1e-9, 1e-8, 1e-6)):
-        one, two = (m.angular("b", order) if order else m.angle("b") for m in (plain, other))
+        one, two = (m.angular("b", order=order) if order else m.angle("b") for m in (plain, other))
         np.testing.assert_allclose(two - two[0], one - one[0], atol=tolerance)
 
 
@@ -202,7 +205,7 @@ def test_mirror_images():
 def test_a_slider_crank_behind_elliptic_gears():
     """Rates of a linkage behind the pair are derivatives."""
     mechanism = Mechanism.parse("R(0-a) R(0-b) G(a-b) R(b-rod) R(rod-slider) P(0-slider); frame=0; drive=R(0-a)")
-    touch = {"a": NonCircular(0, 0, 0, "ellipse 0.4"), "b": NonCircular(100, 0, pi, "inverse")}
+    touch = {"a": NonCircular(0, 0, 0, transfer="ellipse 0.4"), "b": NonCircular(100, 0, pi, transfer="inverse")}
     places = {"R(0-a)": (0, 0), "R(0-b)": (100, 0), "G(a-b)": touch, "R(b-rod)": (100, 30), "R(rod-slider)": (200, 0)}
     linkage = Linkage.from_drawing(mechanism, {**places, "P(0-slider)": (200, 0, 0)})
     h = 1e-3
@@ -229,7 +232,7 @@ def with_second(element=None, **changed):
 
 def without_arm():
     mechanism = Mechanism.parse("R(0-a) P(0-c) R(b-c) G(a-b); frame=0; drive=R(0-a)")
-    touch = {"a": NonCircular(0, 0, 0, "ellipse 0.5"), "b": NonCircular(100, 0, pi, "inverse")}
+    touch = {"a": NonCircular(0, 0, 0, transfer="ellipse 0.5"), "b": NonCircular(100, 0, pi, transfer="inverse")}
     return Linkage.from_drawing(
         mechanism, {"R(0-a)": (0, 0), "P(0-c)": (100, 0, 0), "R(b-c)": (100, 0), "G(a-b)": touch}
     )

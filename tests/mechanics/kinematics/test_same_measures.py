@@ -362,7 +362,7 @@ def test_poses_of_machines_with_several_drives(id: str) -> None:
         motion = move(other, path * factor, speed=speed * factor, order=2)
         assert motion.complete, motion.message()
         names = other.mechanism.chain.joint_names()
-        return np.array([[motion.complex_point(name, order) for name in names] for order in range(3)])
+        return np.array([[motion.complex_point(name, order=order) for name in names] for order in range(3)])
 
     size, angle, shift = linkage.size, 0.7, (0.3 + 0.4j) * linkage.size
     origin = np.array([1.0, 0.0, 0.0])[:, None, None] * shift_of(linkage, linkage.mechanism.frame, shift)

@@ -30,7 +30,7 @@ def roller_rocker(pivot=100.0, arm=80.0, roller=10.0, base=40.0, lift=LIFT, scal
     centre = scale * turn * (pivot - side * arm * np.exp(-1j * side * start))
     at = scale * turn * pivot
     touch = {
-        "cam": CamDisc(0, 0, angle, lift, base, roller, scale=scale, arm=arm, distance=pivot),
+        "cam": CamDisc(0, 0, angle, lift=lift, base=base, roller=roller, scale=scale, arm=arm, distance=pivot),
         "roller": Circle(centre.real, centre.imag, roller * scale),
     }
     places = {"R(0-cam)": (0, 0), "R(0-rocker)": (at.real, at.imag), "R(rocker-roller)": (centre.real, centre.imag)}
@@ -43,7 +43,7 @@ def face_rocker(pivot=110.0, face=5.0, base=60.0, lift=LIFT):
     normal = np.exp(1j * (pi / 2 - copysign(1, pivot) * start))
     foot = base * normal
     touch = {
-        "cam": CamDisc(0, 0, 0, lift, base, flat=True, distance=pivot, face=face),
+        "cam": CamDisc(0, 0, 0, lift=lift, base=base, flat=True, distance=pivot, face=face),
         "rocker": (foot.real, foot.imag, float(np.angle(normal)) - pi / 2),
     }
     return Linkage.from_drawing(mechanism, {"R(0-cam)": (0, 0), "R(0-rocker)": (pivot, 0), "G(cam-rocker)": touch})
@@ -60,7 +60,7 @@ def swing(motion, order=0):
     cam = next(element for element in linkage.elements.values() if isinstance(element, CamDisc))
     side = copysign(1, cam.distance)
     assert centre.x or centre.y
-    return -side * (motion.angular("rocker", order) if order else motion.angle("rocker"))
+    return -side * (motion.angular("rocker", order=order) if order else motion.angle("rocker"))
 
 
 @pytest.mark.parametrize("linkage", [*ROLLERS, *FACES])

@@ -22,7 +22,7 @@ def geared_five_bar(first=20.0, second=40.0, belt=""):
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4) G(1-4); frame=0; drive=R(0-1)")
     wheels = {"1": Wheel(0, 0, first, belt=belt), "4": Wheel(60, 0, second, belt=belt)}
     places = {"R(0-1)": (0, 0), "R(0-4)": (60, 0), "R(1-2)": (10, 5), "R(2-3)": (30, 50), "R(3-4)": (75, 10)}
-    return Linkage.from_drawing(mechanism, {**places, "G(1-4)": wheels}, {"C": ("2", 20, 40)})
+    return Linkage.from_drawing(mechanism, {**places, "G(1-4)": wheels}, points={"C": ("2", 20, 40)})
 
 
 def planetary(sun, planet, ring, drives=("sun", "ring"), second_planet=False):
@@ -34,8 +34,8 @@ def planetary(sun, planet, ring, drives=("sun", "ring"), second_planet=False):
     for name, side in (("p", 1), ("q", -1))[: 1 + second_planet]:
         x = side * (sun + planet)
         places[f"R(carrier-{name})"] = (x, 0)
-        places[f"G(sun-{name})"] = {"sun": Wheel(0, 0, sun, sun), name: Wheel(x, 0, planet, planet)}
-        places[f"G({name}-ring)"] = {"ring": Wheel(0, 0, -ring, -ring), name: Wheel(x, 0, planet, planet)}
+        places[f"G(sun-{name})"] = {"sun": Wheel(0, 0, sun, teeth=sun), name: Wheel(x, 0, planet, teeth=planet)}
+        places[f"G({name}-ring)"] = {"ring": Wheel(0, 0, -ring, teeth=-ring), name: Wheel(x, 0, planet, teeth=planet)}
     return Linkage.from_drawing(Mechanism.parse(f"{text}; frame=frame{marks}"), places)
 
 
@@ -81,7 +81,12 @@ def test_planetary_trains_run_as_willis_says(sun, planet, drives):
     ring = sun + 2 * planet
     linkage = planetary(sun, planet, ring, drives, second_planet=True)
     given_speeds = dict(zip(drives, (3, -2), strict=True))
-    train = Train((Mesh("sun", "p", sun, planet, "carrier"), Mesh("p", "ring", planet, -ring, "carrier")))
+    train = Train(
+        (
+            Mesh(a="sun", b="p", size_a=sun, size_b=planet, carrier="carrier"),
+            Mesh(a="p", b="ring", size_a=planet, size_b=-ring, carrier="carrier"),
+        )
+    )
     wanted = speeds(train, given_speeds).values
     path = np.linspace(0, 1.5, 10)[:, None] * [list(given_speeds.values())]
     motion = move(linkage, path, speed=[list(given_speeds.values())], order=3)
@@ -108,7 +113,10 @@ def test_trains_on_fixed_axes(pairs):
         x, before = x + step, x
         joints += [f"R(0-{k + 1})", f"G({k}-{k + 1})"]
         places[f"R(0-{k + 1})"] = (x, 0)
-        places[f"G({k}-{k + 1})"] = {str(k): Wheel(before, 0, a, a, belt), str(k + 1): Wheel(x, 0, size, size, belt)}
+        places[f"G({k}-{k + 1})"] = {
+            str(k): Wheel(before, 0, a, teeth=a, belt=belt),
+            str(k + 1): Wheel(x, 0, size, teeth=size, belt=belt),
+        }
         ratio *= Fraction(a, size) if kind == "open" else Fraction(-a, size)
     linkage = Linkage.from_drawing(Mechanism.parse(f"{' '.join(joints)}; frame=0; drive=R(0-1)"), places)
     motion = move(linkage, from_degrees(0, 400, 5), speed=1)
@@ -121,12 +129,12 @@ def test_trains_on_fixed_axes(pairs):
 def test_fergusons_paradox():
     """Three wheels of 99, 100 and 101 teeth on one planet; the middle one stands (Ferguson 1764)."""
     text = "R(0-arm) R(arm-p) G(0-p) R(0-fast) G(p-fast) R(0-slow) G(p-slow); frame=0; drive=R(0-arm)"
-    planet = Wheel(120, 0, 20, 20)
+    planet = Wheel(120, 0, 20, teeth=20)
     places = {"R(0-arm)": (0, 0), "R(arm-p)": (120, 0), "R(0-fast)": (0, 0), "R(0-slow)": (0, 0)}
-    places |= {"G(0-p)": {"0": Wheel(0, 0, 100, 100), "p": planet}}
+    places |= {"G(0-p)": {"0": Wheel(0, 0, 100, teeth=100), "p": planet}}
     for link, teeth in (("fast", 99), ("slow", 101)):  # cut to the same size
         radius = teeth * 120 / (teeth + 20)
-        places[f"G(p-{link})"] = {link: Wheel(0, 0, radius, teeth), "p": Wheel(120, 0, 120 - radius, 20)}
+        places[f"G(p-{link})"] = {link: Wheel(0, 0, radius, teeth=teeth), "p": Wheel(120, 0, 120 - radius, teeth=20)}
     motion = move(Linkage.from_drawing(Mechanism.parse(text), places), from_degrees(0, 3600, 5))
     assert motion.angle("slow")[-1] / (20 * pi) == pytest.approx(1 / 101, abs=1e-13)
     assert motion.angle("fast")[-1] / (20 * pi) == pytest.approx(-1 / 99, abs=1e-13)
@@ -138,25 +146,27 @@ def test_fergusons_paradox():
 def test_cardan_circles():
     """A point of the rim of a wheel that rolls in a ring of twice its radius moves on a straight line."""
     mechanism = Mechanism.parse("R(0-arm) R(arm-p) G(0-p); frame=0; drive=R(0-arm)")
-    wheels = {"0": Wheel(0, 0, -20, -40), "p": Wheel(10, 0, 10, 20)}
+    wheels = {"0": Wheel(0, 0, -20, teeth=-40), "p": Wheel(10, 0, 10, teeth=20)}
     places = {"R(0-arm)": (0, 0), "R(arm-p)": (10, 0), "G(0-p)": wheels}
     motion = move(
-        Linkage.from_drawing(mechanism, places, {"P": ("p", 20, 0)}), from_degrees(0, 3600, 7), speed=1, order=3
+        Linkage.from_drawing(mechanism, places, points={"P": ("p", 20, 0)}), from_degrees(0, 3600, 7), speed=1, order=3
     )
     angle = motion.drives[:, 0]
     rates = np.cos(angle), -np.sin(angle), -np.cos(angle), np.sin(angle)
     for order, wanted in enumerate(rates):
-        np.testing.assert_allclose(motion.complex_point("P", order), 20 * wanted, atol=1e-11)
+        np.testing.assert_allclose(motion.complex_point("P", order=order), 20 * wanted, atol=1e-11)
 
 
 def test_a_wheel_on_a_rack_draws_a_cycloid():
     mechanism = Mechanism.parse("P(0-axle) R(axle-wheel) G(0-wheel); frame=0; drive=P(0-axle)")
     wheels = {"0": (0, 0, 0), "wheel": Wheel(0, 5, 5)}
     places = {"P(0-axle)": (0, 5, 0), "R(axle-wheel)": (0, 5), "G(0-wheel)": wheels}
-    motion = move(Linkage.from_drawing(mechanism, places, {"P": ("wheel", 0, 0)}), np.linspace(-40, 90, 300), speed=2)
+    motion = move(
+        Linkage.from_drawing(mechanism, places, points={"P": ("wheel", 0, 0)}), np.linspace(-40, 90, 300), speed=2
+    )
     t = motion.drives[:, 0] / 5
     np.testing.assert_allclose(motion.point("P"), 5 * np.stack([t - np.sin(t), 1 - np.cos(t)], 1), atol=1e-12)
-    np.testing.assert_allclose(motion.point("P", 1), 2 * np.stack([1 - np.cos(t), np.sin(t)], 1), atol=1e-12)
+    np.testing.assert_allclose(motion.point("P", order=1), 2 * np.stack([1 - np.cos(t), np.sin(t)], 1), atol=1e-12)
 
 
 def test_an_eccentric_disc_is_a_slider_crank():
@@ -169,7 +179,7 @@ def test_an_eccentric_disc_is_a_slider_crank():
     t = motion.drives[:, 0]
     lift = motion.displacement("P(0-follower)")
     np.testing.assert_allclose(lift - lift[0], 3 * np.sin(t), atol=1e-12)
-    np.testing.assert_allclose(motion.displacement("P(0-follower)", 3), -3 * np.cos(t), atol=1e-12)
+    np.testing.assert_allclose(motion.displacement("P(0-follower)", order=3), -3 * np.cos(t), atol=1e-12)
 
 
 # --- laws ---------------------------------------------------------------------------------------------
@@ -230,8 +240,8 @@ def test_no_slip_at_the_contact():
     along = motion.complex_point(second) - motion.complex_point(first)
     np.testing.assert_allclose(np.abs(along), one.radius + two.radius, rtol=1e-13)
     along /= np.abs(along)
-    touch = motion.complex_point(first, 1) + 1j * motion.angular("1") * one.radius * along
-    other = motion.complex_point(second, 1) - 1j * motion.angular("2") * two.radius * along
+    touch = motion.complex_point(first, order=1) + 1j * motion.angular("1") * one.radius * along
+    other = motion.complex_point(second, order=1) - 1j * motion.angular("2") * two.radius * along
     np.testing.assert_allclose(touch, other, atol=1e-12)
 
 

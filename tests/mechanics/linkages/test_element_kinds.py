@@ -33,15 +33,15 @@ KINDS = {
 SAMPLES = [
     Pin(1.0, 2.0),
     Line(1.0, 2.0, 0.5),
-    Wheel(1.0, 2.0, -30.0, -60),
+    Wheel(1.0, 2.0, -30.0, teeth=-60),
     Wheel(1.0, 2.0, 30.0, belt="crossed"),
     Circle(1.0, 2.0, 5.0),
-    CamDisc(1.0, 2.0, 0.5, "rise 10 180; fall 10 180", 30.0, roller=4.0, offset=3.0, arm=50.0, distance=60.0),
-    CamDisc(1.0, 2.0, 0.5, "rise 10 180; fall 10 180", 30.0, flat=True, scale=2.0, face=3.0),
+    CamDisc(1.0, 2.0, 0.5, lift="rise 10 180; fall 10 180", base=30.0, roller=4.0, offset=3.0, arm=50.0, distance=60.0),
+    CamDisc(1.0, 2.0, 0.5, lift="rise 10 180; fall 10 180", base=30.0, flat=True, scale=2.0, face=3.0),
     GenevaDriver(1.0, 2.0, 0.5, 2),
-    GenevaWheel(1.0, 2.0, 0.5, 5, internal=True),
-    NonCircular(1.0, 2.0, 0.5, "ellipse 0.5", 30),
-    NonCircular(1.0, 2.0, 0.5, INVERSE, 30),
+    GenevaWheel(1.0, 2.0, 0.5, slots=5, internal=True),
+    NonCircular(1.0, 2.0, 0.5, transfer="ellipse 0.5", teeth=30),
+    NonCircular(1.0, 2.0, 0.5, transfer=INVERSE, teeth=30),
 ]
 
 
@@ -98,15 +98,20 @@ def test_every_contact_has_a_sign(sample):
 
 
 def test_scaling_and_mirroring_by_hand():
-    assert Wheel(1, 2, 3, 20).scaled(2) == Wheel(2, 4, 6, 20)
-    assert CamDisc(1, 2, 0.5, "rise 10 360", 30).scaled(2) == CamDisc(2, 4, 0.5, "rise 10 360", 30, scale=2)
+    assert Wheel(1, 2, 3, teeth=20).scaled(2) == Wheel(2, 4, 6, teeth=20)
+    assert CamDisc(1, 2, 0.5, lift="rise 10 360", base=30).scaled(2) == CamDisc(
+        2, 4, 0.5, lift="rise 10 360", base=30, scale=2
+    )
     assert Line(1, 2, 0.5).mirrored() == Line(1, -2, -0.5)
     assert Circle(1, 2, 3).mirrored() == Circle(1, -2, 3)
-    assert GenevaWheel(1, 2, 0.5, 4).mirrored() == GenevaWheel(1, -2, -0.5, 4)
-    for one_sided in (CamDisc(1, 2, 0.5, "rise 10 360", 30), NonCircular(1, 2, 0.5, "rise 20 180; fall 20 180")):
+    assert GenevaWheel(1, 2, 0.5, slots=4).mirrored() == GenevaWheel(1, -2, -0.5, slots=4)
+    for one_sided in (
+        CamDisc(1, 2, 0.5, lift="rise 10 360", base=30),
+        NonCircular(1, 2, 0.5, transfer="rise 20 180; fall 20 180"),
+    ):
         with pytest.raises(LinkageError, match="mirror image"):
             one_sided.mirrored()
-    assert NonCircular(1, 2, 0.5, "ellipse 0.5").mirrored() == NonCircular(1, -2, -0.5, "ellipse 0.5")
+    assert NonCircular(1, 2, 0.5, transfer="ellipse 0.5").mirrored() == NonCircular(1, -2, -0.5, transfer="ellipse 0.5")
 
 
 def test_a_key_without_a_value_is_not_given():

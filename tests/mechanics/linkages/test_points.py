@@ -21,7 +21,7 @@ FORMS = [
     (45.0, np.float64(40)),
 ]
 TAKERS = {
-    "Motion.point": lambda point: MOTION.point(point, 1),
+    "Motion.point": lambda point: MOTION.point(point, order=1),
     "Motion.table": lambda point: np.array([column.values for column in MOTION.table(points=[point]).columns][-6:]),
     "Circuit.point": lambda point: gr.circuit(LINKAGE).point(point),
     "coupler_curve": lambda point: np.array([turn.drive for turn in gr.coupler_curve(LINKAGE, point).turning_points()]),

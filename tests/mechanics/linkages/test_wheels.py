@@ -41,8 +41,8 @@ def changed(**wheel):
 @pytest.mark.parametrize(
     "linkage",
     [
-        pair(Wheel(0, 0, 20, 20), Wheel(50, 0, 30, 30)),
-        pair(Wheel(0, 0, 0, 20), Wheel(50, 0, 0, 30)),
+        pair(Wheel(0, 0, 20, teeth=20), Wheel(50, 0, 30, teeth=30)),
+        pair(Wheel(0, 0, 0, teeth=20), Wheel(50, 0, 0, teeth=30)),
         pair(Wheel(0, 0, 20), Wheel(50, 0, -70), "W"),
         pair(Wheel(0, 0, 1 / 3, belt="open"), Wheel(50, 0, 0.1, belt="open")),
         pair(Circle(7, 1, 20), Circle(50, 0, 30)),
@@ -55,17 +55,17 @@ def test_files_lose_nothing(linkage):
 
 
 def test_sizes_from_teeth():
-    bare = pair(Wheel(0, 0, 0, 20), Wheel(50, 0, 0, 30))
+    bare = pair(Wheel(0, 0, 0, teeth=20), Wheel(50, 0, 0, teeth=30))
     assert [bare.element("G(a-b)", link).radius for link in "ab"] == [20, 30]
-    internal = pair(Wheel(0, 0, 0, 20), Wheel(50, 0, 0, -70))
+    internal = pair(Wheel(0, 0, 0, teeth=20), Wheel(50, 0, 0, teeth=-70))
     assert [internal.element("G(a-b)", link).radius for link in "ab"] == [20, -70]
-    assert linkage_from_json(GIVEN).element("G(a-b)", "b") == Wheel(0, 0, 30, 30)
+    assert linkage_from_json(GIVEN).element("G(a-b)", "b") == Wheel(0, 0, 30, teeth=30)
     assert bare.size == 50
 
 
 def test_ratios_are_exact():
     for module in (0.1, 1.25, 3.7, 1e-3):
-        a, b = rolling_factors(Wheel(0, 0, 7 * module / 2, 7), Wheel(0, 0, 49 * module / 2, 49))
+        a, b = rolling_factors(Wheel(0, 0, 7 * module / 2, teeth=7), Wheel(0, 0, 49 * module / 2, teeth=49))
         assert b / a == 7
 
 
@@ -75,14 +75,14 @@ def test_ratios_are_exact():
         (Wheel(0, 0, -20), Wheel(50, 0, -30), "G", "two internal wheels"),
         (Wheel(0, 0, 30), Wheel(50, 0, -20), "G", "must be larger"),
         (Wheel(0, 0, 20), Wheel(50, 0, 31), "W", "50 apart on 'f', but the radii make 51"),
-        (Wheel(0, 0, 20, 20), Wheel(50, 0, 30, 40), "G", "modules differ: 2 and 1.5"),
-        (Wheel(0, 0, 20, 20), Wheel(50, 0, 30), "G", "on both wheels or on none"),
+        (Wheel(0, 0, 20, teeth=20), Wheel(50, 0, 30, teeth=40), "G", "modules differ: 2 and 1.5"),
+        (Wheel(0, 0, 20, teeth=20), Wheel(50, 0, 30), "G", "on both wheels or on none"),
         (Wheel(0, 0, 20, belt="open"), Wheel(50, 0, 30), "G", "both wheels of a belt"),
         (Wheel(0, 0, 20, belt="open"), Wheel(50, 0, 30, belt="open"), "W", "a belt is not a rolling contact"),
-        (Wheel(0, 0, 20, -20), Wheel(50, 0, 30, 30), "G", "both negative"),
+        (Wheel(0, 0, 20, teeth=-20), Wheel(50, 0, 30, teeth=30), "G", "both negative"),
         (Wheel(0, 0, 0), Wheel(50, 0, 30), "G", "a radius is positive"),
         (Wheel(0, 0, float("nan")), Wheel(50, 0, 30), "G", "finite"),
-        (Wheel(0, 0, 20, 20.5), Wheel(50, 0, 30), "G", "whole number"),
+        (Wheel(0, 0, 20, teeth=20.5), Wheel(50, 0, 30), "G", "whole number"),
         (Wheel(0, 0, 20, belt="loose"), Wheel(50, 0, 30), "G", "'open' or 'crossed'"),
         (Circle(0, 0, 20), Wheel(50, 0, 30), "G", "needs a line"),
         (Circle(0, 0, 20), Circle(50, 0, 30), "W", "needs a wheel"),

@@ -172,7 +172,7 @@ def test_rates_against_differences_of_higher_order():
             assert middle.joint(joint, order=order)[0] == pytest.approx(difference, abs=1e-6 / h ** (order - 1) * 1e-2)
     for order in (1, 2):
         difference = weights[order - 1] @ steps.point("R(2-3)") / below[order - 1]
-        assert middle.point("R(2-3)", order)[0] == pytest.approx(difference, abs=1e-6)
+        assert middle.point("R(2-3)", order=order)[0] == pytest.approx(difference, abs=1e-6)
     turn = (steps.pose("2")[4, :3, :3] - steps.pose("2")[2, :3, :3]) / (2 * h) @ steps.pose("2")[3, :3, :3].T
     assert middle.angular("2")[0] == pytest.approx([turn[2, 1], turn[0, 2], turn[1, 0]], abs=1e-5)
 
@@ -198,10 +198,10 @@ def test_a_planar_linkage_put_anywhere_in_space_moves_as_in_its_plane():
     motion = move(SpatialLinkage(mechanism, places, points={"K": point}), TURN, order=2)
     for order in (0, 1, 2):
         flat = np.zeros((73, 4))
-        flat[:, :2], flat[:, 3] = plane.point("K", order), order == 0
-        assert motion.point("K", order) == pytest.approx((flat @ somewhere.T)[:, :3], abs=1e-10)
-    assert motion.angular("rocker", 2) == pytest.approx(
-        np.outer(plane.angular("rocker", 2), somewhere[:3, 2]), abs=1e-11
+        flat[:, :2], flat[:, 3] = plane.point("K", order=order), order == 0
+        assert motion.point("K", order=order) == pytest.approx((flat @ somewhere.T)[:, :3], abs=1e-10)
+    assert motion.angular("rocker", order=2) == pytest.approx(
+        np.outer(plane.angular("rocker", order=2), somewhere[:3, 2]), abs=1e-11
     )
 
 

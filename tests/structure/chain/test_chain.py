@@ -130,9 +130,9 @@ def test_a_text_that_cannot_be_read_says_where(text, words):
 
 def test_space_prefix_and_argument():
     assert Chain.parse("spatial: R(a-b) S(b-c) R(c-a)").space == "spatial"
-    assert Chain.parse("R(a-b) S(b-c) R(c-a)", "spatial") == Chain.parse("Spatial : R(a-b) S(b-c) R(c-a)")
+    assert Chain.parse("R(a-b) S(b-c) R(c-a)", space="spatial") == Chain.parse("Spatial : R(a-b) S(b-c) R(c-a)")
     with pytest.raises(NotationError, match=r"says spatial, but planar"):
-        Chain.parse("spatial: R(a-b) S(b-c) R(c-a)", "planar")
+        Chain.parse("spatial: R(a-b) S(b-c) R(c-a)", space="planar")
 
 
 @pytest.mark.parametrize(

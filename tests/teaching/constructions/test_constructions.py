@@ -144,7 +144,7 @@ def test_instant_centres_of_slider_cranks():
         assert complex(made["x13"], made["y13"]) == pytest.approx(
             complex(poles(motion).of("frame", "coupler")[0]), rel=1e-6
         )
-        assert made["arm"] == pytest.approx(abs(motion.displacement("P(frame-slider)", 1)[0]), rel=1e-6)
+        assert made["arm"] == pytest.approx(abs(motion.displacement("P(frame-slider)", order=1)[0]), rel=1e-6)
 
 
 def turn(motion, link, order):
@@ -154,7 +154,7 @@ def turn(motion, link, order):
 
 def speeds(motion, joint):
     place = motion.linkage.points_named(joint)[-1]
-    return [abs(complex(motion.complex_point(place, order)[0])) for order in (1, 2)]
+    return [abs(complex(motion.complex_point(place, order=order)[0])) for order in (1, 2)]
 
 
 def test_polygons_of_four_bars():
@@ -174,7 +174,7 @@ def test_polygons_of_slider_cranks():
     for size, random in slider_cranks(11):
         phi, omega = random.uniform(10, 170) + random.choice((0, 180)), random.uniform(1, 20)
         motion = move(size.linkage(), np.radians([phi]), speed=omega)
-        v_b, a_b = (abs(motion.displacement("P(frame-slider)", order)[0]) for order in (1, 2))
+        v_b, a_b = (abs(motion.displacement("P(frame-slider)", order=order)[0]) for order in (1, 2))
         made = construction("velocities", "slider-crank", **of(size), phi=phi, omega=omega).values
         assert made["v_B"] == pytest.approx(v_b, rel=1e-7)
         made = construction("accelerations", "slider-crank", **of(size), phi=phi, omega=omega).values
@@ -205,8 +205,8 @@ def test_polygons_of_scotch_yokes():
             {"R(frame-crank)": (0, 0), "R(crank-block)": (a, 0), "P(block-yoke)": (a, 0, radians(slot)), 3: (90, 0, 0)},
         )
         motion = move(whole, np.radians([0, phi]), speed=omega)
-        v, acceleration = (abs(motion.displacement("P(frame-yoke)", order)[1]) for order in (1, 2))
-        slides = [abs(motion.displacement("P(block-yoke)", order)[1]) for order in (1, 2)]
+        v, acceleration = (abs(motion.displacement("P(frame-yoke)", order=order)[1]) for order in (1, 2))
+        slides = [abs(motion.displacement("P(block-yoke)", order=order)[1]) for order in (1, 2)]
         made = construction("velocities", "scotch-yoke", a=a, slot=slot, phi=phi, omega=omega).values
         assert (made["v_C"], made["v_rel"]) == pytest.approx((v, slides[0]), rel=1e-7, abs=1e-9 * a * omega)
         made = construction("accelerations", "scotch-yoke", a=a, slot=slot, phi=phi, omega=omega).values
@@ -228,8 +228,8 @@ def test_polygons_of_tangent_mechanisms_with_coriolis():
             },
         )
         motion = move(whole, np.radians([90, phi]), speed=omega)
-        v, acceleration = (abs(motion.displacement("P(frame-slider)", order)[1]) for order in (1, 2))
-        slides = [abs(motion.displacement("P(lever-block)", order)[1]) for order in (1, 2)]
+        v, acceleration = (abs(motion.displacement("P(frame-slider)", order=order)[1]) for order in (1, 2))
+        slides = [abs(motion.displacement("P(lever-block)", order=order)[1]) for order in (1, 2)]
         made = construction("velocities", "tangent-mechanism", d=d, phi=phi, omega=omega).values
         assert (made["v_B"], made["v_rel"]) == pytest.approx((v, slides[0]), rel=1e-7, abs=1e-9 * d * omega)
         made = construction("accelerations", "tangent-mechanism", d=d, phi=phi, omega=omega).values

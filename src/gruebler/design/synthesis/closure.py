@@ -276,7 +276,7 @@ class DesignClosure:
         return Linkage(
             self.linkage.mechanism,
             elements,
-            points,
+            points=points,
             unit=self.linkage.unit,
             reference_pose={link: tuple(place) for link, place in places.items()},  # type: ignore[misc]
             outputs=self.linkage.outputs,

@@ -323,7 +323,7 @@ def linkage_of_dyads(first_dyad: GuidingDyad, other_dyad: GuidingDyad, point: co
             places[parts[-1]] = place
     mechanism = _mechanism(f"{parts[0]} {parts[1]} {parts[3]} {parts[2]}; frame=frame; drive={parts[0]}")
     points = {"P": ("coupler", point.real, point.imag)}
-    return Linkage.from_drawing(mechanism, places, points, unit=unit, outputs=[second])
+    return Linkage.from_drawing(mechanism, places, points=points, unit=unit, outputs=[second])
 
 
 _mechanism = cache(Mechanism.parse)

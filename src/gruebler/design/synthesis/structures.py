@@ -200,7 +200,7 @@ def _fitted_drawing(task: PathTask, mechanism: Mechanism, demands: Demands, star
     assert structure is not None
     names = mechanism.chain.joint_names()
     places: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, start.drawn, strict=True)}
-    drawing = Linkage.from_drawing(mechanism, places, {"P": (start.link, start.point.real, start.point.imag)})
+    drawing = Linkage.from_drawing(mechanism, places, points={"P": (start.link, start.point.real, start.point.imag)})
     closure = DesignClosure(drawing)
     motions = link_motions(structure, start.drawn, start.turned)
     q = np.empty((len(task), closure.unknowns))

@@ -28,9 +28,9 @@ class Probe:
     def value(self, poses: Poses, order: int) -> Complexes:
         """It or its derivative by the arc; (rows,)."""
         if self.point:
-            return poses.complex_point(self.point, order)
+            return poses.complex_point(self.point, order=order)
         if self.joint >= 0:
-            return poses.displacement(self.joint, order).astype(np.complex128)
+            return poses.displacement(self.joint, order=order).astype(np.complex128)
         value: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
         return value
 

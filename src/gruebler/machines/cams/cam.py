@@ -68,6 +68,12 @@ class Cam:
     >>> report = cam.findings()
     >>> round(math.degrees(report.pressure[1].value), 3), round(report.convex.value, 3), report.undercut
     (17.693, 30.382, False)
+
+    See Also:
+        `draw`, `animate`, `Geneva`, `Train`
+
+    Theory:
+        docs/theory/cams.md
     """
 
     lift: Lift

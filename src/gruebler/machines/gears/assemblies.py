@@ -77,7 +77,7 @@ def _from(mesh: Mesh, planet: str) -> Mesh:
     """The mesh with the planet as its first link."""
     if mesh.a == planet:
         return mesh
-    return Mesh(mesh.b, mesh.a, mesh.size_b, mesh.size_a, mesh.carrier, mesh.kind)
+    return Mesh(a=mesh.b, b=mesh.a, size_a=mesh.size_b, size_b=mesh.size_a, carrier=mesh.carrier, kind=mesh.kind)
 
 
 def _spacing(mesh: Mesh, other_mesh: Mesh) -> Fraction:

@@ -182,7 +182,11 @@ def _read_meshes(kind: str, tokens: list[str], statement: str, planets: dict[str
     for k, ((a, size_a), (b, size_b)) in enumerate(pairwise(sized)):
         # Central and planet wheels of a bevel statement alternate; the central wheel is first in its mesh.
         swap = kind == "bevel" and k % 2 == 1
-        yield Mesh(b, a, size_b, size_a, carrier, kind) if swap else Mesh(a, b, size_a, size_b, carrier, kind)
+        yield (
+            Mesh(a=b, b=a, size_a=size_b, size_b=size_a, carrier=carrier, kind=kind)
+            if swap
+            else Mesh(a=a, b=b, size_a=size_a, size_b=size_b, carrier=carrier, kind=kind)
+        )
 
 
 def _meshes_of_chain(statement: str) -> Iterator[Mesh]:
@@ -209,7 +213,7 @@ def _meshes_of_chain(statement: str) -> Iterator[Mesh]:
                 b=b,
             )
         size_a, size_b = (exact_number(size, f"G({text})") for size in (teeth_a, teeth_b))
-        yield Mesh(a, b, size_a, size_b, carriers[0])
+        yield Mesh(a=a, b=b, size_a=size_a, size_b=size_b, carrier=carriers[0])
 
 
 def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str, statement: str) -> Mesh:
@@ -223,16 +227,21 @@ def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str,
     if kind == "screw":
         if ":" in wheels[0] or "lead" not in numbers:
             raise GearError("{statement}: expected 'screw SPINDLE SLIDE lead=NUMBER'", statement=quoted)
-        return Mesh(wheels[0], wheels[1], numbers["lead"], Fraction(1), carrier, kind)
+        return Mesh(a=wheels[0], b=wheels[1], size_a=numbers["lead"], size_b=Fraction(1), carrier=carrier, kind=kind)
     link, text = _pair(wheels[0], ":", statement)
     size = exact_number(text, f"{quoted}: {link}")
     if numbers.get("falls", 1) < 1:
         raise GearError("{statement}: at least one rope carries the load", statement=quoted)
     if "pitch" in numbers:
         travel = size * numbers["pitch"] / numbers.get("falls", 1)
-        return Mesh(link, wheels[1], travel, Fraction(1), carrier, "rack by pitch")
+        return Mesh(a=link, b=wheels[1], size_a=travel, size_b=Fraction(1), carrier=carrier, kind="rack by pitch")
     return Mesh(
-        link, wheels[1], size * numbers.get("module", 2) / 2 / numbers.get("falls", 1), Fraction(1), carrier, kind
+        a=link,
+        b=wheels[1],
+        size_a=size * numbers.get("module", 2) / 2 / numbers.get("falls", 1),
+        size_b=Fraction(1),
+        carrier=carrier,
+        kind=kind,
     )
 
 

@@ -99,7 +99,7 @@ def exact_number(value: object, what: str | Message) -> Fraction:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Mesh:
     """Two links that drive each other, with tooth numbers or radii, and the carrier of their axes.
 
@@ -143,7 +143,7 @@ class Mesh:
     def __str__(self) -> str:
         """The text of the mesh, as `read_train` takes it back.
 
-        >>> str(Mesh("planet", "ring", 18, -60, "arm"))
+        >>> str(Mesh(a="planet", b="ring", size_a=18, size_b=-60, carrier="arm"))
         'gear planet:18 ring:-60 on arm'
         """
         kind = KINDS.get(self.kind)
@@ -183,11 +183,19 @@ class Mesh:
 class Train:
     """Links and meshes; the link ``frame`` is fixed.
 
-    >>> train = Train((Mesh("sun", "planet", 24, 18, "arm"), Mesh("planet", "ring", 18, -60, "arm")))
+    >>> inner = Mesh(a="sun", b="planet", size_a=24, size_b=18, carrier="arm")
+    >>> outer = Mesh(a="planet", b="ring", size_a=18, size_b=-60, carrier="arm")
+    >>> train = Train((inner, outer))
     >>> train.links, train.mobility
     (('sun', 'planet', 'arm', 'ring'), 2)
     >>> train.relation("sun", "ring", "arm")
     {'sun': 2, 'ring': 5, 'arm': -7}
+
+    See Also:
+        `Cam`, `Geneva`, `draw`, `animate`
+
+    Theory:
+        docs/theory/gears.md
     """
 
     meshes: tuple[Mesh, ...]

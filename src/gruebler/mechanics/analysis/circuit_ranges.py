@@ -149,7 +149,7 @@ def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
 @lru_cache(maxsize=32)
 def _row(circuit: Circuit, joint: int, links: tuple[str, str], freedom: str) -> Rotatability:
     lowest, highest = circuit.range(
-        _quantity(joint, links, freedom), 1.0 if freedom == "turn" else circuit.system.lower.size
+        _quantity(joint, links, freedom), natural=1.0 if freedom == "turn" else circuit.system.lower.size
     )
     turns, full = 0, False
     if freedom == "turn":
@@ -166,7 +166,7 @@ def _quantity(joint: int, links: tuple[str, str], freedom: str) -> Quantity:
     first, other = links
     if freedom == "turn":
         return lambda poses, order: poses.angle(other, order) - poses.angle(first, order)
-    return lambda poses, order: poses.displacement(joint, order, across=freedom == "across")
+    return lambda poses, order: poses.displacement(joint, order=order, across=freedom == "across")
 
 
 @door_that_raises(LinkageError)

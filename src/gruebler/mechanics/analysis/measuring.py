@@ -119,7 +119,14 @@ class Transfer:
 @brief
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Measures:
-    """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
+    """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit.
+
+    See Also:
+        `measures`, `drive_range`, `Motion`
+
+    Theory:
+        docs/theory/events.md
+    """
 
     linkage: Linkage
     output: Output

@@ -30,7 +30,11 @@ class Output:
 
     def values(self, motion: Motion, order: int = 0) -> Reals:
         """The output in a motion, or its derivative; (rows,)."""
-        return motion.angular(self.link, order) if self.joint is None else motion.displacement(self.joint, order)
+        return (
+            motion.angular(self.link, order=order)
+            if self.joint is None
+            else motion.displacement(self.joint, order=order)
+        )
 
 
 def find_output(linkage: Linkage, output: str | None = None) -> Output:

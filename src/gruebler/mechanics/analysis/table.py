@@ -113,24 +113,31 @@ def motion_table(
         for order in orders[:2] if len(mechanism.drives) == 1 else ():
             name, usually = f"{output.name}{'′' * order}", natural / unit**order
             values = by_drive(order, partial(output.values, motion))
-            columns.append(Column(name, _by(own, per, order), values, usually, noise[order]))
+            columns.append(Column(name, unit=_by(own, per, order), values=values, natural=usually, noise=noise[order]))
         for order in orders if timed else ():
             name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
             values = in_time(order, partial(output.values, motion))
             usually = natural * usual[order - 1] / unit**order
-            columns.append(Column(name, f"{own}/{_seconds(order)}", values, usually, noise[order]))
+            columns.append(
+                Column(name, unit=f"{own}/{_seconds(order)}", values=values, natural=usually, noise=noise[order])
+            )
     if transmission is not None:
         angle = transmission_angle(motion, transmission)
-        columns.append(Column(translate("transmission angle", lang), "°", angle * _DEGREES, _DEGREES))
+        columns.append(
+            Column(translate("transmission angle", lang), unit="°", values=angle * _DEGREES, natural=_DEGREES)
+        )
     for name, point in each_point(points).items():
         at = motion.point(point)
-        columns += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
+        columns += [
+            Column(f"{name} {axis}", unit=linkage.unit, values=at[:, k], natural=linkage.size)
+            for k, axis in enumerate(_POSE)
+        ]
         for order in orders:
-            values = in_time(order, partial(motion.point, point))
+            values = in_time(order, _rates_of(motion, point))
             written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
             natural = linkage.size * usual[order - 1] / unit**order
             columns += [
-                Column(f"{name} {axis}", written, values[:, k], natural, noise[order])
+                Column(f"{name} {axis}", unit=written, values=values[:, k], natural=natural, noise=noise[order])
                 for k, axis in enumerate(_RATES[order - 1])
             ]
     return Table(tuple(columns))
@@ -145,14 +152,18 @@ def _drive_rates(motion: Motion) -> tuple[Reals, Reals] | None:
     return None if plain else (velocity, higher[0] if higher else np.zeros_like(velocity))
 
 
+def _rates_of(motion: Motion, point: PointLike) -> Callable[[int], Reals]:
+    return lambda order: motion.point(point, order=order)
+
+
 def _seconds(order: int) -> str:
     return ("s", "s²", "s³")[order - 1]
 
 
 def _scaled(name: str, turning: bool, linkage: Linkage, values: Reals) -> Column:
     if turning:
-        return Column(name, "°", values * _DEGREES, _DEGREES)
-    return Column(name, linkage.unit, values, linkage.size)
+        return Column(name, unit="°", values=values * _DEGREES, natural=_DEGREES)
+    return Column(name, unit=linkage.unit, values=values, natural=linkage.size)
 
 
 def _by(own: str, per: str, order: int) -> str:

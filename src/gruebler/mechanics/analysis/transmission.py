@@ -189,7 +189,7 @@ def _lines(motion: Motion, leg: PushingLink) -> _Lines:
 def _point(motion: Motion, element: Element) -> tuple[Complexes, Complexes, Complexes]:
     """Position, velocity and acceleration of a joint."""
     place = LinkPoint(element[0], element[1].real, element[1].imag)
-    position, velocity, acceleration = (motion.complex_point(place, order) for order in range(3))
+    position, velocity, acceleration = (motion.complex_point(place, order=order) for order in range(3))
     return position, velocity, acceleration
 
 

@@ -186,11 +186,11 @@ def inverse_dynamics(
     none = np.zeros(len(motion))
     weights = equations.metres * acting.masses(len(motion))
     inertia = [
-        Wrench(spot, -weights[:, k] * motion.complex_point(spot, 2), none)
+        Wrench(spot, -weights[:, k] * motion.complex_point(spot, order=2), none)
         for k, spot in enumerate(acting.spots[acting.heavy])
     ]
     for link in loads.bodies:
-        moment = -equations.metres * loads.bodies[link].inertia * motion.angular(link, 2)
+        moment = -equations.metres * loads.bodies[link].inertia * motion.angular(link, order=2)
         inertia.append(Wrench(LinkPoint(link, 0.0, 0.0), none.astype(np.complex128), moment))
     held = equilibrium(motion, loads, friction, times, tuple(inertia))
     reduced = reduced_equations(motion, loads, times=times)

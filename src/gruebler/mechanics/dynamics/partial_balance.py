@@ -146,7 +146,7 @@ def _unit_force(motion: Motion, link: str) -> Complexes:
     """The force of inertia of a product 1 on a link pinned to the frame; (rows,)."""
     frame_pin(motion.lower_linkage, link)
     turned = motion.turns[:, motion.links.index(link)]
-    bent = 1j * motion.angular(link, 2) - motion.angular(link, 1) ** 2
+    bent = 1j * motion.angular(link, order=2) - motion.angular(link, order=1) ** 2
     return np.asarray(-metres_of(motion.linkage.unit) * bent * turned)
 
 
@@ -204,7 +204,7 @@ def balance_moments(run: InverseDynamics, on: Sequence[str]) -> MomentBalance:
         raise LinkageError("a balance needs a motion with forces of inertia in every row")
     for link in on:
         frame_pin(motion.lower_linkage, link)
-    columns = metres_of(motion.linkage.unit) * np.stack([motion.angular(link, 2) for link in on], axis=1)
+    columns = metres_of(motion.linkage.unit) * np.stack([motion.angular(link, order=2) for link in on], axis=1)
     sizes = np.maximum(np.abs(columns).max(axis=0), np.finfo(np.float64).tiny)
     wheels = nnls(columns / sizes, -moment)[0] / sizes
     inertias = {link: float(value) for link, value in zip(on, wheels, strict=True)}

@@ -84,7 +84,7 @@ class Simulation(LinkPoses, Tabled):
         k = self.link_index(link)
         return np.asarray(np.angle(self.turns[:, k]) + 2 * np.pi * self.whole[:, k])
 
-    def angular(self, link: str, order: int = 1) -> Reals:
+    def angular(self, link: str, *, order: int = 1) -> Reals:
         """The angular velocity (1) or acceleration (2) of a link; (rows,)."""
         self.check_order(order)
         return self.rates[order - 1, :, self.link_index(link)] if order else self.angle(link)

@@ -36,13 +36,20 @@ def dynamics_table(run: InverseDynamics, *, lang: str = "en") -> Table:
     names = linkage.mechanism.drive_names(Alphabet.of_language(lang))
     watts = metres_of(linkage.unit) * run.power
     powers = [
-        Column(translate("power {joint}", lang, joint=name), "W", watts[:, drive]) for drive, name in enumerate(names)
+        Column(translate("power {joint}", lang, joint=name), unit="W", values=watts[:, drive])
+        for drive, name in enumerate(names)
     ]
     force = translate("shaking force", lang)
     largest = float(np.abs(run.shaking_force).max(initial=0.0))
-    shaking = [Column(f"{force} {axis}", "N", run.shaking_force[:, k], largest) for k, axis in enumerate("xy")]
+    shaking = [
+        Column(f"{force} {axis}", unit="N", values=run.shaking_force[:, k], natural=largest)
+        for k, axis in enumerate("xy")
+    ]
     moment = Column(
-        translate("shaking moment", lang), f"N·{linkage.unit}", run.shaking_moment(), largest * linkage.size
+        translate("shaking moment", lang),
+        unit=f"N·{linkage.unit}",
+        values=run.shaking_moment(),
+        natural=largest * linkage.size,
     )
     return Table((*statics_table(run.statics, lang=lang), *powers, *shaking, moment))
 
@@ -62,8 +69,8 @@ def simulation_table(run: Simulation, *, lang: str = "en") -> Table:
     )
     return Table(
         (
-            Column(translate("time", lang), "s", run.times),
+            Column(translate("time", lang), unit="s", values=run.times),
             *motion_table(run.motion, lang=lang),
-            *(Column(name, "J", joule * values, joule * energy) for name, values in energies),
+            *(Column(name, unit="J", values=joule * values, natural=joule * energy) for name, values in energies),
         )
     )

@@ -183,7 +183,7 @@ class ActingLoads:
         efforts = np.zeros(moving.speeds.shape)
         driven = [drive.joint for drive in mechanism.drives]
         for joint, law in self.loads.motors.items():
-            number = mechanism.chain.joint_number(joint, LinkageError)
+            number = mechanism.chain.joint_number(joint, error=LinkageError)
             if number not in driven:
                 raise LinkageError("{joint} has a motor, but is not driven", joint=mechanism.chain.joint_title(number))
             k = driven.index(number)

@@ -33,6 +33,12 @@ class RigidBody:
     RigidBody(mass=2.0, centre=(30.0, 0.0), inertia=600.0)
     >>> RigidBody(1.0, (10, 0)) + RigidBody(1.0, (30, 0))  # two points: 2 · 10² about their centre
     RigidBody(mass=2.0, centre=(20.0, 0.0), inertia=200.0)
+
+    See Also:
+        `Loads`, `inverse_dynamics`
+
+    Theory:
+        docs/theory/dynamics.md
     """
 
     mass: float
@@ -82,7 +88,7 @@ class RigidBody:
 
     @classmethod
     @door_that_raises(LinkageError)
-    def disc(cls, mass: float, radius: float, centre: Place = (0.0, 0.0)) -> RigidBody:
+    def disc(cls, mass: float, radius: float, *, centre: Place = (0.0, 0.0)) -> RigidBody:
         """A disc of even thickness.
 
         >>> RigidBody.disc(2.0, 10.0).inertia

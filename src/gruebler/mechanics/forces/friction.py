@@ -215,8 +215,8 @@ def _contacts(motion: Motion, friction: Friction) -> tuple[RubbingContact, ...]:
             ("guide_height", 0.0, Freedom.TRAVEL_X),
         )
     }
-    centres = {mechanism.chain.joint_number(name, LinkageError): link for name, link in friction.guide_on.items()}
-    sleeves = {mechanism.chain.joint_number(name, LinkageError) for name in friction.sleeves}
+    centres = {mechanism.chain.joint_number(name, error=LinkageError): link for name, link in friction.guide_on.items()}
+    sleeves = {mechanism.chain.joint_number(name, error=LinkageError) for name in friction.sleeves}
     for number in {*centres, *sleeves}:
         if not mechanism.chain.joints[number].pair.is_sliding:
             raise LinkageError("{joint} is not a slide of two links", joint=mechanism.chain.joint_title(number))
@@ -265,7 +265,7 @@ def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, rubbin
     for joint, value in named.items():
         if joint == "*":
             continue
-        number = chain.joint_number(joint, LinkageError)
+        number = chain.joint_number(joint, error=LinkageError)
         pair = chain.joints[number].pair
         if rubbing and (pair.rolls or rubbing not in pair.freedoms[chain.space]):
             raise LinkageError(

@@ -148,6 +148,12 @@ class Motor:
 
     >>> Motor(12.0, 100.0).at(np.array([0.0, 50.0])).tolist()
     [12.0, 6.0]
+
+    See Also:
+        `Loads`, `simulate`
+
+    Theory:
+        docs/theory/free-motion.md
     """
 
     stall: float

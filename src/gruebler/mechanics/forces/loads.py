@@ -34,6 +34,12 @@ class Loads:
     {'rocker': 5}
     >>> Loads(forces={"K": ("-200*where(vx < 0, 1, 0)", 0)}, bodies={"crank": RigidBody(2.0, (30, 0), 600.0)}).gravity
     (0.0, -9.80665)
+
+    See Also:
+        `RigidBody`, `Spring`, `Motor`, `statics`, `inverse_dynamics`, `simulate`
+
+    Theory:
+        docs/theory/statics.md
     """
 
     forces: Mapping[PointLike, Any] = field(default_factory=dict)

@@ -39,7 +39,7 @@ def drive_speed(motion: Motion) -> Reals:
     """The speed of the only drive in a motion with velocities; (rows,)."""
     drive = motion.lower_linkage.mechanism.drives[0]
     if not drive.turning:
-        return motion.displacement(drive.joint, 1)
+        return motion.displacement(drive.joint, order=1)
     first, second = motion.lower_linkage.reference(0)
     speed: Reals = motion.angular(second) - motion.angular(first)
     return speed

@@ -65,6 +65,12 @@ class Statics(Tabled):
     """Drive efforts and joint forces of a linkage under loads, at each row of a motion.
 
     Torques are in force times the linkage's unit. Without inertia.
+
+    See Also:
+        `statics`, `Loads`, `Motion`
+
+    Theory:
+        docs/theory/statics.md
     """
 
     motion: Motion
@@ -141,7 +147,7 @@ class Statics(Tabled):
         )
         return np.array([force * (size if drive.turning else 1.0) for drive in mechanism.drives])
 
-    def force(self, joint: str | int, link: str | None = None) -> Reals:
+    def force(self, joint: str | int, *, link: str | None = None) -> Reals:
         """The force of a joint on one of its links (without a name: the last that is not the frame); (rows, 2).
 
         With friction, if it was asked for; at a driven slide without the drive's own force. It acts at the pin, or at
@@ -160,7 +166,7 @@ class Statics(Tabled):
             total = total + sign * self.reactions.forces[:, k]
         return np.stack([total.real, total.imag], axis=1)
 
-    def couple(self, joint: str | int, link: str | None = None) -> Reals:
+    def couple(self, joint: str | int, *, link: str | None = None) -> Reals:
         """The moment by which a slide keeps one of its links from turning; of a pin that of its friction; (rows,)."""
         number, link = self._of(joint, link)
         total: Reals = np.zeros(len(self.motion))
@@ -243,7 +249,7 @@ class Statics(Tabled):
 
     def _of(self, joint: str | int, link: str | None) -> tuple[int, str]:
         mechanism = self.motion.linkage.mechanism
-        number = mechanism.chain.joint_number(joint, LinkageError)
+        number = mechanism.chain.joint_number(joint, error=LinkageError)
         links = mechanism.chain.joints[number].links
         if link is None:
             return number, next(candidate for candidate in reversed(links) if candidate != mechanism.frame)
@@ -371,6 +377,6 @@ def _virtual_work(motion: Motion, wrenches: tuple[Wrench, ...]) -> Reals:
 
 
 def _power(wrench: Wrench, rows: Rows, moved: Motion) -> Reals:
-    velocity = moved.complex_point(wrench.place, 1)
+    velocity = moved.complex_point(wrench.place, order=1)
     power: Reals = (np.conj(wrench.force[rows]) * velocity).real
     return power + wrench.moment[rows] * moved.angular(wrench.place.link)

@@ -32,6 +32,12 @@ class Gas:
     >>> lift = Gas(force=400.0, extended=500.0, stroke=200.0, growth=1.25)
     >>> lift.value(np.array([500.0, 300.0])).round(9).tolist()  # it pushes
     [-400.0, -500.0]
+
+    See Also:
+        `Spring`, `TorsionSpring`, `Loads`
+
+    Theory:
+        docs/theory/dynamics.md
     """
 
     force: float
@@ -72,6 +78,12 @@ class Spring:
 
     >>> Spring(("frame:0,40", "K"), stiffness=2.0, free_length=30.0, preload=5.0).tension(32.0, 0.0).item()
     9.0
+
+    See Also:
+        `TorsionSpring`, `Gas`, `Loads`
+
+    Theory:
+        docs/theory/dynamics.md
     """
 
     between: tuple[PointLike, PointLike]
@@ -112,6 +124,12 @@ class TorsionSpring:
 
     >>> TorsionSpring(("frame", "crank"), stiffness=10.0, free_angle=0.5).moment(np.array([0.7]), 0.0).round(9).tolist()
     [2.0]
+
+    See Also:
+        `Spring`, `Loads`
+
+    Theory:
+        docs/theory/dynamics.md
     """
 
     between: tuple[str, str]

@@ -44,27 +44,29 @@ def statics_table(statics: Statics, *, lang: str = "en") -> Table:
     ):
         values = motion.drives[:, k]
         if drive.turning:
-            drives.append(Column(name, "°", np.degrees(values)))
+            drives.append(Column(name, unit="°", values=np.degrees(values)))
             effort, unit = translate("torque {joint}", lang, joint=name), f"N·{linkage.unit}"
         else:
-            drives.append(Column(name, linkage.unit, values))
+            drives.append(Column(name, unit=linkage.unit, values=values))
             effort, unit = translate("force {joint}", lang, joint=name), "N"
         if rubbing is None:
-            efforts.append(Column(effort, unit, _without_noise(statics, statics.work, k)))
+            efforts.append(Column(effort, unit=unit, values=_without_noise(statics, statics.work, k)))
         else:
-            efforts.append(Column(effort, unit, _without_noise(statics, rubbing.frictionless, k)))
+            efforts.append(Column(effort, unit=unit, values=_without_noise(statics, rubbing.frictionless, k)))
             header = translate("{effort} with friction", lang, effort=effort)
-            with_friction.append(Column(header, unit, _without_noise(statics, statics.work, k)))
+            with_friction.append(Column(header, unit=unit, values=_without_noise(statics, statics.work, k)))
     if rubbing is not None:
         if len(drives) == 1:
-            with_friction.append(Column(translate("efficiency", lang), "", statics.efficiency))
-        with_friction.append(Column(translate("safety against self-locking", lang), "", rubbing.locking_factor))
+            with_friction.append(Column(translate("efficiency", lang), unit="", values=statics.efficiency))
+        with_friction.append(
+            Column(translate("safety against self-locking", lang), unit="", values=rubbing.locking_factor)
+        )
     names, largest = mechanism.chain.joint_names(Alphabet.of_language(lang)), _largest_force(statics)
     for number, joint in enumerate(mechanism.chain.joints):
         for link in joint.links[1:] if len(joint.links) > 2 else [_moving(joint.links, mechanism.frame)]:
-            size = np.hypot(*statics.force(number, link).T)
+            size = np.hypot(*statics.force(number, link=link).T)
             header = translate("force of {joint} on {link}", lang, joint=names[number], link=link)
-            forces.append(Column(header, "N", size, largest))
+            forces.append(Column(header, unit="N", values=size, natural=largest))
     if rubbing is not None:
         forces += _friction_columns(statics, rubbing, names, lang)
     return Table((*drives, *efforts, *with_friction, *forces))
@@ -86,7 +88,7 @@ def _friction_columns(statics: Statics, rubbing: FrictionForces, names: Sequence
             header, unit = translate("friction {joint}", lang, joint=place), "N"
         else:
             header, unit = translate("friction moment {joint}", lang, joint=place), f"N·{statics.motion.linkage.unit}"
-        columns.append(Column(header, unit, rubbing.friction[:, k]))
+        columns.append(Column(header, unit=unit, values=rubbing.friction[:, k]))
     return columns
 
 
@@ -107,19 +109,21 @@ def component_table(statics: Statics, lang: str = "en", *, reactions: bool = Tru
         single = not reactions and len(joint.links) == 2
         for link in (_moving(joint.links, mechanism.frame),) if single else joint.links:
             header = translate("force of {joint} on {link}", lang, joint=name, link=link)
-            force = statics.force(number, link)
-            columns += [Column(f"{header} {axis}", "N", force[:, k], largest) for k, axis in enumerate("xy")]
+            force = statics.force(number, link=link)
+            columns += [
+                Column(f"{header} {axis}", unit="N", values=force[:, k], natural=largest) for k, axis in enumerate("xy")
+            ]
             if joint.pair.keeps_directions or number in rubbing_pins:
                 header = translate("moment of {joint} on {link}", lang, joint=name, link=link)
-                moment = statics.couple(number, link)
-                columns.append(Column(header, f"N·{linkage.unit}", moment, largest * linkage.size))
+                moment = statics.couple(number, link=link)
+                columns.append(Column(header, unit=f"N·{linkage.unit}", values=moment, natural=largest * linkage.size))
     return Table(tuple(columns))
 
 
 def _largest_force(statics: Statics) -> float:
     """The largest force of a joint over all rows: what rounding leaves of other forces is as small against it."""
     joints = enumerate(statics.motion.linkage.mechanism.chain.joints)
-    sizes = [np.abs(statics.force(number, link)) for number, joint in joints for link in joint.links]
+    sizes = [np.abs(statics.force(number, link=link)) for number, joint in joints for link in joint.links]
     return max(float(np.where(np.isfinite(size), size, 0.0).max(initial=0.0)) for size in sizes)
 
 

@@ -56,6 +56,12 @@ class FourBar(Lengths):
     >>> rocker = FourBar(a=2, b=7, c=4.5, d=5.5)
     >>> print(rocker.type, round(math.degrees(rocker.swing), 3))
     crank-rocker 69.044
+
+    See Also:
+        `SliderCrank`, `InvertedSliderCrank`, `Linkage`, `move`, `measures`
+
+    Theory:
+        docs/theory/four-bar.md
     """
 
     a: float
@@ -126,7 +132,7 @@ class FourBar(Lengths):
                 "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-rocker)": (self.b, 0)},
                 "rocker": {"R(frame-rocker)": (0, 0), "R(coupler-rocker)": (self.c, 0)},
             },
-            on_coupler(points),
+            points=on_coupler(points),
             unit=unit,
             outputs=["rocker"],
         )
@@ -151,7 +157,7 @@ class FourBar(Lengths):
         """The crank-conrod ratio lambda = a/b."""
         return self.a / self.b
 
-    def turning_ranges(self, free: str, turns: str = "a") -> tuple[LengthRange, ...]:
+    def turning_ranges(self, free: str, *, turns: str = "a") -> tuple[LengthRange, ...]:
         """The values of the length ``free`` for which the link ``turns`` goes round fully, the others as they are.
 
         >>> [(r.lower, r.upper) for r in FourBar(a=30, b=110, c=100, d=80).turning_ranges("c")]

@@ -53,6 +53,12 @@ class InvertedSliderCrank(Lengths):
     >>> shaper = InvertedSliderCrank(a=30, d=50)
     >>> print(shaper.type.name("de"), round(shaper.dead_centres.time_ratio, 6))
     schwingende Kurbelschleife 2.38791
+
+    See Also:
+        `FourBar`, `SliderCrank`, `Linkage`, `move`, `measures`
+
+    Theory:
+        docs/theory/four-bar.md
     """
 
     a: float
@@ -96,7 +102,7 @@ class InvertedSliderCrank(Lengths):
                 "coupler": {"R(crank-coupler)": (0, 0), "P(coupler-block)": (0, self.e, 0)},
                 "block": {"R(frame-block)": (0, 0), "P(coupler-block)": (0, 0, 0)},
             },
-            on_coupler(points),
+            points=on_coupler(points),
             unit=unit,
             outputs=["block"],
         )

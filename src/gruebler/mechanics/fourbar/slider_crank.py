@@ -80,6 +80,12 @@ class SliderCrank(Lengths):
     >>> compressor = SliderCrank(a=20, b=50)
     >>> print(compressor.type, round(compressor.stroke, 9), compressor.ratio)
     slider-crank 40.0 0.4
+
+    See Also:
+        `FourBar`, `InvertedSliderCrank`, `Linkage`, `move`, `measures`
+
+    Theory:
+        docs/theory/four-bar.md
     """
 
     a: float
@@ -102,7 +108,7 @@ class SliderCrank(Lengths):
         return cls(a, as_positive("a", a) / as_positive("ratio", ratio), e)
 
     @classmethod
-    def from_dead_centres(cls, inner: float, outer: float, e: float = 0.0) -> SliderCrank:
+    def from_dead_centres(cls, inner: float, outer: float, *, e: float = 0.0) -> SliderCrank:
         """The slider-crank whose slider turns back at s = inner and s = outer.
 
         >>> SliderCrank.from_dead_centres(30, 70)
@@ -121,7 +127,7 @@ class SliderCrank(Lengths):
 
     @classmethod
     @door_that_raises(LinkageError)
-    def from_stroke(cls, stroke: float, ratio: float, e: float = 0.0) -> SliderCrank:
+    def from_stroke(cls, stroke: float, ratio: float, *, e: float = 0.0) -> SliderCrank:
         """The slider-crank with a stroke H, a crank-conrod ratio lambda = a/b below 1 and an eccentricity.
 
         With a large eccentricity there may be two; this is the one with the longer crank, where e weighs less.
@@ -165,7 +171,7 @@ class SliderCrank(Lengths):
                 "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-slider)": (self.b, 0)},
                 "slider": {"R(coupler-slider)": (0, 0), "P(frame-slider)": (0, 0, 0)},
             },
-            on_coupler(points),
+            points=on_coupler(points),
             unit=unit,
             outputs=["slider"],
         )

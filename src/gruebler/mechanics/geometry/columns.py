@@ -28,7 +28,7 @@ def pole_columns(motion: Motion, lang: str = "en") -> list[Column]:
         columns += _place_columns(name, unit, at)
         if np.isfinite(towards).any():
             direction = translate("{name} direction", lang, name=name)
-            columns.append(Column(direction, "°", np.degrees(np.angle(towards)) % 180))
+            columns.append(Column(direction, unit="°", values=np.degrees(np.angle(towards)) % 180))
     return columns
 
 
@@ -67,7 +67,9 @@ def curvature_columns(
     frame, moving = linkage.mechanism.frame, list[str]()
     for point in points:
         path, name = path_curvature(motion, point), point_name(point)
-        columns.append(Column(translate("{point} radius of curvature", lang, point=name), linkage.unit, path.radius))
+        columns.append(
+            Column(translate("{point} radius of curvature", lang, point=name), unit=linkage.unit, values=path.radius)
+        )
         centre = np.where(np.isfinite(path.radius), path.centre, np.nan)
         columns += _place_columns(translate("{point} centre of curvature", lang, point=name), linkage.unit, centre)
         places = reversed(linkage.points_named(point))
@@ -76,14 +78,16 @@ def curvature_columns(
     for link in dict.fromkeys([*moving, *_floating(linkage)]):
         diameter = inflection_circle(motion, link).diameter
         if np.isfinite(diameter).any():
-            columns.append(Column(translate("inflection circle {link}", lang, link=link), linkage.unit, diameter))
+            columns.append(
+                Column(translate("inflection circle {link}", lang, link=link), unit=linkage.unit, values=diameter)
+            )
     return columns
 
 
 def _place_columns(name: str, unit: str, places: Complexes) -> list[Column]:
     known = np.isfinite(places)
     parts = (("x", places.real), ("y", places.imag))
-    return [Column(f"{name} {axis}", unit, np.where(known, values, np.nan)) for axis, values in parts]
+    return [Column(f"{name} {axis}", unit=unit, values=np.where(known, values, np.nan)) for axis, values in parts]
 
 
 def _floating(linkage: Linkage) -> list[str]:

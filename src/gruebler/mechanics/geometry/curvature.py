@@ -127,7 +127,7 @@ def path_curvature(motion: Motion, point: PointLike, reference: str | None = Non
     place = _moving(motion, point, reference)
     seen = relative_motion(motion, place.link, reference, order=2 if motion.order < 3 else 3)
     arm = complex(place.x, place.y)
-    at, velocity, acceleration = (seen.complex_point(arm, k) for k in range(3))
+    at, velocity, acceleration = (seen.complex_point(arm, order=k) for k in range(3))
     speed = np.abs(velocity)
     speed = np.where(speed <= _CUSP * seen.swiftest, np.nan, speed)
     bend = (np.conj(velocity) * acceleration).imag
@@ -139,7 +139,7 @@ def _change(seen: RelativeMotion, arm: complex, speed: Reals, bend: Reals) -> Re
     """The derivative of bend/speed^3 in time, by the speed."""
     if len(seen.rates) < 3:
         return None
-    velocity, acceleration, jerk = (seen.complex_point(arm, k) for k in (1, 2, 3))
+    velocity, acceleration, jerk = (seen.complex_point(arm, order=k) for k in (1, 2, 3))
     faster = (np.conj(velocity) * acceleration).real / speed
     change: Reals = ((np.conj(velocity) * jerk).imag - 3 * bend * faster / speed) / speed**4
     return change

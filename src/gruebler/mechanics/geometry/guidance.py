@@ -119,7 +119,9 @@ def _four_bar(*pins: complex, drive: str = "R(frame-crank)") -> Callable[[], Lin
         mechanism = Mechanism.parse(_FOUR_BAR + drive)
         names = mechanism.chain.joint_names()
         places: dict[str | int, object] = {n: (z.real, z.imag) for n, z in zip(names, pins, strict=False)}
-        return Linkage.from_drawing(mechanism, places, {_POINT: ("coupler", pins[4].real, pins[4].imag)}, unit="LE")
+        return Linkage.from_drawing(
+            mechanism, places, points={_POINT: ("coupler", pins[4].real, pins[4].imag)}, unit="LE"
+        )
 
     return build
 
@@ -145,7 +147,7 @@ def _peaucellier() -> Linkage:
         "R(arm2-bar2-bar4)": (middle, -half),
         "R(bar3-bar4)": (far, 0),
     }
-    return Linkage.from_drawing(mechanism, places, {_POINT: ("bar4", far, 0)}, unit="LE")
+    return Linkage.from_drawing(mechanism, places, points={_POINT: ("bar4", far, 0)}, unit="LE")
 
 
 def _hart() -> Linkage:
@@ -166,7 +168,7 @@ def _hart() -> Linkage:
         "R(short2-long2)": corner["c"],
         "R(long2-short1)": corner["d"],
     }
-    return Linkage.from_drawing(mechanism, places, {_POINT: ("short2", (p + q) / 2, h / 2)}, unit="LE")
+    return Linkage.from_drawing(mechanism, places, points={_POINT: ("short2", (p + q) / 2, h / 2)}, unit="LE")
 
 
 _LEG = 1.2

@@ -87,12 +87,12 @@ class PointPath:
         span = self.cycle.span
         if self.closed:
             motion = self.cycle.at(span.low + (s - span.low) % span.period, order)
-            return np.array([motion.complex_point(self.place, k) for k in range(order + 1)])
+            return np.array([motion.complex_point(self.place, order=k) for k in range(order + 1)])
         inside = np.clip(s, _EDGE, pi - _EDGE)
         beyond = s - inside
         upto = 3 if beyond.any() else order
         motion = self.cycle.at(self.drive(inside), upto)
-        z = [motion.complex_point(self.place, k) for k in range(upto + 1)]
+        z = [motion.complex_point(self.place, order=k) for k in range(upto + 1)]
         derivatives = _by_parameter(z, span.width / 2 * np.sin(inside), span.width / 2 * np.cos(inside))
         for k in range(order + 1 if beyond.any() else 0):
             derivatives[k] = sum(derivatives[m] * beyond ** (m - k) / factorial(m - k) for m in range(k, upto + 1))

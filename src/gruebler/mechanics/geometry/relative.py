@@ -32,7 +32,7 @@ class RelativeMotion:
     swiftest: Reals
     """(rows,): the largest velocity of the two links, of their origins or of points one size away."""
 
-    def complex_point(self, arm: complex, order: int = 0) -> Complexes:
+    def complex_point(self, arm: complex, *, order: int = 0) -> Complexes:
         """A point of the link, or a derivative, as x + iy; (rows,)."""
         return np.asarray(self.places[order] + turn_derivative(self.rates, order) * self.turn * arm)
 

@@ -122,7 +122,9 @@ class Cognate:
         if self.size.output_slides:
             places[names[3]] = (*pins[2], float(np.angle(self.turn)))
         point = ("coupler", self.point.real, self.point.imag)
-        return Linkage.from_drawing(mechanism, places, {"K": point}, unit=unit, outputs=[mechanism.chain.links[3]])
+        return Linkage.from_drawing(
+            mechanism, places, points={"K": point}, unit=unit, outputs=[mechanism.chain.links[3]]
+        )
 
 
 def cognate_sizes(
@@ -264,7 +266,7 @@ def parallel_motion(
     names = mechanism.chain.joint_names()
     places: dict[str | int, object] = {name: (p.real, p.imag) for name, p in zip(names, pins, strict=True)}
     point = ("platform", first.point.real, first.point.imag)
-    return Linkage.from_drawing(mechanism, places, {"K": point}, unit=unit, outputs=["platform"])
+    return Linkage.from_drawing(mechanism, places, points={"K": point}, unit=unit, outputs=["platform"])
 
 
 def _pose(

@@ -99,18 +99,18 @@ class Motions:
         angles: Reals = np.unwrap(np.angle(self.turns[..., self.link_index(link)]), axis=1)
         return angles
 
-    def angular(self, link: str, order: int = 1) -> Reals:
+    def angular(self, link: str, *, order: int = 1) -> Reals:
         """Angular velocities (1), accelerations (2) or jerks (3) of a link; (designs, rows)."""
         self._ordered(order, 1)
         rates: Reals = self.rates[order - 1, :, :, self.link_index(link)]
         return rates
 
-    def point(self, joint: str, order: int = 0) -> Reals:
+    def point(self, joint: str, *, order: int = 0) -> Reals:
         """A joint as a point of the first of its links that was kept, or its derivative; (designs, rows, 2)."""
-        z = self.complex_point(joint, order)
+        z = self.complex_point(joint, order=order)
         return np.stack([z.real, z.imag], axis=-1)
 
-    def complex_point(self, joint: str, order: int = 0) -> Complexes:
+    def complex_point(self, joint: str, *, order: int = 0) -> Complexes:
         """`point` as x + iy; (designs, rows)."""
         self._ordered(order, 0)
         plan = self.designs.plan

@@ -71,6 +71,12 @@ class Circuit:
 
     Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle
     counting as the way of a point at that distance. On a closed circuit arcs below 0 or above `length` wrap around.
+
+    See Also:
+        `circuit`, `Motion`, `rotatability`
+
+    Theory:
+        docs/theory/circuits.md
     """
 
     linkage: Linkage
@@ -205,7 +211,7 @@ class Circuit:
         zeros = find_zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
         return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in zeros))
 
-    def extremes(self, quantity: Quantity, natural: float = 1.0) -> tuple[Extremum, ...]:
+    def extremes(self, quantity: Quantity, *, natural: float = 1.0) -> tuple[Extremum, ...]:
         """All extremes of something along the curve, in order; values to rounding.
 
         ``natural`` is the size that it usually has: 1 for an angle, the linkage's size for a length.
@@ -222,9 +228,9 @@ class Circuit:
         place = arc % self.length
         return 0.0 if self.length - place < _ROUND * self.length else place
 
-    def range(self, quantity: Quantity, natural: float = 1.0) -> tuple[float, float]:
+    def range(self, quantity: Quantity, *, natural: float = 1.0) -> tuple[float, float]:
         """The smallest and the largest value of something along the curve; ``natural`` as for `extremes`."""
-        values = [extreme.value for extreme in self.extremes(quantity, natural)]
+        values = [extreme.value for extreme in self.extremes(quantity, natural=natural)]
         values += quantity(self.samples, 0).tolist()
         return min(values), max(values)
 
@@ -232,7 +238,7 @@ class Circuit:
     def drive_limits(self) -> tuple[Extremum, ...]:
         """Where the drive turns back: dead centres of the linkage for this drive."""
         turns = all(drive.turning for drive in self.system.lower.mechanism.drives)
-        return self.extremes(lambda poses, order: poses.drive(order), 1.0 if turns else self.system.lower.size)
+        return self.extremes(lambda poses, order: poses.drive(order), natural=1.0 if turns else self.system.lower.size)
 
     @property
     def monotone_pieces(self) -> tuple[MonotonePiece, ...]:

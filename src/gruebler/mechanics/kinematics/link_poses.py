@@ -67,15 +67,15 @@ class LinkPoses(ABC):
             )
         return self.links.index(link)
 
-    def point(self, name: PointLike, order: int = 0) -> Reals:
+    def point(self, name: PointLike, *, order: int = 0) -> Reals:
         """A named point or a joint, or a derivative of its position; (rows, 2).
 
         A joint is seen as a point of its link at the frame, else of the link named first.
         """
-        z = self.complex_point(name, order)
+        z = self.complex_point(name, order=order)
         return np.stack([z.real, z.imag], axis=1)
 
-    def complex_point(self, name: PointLike, order: int = 0) -> Complexes:
+    def complex_point(self, name: PointLike, *, order: int = 0) -> Complexes:
         """`point` as x + iy; (rows,)."""
         self.check_order(order)
         place = place_of(self.linkage, name)
@@ -83,7 +83,7 @@ class LinkPoses(ABC):
         arm = self.turns[:, k] * complex(place.x, place.y)
         return np.asarray(self.places[order, :, k] + turn_derivative(self.rates[:, :, k], order) * arm)
 
-    def displacement(self, joint: str | int, order: int = 0, *, across: bool = False) -> Reals:
+    def displacement(self, joint: str | int, *, order: int = 0, across: bool = False) -> Reals:
         """The way of a sliding joint along its line, from the first link's point to the second's; (rows,).
 
         First is the frame, else the link named first, but a pin slides along the line of the other link. With
@@ -116,8 +116,8 @@ class LinkPoses(ABC):
         line, far = linkage.elements[joint, first], linkage.elements[joint, other]
         self.check_order(order)
         gaps = [
-            self.complex_point(LinkPoint(other, far.x, far.y), k)
-            - self.complex_point(LinkPoint(first, line.x, line.y), k)
+            self.complex_point(LinkPoint(other, far.x, far.y), order=k)
+            - self.complex_point(LinkPoint(first, line.x, line.y), order=k)
             for k in range(order + 1)
         ]
         k = self.link_index(first)

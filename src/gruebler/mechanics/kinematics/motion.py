@@ -75,6 +75,12 @@ class Motion(LinkPoses):
 
     Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows after a `stop` are missing:
     ``len(motion)`` says how many are.
+
+    See Also:
+        `move`, `move_many`, `Circuit`, `Measures`
+
+    Theory:
+        docs/theory/kinematics.md
     """
 
     linkage: Linkage
@@ -161,7 +167,7 @@ class Motion(LinkPoses):
         angles: Reals = np.angle(self.turns[:, k] + 0.0) + 2 * np.pi * self.whole[:, k]  # -1 - 0j is counted as pi
         return angles
 
-    def angular(self, link: str, order: int = 1) -> Reals:
+    def angular(self, link: str, *, order: int = 1) -> Reals:
         """The angular velocity (1), acceleration (2) or jerk (3) of a link; (rows,)."""
         self.check_order(order)
         rates: Reals = self.rates[order - 1, :, self.link_index(link)] if order else self.angle(link)
@@ -172,14 +178,14 @@ class Motion(LinkPoses):
 
         Raises `LinkageError` for an unknown point, and unless the motion was solved with velocities.
         """
-        return self.point(point, 1)
+        return self.point(point, order=1)
 
     def acceleration(self, point: PointLike) -> Reals:
         """The acceleration of a point or joint, (rows, 2), in lengths per second squared.
 
         Raises `LinkageError` for an unknown point, and unless the motion was solved with accelerations.
         """
-        return self.point(point, 2)
+        return self.point(point, order=2)
 
     def to_dataframe(self) -> Any:
         """The `table` with all named points as a `pandas.DataFrame`, a row for each pose; needs pandas."""

@@ -62,7 +62,7 @@ class Poses(LinkPoses):
         self.check_order(order)
         if order == 0:
             return np.abs(gap)
-        rate = self.complex_point(second, 1) - self.complex_point(first, 1)
+        rate = self.complex_point(second, order=1) - self.complex_point(first, order=1)
         return np.real(np.conj(gap) * rate) / np.abs(gap)
 
     def drive(self, order: int = 0) -> Reals:

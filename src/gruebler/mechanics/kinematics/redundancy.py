@@ -420,7 +420,7 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
     return Linkage(
         Mechanism(chain, mechanism.frame, drives),
         elements,
-        {name: (point.link, point.x, point.y) for name, point in linkage.points.items()},
+        points={name: (point.link, point.x, point.y) for name, point in linkage.points.items()},
         unit=linkage.unit,
         reference_pose=reference,  # type: ignore[arg-type]
         outputs=linkage.outputs,

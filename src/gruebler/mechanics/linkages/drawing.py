@@ -52,7 +52,7 @@ def _seen_from(pose: Pose2D, x: float, y: float) -> tuple[float, float]:
 def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:
     """The elements in coordinates of the plane."""
     chain, names = mechanism.chain, mechanism.chain.joint_names()
-    given = {mechanism.chain.joint_number(joint, LinkageError): raw for joint, raw in places.items()}
+    given = {mechanism.chain.joint_number(joint, error=LinkageError): raw for joint, raw in places.items()}
     drawn: dict[tuple[int, str], Element] = {}
     for number, joint in enumerate(chain.joints):
         if number not in given:

@@ -8,7 +8,7 @@ Each kind of element is one class. What two of them do together stands in `grueb
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from math import cos, hypot, isfinite, sin
 from typing import ClassVar, Literal, NamedTuple, Self, TypeVar, final
 
@@ -137,6 +137,7 @@ class Wheel(Element):
     """
 
     radius: float
+    _: KW_ONLY
     teeth: int = 0
     belt: str = ""
 
@@ -165,7 +166,7 @@ class Wheel(Element):
             raise LinkageError(
                 "{where}: a wheel of a belt has a positive radius, not {radius:g}", where=where, radius=radius
             )
-        return Wheel(x, y, radius, teeth, self.belt)
+        return Wheel(x, y, radius, teeth=teeth, belt=self.belt)
 
 
 @final
@@ -204,6 +205,7 @@ class CamDisc(Element):
     """
 
     angle: float
+    _: KW_ONLY
     lift: str
     base: float
     roller: float = 0.0
@@ -253,6 +255,7 @@ class GenevaWheel(Element):
     """The slotted wheel of a Geneva drive: its axis, the direction of a slot, the number of slots."""
 
     angle: float
+    _: KW_ONLY
     slots: int
     internal: bool = False
 
@@ -282,6 +285,7 @@ class NonCircular(Element):
     """
 
     angle: float
+    _: KW_ONLY
     transfer: str
     teeth: int = 0
 

@@ -172,7 +172,7 @@ class _Layout:
         scale = 0.5 if belt else abs(ends[mesh.a] - ends[mesh.b]) / abs(float(mesh.size_a + mesh.size_b))
         toothed = mesh.kind in ("gear", "chain") and all(size.denominator == 1 for size in sizes.values())
         return {
-            link: Wheel(z.real, z.imag, scale * float(sizes[link]), int(sizes[link]) if toothed else 0, belt)
+            link: Wheel(z.real, z.imag, scale * float(sizes[link]), teeth=int(sizes[link]) if toothed else 0, belt=belt)
             for link, z in ends.items()
         }
 
@@ -236,7 +236,14 @@ def _wheels(linkage: Linkage, number: int, names: dict[str, str], arm: Carrier |
     kind = {"open": "belt", "crossed": "crossed"}.get(
         first.belt, "friction" if chain.joints[number].pair.rolls else "gear"
     )
-    return Mesh(names[a], names[b], _size(first), _size(linkage.elements[number, b]), names[arm.link], kind)
+    return Mesh(
+        a=names[a],
+        b=names[b],
+        size_a=_size(first),
+        size_b=_size(linkage.elements[number, b]),
+        carrier=names[arm.link],
+        kind=kind,
+    )
 
 
 def _rack(linkage: Linkage, number: int, names: dict[str, str], _: Carrier | None) -> Mesh:
@@ -274,7 +281,7 @@ def _rack(linkage: Linkage, number: int, names: dict[str, str], _: Carrier | Non
     centre, point = (complex(*pose[link].put(e.x, e.y)) for link, e in ((a, wheel), (b, line)))
     below = ((centre - point) / ways[0]).imag > 0  # the rack then moves as its wheel turns, otherwise against it
     size = exact_number(wheel.radius, "radius")
-    return Mesh(names[a], names[b], size if below else -size, carrier=names[bearer], kind="rack")
+    return Mesh(a=names[a], b=names[b], size_a=size if below else -size, carrier=names[bearer], kind="rack")
 
 
 def _same_place(pin: Element, wheel: Wheel) -> bool:

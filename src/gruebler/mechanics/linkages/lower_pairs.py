@@ -79,7 +79,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
     return Linkage(
         Mechanism(lower_chain, mechanism.frame, drives),
         elements,
-        points,
+        points=points,
         unit=linkage.unit,
         reference_pose=poses,  # type: ignore[arg-type]
         outputs=linkage.outputs,

@@ -57,6 +57,12 @@ class Linkage(Immutable):
     ...     "2": {"R(1-2)": (0, 0), "R(2-3)": (70, 0)}, "3": {"R(0-3)": (0, 0), "R(2-3)": (40, 0)}})
     >>> linkage.length("2", "R(1-2)", "R(2-3)")
     70.0
+
+    See Also:
+        `Mechanism`, `FourBar`, `SpatialLinkage`, `move`, `realise`
+
+    Theory:
+        docs/theory/kinematics.md
     """
 
     mechanism: Mechanism
@@ -71,8 +77,8 @@ class Linkage(Immutable):
         self,
         mechanism: Mechanism,
         elements: Mapping[str, Mapping[str | int, object]],
-        points: Mapping[str, tuple[str, float, float]] | None = None,
         *,
+        points: Mapping[str, tuple[str, float, float]] | None = None,
         unit: str = "mm",
         reference_pose: Mapping[str, tuple[float, float, float]] | None = None,
         outputs: Iterable[str] = (),
@@ -98,8 +104,8 @@ class Linkage(Immutable):
         cls,
         mechanism: Mechanism,
         places: Mapping[str | int, object],
-        points: Mapping[str, tuple[str, float, float]] | None = None,
         *,
+        points: Mapping[str, tuple[str, float, float]] | None = None,
         unit: str = "mm",
         outputs: Iterable[str] = (),
     ) -> Linkage:
@@ -117,13 +123,13 @@ class Linkage(Immutable):
         (2.0, 1.5707963267948966)
         """
         elements, seen, pose = taken_apart(mechanism, places, points or {})
-        return cls(mechanism, elements, seen, unit=unit, reference_pose=pose, outputs=outputs)
+        return cls(mechanism, elements, points=seen, unit=unit, reference_pose=pose, outputs=outputs)
 
     # --- what it is ----------------------------------------------------------------------------------
 
     def element(self, joint: str | int, link: str) -> Element:
         """What a joint is on one of its links."""
-        number = self.mechanism.chain.joint_number(joint, LinkageError)
+        number = self.mechanism.chain.joint_number(joint, error=LinkageError)
         if (number, link) not in self.elements:
             raise LinkageError(
                 "{joint} is not a joint of {link!r}",

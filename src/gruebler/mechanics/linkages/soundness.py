@@ -22,7 +22,7 @@ def checked_elements(
     checked: dict[tuple[int, str], Element] = {}
     for link, by_joint in elements.items():
         for joint, raw in by_joint.items():
-            number = chain.joint_number(joint, LinkageError)
+            number = chain.joint_number(joint, error=LinkageError)
             if link not in chain.joints[number].links:
                 raise LinkageError("{joint} is not a joint of {link!r}", joint=chain.joint_title(number), link=link)
             checked[number, link] = read_element(raw, f"{link}, {names[number]}")

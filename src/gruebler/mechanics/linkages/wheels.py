@@ -41,7 +41,7 @@ class Carrier(NamedTuple):
 def rolling_factors(first: Wheel, second: Wheel) -> tuple[float, float]:
     """What the turns of two wheels against the line of centres are multiplied by; exact from tooth numbers.
 
-    >>> rolling_factors(Wheel(0, 0, 12.3, 20), Wheel(0, 0, -36.9, -60))
+    >>> rolling_factors(Wheel(0, 0, 12.3, teeth=20), Wheel(0, 0, -36.9, teeth=-60))
     (10.0, -30.0)
     >>> rolling_factors(Wheel(0, 0, 20.0, belt="open"), Wheel(0, 0, 30.0, belt="open"))
     (20.0, -30.0)

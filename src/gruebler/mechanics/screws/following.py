@@ -42,7 +42,7 @@ def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -
     [[0.877583, -0.479426], [0.479426, 0.877583]]
     """
     closing = Closing.of(linkage)
-    number = linkage.mechanism.chain.joint_number(joint, LinkageError)
+    number = linkage.mechanism.chain.joint_number(joint, error=LinkageError)
     return follow_from_pose(closing, closing.reference, number, np.atleast_1d(np.asarray(values, float)))
 
 

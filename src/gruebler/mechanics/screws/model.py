@@ -48,6 +48,12 @@ class SpatialLinkage(Immutable):
     >>> axis = {"z": (0, 0, 1)}
     >>> SpatialLinkage(winch, {0: axis, 1: axis | {"pitch": 0.8}, 2: {"x": (0, 0, 1), "at": (0, 5, 0)}}).size
     3.33...
+
+    See Also:
+        `Linkage`, `freedoms`, `move`, `measures`
+
+    Theory:
+        docs/theory/space.md
     """
 
     mechanism: Mechanism
@@ -63,8 +69,8 @@ class SpatialLinkage(Immutable):
         self,
         mechanism: Mechanism,
         joints: Mapping[str | int, object] | tuple[JointPlace, ...],
-        unit: str = "mm",
         *,
+        unit: str = "mm",
         points: Mapping[str, Sequence[object]] | None = None,
         outputs: Iterable[str] = (),
     ) -> None:
@@ -73,7 +79,7 @@ class SpatialLinkage(Immutable):
         given = joints if isinstance(joints, Mapping) else dict(enumerate(joints))
         raw: dict[int, object] = {}
         for key, value in given.items():
-            raw[chain.joint_number(key, LinkageError)] = value
+            raw[chain.joint_number(key, error=LinkageError)] = value
         for number, name in enumerate(names):
             if number not in raw:
                 raise LinkageError("{name} has no place", name=name)
@@ -118,7 +124,7 @@ class SpatialLinkage(Immutable):
             raise LinkageError("the loop is open by {gap:.1e} of its size", gap=gap)
         text = " ".join(f"R({first}-{second})" for first, second in zip(names, (*names[1:], names[0]), strict=True))
         mechanism = Mechanism(Chain.parse(f"spatial: {text}"), names[0], [drive])
-        return cls(mechanism, tuple(places), unit)
+        return cls(mechanism, tuple(places), unit=unit)
 
     def point(self, name: str | tuple[str, float, float, float]) -> tuple[str, Vector]:
         """Link and place, in the reference pose, of a named point, of a joint, or of (link, x, y, z).
@@ -209,10 +215,10 @@ class SpatialLinkage(Immutable):
         """The same linkage with other drives."""
         mechanism = Mechanism(self.mechanism.chain, self.mechanism.frame, drives)
         own = {name: (link, *at) for name, (link, at) in self.points.items()}
-        return SpatialLinkage(mechanism, self.places, self.unit, points=own, outputs=self.outputs)
+        return SpatialLinkage(mechanism, self.places, unit=self.unit, points=own, outputs=self.outputs)
 
     def _changed(self, places: tuple[JointPlace, ...], points: Mapping[str, Sequence[object]]) -> SpatialLinkage:
-        return SpatialLinkage(self.mechanism, places, self.unit, points=points, outputs=self.outputs)
+        return SpatialLinkage(self.mechanism, places, unit=self.unit, points=points, outputs=self.outputs)
 
     def _identity(self) -> tuple[object, ...]:
         return self.mechanism, self.places, self.unit, tuple(sorted(self.points.items())), self.outputs

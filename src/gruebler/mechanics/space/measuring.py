@@ -182,7 +182,7 @@ def spatial_table(
     linkage, unit, alphabet = motion.linkage, motion.linkage.unit, Alphabet.of_language(lang)
     turning = [drive.turning for drive in linkage.mechanism.drives]
     columns = [
-        Column(name, "°" if turns else unit, np.degrees(values) if turns else values)
+        Column(name, unit="°" if turns else unit, values=np.degrees(values) if turns else values)
         for name, turns, values in zip(linkage.mechanism.drive_names(alphabet), turning, motion.drives.T, strict=True)
     ]
     below = "rad" if turning[0] else unit
@@ -193,11 +193,18 @@ def spatial_table(
             values = against_frame(linkage, number) * motion.joint(number, freedom, order)
             degree = turns and not order
             shown = "°" if degree else _unit_of_rate("rad" if turns else unit, below, order)
-            columns.append(Column(name + "′" * order, shown, np.degrees(values) if degree else values, float(turns)))
+            columns.append(
+                Column(
+                    name + "′" * order,
+                    unit=shown,
+                    values=np.degrees(values) if degree else values,
+                    natural=float(turns),
+                )
+            )
     for point in points:
         for order, letter in enumerate(("", "v", "a")[: motion.order + 1]):
-            for axis, values in zip("xyz", motion.point(point, order).T, strict=True):
-                columns.append(Column(f"{point} {letter}{axis}", _unit_of_rate(unit, below, order), values))
+            for axis, values in zip("xyz", motion.point(point, order=order).T, strict=True):
+                columns.append(Column(f"{point} {letter}{axis}", unit=_unit_of_rate(unit, below, order), values=values))
     return Table(tuple(columns))
 
 
@@ -341,7 +348,7 @@ def output_freedom(linkage: SpatialLinkage, output: str | None = None) -> tuple[
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
     known = dict(reversed(list(_valued(linkage))))  # the first freedom of each joint
     if output is not None:
-        number = chain.joint_number(output, LinkageError)
+        number = chain.joint_number(output, error=LinkageError)
         if number not in known:
             raise LinkageError(
                 "{joint}: expected a joint of two links that is no ball and no contact", joint=chain.joint_title(number)

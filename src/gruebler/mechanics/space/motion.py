@@ -180,7 +180,7 @@ class SpatialMotion:
                 quaternions[row] *= -1
         return np.asarray(quaternions)
 
-    def angular(self, link: str, order: int = 1) -> Reals:
+    def angular(self, link: str, *, order: int = 1) -> Reals:
         """The angular velocity (1), acceleration (2) or jerk (3) of a link, (rows, 3), in the frame's axes."""
         self.check_order(order)
         if order == 0:
@@ -198,7 +198,7 @@ class SpatialMotion:
 
     # --- points ----------------------------------------------------------------------------------------------------
 
-    def point(self, name: str | tuple[str, float, float, float], order: int = 0) -> Reals:
+    def point(self, name: str | tuple[str, float, float, float], *, order: int = 0) -> Reals:
         """A named point, a joint, or (link, x, y, z) in the reference pose, or a derivative of its place; (rows, 3)."""
         self.check_order(order)
         link, at = self.linkage.point(name)
@@ -207,11 +207,11 @@ class SpatialMotion:
 
     def velocity(self, point: str | tuple[str, float, float, float]) -> Reals:
         """The velocity of a point, (rows, 3), in lengths a second."""
-        return self.point(point, 1)
+        return self.point(point, order=1)
 
     def acceleration(self, point: str | tuple[str, float, float, float]) -> Reals:
         """The acceleration of a point, (rows, 3), in lengths per second squared."""
-        return self.point(point, 2)
+        return self.point(point, order=2)
 
     # --- joints ----------------------------------------------------------------------------------------------------
 
@@ -228,7 +228,7 @@ class SpatialMotion:
         """
         self.check_order(order)
         chain = self.linkage.mechanism.chain
-        number = chain.joint_number(name, LinkageError)
+        number = chain.joint_number(name, error=LinkageError)
         joint = chain.joints[number]
         known = [str(freedom) for freedom in motions(joint.pair, chain.space)]
         if direction is None and len(known) == 1:

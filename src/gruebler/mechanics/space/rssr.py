@@ -190,7 +190,7 @@ class RSSR:
             2: tuple(map(float, ball)),
             3: {"at": tuple(map(float, foot)), "z": tuple(map(float, axis))},
         }
-        return SpatialLinkage(Mechanism.parse(_TEXT), places, unit, points=points, outputs=["rocker"])
+        return SpatialLinkage(Mechanism.parse(_TEXT), places, unit=unit, points=points, outputs=["rocker"])
 
     def explain(self, lang: str = "en") -> str:
         """Its type, where the crank turns, how far the rocker swings: lines in English or German (``de``)."""

@@ -36,7 +36,7 @@ def _rates(posed: PosedLinkage, order: int) -> list[tuple[complex, complex]]:
     posed.driven()
     pairs = {}
     for place in _moving_points(posed):
-        at, rate = (complex(posed.pose.complex_point(place, k)[0]) for k in (0, order))
+        at, rate = (complex(posed.pose.complex_point(place, order=k)[0]) for k in (0, order))
         pairs[round(at.real, 9), round(at.imag, 9)] = at, rate
     return list(pairs.values())
 

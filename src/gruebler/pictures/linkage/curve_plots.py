@@ -68,7 +68,7 @@ def hodograph(
     run = plot_run(linkage, 1, branch, between, lang, name)
     places = [place_of(linkage, point) for point in chosen.values()]
     factor = 1.0 if speed is None else speed
-    paths = [factor * run.motion.complex_point(place, 1) for place in places]
+    paths = [factor * run.motion.complex_point(place, order=1) for place in places]
     per = run.drive_unit if speed is None else "s"
     rate = message("1") if speed is None else message("{speed:.6g} {unit}/s", speed=speed, unit=run.drive_unit)
     symbols = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
@@ -77,7 +77,7 @@ def hodograph(
     ranges = [
         _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
     ]
-    tips = factor * run.cycle.at(run.round_drives, 1).complex_point(places[0], 1)
+    tips = factor * run.cycle.at(run.round_drives, 1).complex_point(places[0], order=1)
     spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
     panel = square_panel(
         paths, names if len(names) > 1 else [""], axes, [*spots, PointMarker(x=0.0, y=0.0, text="")], ranges=ranges

@@ -88,7 +88,7 @@ def contact_shapes(linkage: Linkage) -> dict[tuple[int, str], str]:
 
     >>> from gruebler.structure.mechanism import Mechanism
     >>> pair = Mechanism.parse("R(0-1) R(0-2) G(1-2); drive=R(0-1)")
-    >>> wheels = {"1": Wheel(0, 0, 20, 20), "2": Wheel(60, 0, 40, 40)}
+    >>> wheels = {"1": Wheel(0, 0, 20, teeth=20), "2": Wheel(60, 0, 40, teeth=40)}
     >>> made = Linkage.from_drawing(pair, {"R(0-1)": (0, 0), "R(0-2)": (60, 0), "G(1-2)": wheels})
     >>> sorted(contact_shapes(made).values())
     ['gear', 'gear']

@@ -101,7 +101,7 @@ def force_plot(
         for number, joint in enumerate(chain.joints)
         if points is None and frame in joint.links and joint.pair.is_turning
     ]
-    numbers += [chain.joint_number(joint, LinkageError) for joint in points or ()]
+    numbers += [chain.joint_number(joint, error=LinkageError) for joint in points or ()]
     if not 1 <= len(numbers) <= len(LINES):
         raise LinkageError(
             "expected 1 to {most} points or joints, but found {count}", most=len(LINES), count=len(numbers)
@@ -109,7 +109,7 @@ def force_plot(
     written, paths, names = chain.joint_names(Alphabet.of_language(lang)), list[Complexes](), list[str]()
     for each in numbers:
         link = frame if frame in chain.joints[each].links else chain.joints[each].links[-1]
-        x, y = run.statics.force(each, link).T
+        x, y = run.statics.force(each, link=link).T
         paths.append(x + 1j * y)
         names.append(translate("{joint} on {link}", lang, joint=written[each], link=link))
     if not any(np.isfinite(path).any() for path in paths):

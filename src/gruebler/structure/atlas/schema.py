@@ -5,7 +5,7 @@ Definitions and theorems: docs/theory/atlas.md. The same texts stand in the meta
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from gruebler.base.errors import GrueblerError
@@ -17,7 +17,7 @@ SCHEMA = 1
 """The version of the columns; a change of a column or of its meaning raises it."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SchemaColumn:
     """A column of a table."""
 
@@ -30,10 +30,12 @@ class SchemaColumn:
     origin: str
 
 
+_FIELDS = tuple(field.name for field in fields(SchemaColumn))
+
 _DESCRIBED = "_core.describe_chains"
 
 COLUMNS: tuple[SchemaColumn, ...] = tuple(
-    SchemaColumn(*row)
+    SchemaColumn(**dict(zip(_FIELDS, row, strict=True)))
     for row in (
         ("chains", "links", "int16", "links", "number of links n", "request"),
         ("chains", "mobility", "int16", "freedoms", "F = 3(n - 1) - 2 g1, all joints turning or sliding", "request"),
@@ -156,13 +158,15 @@ def arrow_schema(table: str, **metadata: str) -> pa.Schema:
             return pa.list_(pa.field("element", kind(name[5:-1]), nullable=False))
         return {"string": pa.string(), "bool": pa.bool_()}.get(name) or getattr(pa, name)()
 
-    fields = [
-        pa.field(
-            column.name,
-            kind(column.type.rstrip("?")),
-            nullable=column.type.endswith("?"),
-            metadata={"unit": column.unit, "definition": column.definition, "origin": column.origin},
-        )
-        for column in columns_of(table)
-    ]
-    return pa.schema(fields, metadata=metadata)
+    return pa.schema(
+        [
+            pa.field(
+                column.name,
+                kind(column.type.rstrip("?")),
+                nullable=column.type.endswith("?"),
+                metadata={"unit": column.unit, "definition": column.definition, "origin": column.origin},
+            )
+            for column in columns_of(table)
+        ],
+        metadata=metadata,
+    )

@@ -10,7 +10,14 @@ from gruebler.structure.chain.pairs import Pair
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A place where two or more links meet with one pair; a joint of k links counts k - 1."""
+    """A place where two or more links meet with one pair; a joint of k links counts k - 1.
+
+    See Also:
+        `Chain`
+
+    Theory:
+        docs/theory/freedoms.md
+    """
 
     pair: Pair
     links: tuple[str, ...]

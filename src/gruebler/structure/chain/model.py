@@ -54,6 +54,12 @@ class Chain(Immutable):
     R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)
     >>> slider_crank == Chain.parse("P(piston-frame) R(frame-crank) R(crank-rod) R(rod-piston)")
     True
+
+    See Also:
+        `Joint`, `Mechanism`, `chains`, `mobility_report`
+
+    Theory:
+        docs/theory/freedoms.md
     """
 
     joints: tuple[Joint, ...]
@@ -78,7 +84,7 @@ class Chain(Immutable):
 
     @classmethod
     @door_that_raises(NotationError)
-    def parse(cls, text: str, space: str | Space | None = None) -> Chain:
+    def parse(cls, text: str, *, space: str | Space | None = None) -> Chain:
         """The chain that a text describes; see `gruebler.structure.chain.notation` for the grammar.
 
         ``g6:`` followed by a graph6 code gives a planar chain of revolute joints, its links named 0, 1, 2, ...
@@ -98,8 +104,8 @@ class Chain(Immutable):
     def from_edges(
         cls,
         edges: Iterable[tuple[str | int, str | int]],
-        pair: str | Pair = "revolute",
         *,
+        pair: str | Pair = "revolute",
         space: str | Space = "planar",
     ) -> Chain:
         """A chain of simple joints of one kind, one for each edge; links are named as the edges name them.
@@ -284,7 +290,7 @@ class Chain(Immutable):
         place = int(again or 1) - 1
         return numbers[place] if 0 <= place < len(numbers) else None
 
-    def joint_number(self, joint: int | str, error: type[GrueblerError] = ChainError) -> int:
+    def joint_number(self, joint: int | str, *, error: type[GrueblerError] = ChainError) -> int:
         """The number of the joint that a number or a text names; an error of this kind if the chain has none.
 
         >>> Chain.parse("R(0-1) R(1-2) P(2-0)").joint_number("R(0-2)")

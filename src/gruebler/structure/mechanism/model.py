@@ -53,6 +53,12 @@ class Mechanism(Immutable):
 
     >>> print(Mechanism(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"), "frame", [0]))
     R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston); frame=frame; drive=R(frame-crank)
+
+    See Also:
+        `Chain`, `Linkage`, `inversions`, `driven_mechanisms`, `decompose`
+
+    Theory:
+        docs/theory/mobility.md
     """
 
     chain: Chain

@@ -56,7 +56,7 @@ def links_at(chain: Chain, place: Attachment) -> tuple[str, ...]:
     if isinstance(place, str):
         chain.index(place)
         return (place,)
-    return chain.joints[chain.joint_number(place, TransformationError)].links
+    return chain.joints[chain.joint_number(place, error=TransformationError)].links
 
 
 def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], subject: Message) -> None:

@@ -58,7 +58,14 @@ class JointRequirement:
 @door
 @dataclass(frozen=True, slots=True)
 class Requirements:
-    """All requirements; a field that is left out means no requirement."""
+    """All requirements; a field that is left out means no requirement.
+
+    See Also:
+        `variants`, `Mechanism`
+
+    Theory:
+        docs/theory/joint-types.md
+    """
 
     links: int
     _: KW_ONLY

@@ -90,8 +90,8 @@ class _Run:
     def coordinate(self, motion: Motion, order: int = 0) -> Reals:
         """The angle of the link, or the way of the slide."""
         if self.claim.of in self.linkage.mechanism.chain.links:
-            return motion.angular(self.claim.of, order)
-        return motion.displacement(self.claim.of, order)
+            return motion.angular(self.claim.of, order=order)
+        return motion.displacement(self.claim.of, order=order)
 
 
 def _moving(entry: Entry) -> Linkage | SpatialLinkage:

@@ -31,7 +31,7 @@ def chain(chain: str, space: str = "planar") -> Solution:
     1
     """
     builder = SolutionBuilder()
-    _add_count(builder, Chain.parse(chain, space), _Mark("", None), {})
+    _add_count(builder, Chain.parse(chain, space=space), _Mark("", None), {})
     return builder.done()
 
 

@@ -164,8 +164,8 @@ def _add_vectors(builder: SolutionBuilder, moved: Motion) -> None:
     """The vectors of the plans of velocities and accelerations, from the general solver."""
     pins = {name: moved.linkage.points_named(name)[-1] for name in ("R(crank-coupler)", "R(coupler-rocker)")}
     a, b = pins.values()
-    va, vb = (moved.complex_point(p, 1)[0] for p in (a, b))
-    aa, ab = (moved.complex_point(p, 2)[0] for p in (a, b))
+    va, vb = (moved.complex_point(p, order=1)[0] for p in (a, b))
+    aa, ab = (moved.complex_point(p, order=2)[0] for p in (a, b))
     arm = moved.turns[0, moved.link_index("rocker")]
     along = arm * (ab * np.conj(arm)).real
     coupler = moved.turns[0, moved.link_index("coupler")]
@@ -202,15 +202,18 @@ def _check_four_bar(builder: SolutionBuilder, size: FourBar, moved: Motion, phi:
             v_a * float(abs(b - pole) / abs(a - pole)),
             speed,
         )
-    vector = moved.complex_point("R(coupler-rocker)", 1)[0]
+    vector = moved.complex_point("R(coupler-rocker)", order=1)[0]
     builder.check(message("{quantity} by the general solver", quantity="v_B"), v_b, float(abs(vector)), speed)
-    acceleration = float(abs(moved.complex_point("R(coupler-rocker)", 2)[0]))
+    acceleration = float(abs(moved.complex_point("R(coupler-rocker)", order=2)[0]))
     a_b = builder.number("a_B")
     builder.check(message("{quantity} by the general solver", quantity="a_B"), a_b, acceleration, f"{builder.unit}/s²")
     for key, link in (("α_b", "coupler"), ("α_c", "rocker")):
         value = builder.number(key)
         builder.check(
-            message("{quantity} by the general solver", quantity=key), value, float(moved.angular(link, 2)[0]), "1/s²"
+            message("{quantity} by the general solver", quantity=key),
+            value,
+            float(moved.angular(link, order=2)[0]),
+            "1/s²",
         )
 
 
@@ -295,10 +298,10 @@ def _check_slider(
     builder.check(
         message("{quantity} by the general solver", quantity="v_B"),
         v,
-        float(moved.displacement(slide, 1)[0]),
+        float(moved.displacement(slide, order=1)[0]),
         f"{unit}/s",
     )
-    second = float(moved.displacement(slide, 2)[0])
+    second = float(moved.displacement(slide, order=2)[0])
     builder.check(message("{quantity} by the general solver", quantity="a_B"), acceleration, second, f"{unit}/s²")
     crank, lam = radians(phi), a / b
     rough_v = -a * omega * (sin(crank) + lam / 2 * sin(2 * crank))

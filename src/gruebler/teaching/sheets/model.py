@@ -206,7 +206,7 @@ class Sheet:
         """The drive values about the point of contact, and the direction of the tangent there."""
         guide = self.record.guide
         motion = self.motion(guide.centre)
-        slope = complex(motion.complex_point(self.record.names[self.record.point], 1)[0])
+        slope = complex(motion.complex_point(self.record.names[self.record.point], order=1)[0])
         start, centre, end = (math.radians(angle) for angle in (guide.start, guide.centre, guide.end))
         return Window(start, centre, end, math.atan2(slope.imag, slope.real) % math.pi)
 

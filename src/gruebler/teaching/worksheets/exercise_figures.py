@@ -91,7 +91,7 @@ def _drawn(places: Mapping[str, complex], points: Mapping[str, tuple[str, comple
     return Linkage.from_drawing(
         Mechanism.parse(_TWO_ROCKERS),
         {joint: (z.real, z.imag) for joint, z in places.items()},
-        {name: (link, z.real, z.imag) for name, (link, z) in points.items()},
+        points={name: (link, z.real, z.imag) for name, (link, z) in points.items()},
     )
 
 
