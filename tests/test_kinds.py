@@ -11,8 +11,10 @@ from typing import NamedTuple
 import pytest
 
 import gruebler
+from gruebler.machines.gears import KINDS as MESHES
 from gruebler.mechanics.linkages import elements
 from gruebler.mechanics.linkages.elements import Element
+from gruebler.pictures.machines.train_shapes import BETWEEN
 
 SOURCE = Path(gruebler.__file__).parent
 TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(SOURCE.rglob("*.py"))}
@@ -96,6 +98,28 @@ def test_no_code_asks_for_a_kind(family):
             asked[path.relative_to(SOURCE).as_posix()] = lines
     assert {name: lines for name, lines in asked.items() if name not in ALLOWED} == {}
     assert family.names != ELEMENTS or {*ALLOWED} == {*asked}
+
+
+def named_kinds(tree: ast.Module) -> Iterator[int]:
+    """The lines in which the kind of a mesh, or a variable called so, is compared with the name of a kind."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Compare):
+            asked, *given = (node.left, *node.comparators)
+            name = asked.attr if isinstance(asked, ast.Attribute) else getattr(asked, "id", "")
+            texts = {each.value for side in given for each in ast.walk(side) if isinstance(each, ast.Constant)}
+            if name == "kind" and texts & {*MESHES}:
+                yield node.lineno
+
+
+def test_no_code_asks_for_the_name_of_a_kind_of_mesh():
+    """What it does stands in its row; "rack" and others are words of files, too, so only comparisons count."""
+    trees = {path.name: ast.parse(path.read_text(encoding="utf-8")) for path in SOURCE.rglob("*.py")}
+    assert {name: lines for name, tree in trees.items() if (lines := [*named_kinds(tree)])} == {}
+    assert [*named_kinds(ast.parse('mesh.kind == "bevel"\nkind in ("belt", "chain")\nkind in KINDS'))] == [1, 2]
+
+
+def test_every_kind_of_mesh_without_touching_wheels_has_a_picture():
+    assert {*BETWEEN} == {name for name, kind in MESHES.items() if not kind.touching and not kind.crossing}
 
 
 IMPORT = "from gruebler.mechanics.linkages import Line, Pin\n"

@@ -70,7 +70,7 @@ def cases(draw, damped=True):
         for joint, place, by in zip(joints, DRAWN[text], moved, strict=True)
     }
     points = {"G": ("0", 3.0, 9.0)} | {f"K{link}": (link, *dice.uniform(0, 6, 2)) for link in links}
-    linkage = Linkage.from_drawing(mechanism, places, points, unit="m")
+    linkage = Linkage.from_drawing(mechanism, places, points=points, unit="m")
     first, last = links[1], links[-1]
     rub = damped * dice.uniform(0, 0.5, 2)
     loads = Loads(

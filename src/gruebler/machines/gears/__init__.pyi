@@ -1,8 +1,9 @@
 from .assemblies import Assembly, assembly
+from .mesh_kinds import KINDS, MeshKind, Unit
 from .motion import Balance, Contradiction, Speeds, balance, influence, ratio, speeds
 from .ratio_search import PlanetaryDesign, search_ratio
 from .reading import TrainReading, read_toml, read_train
-from .train import KINDS, GearError, Mesh, Train, Unit
+from .train import GearError, Mesh, Train
 
 __all__ = [
     "KINDS",
@@ -11,6 +12,7 @@ __all__ = [
     "Contradiction",
     "GearError",
     "Mesh",
+    "MeshKind",
     "PlanetaryDesign",
     "Speeds",
     "Train",

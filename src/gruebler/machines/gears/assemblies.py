@@ -49,7 +49,7 @@ def assembly(train: Train, planet: str, number: int) -> Assembly:
         raise GearError("planets: expected a whole number, at least 1, not {number!r}", number=number)
     train.known(planet)
     meshes = [_from(mesh, planet) for mesh in train.meshes if planet in (mesh.a, mesh.b) and mesh.carrier != FRAME]
-    meshes = [mesh for mesh in meshes if mesh.kind == "gear"]
+    meshes = [mesh for mesh in meshes if mesh.traits.spur]
     carriers = {mesh.carrier for mesh in meshes}
     if len(meshes) != 2 or len(carriers) != 1:
         raise GearError(
@@ -118,7 +118,7 @@ def axes(train: Train) -> tuple[Axes, ...]:
     """
     planet_axes = []
     for carrier in dict.fromkeys(mesh.carrier for mesh in train.meshes if mesh.carrier != FRAME):
-        meshes = [mesh for mesh in train.meshes if mesh.carrier == carrier and mesh.kind == "gear"]
+        meshes = [mesh for mesh in train.meshes if mesh.carrier == carrier and mesh.traits.spur]
         partners: dict[str, set[str]] = {}
         for mesh in meshes:
             partners.setdefault(mesh.a, set()).add(mesh.b)

@@ -9,8 +9,9 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from gruebler.base.text import message
+from gruebler.machines.gears.mesh_kinds import Unit
 from gruebler.machines.gears.rational import Elimination, Row, reduce_row
-from gruebler.machines.gears.train import MIXED, GearError, Train, Unit, exact_number
+from gruebler.machines.gears.train import MIXED, GearError, Train, exact_number
 
 _GIVEN = ""  # the column of the constants: a drive is the row "link - speed * constant"; no link has an empty name
 

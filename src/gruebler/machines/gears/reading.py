@@ -27,8 +27,9 @@ from typing import Any
 
 from gruebler.base.errors import nearest
 from gruebler.base.notebook import explained
+from gruebler.machines.gears.mesh_kinds import KINDS
 from gruebler.machines.gears.messages import explain_train
-from gruebler.machines.gears.train import FRAME, KINDS, GearError, Mesh, Train, exact_number
+from gruebler.machines.gears.train import FRAME, GearError, Mesh, Train, exact_number
 
 _STATEMENTS = (*(kind for kind in KINDS if " " not in kind), "drive", "hold", "load")
 _OPTIONS = {"rack": {"module", "pitch"}, "screw": {"lead"}, "winch": {"falls", "pitch"}, "gear": {"planets"}}
@@ -163,7 +164,7 @@ def _read_meshes(kind: str, tokens: list[str], statement: str, planets: dict[str
                 "'{statement}': {kind} has no option {option!r}", statement=statement, kind=kind, option=option
             )
     wheels = [token for token in tokens if "=" not in token]
-    if KINDS[kind].sign == 0:
+    if KINDS[kind].wheels < 2:
         yield _linear(kind, wheels, options, carrier, statement)
         return
     if len(wheels) < 2:
@@ -181,7 +182,7 @@ def _read_meshes(kind: str, tokens: list[str], statement: str, planets: dict[str
         )
     for k, ((a, size_a), (b, size_b)) in enumerate(pairwise(sized)):
         # Central and planet wheels of a bevel statement alternate; the central wheel is first in its mesh.
-        swap = kind == "bevel" and k % 2 == 1
+        swap = KINDS[kind].crossing and k % 2 == 1
         yield (
             Mesh(a=b, b=a, size_a=size_b, size_b=size_a, carrier=carrier, kind=kind)
             if swap
@@ -224,7 +225,7 @@ def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str,
         )
     quoted = f"'{statement}'"
     numbers = {option: exact_number(value, f"{quoted}: {option}") for option, value in options.items()}
-    if kind == "screw":
+    if not KINDS[kind].wheels:
         if ":" in wheels[0] or "lead" not in numbers:
             raise GearError("{statement}: expected 'screw SPINDLE SLIDE lead=NUMBER'", statement=quoted)
         return Mesh(a=wheels[0], b=wheels[1], size_a=numbers["lead"], size_b=Fraction(1), carrier=carrier, kind=kind)

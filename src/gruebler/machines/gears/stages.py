@@ -6,14 +6,11 @@ from collections.abc import Iterable
 
 from gruebler.machines.gears.train import FRAME, Mesh, Train
 
-WHEEL_PAIRS = ("gear", "friction", "belt", "chain", "crossed", "bevel")
-"""The kinds of meshes with a wheel on both links; in the others the second link slides."""
-
 
 def wheels_of(mesh: Mesh) -> tuple[tuple[str, float], ...]:
     """Links with the sizes of their wheels; one only where the second link slides."""
     both = ((mesh.a, float(mesh.size_a)), (mesh.b, float(mesh.size_b)))
-    return both if mesh.kind in WHEEL_PAIRS else both[:1]
+    return both if mesh.traits.wheels == 2 else both[:1]
 
 
 def mesh_groups(meshes: Iterable[Mesh]) -> list[list[Mesh]]:
@@ -26,11 +23,11 @@ def mesh_groups(meshes: Iterable[Mesh]) -> list[list[Mesh]]:
     """
     groups: list[list[Mesh]] = []
     for mesh in dict.fromkeys(meshes):
-        links, kind = {mesh.a, mesh.b} - {FRAME}, (mesh.carrier, mesh.kind == "bevel")
+        links, kind = {mesh.a, mesh.b} - {FRAME}, (mesh.carrier, mesh.traits.crossing)
         joined = [
             group
             for group in groups
-            if (group[0].carrier, group[0].kind == "bevel") == kind
+            if (group[0].carrier, group[0].traits.crossing) == kind
             and any(links & {known.a, known.b} for known in group)
         ]
         spot = groups.index(joined[0]) if joined else len(groups)
@@ -49,7 +46,7 @@ def central_links(meshes: list[Mesh], train: Train) -> set[str]:
     >>> sorted(central_links(list(train.meshes), train))
     ['ring', 'sun']
     """
-    if meshes[0].carrier == FRAME or meshes[0].kind == "bevel":
+    if meshes[0].carrier == FRAME or meshes[0].traits.crossing:
         return set()
     mates: dict[str, list[str]] = {}
     for mesh in meshes:

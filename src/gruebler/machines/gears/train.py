@@ -8,17 +8,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
-from enum import StrEnum
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 from numbers import Rational
-from types import MappingProxyType
 
 from gruebler.base import notebook
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, message
+from gruebler.machines.gears.mesh_kinds import KINDS, MeshKind, Unit
 from gruebler.machines.gears.rational import Elimination, Row, rational_echelon
 
 FRAME = "frame"
@@ -31,48 +30,11 @@ class GearError(GrueblerError):
     """An impossible gear train, or a value that it does not determine."""
 
 
-class Unit(StrEnum):
-    """The unit of a link's speed, if wheels turn with one unit of angle."""
-
-    TURNING = "turning"
-    PER_RADIAN = "per radian"
-    """Length: a rack moves radius times angle."""
-    PER_TURN = "per turn"
-    """Length: a nut moves its lead in a full turn. Per radian and per turn differ by 2 pi and are never mixed."""
-
-
 _UNITS = {
     Unit.TURNING: message("a turning link"),
     Unit.PER_RADIAN: message("sliding per radian"),
     Unit.PER_TURN: message("sliding per turn"),
 }
-
-
-@dataclass(frozen=True, slots=True)
-class MeshKind:
-    """The equation of a mesh: size_a (w_a - w_c) + sign size_b (w_b - w_c) = 0, or travel b - c = size_a * turn a."""
-
-    sign: int
-    unit: Unit = Unit.TURNING
-    """Of the second link."""
-    signed: bool = True
-    """Whether a negative size has a meaning: internal toothing, an opposite bevel gear, a left-hand screw."""
-
-
-KINDS = MappingProxyType(
-    {
-        "gear": MeshKind(+1),
-        "friction": MeshKind(+1),
-        "bevel": MeshKind(+1),
-        "belt": MeshKind(-1, signed=False),
-        "chain": MeshKind(-1, signed=False),
-        "crossed": MeshKind(+1, signed=False),
-        "rack": MeshKind(0, Unit.PER_RADIAN),
-        "rack by pitch": MeshKind(0, Unit.PER_TURN),
-        "winch": MeshKind(0, Unit.PER_RADIAN),
-        "screw": MeshKind(0, Unit.PER_TURN),
-    }
-)
 
 
 _EXPONENT = re.compile(r"[^eE]*([eE][-+]?0*\d{1,3})?")
@@ -129,15 +91,15 @@ class Mesh:
             if not isinstance(name, str) or not name:
                 raise GearError("a link has a name, not {name!r}", name=name)
             size = exact_number(raw_size, message("wheel on {link}", link=name))
-            if size == 0 or (size < 0 and not KINDS[self.kind].signed):
+            if size == 0 or (size < 0 and not self.traits.signed):
                 raise GearError(
                     "wheel on {name}: {kind} takes a positive size, not {size}", name=name, kind=self.kind, size=size
                 )
         settle(self, size_a=exact_number(self.size_a, self.a))
         settle(self, size_b=exact_number(self.size_b, self.b))
-        if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
+        if self.traits.touching and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
             raise GearError("an internal wheel (minus) is larger than the wheel in it: {mesh}", mesh=self)
-        if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
+        if self.traits.touching and max(self.size_a, self.size_b) < 0:
             raise GearError("two internal wheels do not mesh: {mesh}", mesh=self)
 
     def __str__(self) -> str:
@@ -146,36 +108,25 @@ class Mesh:
         >>> str(Mesh(a="planet", b="ring", size_a=18, size_b=-60, carrier="arm"))
         'gear planet:18 ring:-60 on arm'
         """
-        kind = KINDS.get(self.kind)
-        second = self.b if kind and kind.sign == 0 else f"{self.b}:{self.size_b}"
-        first, tail = f"{self.a}:{self.size_a}", "" if self.carrier == FRAME else f" on {self.carrier}"
-        if self.kind == "screw":
-            return f"screw {self.a} {self.b} lead={self.size_a}{tail}"
-        if self.kind == "rack by pitch":
-            return f"rack {self.a}:1 {second} pitch={self.size_a}{tail}"
-        return f"{self.kind} {first} {second}{tail}"
+        return self.traits.form.format_map(asdict(self)) + f" on {self.carrier}" * (self.carrier != FRAME)
+
+    @property
+    def traits(self) -> MeshKind:
+        """What its kind does."""
+        return KINDS[self.kind]
 
     def row(self) -> Row[str]:
         """The linear form of the speeds that equals zero."""
-        kind, form = KINDS[self.kind], Row[str]()
-        if self.kind == "screw":
-            terms = ((self.b, Fraction(1)), (self.a, -self.size_a), (self.carrier, self.size_a))
-        elif kind.sign == 0:
-            terms = ((self.b, Fraction(1)), (self.carrier, Fraction(-1)), (self.a, -self.size_a))
-        else:
-            size_b = kind.sign * self.size_b
-            total = self.size_a if self.kind == "bevel" else self.size_a + size_b
-            terms = ((self.a, self.size_a), (self.b, size_b), (self.carrier, -total))
-        for link, value in terms:
+        form, factors = Row[str](), self.traits.equation(self.size_a, self.size_b)
+        for link, value in zip((self.a, self.b, self.carrier), factors, strict=True):
             form[link] = form.get(link, Fraction(0)) + value
         form.pop(FRAME, None)
         return form
 
     def units(self) -> dict[str, Unit]:
         """The units of the speeds of its links."""
-        kind = KINDS[self.kind]
-        slides = kind.sign == 0 and self.kind != "screw"
-        return {self.a: Unit.TURNING, self.b: kind.unit, self.carrier: kind.unit if slides else Unit.TURNING}
+        unit = self.traits.unit
+        return {self.a: Unit.TURNING, self.b: unit, self.carrier: unit if self.traits.carries else Unit.TURNING}
 
 
 @door

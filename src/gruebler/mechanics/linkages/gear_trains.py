@@ -27,8 +27,6 @@ from gruebler.structure.chain.pairs import pair
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
-_PLANAR = ("gear", "friction", "belt", "chain", "crossed", "rack", "rack by pitch")
-_BELTS = {"belt": "open", "chain": "open", "crossed": "crossed"}
 _APART = 1.7  # sums of radii: the distance of the axes of a belt
 _TURN = pi * (3 - 5**0.5)  # the golden angle: multiples of it are evenly spread, and never twice the same
 _CLEAR = 1e-3  # of a distance: axes that are nearer to another axis are put elsewhere
@@ -65,7 +63,8 @@ def linkage_of_train(train: Train, drives: Iterable[str]) -> Linkage:
             )
     driven = [next(k for k, joint in enumerate(joints) if set(joint.links) == {FRAME, link}) for link in chosen]
     for mesh in train.meshes:
-        joints.append(Joint(pair("rolling" if mesh.kind == "friction" else "roll_slide"), (mesh.a, mesh.b)))
+        smooth = mesh.traits.touching and not mesh.traits.toothed
+        joints.append(Joint(pair("rolling" if smooth else "roll_slide"), (mesh.a, mesh.b)))
         places.append(layout.contact(mesh))
     mechanism = Mechanism(Chain(joints, space=Space.PLANAR), FRAME, driven)
     return Linkage.from_drawing(mechanism, dict(enumerate(places)))
@@ -76,12 +75,12 @@ class _Layout:
 
     def __init__(self, train: Train) -> None:
         for mesh in train.meshes:
-            if mesh.kind not in _PLANAR:
+            if not (mesh.traits.parallel or mesh.traits.rack):
                 raise LinkageError("'{mesh}' has no linkage in the plane", mesh=mesh)
         self.train, self.sliding = train, {link for link, unit in train.units().items() if unit != Unit.TURNING}
         self.bearer: dict[str, str] = {}
         self.axes: dict[str, complex] = {}
-        groups = mesh_groups(mesh for mesh in train.meshes if mesh.b not in self.sliding and mesh.kind in _PLANAR[:5])
+        groups = mesh_groups(mesh for mesh in train.meshes if mesh.b not in self.sliding and mesh.traits.parallel)
         moving = [group for group in groups if group[0].carrier != FRAME]
         central = [central_links(group, train) for group in moving]
         for group, hubs in zip(moving, central, strict=True):
@@ -89,7 +88,7 @@ class _Layout:
                 if link not in hubs:
                     self._bear(link, group[0].carrier)
         for mesh in train.meshes:
-            if mesh.kind in _PLANAR[5:] and mesh.carrier != FRAME:
+            if mesh.traits.rack and mesh.carrier != FRAME:
                 self._bear(mesh.a, mesh.carrier)
         coaxial = DisjointSets(link for link in train.links if link not in self.bearer and link not in self.sliding)
         for group, hubs in zip(moving, central, strict=True):
@@ -162,15 +161,15 @@ class _Layout:
 
     def contact(self, mesh: Mesh) -> dict[str, object]:
         """The wheels of a mesh, or wheel and line, by link."""
-        if mesh.kind in _PLANAR[5:]:
-            radius = float(mesh.size_a) / (tau if mesh.kind == "rack by pitch" else 1)
+        if mesh.traits.rack:
+            radius = float(mesh.size_a) / (tau if mesh.traits.unit is Unit.PER_TURN else 1)
             z = self.axes[mesh.a]
             return {mesh.a: Wheel(z.real, z.imag, abs(radius)), mesh.b: (z.real, z.imag - radius, 0.0)}
         ends = {link: self.at(link, mesh) for link in (mesh.a, mesh.b)}
         sizes = {mesh.a: mesh.size_a, mesh.b: mesh.size_b}
-        belt = _BELTS.get(mesh.kind, "")
+        belt = mesh.traits.belt
         scale = 0.5 if belt else abs(ends[mesh.a] - ends[mesh.b]) / abs(float(mesh.size_a + mesh.size_b))
-        toothed = mesh.kind in ("gear", "chain") and all(size.denominator == 1 for size in sizes.values())
+        toothed = mesh.traits.toothed and all(size.denominator == 1 for size in sizes.values())
         return {
             link: Wheel(z.real, z.imag, scale * float(sizes[link]), teeth=int(sizes[link]) if toothed else 0, belt=belt)
             for link, z in ends.items()
@@ -179,7 +178,7 @@ class _Layout:
 
 def _distance(mesh: Mesh) -> float:
     """Of the axes, for a module of 1."""
-    if mesh.kind in _BELTS:
+    if mesh.traits.belt:
         return _APART * float(mesh.size_a + mesh.size_b) / 2
     return abs(float(mesh.size_a + mesh.size_b)) / 2
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from gruebler.machines.gears import Mesh, Train
-from gruebler.machines.gears.stages import WHEEL_PAIRS, central_links, mesh_groups, wheels_of
+from gruebler.machines.gears.stages import central_links, mesh_groups, wheels_of
 
 FRAME = "frame"
 _APART = 1.7  # sums of radii: the distance of the axes of a belt
@@ -66,7 +66,7 @@ class GearStage:
     @property
     def is_bevel(self) -> bool:
         """Whether it is drawn unfolded into the plane."""
-        return self.meshes[0].kind == "bevel"
+        return self.meshes[0].traits.crossing
 
 
 def gear_stages(train: Train, planets: Mapping[str, int]) -> list[GearStage]:
@@ -88,9 +88,9 @@ def gear_stages(train: Train, planets: Mapping[str, int]) -> list[GearStage]:
 
 def _distance(mesh: Mesh) -> float:
     a, b = (abs(size) / 2 for _, size in wheels_of(mesh))
-    if mesh.kind in ("belt", "chain", "crossed"):
+    if mesh.traits.belt:
         return _APART * (a + b)
-    return a + b if mesh.kind == "bevel" else abs(float(mesh.size_a + mesh.size_b)) / 2
+    return a + b if mesh.traits.crossing else abs(float(mesh.size_a + mesh.size_b)) / 2
 
 
 # --- axes ------------------------------------------------------------------------------------------
@@ -100,7 +100,7 @@ def _place(stage: GearStage) -> None:
     """All axes, one after another, each beside its mesh partners."""
     axes = stage.axes
     axes |= dict.fromkeys(sorted(stage.central) or [stage.meshes[0].a], 0j)
-    flat = [mesh for mesh in stage.meshes if mesh.kind in WHEEL_PAIRS]
+    flat = [mesh for mesh in stage.meshes if mesh.traits.wheels == 2]
     leads = _leads(stage, flat)
     while unplaced := [mesh for mesh in stage.meshes if any(link not in axes for link, _ in wheels_of(mesh))]:
         near = next((mesh for mesh in flat if (mesh.a in axes) != (mesh.b in axes)), None)
@@ -196,9 +196,9 @@ def _wheels(stage: GearStage) -> None:
             ]
             known = [wheels.get(key) for key in keys]
             for k, ((link, size), radius, at) in enumerate(zip(sides, radii, places, strict=True)):
-                if known[k] is None and mesh.kind != "screw":
+                if known[k] is None and mesh.traits.wheels:
                     mate = known[1 - k] if len(sides) > 1 else None
-                    phase = _phase(mate, size, at) if mate and mesh.kind == "gear" else 0.0
+                    phase = _phase(mate, size, at) if mate and mesh.traits.spur else 0.0
                     planet = bool(stage.central) and link not in stage.central
                     known[k] = wheels[keys[k]] = StageWheel(
                         link=link, size=size, radius=radius, at=at, phase=phase, planet=planet

@@ -99,12 +99,10 @@ def _there(train: Train, rates: Mapping[str, Fraction], fastest: Fraction) -> Fr
     times = [1 / fastest]
     for mesh in train.meshes:
         rate = abs(rates.get(mesh.b, Fraction(0)))
-        if mesh.kind == "screw" and rate:
-            times = [_THREADS / fastest, *times[1:]]
-        elif mesh.kind in ("rack", "winch") and rate:
+        if rate and mesh.traits.wheels == 1:
             times.append((_TRAVEL * abs(mesh.size_a) / rate / Fraction(math.tau)).limit_denominator(360))
-        elif mesh.kind == "rack by pitch" and rate:
-            times.append((_TRAVEL * abs(mesh.size_a) / Fraction(math.tau) / rate).limit_denominator(360))
+        elif rate and mesh.traits.wheels == 0:
+            times[0] = _THREADS / fastest
     return min(time for time in times if time > 0)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -26,7 +26,6 @@ _BAR = 16.0  # pixels: the thickness of a rack
 _LOAD = Point(13.0, 18.0)
 _SCREW = Point(150.0, 9.0)
 _NUT = Point(15.0, 17.0)
-_BELTS = ("belt", "chain", "crossed")
 
 
 class PaintOptions(NamedTuple):
@@ -101,7 +100,9 @@ def stage_bodies(stage: GearStage, paint: PaintOptions, motion: TrainMotion | No
     moves = _Moves(stage, motion)
     order = sorted(stage.wheels, key=lambda wheel: (not _hollow(stage, wheel), -wheel.radius))
     bodies = [Body(tuple(_wheel(stage, wheel, paint)), moves.of_wheel(wheel, paint)) for wheel in order]
-    bodies += [body for placed in stage.placed for body in _links(placed, moves, paint)]
+    for placed in stage.placed:
+        if between := BETWEEN.get(placed.mesh.kind):
+            bodies += between(placed, moves, paint)
     bodies += _carrier(stage, moves, paint)
     bodies += _pins(stage, moves, paint)
     return [*bodies, *_names(stage, moves, paint)]
@@ -118,7 +119,7 @@ def _wheel(stage: GearStage, wheel: StageWheel, paint: PaintOptions) -> Iterator
     """A disc or ring with its pitch circle, optional teeth, and marks that show its rotation."""
     radius = paint.scale * wheel.radius
     style = "block-frame" if wheel.link == FRAME else "area"
-    geared = any(mesh.kind == "gear" and wheel.link in (mesh.a, mesh.b) for mesh in stage.meshes)
+    geared = any(mesh.traits.spur and wheel.link in (mesh.a, mesh.b) for mesh in stage.meshes)
     whole = wheel.size == round(wheel.size) and 4 <= abs(wheel.size) <= 400
     toothy = paint.teeth and geared and whole
     module = 2 * wheel.radius / abs(wheel.size)
@@ -191,18 +192,11 @@ def _names(stage: GearStage, moves: _Moves, paint: PaintOptions) -> Iterator[Bod
 # --- belts, racks, ropes and screws ----------------------------------------------------------------
 
 
-def _links(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
-    """Belt, rack, rope or screw of a mesh."""
-    kind = placed.mesh.kind
-    if kind in _BELTS:
-        line = paint.line(_belt(placed, kind == "crossed"))
-        yield Body((Polylines((line,), "rail" if kind == "chain" else "edge", closed=True),), moves.on_carrier(paint))
-    elif kind.startswith("rack"):
-        yield _rack(placed, moves, paint)
-    elif kind == "winch":
-        yield from _rope(placed, moves, paint)
-    elif kind == "screw":
-        yield from _screw(placed, moves)
+def _loop(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
+    """A belt, or a chain."""
+    traits = placed.mesh.traits
+    line = paint.line(_belt(placed, traits.belt == "crossed"))
+    yield Body((Polylines((line,), "rail" if traits.toothed else "edge", closed=True),), moves.on_carrier(paint))
 
 
 def _belt(placed: PlacedMesh, crossed: bool) -> Complexes:
@@ -218,7 +212,7 @@ def _belt(placed: PlacedMesh, crossed: bool) -> Complexes:
     return outline
 
 
-def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Body:
+def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
     """A bar along x below the wheel, above it for a negative radius."""
     mesh, scale = placed.mesh, paint.scale
     radius = placed.radii[0]
@@ -230,7 +224,7 @@ def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Body:
     box = (Point(left, at.y), Point(right, at.y), Point(right, at.y + side * _BAR), Point(left, at.y + side * _BAR))
     pieces: list[Shape] = [Polylines((box,), "block", closed=True)]
     pieces.append(ticks(Point(left, at.y + side * 4), Point(right, at.y + side * 4), Point(0.0, side * 0.8)))
-    return Body(tuple(pieces), (moves.slide(mesh.b, scale, Point(1.0, 0.0)),))
+    yield Body(tuple(pieces), (moves.slide(mesh.b, scale, Point(1.0, 0.0)),))
 
 
 def _rope(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
@@ -247,7 +241,7 @@ def _rope(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Bo
     yield Body(shapes, (moves.slide(mesh.b, scale, Point(0.0, -1.0)),))
 
 
-def _screw(placed: PlacedMesh, moves: _Moves) -> Iterator[Body]:
+def _screw(placed: PlacedMesh, moves: _Moves, _: PaintOptions) -> Iterator[Body]:
     """A spindle from the side with its nut; a turn moves the nut by one drawn thread, not to scale."""
     mesh, lead = placed.mesh, 14.0
     middle = Point(0.0, 0.0)
@@ -262,3 +256,15 @@ def _screw(placed: PlacedMesh, moves: _Moves) -> Iterator[Body]:
 
 def _box(at: Point, half: float, high: float) -> tuple[Point, ...]:
     return tuple(Point(at.x + a * half, at.y + b * high) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+
+
+BETWEEN: Mapping[str, Callable[[PlacedMesh, _Moves, PaintOptions], Iterator[Body]]] = {
+    "belt": _loop,
+    "chain": _loop,
+    "crossed": _loop,
+    "rack": _rack,
+    "rack by pitch": _rack,
+    "winch": _rope,
+    "screw": _screw,
+}
+"""What is drawn between the links of a mesh besides its wheels."""
