@@ -110,7 +110,7 @@ def test_every_link_is_in_equilibrium_as_a_free_body(case):
         later = joint.links[-1]  # a slide's force acts at the point of the later link
         place = motion.complex_point(point_of(case.linkage, number, later))
         for link in joint.links:
-            act(link, held.force(number, link) @ [1, 1j], place, held.couple(number, link))
+            act(link, held.force(number, link=link) @ [1, 1j], place, held.couple(number, link=link))
     for k, drive in enumerate(mechanism.drives):
         first, second = drive.between
         along = np.exp(1j * (motion.angle(first) + case.linkage.element(drive.joint, first).direction))
