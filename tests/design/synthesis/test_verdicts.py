@@ -18,9 +18,14 @@ from gruebler.design.synthesis import (
     synthesise,
     synthesise_path,
 )
+from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
+from gruebler.design.synthesis.judging import judge_design
+from gruebler.design.synthesis.positions import linkage_of_dyads
 from gruebler.design.synthesis.results import Design, DesignVerdict
+from gruebler.design.synthesis.targets import point_targets
 from gruebler.mechanics.analysis.transmission import transmission_angle
 from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.geometry.roberts import cognates
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.pictures.designs.picture import design_figure
 from gruebler.structure.mechanism import Mechanism
@@ -301,3 +306,24 @@ def test_a_task_far_from_the_origin_is_judged_all_the_same():
     assert len(middle.designs) == len(near.designs) == 9
     ratios = [sorted(design.verdict.size_ratio for design in result.designs) for result in (middle, near)]
     assert ratios[0] == pytest.approx(ratios[1], rel=1e-6)
+
+
+@pytest.mark.parametrize(("order", "expected"), [([0, 1, 2, 3, 4, 5], True), ([0, 3, 1, 4, 2, 5], False)])
+def test_the_order_on_a_circuit_is_that_of_all_cognates_and_drives(order, expected):
+    """So one verdict tells it for six linkages; each is asked alone here, with Roberts' theorem for the cognates."""
+    rocker, arcs = FourBar(30, 30, 50, 60), np.array([0.0, 0.13, 0.31, 0.52, 0.7, 0.88])[order]
+    found = []
+    for cognate in cognates(rocker, 20, 15, phi=0.2):
+        a0, a, b, b0 = cognate.pins
+        point = a + (cognate.u + 1j * cognate.v) * (b - a) / abs(b - a)
+        for sides in (((a, a0), (b, b0)), ((b, b0), (a, a0))):
+            linkage = linkage_of_dyads(*(GuidingDyad(CRANK, *pins) for pins in sides), point, "mm")
+            if not found:
+                course = circuit(linkage)
+                z = course.at(course.length * arcs).complex_point("P")
+            verdict = judge_design(linkage, point_targets("P", z, 30.0), Demands(in_order=False), "RR-RR").verdict
+            found.append((verdict.one_circuit, verdict.in_order))
+    assert found == [(True, expected)] * 6
+    verdict = judge_design(linkage, point_targets("P", z, 30.0), Demands(), "RR-RR").verdict
+    assert verdict.in_order == expected
+    assert expected or str(verdict.reasons[0]) == "the targets are met in another order"

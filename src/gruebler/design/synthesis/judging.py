@@ -141,12 +141,12 @@ def _is_rectangle(value: object) -> bool:
 def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
     """The first accepted one of linkages that differ in their drive, else the one with the fewest faults.
 
-    Their circuits are the same: where the first misses a target, so do all.
+    Their circuits are the same: where that of the first decides, it does for all.
     """
     best: Design | None = None
     for linkage in linkages:
         design = judge_design(linkage, targets(linkage), demands, form)
-        if design.verdict.accepted or design.verdict.misses:
+        if design.verdict.accepted or decided_by_path(design.verdict, demands):
             return design
         if best is None or len(design.verdict.reasons) < len(best.verdict.reasons):
             best = design
@@ -154,8 +154,13 @@ def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], 
     return best
 
 
-def missing_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, form: str) -> Design:
-    """The design of a linkage whose point has the path of another one that misses its targets, a cognate of it."""
+def decided_by_path(verdict: DesignVerdict, demands: Demands) -> bool:
+    """Whether a circuit was followed and rejected for itself, whatever drives it: for a target, or for their order."""
+    return verdict.assembles and not (verdict.one_circuit and (verdict.in_order or not demands.in_order))
+
+
+def rejected_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, form: str) -> Design:
+    """The design of a linkage whose point has the path of another one, a cognate of it, that its path decided."""
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
     reasons = (*faults_of_size(linkage, ratio, inside, demands), verdict.reasons[-1])
     return Design(
@@ -186,6 +191,17 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
             reasons.append(_missed([k + 1 for k in met.places.empty], met.error))
             verdict = DesignVerdict(
                 assembles=True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons)
+            )
+            return Design(linkage=linkage, verdict=verdict, form=form)
+        if demands.in_order and not met.ordered:
+            reasons.append(_in_another_order(np.nan))
+            verdict = DesignVerdict(
+                assembles=True,
+                one_circuit=True,
+                size_ratio=ratio,
+                inside=inside,
+                error=met.error,
+                reasons=tuple(reasons),
             )
             return Design(linkage=linkage, verdict=verdict, form=form)
         path, full = path_through(course, met, limit), _turns_fully(course)

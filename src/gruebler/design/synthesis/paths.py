@@ -18,7 +18,7 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.judging import Demands, best_of, judge_design, missing_alike
+from gruebler.design.synthesis.judging import Demands, best_of, decided_by_path, judge_design, rejected_alike
 from gruebler.design.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
 from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets, position_targets
@@ -360,19 +360,19 @@ def _classes(problem: Problem, complete: Solutions) -> Iterator[list[tuple[Guidi
 
 
 def _judged(task: PathTask, demands: Demands, pairs: Iterable[Sequence[GuidingDyad]], first: int) -> Iterator[Design]:
-    """The designs of a class: cognates have the same path, so that where one misses a point, so do the others."""
-    missed: DesignVerdict | None = None
+    """The designs of a class: cognates have the same path, so that where it decides for one, it does for the others."""
+    decided: DesignVerdict | None = None
     for own, other in pairs:
         linkages = four_bar_linkages(own, other, complex(task.z[first]), unit=task.unit)
         try:
-            if missed is not None:
-                design = missing_alike(next(linkages), missed, demands, "RR-RR")
+            if decided is not None:
+                design = rejected_alike(next(linkages), decided, demands, "RR-RR")
             else:
                 design = best_of(linkages, partial(_targets, task, first), demands, "RR-RR")
         except LinkageError:
             continue
-        if design.verdict.misses:
-            missed = design.verdict
+        if decided_by_path(design.verdict, demands):
+            decided = design.verdict
         yield design
 
 

@@ -55,11 +55,6 @@ class DesignVerdict:
         """Whether nothing speaks against it."""
         return not self.reasons
 
-    @property
-    def misses(self) -> bool:
-        """Whether its circuit was followed and misses a target."""
-        return self.assembles and not self.one_circuit
-
     def explain(self, lang: str = "en") -> str:
         """What it comes to, in English or German (``de``).
 

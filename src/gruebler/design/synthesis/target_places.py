@@ -29,6 +29,8 @@ class TargetPlaces(NamedTuple):
     """The largest over the targets of the smallest deviation, relative to the size."""
     in_order: Callable[[Piece], OrderedMatch | None]
     """The best match in order on a piece of the circuit, its error relative to the size."""
+    ordered: bool = True
+    """False if no match in order exists on the whole circuit; True where one is approached."""
 
 
 def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
@@ -78,7 +80,8 @@ def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
         matches = [OrderedMatch(0.0, 0.0, arcs) for arcs in places.matches(piece)]
         return preferred(matches, 1.0) if matches else None
 
-    return TargetPlaces(places, error, in_order)
+    whole = None if course.closed else (0.0, course.length)
+    return TargetPlaces(places, error, in_order, not places.empty and in_order(whole) is not None)
 
 
 def places_approached(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
