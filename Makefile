@@ -160,14 +160,16 @@ core-sanitize: $(VENV)/.core
 	$(CORE) --build build/core-sanitize
 	cd build/core-sanitize && PATH="$(CURDIR)/$(BIN):$$PATH" ctest --output-on-failure
 
-# The package once more, as links, with another module. Exceptions are caught by the library of C++ that is loaded first.
+# The package once more with another module; as a copy, since DuckDB opens no link that leads out of its folder. Exceptions are caught by the library of C++ that is loaded first.
 SANITIZED := build/core-sanitize-python
 core-sanitize-python: $(READY) $(VENV)/.core
 	$(CORE) -S core -B $(SANITIZED) -G Ninja $(CORE_PYTHON) -DCMAKE_CXX_COMPILER=g++ -DCORE_SANITIZE=ON \
 		-DCORE_FOLDER=$(CURDIR)/$(SANITIZED)/gruebler >/dev/null
 	$(CORE) --build $(SANITIZED)
 	rm -rf $(SANITIZED)/gruebler
-	cp -rs $(CURDIR)/src/gruebler $(SANITIZED)/
+	cp -r src/gruebler $(SANITIZED)/
+	cp -r catalogs $(SANITIZED)/gruebler/
+	cp -r docs/tables $(SANITIZED)/gruebler/
 	rm -f $(SANITIZED)/gruebler/_core*.so
 	$(CORE) --install $(SANITIZED) >/dev/null
 	LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
