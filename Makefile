@@ -11,7 +11,7 @@ INSTALLED := $(VENV)/.installed
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
 	@echo "make test        ruff, mypy --strict, all fast tests and doctests"
-	@echo "make docs        the site in English and German in build/docs/html; about two minutes"
+	@echo "make docs        the site in English and German in build/docs/html, with the page; about four minutes"
 	@echo "make messages    brings the German catalog up to date with the code and lists what is untranslated"
 	@echo "make slow        the long tests, and the fast ones with new random examples"
 	@echo "make torture     5,000 damaged inputs, 200 interrupts, 300 kills, see docs/reliability.md; about an hour"
@@ -64,6 +64,7 @@ docs: $(VENV)/.docs
 	rm -rf build/docs docs/_pictures docs/reference/api
 	$(BIN)/python $(SPHINX) -d build/docs/doctrees/en docs build/docs/html
 	$(BIN)/python $(SPHINX) -d build/docs/doctrees/de -D language=de docs build/docs/html/de
+	$(BIN)/gruebler explore --site build/docs/html/explore --jobs 2
 	$(BIN)/python docs/builder/links.py build/docs/html
 
 messages: $(READY)

@@ -1,4 +1,4 @@
-// Builds the page into the folder given, else into the Python package: one ES module, no other files.
+// Builds the page into the folder given, else into the Python package: one ES module, and one more for static sites.
 
 import { readFile } from "node:fs/promises";
 import path from "node:path";
@@ -29,7 +29,7 @@ const texts = {
 
 await build({
   absWorkingDir: here,
-  entryPoints: { explorer: "src/index.ts" },
+  entryPoints: { explorer: "src/index.ts", site: "src/site/index.ts" },
   outdir: target,
   bundle: true,
   format: "esm",

@@ -9,34 +9,16 @@ import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { type Icon, icon } from "./icons";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
-import { BadLink, packed, unpacked } from "./link";
-import type { LinkageDocument, Model } from "./model";
+import { LibraryView } from "./library";
+import { BadLink, packed } from "./link";
+import type { Model } from "./model";
 import { MotionView } from "./motion";
+import { contentOf } from "./opening";
+import { another, isOf, modelOf, type Shared, sharedOf, shareLink, unshared } from "./sharing";
 import { StructureView } from "./structure";
 import styles from "./style.css";
 import { SynthesisView } from "./synthesis";
 import type { Page, View } from "./view";
-
-/** What a link carries. */
-interface Shared {
-  document: LinkageDocument;
-  name: string;
-  source: string;
-  drive: number;
-  /** Whether it has other sizes than what its name and its source stand for. */
-  changed?: boolean;
-}
-
-/** What a file held. */
-interface Opened {
-  model?: Model;
-  text?: string;
-  points?: [number, number][];
-  closed?: boolean;
-  note: string;
-}
-
-const LARGEST_FILE = 280_000; // bytes: in base64 they fit into a message
 
 export class App implements Page {
   readonly backend: Backend;
@@ -72,10 +54,10 @@ export class App implements Page {
     this.views = { motion: this.motion };
     if (this.backend.present) {
       this.views = {
-        build: new BuildView(this),
+        build: this.served ? new BuildView(this) : new LibraryView("build"),
         structure: new StructureView(this),
         motion: this.motion,
-        synthesis: new SynthesisView(this),
+        synthesis: this.served ? new SynthesisView(this) : new LibraryView("synthesis"),
         catalog: new CatalogView(this),
         exercises: new ExercisesView(this),
       };
@@ -123,7 +105,7 @@ export class App implements Page {
   }
 
   get served(): boolean {
-    return this.backend.present;
+    return this.backend.served;
   }
 
   get shown(): Model {
@@ -132,6 +114,10 @@ export class App implements Page {
 
   get limits(): Page["limits"] {
     return (this.model.get("limits") ?? {}) as Page["limits"];
+  }
+
+  private get atSite(): boolean {
+    return this.backend.present && !this.served;
   }
 
   private get linkable(): boolean {
@@ -292,15 +278,14 @@ export class App implements Page {
     this.writing = window.setTimeout(() => void this.write(), 150);
   }
 
+  /** Copy the address with the linkage in it. */
+  async share(): Promise<void> {
+    await this.write();
+    await shareLink(this, this.linkable ? location.href : `#${await packed(this.shared())}`);
+  }
+
   private shared(): Shared {
-    const { active, drives, model } = this.motion.linkage;
-    return {
-      document: this.motion.document(),
-      name: model.name,
-      source: model.source,
-      drive: drives[active] ?? 0,
-      changed: this.motion.changed,
-    };
+    return sharedOf(this.motion, this.atSite);
   }
 
   private async write(): Promise<void> {
@@ -312,34 +297,12 @@ export class App implements Page {
     history.replaceState({ view: this.view }, "", this.hash);
   }
 
-  /** Copy the address with the linkage in it. */
-  async share(): Promise<void> {
-    await this.write();
-    const address = this.linkable ? location.href : `#${await packed(this.shared())}`;
-    try {
-      await navigator.clipboard.writeText(address);
-      const where = this.served && this.linkable ? t("Others open it by: gruebler explore LINK") : "";
-      this.say(`${t("The link is copied. It holds the mechanism with its sizes.")} ${where}`, "done");
-    } catch {
-      const field = h("input", {
-        value: address,
-        readonly: true,
-        "aria-label": t("Copy the link"),
-        onfocus: () => field.select(),
-      });
-      this.say(t("Copy this link:"), "done", field);
-      field.focus();
-    }
-  }
-
   private async read(): Promise<void> {
     const text = location.hash.slice(1);
     if (!text) return;
     this.hash = location.hash;
     try {
-      const shared = (await unpacked(text)) as Shared;
-      if (typeof shared?.document?.joints !== "string") throw new BadLink("This link holds no mechanism.");
-      await this.openShared(shared);
+      await this.openShared(await unshared(text));
       this.unread = false;
       this.changed();
     } catch (error) {
@@ -350,51 +313,33 @@ export class App implements Page {
   }
 
   private async openShared(shared: Shared): Promise<void> {
+    const { document, drive, name, changed = false } = shared;
     const { model } = this.motion.linkage;
-    const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(shared.document[key]);
-    if (["joints", "frame", "drives", "links"].every(same) && (model.name === shared.name || !this.served))
-      this.motion.openDocument(shared.document, shared.drive);
-    else if (this.backend.present) {
-      const { document, name, source, changed = false } = shared;
-      const found = await this.ask<Model>("open_document", { document, name, source });
-      this.motion.open({ ...found, changed });
-      this.show("motion");
-    } else this.say(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
+    if (isOf(model, document) && (model.name === name || !this.backend.present))
+      return this.motion.openDocument(document, drive);
+    if (!this.backend.present) throw another();
+    this.motion.open({ ...(await modelOf(shared, this)), changed });
+    this.show("motion");
+    if (this.atSite) this.motion.openDocument(document, drive);
   }
 
-  /** Open what a file holds: the library reads every format, a page alone its own mechanism in JSON. */
+  // --- files ---------------------------------------------------------------------------------------------------------
+
   async openFile(file: File | undefined): Promise<void> {
     if (!file) return;
     try {
-      if (file.size > LARGEST_FILE)
-        throw new Error(t("The file {name} is too large for the page.", { name: file.name }));
-      if (this.served) await this.openServed(file);
-      else await this.openOwn(file);
+      const found = await contentOf(file, this);
+      if (found.document) this.motion.openDocument(found.document);
+      else if (found.model) this.open(found.model);
+      else if (found.text) this.describe(found.text);
+      else if (found.points) {
+        (this.views.synthesis as SynthesisView).take(found.points, found.closed ?? false);
+        this.turnTo("synthesis");
+      }
+      if (found.note) this.say(found.note, "done");
     } catch (error) {
       this.say((error as Error).message);
     }
-  }
-
-  private async openServed(file: File): Promise<void> {
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
-    const found = await this.ask<Opened>("open_file", { name: file.name.slice(-200), base64 });
-    if (found.model) this.open(found.model);
-    else if (found.text) this.describe(found.text);
-    else if (found.points) {
-      (this.views.synthesis as SynthesisView).take(found.points, found.closed ?? false);
-      this.turnTo("synthesis");
-    }
-    if (found.note) this.say(found.note, "done");
-  }
-
-  private async openOwn(file: File): Promise<void> {
-    const { model } = this.motion.linkage;
-    const document = jsonOf(await file.text());
-    const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(document?.[key]);
-    if (document?.reference_pose && ["joints", "frame", "drives", "links"].every(same))
-      this.motion.openDocument(document);
-    else this.say(t("This page alone opens its own mechanism, saved as JSON. Others: gruebler explore FILE"));
   }
 
   // --- keys ----------------------------------------------------------------------------------------------------------
@@ -421,13 +366,5 @@ export class App implements Page {
     else if (event.key === "0") this.motion.stage.fit();
     else return;
     event.preventDefault();
-  }
-}
-
-function jsonOf(text: string): LinkageDocument | null {
-  try {
-    return JSON.parse(text) as LinkageDocument;
-  } catch {
-    return null;
   }
 }

@@ -43,9 +43,14 @@ export class Backend {
     model.on("msg:custom", ((answer: Answer) => this.answered(answer)) as (message: never) => void);
   }
 
-  /** Whether there is a Python behind the page. */
+  /** Whether somebody answers: Python, or the files of a static site. */
   get present(): boolean {
     return this.model.get("host") !== "file";
+  }
+
+  /** Whether there is a Python behind the page. */
+  get served(): boolean {
+    return this.present && this.model.get("host") !== "site";
   }
 
   private answered(answer: Answer): void {

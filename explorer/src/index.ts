@@ -5,6 +5,7 @@
 
 import { App } from "./app";
 import { type HostModel, SocketModel, StillModel } from "./host";
+import { t } from "./language";
 
 export { documentOf } from "./document";
 export { Dragging } from "./dragging";
@@ -34,8 +35,9 @@ function begin(at: HTMLElement): void {
   const address = new URL("ws", location.href);
   address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
   address.hash = "";
-  const model =
-    host === "server" ? new SocketModel({ ...values, host }, address.href) : new StillModel({ ...values, host });
+  const made = { ...values, host };
+  const site = (window as { grueblerSite?: (values: object, texts: typeof t) => HostModel }).grueblerSite;
+  const model = host === "server" ? new SocketModel(made, address.href) : (site?.(made, t) ?? new StillModel(made));
   const app = new App(model, at);
   Object.assign(window, { gruebler: app });
   void app.start();

@@ -14,7 +14,7 @@ interface Choice {
   picture: string;
 }
 
-interface Structure {
+export interface Structure {
   text: string;
   /** The frame that was chosen, or the one of the list that is like it; empty if none was. */
   chosen: string;

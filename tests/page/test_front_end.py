@@ -76,14 +76,14 @@ def test_the_lock_file_names_no_address():
 
 
 def test_no_line_is_longer_than_120():
-    files = [*SOURCES.glob("*.mjs"), *SOURCES.glob("src/*.ts"), *SOURCES.glob("test/*.ts")]
+    files = [*SOURCES.glob("*.mjs"), *SOURCES.glob("src/**/*.ts"), *SOURCES.glob("test/*.ts")]
     longest = {file.name: max(map(len, file.read_text(encoding="utf-8").splitlines())) for file in files}
     assert {name: long for name, long in longest.items() if long > 120} == {}  # the formatter leaves texts as they are
 
 
 def test_every_text_has_its_german():
     said = set()
-    for source in SOURCES.glob("src/*.ts"):
+    for source in SOURCES.glob("src/**/*.ts"):
         text = re.sub(r'" \+\n *"', "", source.read_text(encoding="utf-8"))  # texts of more than one line
         said |= {json.loads(f'"{one}"') for one in re.findall(r'\bt\(\s*"((?:[^"\\]|\\.)*)"', text)}
         said |= {json.loads(f'"{one}"') for one in re.findall(r'BadLink\("((?:[^"\\]|\\.)*)"', text)}

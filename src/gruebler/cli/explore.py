@@ -10,6 +10,7 @@ from typing import Any
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES, translate
 from gruebler.cli.draw import entry_of, linkage_and_range
+from gruebler.cli.long_work import progress
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
 from gruebler.page.model import model_of
@@ -37,6 +38,9 @@ def add(parser: Parser) -> None:
     parser.add_out(help="one file .html instead of a server", endings=("html", "htm"))
     parser.take(
         """
+        --site DIR path  a static site instead of a server: the page with catalog, exercises and all chains to ten
+            links, for any server of files; about two minutes
+        --jobs
         --port N int  the port (default: 8117, or any free one)
         --host ADDRESS =127.0.0.1  the address that the server listens on (default: 127.0.0.1)
         --no-browser  only print the address
@@ -55,7 +59,30 @@ def run(arguments: argparse.Namespace) -> int:
 
         write_file(arguments.out, single_file(model, _page_language(arguments.lang)).encode("utf-8"), arguments.lang)
         return 0
-    return _serve(model, arguments)
+    return _serve(model, arguments) if arguments.site is None else _write_site(model, arguments)
+
+
+def _write_site(model: dict[str, Any], arguments: argparse.Namespace) -> int:
+    from gruebler.page.static_site import write_site
+    from gruebler.structure.enumeration.worker_pool import ProcessPools
+
+    words = translate("parts: {n} of {total}", arguments.lang)
+    size = write_site(
+        arguments.site,
+        model,
+        lang=_page_language(arguments.lang),
+        executor=None if arguments.jobs == 1 else ProcessPools(arguments.jobs),
+        progress=lambda items, total: progress(items, words.replace("{total}", str(total))),
+    )
+    print(
+        translate(
+            "The site is in {folder}: {size:.1f} MB. Give the folder to any server of files, or open index.html.",
+            arguments.lang,
+            folder=arguments.site,
+            size=size / 1e6,
+        )
+    )
+    return 0
 
 
 def _model(word: str, lang: str) -> dict[str, Any]:

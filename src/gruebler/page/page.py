@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -19,9 +19,9 @@ _STATIC = Path(__file__).parent / "static"
 
 
 @cache
-def module_text() -> str:
-    """The front end: one ES module, built from `explorer/` and shipped with the library."""
-    return (_STATIC / "explorer.js").read_text(encoding="utf-8")
+def module_text(name: str = "explorer") -> str:
+    """The front end: one ES module, built from `explorer/` and shipped with the library; or what a static site adds."""
+    return (_STATIC / f"{name}.js").read_text(encoding="utf-8")
 
 
 def picture_styles() -> str:
@@ -64,6 +64,31 @@ def single_file(model: Mapping[str, Any], lang: str = "") -> str:
         values,
         script_element(script, "module"),
         policy_element(script, styles=False, webassembly=True),
+    )
+
+
+def static_page(
+    model: Mapping[str, Any], limits: Mapping[str, Any], classes: Iterable[tuple[int, int]], lang: str = ""
+) -> str:
+    """The page of a static site; its policy allows the scripts in it and those beside it.
+
+    Args:
+        model: what it opens with.
+        limits: the chains of which it has lists.
+        classes: links and mobility of those lists.
+        lang: the language in which it opens, the browser's if empty.
+    """
+    scripts = (module_text("site"), module_text())
+    named = [f"{links}-{mobility}" for links, mobility in classes]
+    values = {"lang": lang, "machine": model, "styles": picture_styles(), "limits": limits, "chains": named}
+    elements = "".join(script_element(script, "module") for script in scripts)
+    return _page(
+        "gruebler",
+        lang,
+        "site",
+        values,
+        elements,
+        policy_element(*scripts, styles=False, webassembly=True, beside=True),
     )
 
 

@@ -99,11 +99,11 @@ def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -
         graded = grade(task, {key: given})[0]
     except GrueblerError as error:
         return {"key": key, "mark": str(Mark.WRONG), "hint": error_in_language(error, lang)}
-    hint = graded.hint or (_way(solution, graded.result) if graded.mark is Mark.WRONG else None)
+    hint = graded.hint or (way(solution, graded.result) if graded.mark is Mark.WRONG else None)
     return {"key": key, "mark": str(graded.mark), "hint": hint.in_language(lang) if hint else ""}
 
 
-def _way(solution: Solution, result: Result) -> Message:
+def way(solution: Solution, result: Result) -> Message:
     """What helps with a wrong answer that is no likely mistake: the formula without its numbers."""
     beginning = f"{result.symbol.rstrip('*')} = "
     steps = (part for part in solution.parts if isinstance(part, SolutionStep))

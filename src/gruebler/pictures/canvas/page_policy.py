@@ -12,12 +12,13 @@ def script_element(script: str, kind: str = "") -> str:
     return f"<script{typed}>{_closed(script)}</script>"
 
 
-def policy_element(*scripts: str, styles: bool = True, webassembly: bool = False) -> str:
+def policy_element(*scripts: str, styles: bool = True, webassembly: bool = False, beside: bool = False) -> str:
     r"""The element of a page's head that lets it run these scripts, by their digests, and load nothing at all.
 
     Args:
         scripts: as given to `script_element`.
         styles: whether the page has style sheets and styles of elements.
+        beside: whether it loads scripts from its own folder.
         webassembly: whether its scripts compile WebAssembly that they hold; texts as code stay forbidden.
 
     >>> policy_element()[:77]
@@ -26,6 +27,8 @@ def policy_element(*scripts: str, styles: bool = True, webassembly: bool = False
     allowed = [f"'sha256-{_digest(script)}'" for script in scripts]
     if webassembly:
         allowed.append("'wasm-unsafe-eval'")
+    if beside:
+        allowed.append("'self'")
     rules = [
         "default-src 'none'",
         *([f"script-src {' '.join(allowed)}"] if allowed else []),

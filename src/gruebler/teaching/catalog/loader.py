@@ -145,7 +145,7 @@ class Query:
             and (self.mobility is None or counted(chain) == self.mobility)
             and all(_meanings(symbol) & present for symbol in self.pairs)
             and (self.drive is None or bool(_meanings(self.drive) & driven))
-            and all(word.casefold() in _all_text(candidate) for word in self.words)
+            and all(word.casefold() in searched_text(candidate) for word in self.words)
         )
 
 
@@ -154,7 +154,8 @@ def _meanings(symbol: str) -> set[Pair]:
     return {p for p in PAIRS if symbol in p.symbols.values()} or {pair(symbol)}
 
 
-def _all_text(candidate: Entry) -> str:
+def searched_text(candidate: Entry) -> str:
+    """Everything in which a word is looked for, in small letters."""
     remark = candidate.remark
     chain = candidate.chain()
     use = purpose(Mechanism(chain, candidate.frame or chain.links[0]), candidate.outputs)

@@ -76,3 +76,12 @@ def unit_scale(unit: str, target: str) -> float | None:
     if source_unit is None or target_unit is None or source_unit[1] != target_unit[1]:
         return None
     return source_unit[0] / target_unit[0]
+
+
+def units_for(target: str) -> dict[str, float]:
+    """The units in which an answer may be given instead of another one, in terms of that one.
+
+    >>> units_for("s")
+    {'ms': 0.001, 's': 1.0}
+    """
+    return {unit: scale for unit in (*_UNITS, *_SPELT) if (scale := unit_scale(unit, target)) is not None}

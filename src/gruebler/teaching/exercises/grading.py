@@ -42,6 +42,8 @@ class Grade:
     """The name under which it was answered: the key, or the symbol that the solution prints."""
 
 
+NEARLY_RIGHT = message("Right in principle; carry more digits on the way.")
+
 # Mistakes possible with any measured number: the answer as a function of the right one, the unit, the hint.
 _ANYWHERE = (
     (lambda x: -x, "", message("Look at the sign.")),
@@ -195,16 +197,21 @@ def _marked_number(mistakes: Sequence[Mistake], result: Result, answer: str, sca
     if mark is Mark.RIGHT and not any(_is_mistake(m.value, value, reading) for m in mistakes):
         return Grade(key=result.key, answer=answer, result=result, mark=mark)
     hints = [m.hint for m in mistakes if _mark_of(m.value, reading) is Mark.RIGHT]
-    if not hints and isinstance(result.value, float):
-        hints = [
-            hint
-            for change, unit, hint in _ANYWHERE
-            if result.unit and (not unit or unit == result.unit) and _mark_of(change(value), reading) is Mark.RIGHT
-        ]
+    if not hints:
+        hints = [m.hint for m in common_mistakes(result) if _mark_of(m.value, reading) is Mark.RIGHT]
     if hints:
         return Grade(key=result.key, answer=answer, result=result, mark=Mark.WRONG, hint=hints[0])
-    near = message("Right in principle; carry more digits on the way.")
-    return Grade(key=result.key, answer=answer, result=result, mark=mark, hint=near if mark is Mark.NEAR else None)
+    near = NEARLY_RIGHT if mark is Mark.NEAR else None
+    return Grade(key=result.key, answer=answer, result=result, mark=mark, hint=near)
+
+
+def common_mistakes(result: Result) -> list[Mistake]:
+    """The mistakes that are possible with any measured number: sign, unit, angle, half and double."""
+    if not isinstance(result.value, float) or not result.unit:
+        return []
+    return [
+        Mistake(result.key, change(result.value), hint) for change, unit, hint in _ANYWHERE if unit in ("", result.unit)
+    ]
 
 
 def _is_mistake(mistake: Value, correct: float, reading: GivenAnswer) -> bool:

@@ -1,0 +1,38 @@
+/** What a file holds: the library reads every format, a page alone its own mechanism in JSON. */
+
+import { t } from "./language";
+import type { LinkageDocument, Model } from "./model";
+import { isOf } from "./sharing";
+import type { Page } from "./view";
+
+const LARGEST = 280_000; // bytes: in base64 they fit into a message
+
+interface Content {
+  /** The mechanism that is shown, with other sizes. */
+  document?: LinkageDocument;
+  model?: Model;
+  text?: string;
+  points?: [number, number][];
+  closed?: boolean;
+  note?: string;
+}
+
+export async function contentOf(file: File, page: Page): Promise<Content> {
+  if (file.size > LARGEST) throw new Error(t("The file {name} is too large for the page.", { name: file.name }));
+  if (page.served) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+    return page.ask<Content>("open_file", { name: file.name.slice(-200), base64 });
+  }
+  const document = jsonOf(await file.text());
+  if (document?.reference_pose && isOf(page.shown, document)) return { document };
+  throw new Error(t("This page alone opens its own mechanism, saved as JSON. Others: gruebler explore FILE"));
+}
+
+function jsonOf(text: string): LinkageDocument | null {
+  try {
+    return JSON.parse(text) as LinkageDocument;
+  } catch {
+    return null;
+  }
+}

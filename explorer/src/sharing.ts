@@ -1,0 +1,71 @@
+/** What a link carries, and how it is made and read. */
+
+import { h } from "./dom";
+import { t } from "./language";
+import { BadLink, unpacked } from "./link";
+import type { LinkageDocument, Model } from "./model";
+import type { MotionView } from "./motion";
+import type { Page } from "./view";
+
+export interface Shared {
+  document: LinkageDocument;
+  name: string;
+  source: string;
+  drive: number;
+  /** Whether it has other sizes than what its name and its source stand for. */
+  changed?: boolean;
+  /** How it moves, in links of a static site, where nobody finds it out of the document. */
+  model?: Model;
+}
+
+/** That a link is of another mechanism than can be shown here. */
+export function another(): BadLink {
+  return new BadLink("This link holds another mechanism. Open it with: gruebler explore LINK");
+}
+
+/** Whether a document is of the mechanism of a model, with whatever sizes. */
+export function isOf(model: Model, document: LinkageDocument): boolean {
+  const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(document[key]);
+  return ["joints", "frame", "drives", "links"].every(same);
+}
+
+export function sharedOf(motion: MotionView, withModel: boolean): Shared {
+  const { active, drives, model } = motion.linkage;
+  const { name, source } = model;
+  const document = motion.document();
+  const whole = withModel && !source ? { model: { ...model, document: {} } } : {};
+  return { document, name, source, drive: drives[active] ?? 0, changed: motion.changed, ...whole };
+}
+
+/** What the text behind # carries; BadLink if it is none. */
+export async function unshared(text: string): Promise<Shared> {
+  const shared = (await unpacked(text)) as Shared;
+  if (typeof shared?.document?.joints !== "string") throw new BadLink("This link holds no mechanism.");
+  return shared;
+}
+
+/** The model of what a link carries: from the library, from the link itself, or from the machine of its name. */
+export async function modelOf({ document, name, source, model }: Shared, page: Page): Promise<Model> {
+  if (page.served) return page.ask<Model>("open_document", { document, name, source });
+  const found = model ? { ...model, document } : await page.ask<Model>("open", { id: source });
+  if (!isOf(found, document)) throw another();
+  return found;
+}
+
+/** Put an address into the clipboard; where that is not allowed it is shown. */
+export async function shareLink(page: Page, address: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(address);
+    const where = page.served && address.includes("://") ? t("Others open it by: gruebler explore LINK") : "";
+    page.say(`${t("The link is copied. It holds the mechanism with its sizes.")} ${where}`, "done");
+  } catch {
+    const field = h("input", {
+      value: address,
+      readonly: true,
+      "aria-label": t("Copy the link"),
+      onfocus: () => field.select(),
+    });
+    page.say(t("Copy this link:"), "done", field);
+    field.focus();
+  }
+}

@@ -1,0 +1,178 @@
+/** What a static site adds to the page: a model that answers out of files what a server answers otherwise. */
+
+import { StillModel } from "../host";
+import type { Language } from "../language";
+import type { Model } from "../model";
+import { type Catalog, fitting } from "./machines";
+import { type Answer, type Asked, marked, type Said, type Tolerances } from "./marks";
+import { pack } from "./packs";
+import { chainOf, type Pair, type StructurePack, structureOf } from "./structures";
+
+/** What the requests that are answered here are given (`gruebler.page.params`). */
+interface Params {
+  id: string;
+  text: string;
+  links: number;
+  mobility: number;
+  start: number;
+  kind: string;
+  level: number;
+  seed: number;
+  answers: Record<string, string>;
+}
+
+interface MachinePack {
+  model?: Model;
+  moving?: string;
+  structure: Record<Language, StructurePack>;
+}
+
+interface TaskPack extends Tolerances {
+  tasks: {
+    records: Record<Language, { id: string; asked: { key: string; choices: string[] }[] }>;
+    solutions: Said;
+    answers: Record<string, Asked | Record<Language, Record<string, Answer>>>;
+    try: object;
+  }[];
+}
+
+type Chains = { text: string; picture: string }[];
+type Texts = (text: string, values?: Record<string, string | number>) => string;
+
+class SiteModel extends StillModel {
+  constructor(
+    values: Record<string, unknown>,
+    private readonly t: Texts,
+  ) {
+    super(values);
+  }
+
+  override send(content: unknown): void {
+    const { id, method, params, lang } = content as { id: number; method: string; params: Params; lang: Language };
+    if (!method) return; // nothing here takes so long that it is cancelled
+    this.answer(method, params, lang).then(
+      (result) => this.emit("msg:custom", { id, result }),
+      (error: Error) => this.emit("msg:custom", { id, error: error.message }),
+    );
+  }
+
+  /** That only the library can answer. */
+  private library(text = ""): Error {
+    const command = `gruebler explore${text && ` "${text}"`}`;
+    return new Error(
+      this.t("This needs gruebler on your computer: pip install 'gruebler[web]', then: {command}", { command }),
+    );
+  }
+
+  private async answer(method: string, params: Params, lang: Language): Promise<unknown> {
+    const { id, text } = params;
+    switch (method) {
+      case "catalog": {
+        const found = fitting(await pack<Catalog>("catalog"), { ...params });
+        return found.map(({ entries }) => entries[lang]);
+      }
+      case "picture": {
+        const { machines } = await pack<Catalog>("catalog");
+        const { pictures } = machines.find(({ entries }) => entries.en.id === id)!;
+        return { picture: pictures[lang] ?? pictures.en };
+      }
+      case "moving": {
+        const { moving } = await pack<MachinePack>(`machine-${id}`);
+        if (!moving) throw this.library();
+        return { picture: moving };
+      }
+      case "open":
+        return await this.machine(id);
+      case "chains":
+        return await this.chains(params);
+      case "structure":
+        return await this.structure(text, lang);
+      case "realise": {
+        const name = await this.numberOf(chainOf(text));
+        if (!name || !/^[3-6]-1-/.test(name)) throw this.library(text);
+        const all = await pack<Record<string, { model: Model; message: Said }>>(`moving-${name}`);
+        const found = all[text];
+        if (!found) throw this.library(text);
+        return { model: found.model, message: found.message[lang] };
+      }
+      case "exercise_kinds":
+        return (await pack<Record<Language, unknown>>("kinds"))[lang];
+      case "exercise": {
+        const { kind, level, seed } = params;
+        const { tasks } = await pack<TaskPack>(`tasks-${kind}-${level}`);
+        return tasks[seed % tasks.length]!.records[lang];
+      }
+      case "mark":
+        return await this.marks(id, params.answers, lang);
+      case "try":
+        return (await this.task(id)).task.try;
+    }
+    throw this.library();
+  }
+
+  private async machine(id: string): Promise<Model> {
+    const { machines } = await pack<Catalog>("catalog");
+    const known = machines.some(({ entries }) => entries.en.id === id);
+    const model = known ? (await pack<MachinePack>(`machine-${id}`)).model : undefined;
+    if (!model) throw this.library(id);
+    return model;
+  }
+
+  private async chains({ links, mobility, start }: Params): Promise<{ total: number; start: number; items: Chains }> {
+    const items = await this.list(links, mobility);
+    return { total: items.length, start, items: items.slice(start, start + 60) };
+  }
+
+  /** All chains of a class; none where there are none, or none here. */
+  private async list(links: number, mobility: number): Promise<Chains> {
+    const here = this.get("chains") as string[];
+    return here.includes(`${links}-${mobility}`) ? await pack<Chains>(`chains-${links}-${mobility}`) : [];
+  }
+
+  /** Links, mobility and number of a chain of the lists, by which its files are named. */
+  private async numberOf(chain: string): Promise<string> {
+    const joints = chain.match(/R\([^)]*\)/g) ?? [];
+    const links = new Set(joints.flatMap((joint) => joint.slice(2, -1).split("-"))).size;
+    const mobility = 3 * (links - 1) - 2 * joints.length;
+    const number = (await this.list(links, mobility)).findIndex(({ text }) => text === chain);
+    return number < 0 ? "" : `${links}-${mobility}-${number}`;
+  }
+
+  private async structure(text: string, lang: Language): Promise<unknown> {
+    const chain = chainOf(text);
+    const name = await this.numberOf(chain);
+    let held: StructurePack | undefined;
+    if (name) held = await pack<StructurePack>(`structure-${name}`);
+    else {
+      const { machines } = await pack<Catalog>("catalog");
+      const found = machines.find(({ entries }) => chainOf(entries.en.text) === chain);
+      if (found) held = (await pack<MachinePack>(`machine-${found.entries.en.id}`)).structure[lang];
+    }
+    const pairs = await pack<Pair[]>("pairs");
+    const said = held && structureOf(held, text, lang, pairs);
+    if (!said) throw this.library(text);
+    return said;
+  }
+
+  private async task(id: string): Promise<{ task: TaskPack["tasks"][number]; tolerances: Tolerances }> {
+    const { tasks, ...tolerances } = await pack<TaskPack>(`tasks-${id.replace(/-\d+$/, "")}`);
+    return { task: tasks.find(({ records }) => records.en.id === id)!, tolerances };
+  }
+
+  private async marks(id: string, answers: Record<string, string>, lang: Language): Promise<unknown> {
+    const { task, tolerances } = await this.task(id);
+    const mark = ([key, answer]: [string, string]) => {
+      const asked = task.answers[key]!;
+      if (!("value" in asked)) return { key, ...asked[lang][answer]! };
+      const { unit } = asked as Asked;
+      const hint = unit
+        ? this.t("expected a number in {unit}, not {answer}", { unit, answer })
+        : this.t("expected a number, not {answer}", { answer });
+      return { key, ...(marked(asked as Asked, answer, lang, tolerances) ?? { mark: "wrong", hint }) };
+    };
+    const given = Object.entries(answers).filter(([, answer]) => answer.trim());
+    return { marks: given.map(mark), solution: task.solutions[lang] };
+  }
+}
+
+Object.assign(window, { grueblerSite: (values: Record<string, unknown>, t: Texts) => new SiteModel(values, t) });

@@ -1,0 +1,114 @@
+/** The structures of a static site: what is said of a chain, with the frame and the drive that are chosen. */
+
+import type { Language } from "../language";
+import type { Structure } from "../structure";
+import type { Said } from "./marks";
+
+interface Frame {
+  text: string;
+  frame: string;
+  /** The frame of the list that is like it. */
+  like: string;
+  listed: boolean;
+  family: Said;
+  picture: string;
+  /** The picture without names, where those are long. */
+  card?: string;
+  at: [number, number][];
+  outlines: Record<string, [number, number][]>;
+}
+
+/** Text, number of the frame, arrow, names of the drives with family and what they fix, whether it is listed. */
+type Driven = [string, number, string, Record<Language, [string, string, string]>, boolean];
+
+export interface StructurePack {
+  text: string;
+  names: Record<Language, string[]>;
+  counted: number;
+  generic: number;
+  verdict: string;
+  lines: Record<Language, string[]>;
+  overconstrained: string[];
+  rigid: string[];
+  frames: Frame[];
+  driven: Driven[];
+}
+
+/** A kind of joint in the plane. */
+export interface Pair {
+  text: string;
+  /** Whether it may join more than two links. */
+  group: boolean;
+  said: Record<Language, [string, string]>;
+}
+
+/** The chain of a text, and what it says of frame and drives. */
+export function chainOf(text: string): string {
+  return text.split(";")[0]!.trim();
+}
+
+/** What is said of a text of a pack; null if neither its chain nor its frame nor its drive is there. */
+export function structureOf(pack: StructurePack, text: string, lang: Language, pairs: Pair[]): Structure | null {
+  const chosen = pack.driven.find(([own]) => own === text);
+  const frame =
+    pack.frames[
+      chosen?.[1] ??
+        Math.max(
+          0,
+          pack.frames.findIndex((one) => one.text === text),
+        )
+    ]!;
+  if (!chosen && text !== pack.text && text !== frame.text) return null;
+  const over = (drawn: string, arrow: string) => drawn.replace("</svg>", `${arrow}</svg>`);
+  const joints = pack.text.match(/\w+\([^)]*\)/g) ?? [];
+  const types = (joint: number) => {
+    const [, now, links] = /^(\w+)(.*)$/.exec(joints[joint]!)!;
+    return pairs
+      .filter((pair) => pair.text === now || pair.group || links!.split("-").length === 2)
+      .map((pair) => ({
+        symbol: pair.said[lang][0],
+        name: pair.said[lang][1],
+        text: joints.map((one, k) => (k === joint ? pair.text + links : one)).join(" "),
+        chosen: pair.text === now,
+      }));
+  };
+  const picture = (one: Frame) => one.card ?? one.picture;
+  const marks = Object.entries(frame.outlines).map(([name, outline]) => ({
+    name,
+    at: outline[0]!,
+    outline,
+    overconstrained: pack.overconstrained.includes(name),
+    rigid: pack.rigid.includes(name),
+  }));
+  return {
+    text,
+    chosen: text === pack.text ? "" : frame.like,
+    picture: over(frame.picture, chosen?.[2] ?? ""),
+    joints: pack.names[lang].map((name, k) => ({ name, at: frame.at[k]!, types: types(k) })),
+    links: marks,
+    frame: frame.frame,
+    counted: pack.counted,
+    generic: pack.generic,
+    verdict: pack.verdict,
+    lines: pack.lines[lang],
+    drives: chosen?.[3][lang][2] ?? "",
+    inversions: pack.frames
+      .filter(({ listed }) => listed)
+      .map((one) => ({
+        text: one.text,
+        frame: one.frame,
+        drives: [],
+        family: one.family[lang],
+        picture: picture(one),
+      })),
+    driven: pack.driven
+      .filter((row) => row[4])
+      .map(([own, number, arrow, said]) => ({
+        text: own,
+        frame: pack.frames[number]!.frame,
+        drives: [said[lang][0]],
+        family: said[lang][1],
+        picture: over(picture(pack.frames[number]!), arrow),
+      })),
+  };
+}

@@ -1,0 +1,182 @@
+"""The static site: what a server answers stands in its files, from a server of files and from the disk alone."""
+
+import base64
+import gzip
+import http.server
+import json
+import threading
+from functools import partial
+
+import pytest
+
+from gruebler.page.model import model_of
+from gruebler.page.page import module_text
+from gruebler.page.requests import answer
+from gruebler.page.site_structures import structure_pack
+from gruebler.page.static_site import FileGroup, write_site
+from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entry
+
+GROUPS = [
+    FileGroup("chains", (4, 1)),
+    FileGroup("chains", (6, 1)),  # with which the view begins
+    FileGroup("structures", (4, 1, 0)),
+    FileGroup("machine", ("crankrocker",)),
+    FileGroup("catalog", ("bennett", "crankrocker", "lambda")),
+    FileGroup("tasks", ("grashof", 1, 1)),
+    FileGroup("tasks", ("mobility", 1, 1)),
+    FileGroup("common"),
+]
+
+
+def nothing(_):
+    return None
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    made = tmp_path_factory.mktemp("site")
+    record = entry("crankrocker")
+    size = write_site(made, model_of(record.linkage(), name=record.name, source=record.id), groups=GROUPS)
+    assert size == sum(path.stat().st_size for path in made.rglob("*") if path.is_file())
+    return made
+
+
+@pytest.fixture(scope="module")
+def address(folder):
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+    server.server_close()
+
+
+def content(folder, name):
+    text = (folder / "data" / f"{name}.js").read_text(encoding="ascii")
+    return json.loads(gzip.decompress(base64.b64decode(text.split('"')[3])))
+
+
+def asked(page, method, params, lang="en"):
+    """What the site answers to a request of the page."""
+    return page.page.evaluate("([m, p, l]) => gruebler.backend.ask(m, p, l)", [method, params, lang])
+
+
+def test_a_folder_with_other_things_is_refused(tmp_path):
+    from gruebler.base.errors import GrueblerError
+
+    (tmp_path / "thesis.tex").write_text("years of work", encoding="utf-8")
+    with pytest.raises(GrueblerError, match="holds something else"):
+        write_site(tmp_path, {"name": ""}, groups=[])
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_the_site_answers_as_the_library_does(tab, folder, address):
+    page = tab().open(address)
+    for lang in ("en", "de"):
+        chains = asked(page, "chains", {"links": 4, "mobility": 1, "start": 0}, lang)
+        assert [item["text"] for item in chains["items"]] == ["R(0-1) R(1-2) R(2-3) R(3-0)"]
+        for text in ("R(0-1) R(1-2) R(2-3) R(3-0)", "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)"):
+            of_site = asked(page, "structure", {"text": text}, lang)
+            of_library = answer("structure", {"text": text}, lang, nothing)
+            for key in ("text", "chosen", "frame", "counted", "generic", "verdict", "lines", "drives"):
+                assert of_site[key] == of_library[key], (key, lang)
+            for key in ("inversions", "driven"):
+                for one, other in zip(of_site[key], of_library[key], strict=True):
+                    assert {k: v for k, v in one.items() if k != "picture"} == {
+                        k: v for k, v in other.items() if k != "picture"
+                    }
+            for one, other in zip(of_site["joints"], of_library["joints"], strict=True):
+                chains_alone = [kind | {"text": kind["text"].partition(";")[0]} for kind in other["types"]]
+                assert one["types"] == chains_alone
+            assert [j["name"] for j in of_site["joints"]] == [j["name"] for j in of_library["joints"]]
+        for params in ({}, {"words": "Kurbel"}, {"pairs": "G"}, {"links": 4}, {"joints": "R:4,P:0"}, {"ternary": 1}):
+            of_library = answer("catalog", params, lang, nothing)
+            here = [one for one in of_library if one["id"] in ("crankrocker", "bennett", "lambda")]
+            assert asked(page, "catalog", params, lang) == here, params
+    assert asked(page, "open", {"id": "crankrocker"}) == json.loads(
+        json.dumps(answer("open", {"id": "crankrocker"}, "en", nothing))
+    )
+    moved = asked(page, "realise", {"text": "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)"})
+    assert moved["model"]["links"][:4] == ["0", "1", "2", "3"]
+
+
+ANSWERS = [
+    "1",
+    "7,5",
+    "75",
+    "75.0",
+    "7.5 cm",
+    "0,0751 m",
+    "75,04",
+    "76",
+    "-75",
+    "150",
+    "37.5",
+    "750",
+    "75 kg",
+    "many",
+    "4",
+]
+
+
+def test_answers_are_marked_as_the_library_marks_them(tab, folder, address):
+    page = tab().open(address)
+    for kind, level in (("grashof", 1), ("mobility", 1)):
+        for task in content(folder, f"tasks-{kind}-{level}")["tasks"]:
+            given = {one["key"]: one["choices"] for one in task["records"]["de"]["asked"]}
+            for k, text in enumerate(ANSWERS):
+                answers = {key: words[k % len(words)] if words else text for key, words in given.items()}
+                params = {"id": task["records"]["de"]["id"], "answers": answers}
+                expected = answer("mark", params, "de", nothing)
+                found = asked(page, "mark", params, "de")
+                assert found["solution"] == expected["solution"]
+                for one, other in zip(found["marks"], expected["marks"], strict=True):
+                    assert one["mark"] == other["mark"], (one, other)
+                    if not other["hint"].startswith("erwartet"):  # of what is no number
+                        assert one["hint"] == other["hint"]
+
+
+def test_a_link_made_there_opens_there_for_everyone(tab, address):
+    page = tab().open(address)
+    page.page.click('[data-view="structure"]')
+    page.page.fill('[data-page="structure"] input[aria-label="Links"]', "4")
+    page.page.press('[data-page="structure"] input[aria-label="Links"]', "Enter")
+    page.until("gruebler.views.structure.element.querySelectorAll('[data-list=chains] .card').length === 1")
+    page.page.click('[data-list="chains"] .card')
+    page.page.click('[data-list="driven"] .card')
+    page.page.click('[data-act="realise"]')
+    page.until("gruebler.shown.name.startsWith('A mechanism with')")
+    page.page.evaluate("gruebler.share()")
+    link = page.until("location.hash.length > 200 && location.href")
+    other = tab().open(address + "#" + link.partition("#")[2])
+    other.until("gruebler.shown.name.startsWith('A mechanism with')")
+    places = "gruebler.motion.linkage.jointAt(2).map((value) => value.toFixed(6))"
+    assert other.page.evaluate(places) == page.page.evaluate(places)
+
+
+def test_the_disk_alone_is_enough_and_the_rest_says_how(tab, folder):
+    page = tab(locale="de-DE").open((folder / "index.html").as_uri())
+    page.page.click('[data-view="catalog"]')
+    page.until("gruebler.views.catalog.element.querySelectorAll('.card svg').length === 3")
+    page.page.click('.card[data-id="crankrocker"]')
+    page.until("gruebler.view === 'motion'")
+    page.page.click('[data-view="structure"]')
+    assert page.page.locator('[data-fact="generic"]').text_content() == "F = 1"
+    for view in ("build", "synthesis"):
+        page.page.click(f'[data-view="{view}"]')
+        assert "gruebler explore" in page.page.locator(f'[data-page="{view}"] pre').text_content()
+    page.page.click('[data-view="structure"]')
+    page.page.evaluate("gruebler.describe('R(a-b) P(b-c) R(c-a)')")
+    assert 'gruebler explore "R(a-b)' in page.page.locator('[data-page="structure"] .error').text_content()
+
+
+def test_frames_and_drives_are_drawn_in_one_picture(folder):
+    pack = structure_pack(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)"), ["en"])
+    assert [frame["text"][-1] for frame in pack["frames"] if frame["listed"]] == ["0", "1"]  # Watt: two inversions
+    assert all(min(at) > 0 for frame in pack["frames"] for at in frame["at"])
+    assert all("gr-drive" in arrow for _, _, arrow, *_ in pack["driven"])
+    assert len(module_text("site")) < 8_000
