@@ -169,7 +169,7 @@ export class ExercisesView implements View {
           set,
           { "data-answer": key },
         )
-      : h("span", {}, symbol ? h("i", {}, ...signs(symbol), " = ") : null, input, ` ${unit}`);
+      : h("span", {}, symbol ? h("i", { class: "symbol" }, ...signs(symbol), " = ") : null, input, ` ${unit}`);
     return h(
       "div",
       { class: "answer", "data-state": mark?.mark },

@@ -81,6 +81,7 @@ export class StructureView implements View {
   private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
   private typing = 0;
   private asked = 0;
+  private listed = 0;
 
   constructor(private readonly page: Page) {
     this.field.addEventListener("input", () => {
@@ -143,7 +144,9 @@ export class StructureView implements View {
 
   private async listChains(start: number): Promise<void> {
     const question = { links: this.links, mobility: this.mobility, start };
+    const number = ++this.listed;
     const found = await awaited(this.status, (progress) => this.page.ask<Chains>("chains", question, progress));
+    if (number !== this.listed) return; // another list is wanted by now
     if (found) {
       const before = start && this.chains ? this.chains.items : [];
       this.chains = { ...found, items: [...before, ...found.items] };
