@@ -2,6 +2,7 @@
 
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 from itertools import product
 from multiprocessing import get_context
 from random import Random
@@ -15,7 +16,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.structure.enumeration import chains, contracted_graphs, count_simple_chains, edge_blocks
 from gruebler.structure.enumeration.contracted import pack
 from gruebler.structure.enumeration.counting import add_counts
-from gruebler.structure.enumeration.pieces import count_piece, pieces
+from gruebler.structure.enumeration.pieces import count_piece, list_piece, pieces
 
 # mobility -> {links: chains}, non-fractionated. Sources: unfiltered generation with a test of all subsets of links;
 # for mobility 1 also OEIS A233288.
@@ -176,6 +177,24 @@ def test_executors():
     with ThreadPoolExecutor(3) as threads, ProcessPoolExecutor(2, get_context("spawn")) as processes:
         assert count_simple_chains(14, orbits=True, executor=threads) == alone
         assert count_simple_chains(12, executor=processes) == count_simple_chains(12)
+
+
+def test_graphs_that_begin_at_any_byte_of_a_message(monkeypatch):
+    """Kernels read whole words, which not every processor may do at every address; dask sends arrays so."""
+    piece = next(iter(pieces(10, 1)))
+    message = b"at" + piece.graphs.tobytes()
+    sent = np.frombuffer(message, np.int64, offset=2).reshape(piece.graphs.shape)
+    assert not sent.flags.aligned
+    aligned = []
+    for name in ("take_census", "list_chains"):
+        door = getattr(_core, name)
+        monkeypatch.setattr(
+            _core, name, lambda rows, *more, door=door: aligned.append(rows.flags.aligned) or door(rows, *more)
+        )
+    moved = replace(piece, graphs=sent)
+    assert count_piece(moved) == count_piece(piece)
+    assert np.array_equal(list_piece(moved), list_piece(piece))
+    assert aligned == [True] * 4
 
 
 def test_json():
