@@ -19,6 +19,7 @@ SHARED = {
     "read": "one word: of a file, and at the front door of a catalog entry or lengths as well",
     "measures": "one question: in the plane, and at the front door in space as well (typed twice, for each answer)",
     "move": "one question: in the plane, and at the front door in space as well (typed twice, for each answer)",
+    "assembly_modes": "one question: in the plane, and at the front door in space as well (typed twice, as `move`)",
     "main": "where a process begins",
     "central_crank_rocker": "a fact of dead centres: constructed, and as an exercise",
     "inflection_circle": "one circle: computed, and constructed step by step",

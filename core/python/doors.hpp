@@ -61,6 +61,7 @@ void add_counting(nb::module_& module);
 void add_labelling(nb::module_& module);
 void add_layout(nb::module_& module);
 void add_motion(nb::module_& module);
+void add_space(nb::module_& module);
 void add_structure(nb::module_& module);
 
 }  // namespace gruebler::doors

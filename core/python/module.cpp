@@ -15,5 +15,6 @@ NB_MODULE(_core, module) {
     gruebler::doors::add_labelling(module);
     gruebler::doors::add_layout(module);
     gruebler::doors::add_motion(module);
+    gruebler::doors::add_space(module);
     gruebler::doors::add_structure(module);
 }

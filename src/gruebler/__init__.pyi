@@ -18,10 +18,9 @@ from .mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from .mechanics.geometry import coupler_curve
 from .mechanics.kinematics import Circuit, Motion, circuit, from_degrees, move_many
 from .mechanics.kinematics.drive_rows import rpm
-from .mechanics.kinematics.solve import assembly_modes
 from .mechanics.linkages import Linkage
 from .mechanics.screws import SpatialLinkage, freedoms
-from .mechanics.space import measures, move
+from .mechanics.space import assembly_modes, measures, move
 from .page.notebook import explore
 from .pictures.values import animate, draw, plot
 from .structure.assur import assur_groups, decompose

@@ -122,6 +122,21 @@ def solve_back(
 ) -> NDArray[np.int64]: ...
 def reduce(matrix: NDArray[np.int64]) -> NDArray[np.int64]: ...
 
+# space
+def follow_modes(
+    nodes: NDArray[np.int64],
+    rows: NDArray[np.int64],
+    frames: NDArray[np.complex128],
+    twists: NDArray[np.complex128],
+    lengths: NDArray[np.complex128],
+    given: NDArray[np.complex128],
+    starts: NDArray[np.complex128],
+    turns: NDArray[np.complex128],
+    loose: float,
+) -> tuple[
+    NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128], NDArray[np.float64], NDArray[np.int64]
+]: ...
+
 # layout
 def relax(
     layout: NDArray[np.float64],

@@ -36,6 +36,12 @@ PIN = Conditions(
 )  # fmt: skip
 DYAD = GroupSolver(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))._conditions
 CURVE = np.zeros(4), np.zeros((4, 3)), np.eye(4, 3), np.zeros(4)
+STILL = np.tile(np.eye(4, dtype=complex), (3, 1, 1))
+MODES = (
+    np.array([[-1, 0, 0, 1, -1, -1], [0, 1, 2, 1, 0, -1], [0, 0, 0, 1, -1, -1]]), np.array([[1, 2, 1, 0, 1]]), STILL,
+    np.full((3, 6), 0.1, complex), np.zeros((2, 1), complex), np.zeros((2, 3), complex), np.zeros((1, 1), complex),
+    np.zeros((1, 0, 3, 3), complex), 1e-3,
+)  # fmt: skip
 ROWS = np.array([0, 2, 3]), np.array([0, 1, 1]), np.array([1, 2, 3])
 UNKNOWNS, TASK = np.ones((3, 8), complex), np.ones((4, 8), complex)
 
@@ -96,6 +102,7 @@ def good_calls():
     yield "eliminate", (*ROWS, 2, 1e9, 1e9)
     yield "solve_back", (np.array([0]), np.array([0, 1]), np.array([1]), np.array([5]), np.ones((2, 1), np.int64))
     yield "reduce", (np.arange(6).reshape(2, 3),)
+    yield "follow_modes", MODES
     layout = np.array([[0.0, 0], [1, 0], [0, 1]]), RING[:2], np.ones(2), np.array([[0, 2], [1, 0]])
     yield "relax", (*layout, np.arange(3)[None], np.eye(2)[None], 2, 5)
     yield "closest", (*layout[:2], layout[3])

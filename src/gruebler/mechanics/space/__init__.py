@@ -2,7 +2,8 @@
 
 `move` and `measures` take linkages in the plane too. A `SpatialLinkage` is cut open into a tree of joints (`tree`),
 whose closing conditions (`closure`) are followed along the drives (`following`); rates of any order come from power
-series (`series`). Definitions, theorems and what may err: docs/theory/space.md.
+series (`series`), all assembly modes from those of random dimensions (`modes`). Definitions, theorems and what may err:
+docs/theory/space.md, docs/theory/modes-in-space.md.
 
 Closed forms as values: `SphericalFourBar`, `UniversalJoint`, `DoubleUniversalJoint`, `RSSR`, `Bennett`
 (docs/theory/closed-forms-in-space.md).

@@ -1,6 +1,7 @@
 from .bennett import Bennett
 from .crank_output import OutputMotion
 from .measuring import SpatialMeasures, measures
+from .modes import SpatialModes, assembly_modes
 from .motion import SpatialMotion, SpatialStop
 from .moving import move
 from .rssr import RSSR
@@ -13,10 +14,12 @@ __all__ = [
     "DoubleUniversalJoint",
     "OutputMotion",
     "SpatialMeasures",
+    "SpatialModes",
     "SpatialMotion",
     "SpatialStop",
     "SphericalFourBar",
     "UniversalJoint",
+    "assembly_modes",
     "measures",
     "move",
 ]

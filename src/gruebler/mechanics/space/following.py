@@ -96,7 +96,7 @@ def setting(linkage: SpatialLinkage) -> Setting:
         idle = _idle(tree)
         if free > idle:
             raise _not_fixed(tree, by_unknown, passive, free - idle, bool(len(drives)))
-        held = _most_idle(by_unknown[:, passive], passive, free)
+        held = most_idle(by_unknown[:, passive], passive, free)
         passive = np.setdiff1d(passive, held)
     if whole > rank:
         raise LinkageError(
@@ -126,7 +126,7 @@ def _idle(tree: ClosureTree) -> int:
     return sum(part.freedoms for part in parts if not rods & {*part.links})
 
 
-def _most_idle(matrix: Reals, passive: NDArray[np.intp], count: int) -> list[int]:
+def most_idle(matrix: Reals, passive: NDArray[np.intp], count: int) -> list[int]:
     """The unknowns with the largest shares in what the matrix does not see, one after the other."""
     left = np.linalg.svd(matrix)[2][-count:]
     held: list[int] = []

@@ -24,9 +24,9 @@ from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.mechanics.space.bodies import motions
 from gruebler.mechanics.space.drive_range import SpatialRange, followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
-from gruebler.mechanics.space.tree import motions
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Freedom
 

@@ -15,8 +15,8 @@ from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import inverse_motion
+from gruebler.mechanics.space.bodies import motions
 from gruebler.mechanics.space.power_series import product
-from gruebler.mechanics.space.tree import motions
 from gruebler.structure.chain.spaces import Freedom
 
 _LIMIT = message("The motion ends at {drives}: there the drives stand at a limit, and {joints} would turn back.")

@@ -25,7 +25,7 @@ def place_rods_of_series(tree: ClosureTree, poses: Reals) -> None:
     for rod in tree.rods:
         a, b = _ball(tree, rod.joints[0]), _ball(tree, rod.joints[1])
         now = [_seen(poses[..., link, :, :], p) for link, p in ((rod.first, a), (rod.second, b))]
-        poses[..., rod.link, :, :] = _turned(a, b, now[0], now[1])
+        poses[..., rod.link, :, :] = _turned(*rod.balls, now[0], now[1])
 
 
 def _ball(tree: ClosureTree, joint: int) -> Reals:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
@@ -14,14 +14,18 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import inverse_motion
+from gruebler.mechanics.space.bodies import Bodies, Rod, motions
 from gruebler.mechanics.space.wheels import GearRow, gear_rows, is_gear
-from gruebler.structure.chain.pairs import Pair
-from gruebler.structure.chain.spaces import Freedom, Space
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism.model import Drive
 
 OFFSET, ACROSS, LENGTH = range(3)
 """Kinds of rows: a point offset along an axis of the first frame, an axis at right angles to an axis of the first
 frame, the distance of two balls."""
+
+
+Dimension = tuple[int, int]
+"""A joint and a link that has it: where it lies on the link is free to choose. A body that rods hold has joint -1."""
 
 
 class Tie(NamedTuple):
@@ -30,15 +34,6 @@ class Tie(NamedTuple):
     joint: int
     first: int
     second: int
-
-
-class Rod(NamedTuple):
-    """A link that only holds the distance of two balls: link, neighbours, joints."""
-
-    link: int
-    first: int
-    second: int
-    joints: tuple[int, int]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -55,13 +50,16 @@ class TreeNode:
     travel: float
     """How far it shifts along its axis, in sizes for a unit of its value."""
     sign: float
+    dimension: Dimension | None
+    """Of which joint on which link `still` is a dimension; None where it is the identity for any dimensions."""
 
 
 class FrameOn(NamedTuple):
-    """A frame on a link: the node that carries it, and where it is seen from there."""
+    """A frame on a link: the node that carries it, where it is seen from there, and which dimension that is."""
 
     node: int
     at: Reals
+    dimension: Dimension | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -87,6 +85,7 @@ class ClosureTree:
     links: tuple[FrameOn | None, ...]
     """Where each link is; None for a rod."""
     rods: tuple[Rod, ...]
+    bodies: Bodies
     unknown: dict[tuple[int, str], int]
     """The unknown of each freedom (joint, direction) in the tree, of the joint's first other link."""
     folds: tuple[int, ...]
@@ -116,26 +115,18 @@ def closure_tree(linkage: SpatialLinkage) -> ClosureTree:
 
     Cost O(joints²).
     """
-    return _Builder(linkage).tree()
+    return _Builder(linkage, {}).tree()
 
 
-def motions(pair: Pair, space: Space) -> tuple[Freedom, ...]:
-    """The freedoms of a pair in the order in which they follow each other from the first link to the second.
-
-    Shifts are those along axes of the first link and come first; a pair with a body between its links has them one
-    axis after the other.
-    """
-    free = pair.freedoms[space]
-    if pair.has_body_between:
-        return tuple(sorted(free, key=lambda freedom: freedom.axis))
-    turns = tuple(freedom for freedom in free if freedom.turns)
-    return tuple(freedom for freedom in free if freedom.travels) + turns
+def locked_tree(linkage: SpatialLinkage, locked: Mapping[int, float]) -> ClosureTree:
+    """The tree with joints of one freedom held at values, in radians and sizes: their links are one body each."""
+    return _Builder(linkage, locked).tree()
 
 
 class _Builder:
     """Makes a tree; used once."""
 
-    def __init__(self, linkage: SpatialLinkage) -> None:
+    def __init__(self, linkage: SpatialLinkage, locked: Mapping[int, float]) -> None:
         mechanism = linkage.mechanism
         self.linkage, self.mechanism, self.chain = linkage, mechanism, mechanism.chain
         self.space = self.chain.space
@@ -143,8 +134,11 @@ class _Builder:
         if self.space is not Space.SPHERICAL:
             self.frames[:, :3, 3] = (self.frames[:, :3, 3] - linkage.centre) / linkage.size
         self.gears = gear_rows(linkage)
-        self.rods = tuple(_rods(linkage))
-        self.nodes: list[TreeNode] = [TreeNode(parent=-1, still=np.eye(4), axis=0, turn=0.0, travel=0.0, sign=1.0)]
+        self.bodies = Bodies(linkage, self.frames, locked)
+        self.rods = self.bodies.rods()
+        root = TreeNode(parent=-1, still=np.eye(4), axis=0, turn=0.0, travel=0.0, sign=1.0, dimension=None)
+        self.nodes: list[TreeNode] = [root]
+        self.entries: dict[int, int] = {}
         self.places: list[FrameOn | None] = [None] * self.chain.n
         self.unknown: dict[tuple[int, str], int] = {}
         self.folds: list[int] = []
@@ -156,7 +150,7 @@ class _Builder:
         self._grow(kept)
         rows = [row for tie in cut for row in self._closing(tie)]
         rows += [self._length(rod) for rod in self.rods]
-        drives = [self._driven(drive) for drive in self.mechanism.drives]
+        drives = [self._driven(drive) for drive in self.mechanism.drives if drive.joint not in self.bodies.held]
         return ClosureTree(
             linkage=self.linkage,
             nodes=tuple(self.nodes),
@@ -164,6 +158,7 @@ class _Builder:
             gears=self.gears,
             links=tuple(self.places),
             rods=self.rods,
+            bodies=self.bodies,
             unknown=self.unknown,
             folds=tuple(self.folds),
             drives=tuple(unknown for unknown, _ in drives),
@@ -173,7 +168,7 @@ class _Builder:
     # --- what is cut -----------------------------------------------------------------------------------------------
 
     def _ties(self) -> list[Tie]:
-        left_out = {rod.link for rod in self.rods}
+        left_out = self.bodies.links_of_rods(self.rods)
         ties = []
         for number, joint in enumerate(self.chain.joints):
             if is_gear(self.linkage, number):
@@ -190,9 +185,9 @@ class _Builder:
         held = {drive.joint for drive in self.mechanism.drives}
         held |= {joint for gear in self.gears for joint, _ in gear.turns}
 
-        def cost(tie: Tie) -> tuple[bool, bool, int]:
+        def cost(tie: Tie) -> tuple[bool, bool, bool, int]:
             pair = self.chain.joints[tie.joint].pair
-            return tie.joint not in held, not pair.has_pitch, pair.f(self.space)
+            return tie.joint not in self.bodies.held, tie.joint not in held, not pair.has_pitch, pair.f(self.space)
 
         group = list(range(self.chain.n))
         kept: list[Tie] = []
@@ -214,7 +209,7 @@ class _Builder:
 
     def _grow(self, kept: list[Tie]) -> None:
         left = list(kept)
-        rod_links = {rod.link for rod in self.rods}
+        rod_links = self.bodies.links_of_rods(self.rods)
         while True:
             while True:
                 reached = [t for t in left if (self.places[t.first] is None) != (self.places[t.second] is None)]
@@ -229,18 +224,21 @@ class _Builder:
 
     def _join(self, tie: Tie) -> None:
         forward = self.places[tie.first] is not None
-        base = self.places[tie.first if forward else tie.second]
-        assert base is not None
-        end = self._moved(tie.joint, FrameOn(base.node, base.at @ self.frames[tie.joint]), forward, known=True)
-        at = end.at @ inverse_motion(self.frames[tie.joint])
-        self.places[tie.second if forward else tie.first] = FrameOn(end.node, at)
+        link, other = (tie.first, tie.second) if forward else (tie.second, tie.first)
+        start = self._on(link, tie.joint)
+        if (held := self.bodies.held.get(tie.joint)) is not None:
+            end = FrameOn(start.node, start.at @ (held if forward else inverse_motion(held)))
+        else:
+            end = self._moved(tie.joint, start, forward, known=True)
+            self.entries[other] = tie.joint
+        self.places[other] = FrameOn(end.node, end.at @ inverse_motion(self.frames[tie.joint]))
 
     def _moved(self, joint: int, start: FrameOn, forward: bool, known: bool) -> FrameOn:
         """Nodes for the freedoms of a joint; the frame that they carry."""
         pair = self.chain.joints[joint].pair
         steps = motions(pair, self.space)
         pitch = self.linkage.places[joint].pitch / self.linkage.size
-        node, still = start.node, start.at
+        node, still, dimension = start
         for freedom in steps if forward else steps[::-1]:
             travel = 1.0 if freedom.travels else pitch if freedom.has_pitch else 0.0
             self.nodes.append(
@@ -251,14 +249,15 @@ class _Builder:
                     turn=float(freedom.turns),
                     travel=travel,
                     sign=1.0 if forward else -1.0,
+                    dimension=dimension,
                 )
             )
-            node, still = len(self.nodes) - 1, np.eye(4)
+            node, still, dimension = len(self.nodes) - 1, np.eye(4), None
             if known:
                 self.unknown.setdefault((joint, str(freedom)), node - 1)
         if pair.is_ball:
             self.folds.append(node - 2)
-        return FrameOn(node, still)
+        return FrameOn(node, still, dimension)
 
     def _float(self, link: int) -> None:
         """A body that only rods hold: free, from where it is."""
@@ -266,11 +265,20 @@ class _Builder:
         at = np.eye(4)
         at[:3, 3] = np.mean(self.frames[joints, :3, 3], axis=0)
         still, node = at, 0
+        dimension: Dimension | None = (-1, link)
         for axis, turn in ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)):
             self.nodes.append(
-                TreeNode(parent=node, still=still, axis=axis, turn=float(turn), travel=1.0 - turn, sign=1.0)
+                TreeNode(
+                    parent=node,
+                    still=still,
+                    axis=axis,
+                    turn=float(turn),
+                    travel=1.0 - turn,
+                    sign=1.0,
+                    dimension=dimension,
+                )
             )
-            node, still = len(self.nodes) - 1, np.eye(4)
+            node, still, dimension = len(self.nodes) - 1, np.eye(4), None
         self.folds.append(node - 2)
         self.places[link] = FrameOn(node, inverse_motion(at))
 
@@ -279,7 +287,8 @@ class _Builder:
     def _on(self, link: int, joint: int) -> FrameOn:
         place = self.places[link]
         assert place is not None  # every link but the rods is in the tree
-        return FrameOn(place.node, place.at @ self.frames[joint])
+        dimension = None if self.entries.get(link) == joint else (joint, link)
+        return FrameOn(place.node, place.at @ self.frames[joint], dimension)
 
     def _closing(self, tie: Tie) -> Iterable[ClosingRow]:
         pair = self.chain.joints[tie.joint].pair
@@ -304,7 +313,7 @@ class _Builder:
 
     def _length(self, rod: Rod) -> ClosingRow:
         first, second = self._on(rod.first, rod.joints[0]), self._on(rod.second, rod.joints[1])
-        length = float(np.linalg.norm(self.frames[rod.joints[1], :3, 3] - self.frames[rod.joints[0], :3, 3]))
+        length = float(np.linalg.norm(np.subtract(*rod.balls)))
         return ClosingRow(kind=LENGTH, first=first, second=second, length=length)
 
     # --- drives ----------------------------------------------------------------------------------------------------
@@ -318,26 +327,6 @@ class _Builder:
                 joint=self.chain.joint_title(drive.joint),
             )
         return unknown, -1.0 if joint.links[1] == self.mechanism.frame else 1.0
-
-
-def _rods(linkage: SpatialLinkage) -> Iterable[Rod]:
-    """Links with two balls and nothing else, whose neighbours are other links than themselves and no rods."""
-    mechanism, chain = linkage.mechanism, linkage.mechanism.chain
-    driven = {drive.joint for drive in mechanism.drives}
-    taken: set[int] = set()
-    for number, link in enumerate(chain.links):
-        joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
-        ends = [chain.joints[k] for k in joints]
-        if link == mechanism.frame or len(joints) != 2 or driven & {*joints} or chain.space is not Space.SPATIAL:
-            continue
-        if not all(end.pair.is_ball and len(end.links) == 2 for end in ends):
-            continue
-        first, second = (chain.index(next(name for name in end.links if name != link)) for end in ends)
-        apart = np.linalg.norm(np.subtract(linkage.places[joints[0]].at, linkage.places[joints[1]].at))
-        if first == second or taken & {first, second} or apart == 0:
-            continue
-        taken.add(number)
-        yield Rod(number, first, second, (joints[0], joints[1]))
 
 
 def whole_numbers(values: Sequence[int]) -> NDArray[np.intp]:

@@ -1,0 +1,302 @@
+"""All assembly modes of a linkage in space or on the sphere, its drives held."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gruebler.base.arrays import Reals, compared_by_value
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import LinkageError
+from gruebler.base.notebook import brief, explained
+from gruebler.base.text import message
+from gruebler.mechanics.kinematics import solve
+from gruebler.mechanics.kinematics.drive_rows import path_of_values, warn_of_angles
+from gruebler.mechanics.kinematics.messages import drive_values
+from gruebler.mechanics.linkages.conversion import LinkageLike
+from gruebler.mechanics.screws.joint_places import Vector
+from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.mechanics.space.closure import ClosingConditions
+from gruebler.mechanics.space.following import most_idle, setting
+from gruebler.mechanics.space.generic_modes import (
+    ClosureStructure,
+    ComplexDimensions,
+    GenericModes,
+    Positions,
+    arrived,
+    generic_modes,
+    shifted,
+    structure_of,
+)
+from gruebler.mechanics.space.mode_numbers import known_number
+from gruebler.mechanics.space.rods import place_rods
+from gruebler.mechanics.space.tree import ClosureTree, locked_tree
+from gruebler.structure.chain.spaces import Space
+
+_TRIES = 6  # ways of the dimensions, until all paths have arrived
+_DETOUR = 0.3  # sizes and radians
+_REAL = 1e-7  # of the largest entry: imaginary parts that are rounding
+_CLOSED = 1e-9
+
+_ALL = message("At {drives}: {found} assembly modes, {real} of them real; these are all.")
+_FOUND = message(
+    "At {drives}: {found} assembly modes were found, {real} of them real; no theorem says how many there are, and "
+    "{loops} loops of the dimensions found {generic} for almost all of them."
+)
+_SPECIAL = message(
+    "At {drives}: {found} assembly modes, {real} of them real, where almost all dimensions have {generic}: for these, "
+    "the others lie at infinity or together, or were not found."
+)
+
+
+@compared_by_value
+@explained
+@brief
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SpatialModes:
+    """The assembly modes of a linkage in space at values of its drives; its length is the number of real ones."""
+
+    linkage: SpatialLinkage
+    drives: tuple[float, ...]
+    """The values of the drives."""
+    poses: Reals
+    """(modes, links, 4, 4): where each link is against the reference pose, in real modes; in a fixed order."""
+    number: int
+    """How many modes were found, complex ones included."""
+    generic: int
+    """How many almost all dimensions of this structure have, complex ones included; none have more isolated ones."""
+    known: bool
+    """Whether a theorem says so; else loops of the dimensions in vain ended a search, which may have missed some."""
+    loops: int
+    """How many loops of the dimensions the search for the generic modes took."""
+    gap: float
+    """By how much joints of the modes are open at most, of the size."""
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    @property
+    def exact(self) -> bool:
+        """Whether these are all: as many as the theorem says were found."""
+        return self.known and self.number == self.generic
+
+    def pose(self, link: str) -> Reals:
+        """Where a link is, (modes, 4, 4), against the reference pose."""
+        return np.asarray(self.poses[:, self.linkage.mechanism.chain.index(link)])
+
+    def linkage_in(self, mode: int) -> SpatialLinkage:
+        """The linkage with this mode as its reference pose: its drives are 0 there."""
+        chain, poses = self.linkage.mechanism.chain, self.poses[mode]
+
+        def moved(vector: Vector | None, link: str, whole: bool = False) -> Vector | None:
+            if vector is None:
+                return None
+            pose = poses[chain.index(link)]
+            x, y, z = (pose[:3, :3] @ vector + whole * pose[:3, 3]).tolist()
+            return x, y, 0.0 if chain.space is Space.PLANAR else z
+
+        places = []
+        for joint, place, frame in zip(chain.joints, self.linkage.places, self.linkage.frames, strict=True):
+            first, last = joint.links[0], joint.links[-1]
+            x, y, z = place.x, place.y, place.z
+            if joint.pair.has_body_between:
+                x, y, z = tuple(frame[:3, 0]), tuple(frame[:3, 1]), None
+                y = moved(y, last)
+            else:
+                y = moved(y, first)
+            at = moved(place.at, first, True) or place.at
+            places.append(replace(place, at=at, x=moved(x, first), y=y, z=moved(z, first)))
+        points = {name: (link, *(moved(at, link, True) or at)) for name, (link, at) in self.linkage.points.items()}
+        return SpatialLinkage(
+            self.linkage.mechanism, tuple(places), unit=self.linkage.unit, points=points, outputs=self.linkage.outputs
+        )
+
+    def explain(self, lang: str = "en") -> str:
+        """How many modes there are and were found, a sentence in English or German (``de``)."""
+        text = _ALL if self.exact else _FOUND if self.number == self.generic else _SPECIAL
+        return text.filled(
+            drives=drive_values(self.linkage, self.drives),
+            found=self.number,
+            real=len(self),
+            generic=self.generic,
+            loops=self.loops,
+        ).in_language(lang)
+
+
+@overload
+def assembly_modes(linkage: SpatialLinkage, drives: float | ArrayLike) -> SpatialModes: ...
+
+
+@overload
+def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]: ...
+
+
+@door_that_raises(LinkageError)
+def assembly_modes(linkage: LinkageLike | SpatialLinkage, drives: float | ArrayLike) -> list[str] | SpatialModes:
+    """Every assembly mode that a linkage has at a drive value, in the plane as `move` takes it for ``branch``.
+
+    Args:
+        linkage: whose drives fix the motion.
+        drives: a value for each drive: angles in radians, displacements in the linkage's unit.
+
+    Returns:
+        In the plane the modes as texts that ``branch`` takes, such as ``"+-"``; `possible_modes` of the room says how
+        many there can be. In space `SpatialModes`: the poses of all links in each real mode, how many there are with
+        complex ones, and whether these are all.
+
+    Raises:
+        LinkageError: drives that do not fix the motion, values that are no numbers; in space overconstrained linkages,
+            screws and wheels.
+
+    Cost:
+        In the plane one solution for each mode. In space some milliseconds a mode, and once for each structure a search
+        for the modes of almost all dimensions: 0.1 s for 16 modes, 0.7 s for 40.
+
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> from gruebler.mechanics.space import RSSR
+        >>> assembly_modes(FourBar(25, 70, 40, 70), 1.0)
+        ['+', '-']
+
+    See Also:
+        `move`, `circuit`
+
+    Theory:
+        docs/theory/modes-in-space.md
+    """
+    if not isinstance(linkage, SpatialLinkage):
+        return solve.assembly_modes(linkage, drives)
+    mechanism = linkage.mechanism
+    row = path_of_values(drives, len(mechanism.drives))[:1]
+    warn_of_angles(mechanism, row)
+    _check(linkage)
+    tree, held, values = _held(linkage, row[0])
+    structure, target = structure_of(tree, held)
+    for unknown, value in values.items():
+        target.given[structure.node_of[unknown + 1]] = value
+    known = known_number(tree)
+    generic = _generic(structure, known)
+    ends = _all_ends(structure, generic, target)
+    return _modes(linkage, tuple(map(float, row[0])), tree, structure, target, generic, known, ends)
+
+
+def _check(linkage: SpatialLinkage) -> None:
+    """Refuse what has infinitely many modes, or several for each pose of its links."""
+    chain = linkage.mechanism.chain
+    for number, joint in enumerate(chain.joints):
+        if joint.pair.has_pitch and linkage.places[number].pitch:
+            raise LinkageError(
+                "{joint}: a linkage with a screw has infinitely many complex assembly modes; they are not listed",
+                joint=chain.joint_title(number),
+            )
+        if joint.pair.has_contours:
+            raise LinkageError(
+                "{joint}: assembly modes are listed without wheels, whose teeth can mesh in several ways",
+                joint=chain.joint_title(number),
+            )
+
+
+def _held(linkage: SpatialLinkage, row: Reals) -> tuple[ClosureTree, frozenset[int], dict[int, float]]:
+    """The tree with its drives held, the unknowns that are given besides, and the values of those not 0."""
+    mechanism = linkage.mechanism
+    chain = mechanism.chain
+    setting(linkage)
+    locked: dict[int, float] = {}
+    others: list[float] = []
+    for drive, value in zip(mechanism.drives, row.tolist(), strict=True):
+        joint = chain.joints[drive.joint]
+        turns = next(f.turns for f in joint.pair.freedoms[chain.space] if f.axis == drive.direction[-1])
+        own = value / (1.0 if turns else linkage.size)
+        if joint.pair.f(chain.space) == 1:
+            locked[drive.joint] = -own if joint.links[1] == mechanism.frame else own
+        else:
+            others.append(own)
+    tree = locked_tree(linkage, locked)
+    closure = ClosingConditions(tree)
+    passive = np.setdiff1d(np.arange(tree.unknowns), tree.drives)
+    free = len(passive) - len(tree.rows)
+    if free < 0:
+        raise LinkageError(
+            "{rows} closing conditions for {unknowns} unknowns: with almost all dimensions an overconstrained linkage "
+            "has no assembly mode, so that its modes cannot be followed from theirs",
+            rows=len(tree.rows),
+            unknowns=len(passive),
+        )
+    by_unknown = closure.linearised(np.zeros(tree.unknowns), closure.still)[1]
+    held = most_idle(by_unknown[:, passive], passive, free) if free else []
+    values = dict(zip(tree.drives, (np.array(others) * tree.signs).tolist(), strict=True))
+    return tree, frozenset({*held, *tree.drives}), values
+
+
+@lru_cache(maxsize=32)
+def _generic(structure: ClosureStructure, known: int | None) -> GenericModes:
+    return generic_modes(structure, known)
+
+
+def _all_ends(structure: ClosureStructure, generic: GenericModes, target: ComplexDimensions) -> Positions:
+    """Where the paths from the generic modes end: by other ways again while some are missing."""
+    rng = np.random.default_rng(7)
+    starts = generic.positions
+    distinct = starts.at([])
+    for attempt in range(_TRIES):
+        at, here = generic.dimensions, starts
+        if attempt:
+            middle = shifted(structure, at, rng, _DETOUR)
+            here, _ = arrived(structure, at, middle, here)
+            at = middle
+        ends, _ = arrived(structure, at, target, here)
+        ends = ends.at(structure.openings(target, ends.frames) < _CLOSED)
+        new = structure.new_among(distinct, ends)
+        distinct = distinct.joined(ends.at(new))
+        if distinct.number >= starts.number or (attempt > 1 and not new):
+            break
+    return distinct
+
+
+def _modes(
+    linkage: SpatialLinkage,
+    drives: tuple[float, ...],
+    tree: ClosureTree,
+    structure: ClosureStructure,
+    target: ComplexDimensions,
+    generic: GenericModes,
+    known: int | None,
+    ends: Positions,
+) -> SpatialModes:
+    places = structure.nodes[:, 1] == 0
+    size = 1 + abs(ends.frames).max(axis=(1, 2, 3), initial=0.0)
+    imaginary = abs(ends.frames[:, places].imag).max(axis=(1, 2, 3), initial=0.0)
+    real = ends.at(imaginary < _REAL * size)
+    poses = _poses(tree, real.frames.real[:, list(structure.node_of)])
+    order = np.lexsort(np.round(poses.reshape(len(poses), -1), 6).T[::-1]) if len(poses) else np.zeros(0, np.intp)
+    poses = poses[order]
+    scale, centre = tree.scale, linkage.centre
+    poses[..., :3, 3] *= scale
+    poses[..., :3, 3] += centre - poses[..., :3, :3] @ centre
+    return SpatialModes(
+        linkage=linkage,
+        drives=drives,
+        poses=poses,
+        number=ends.number,
+        generic=generic.positions.number,
+        known=known is not None and generic.positions.number == known,
+        loops=generic.loops,
+        gap=float(structure.openings(target, ends.frames).max(initial=0.0)),
+    )
+
+
+def _poses(tree: ClosureTree, g: Reals) -> Reals:
+    """The poses of all links (modes, links, 4, 4) from frames of the nodes of the tree."""
+    poses = np.zeros((len(g), len(tree.links), 4, 4))
+    for link, place in enumerate(tree.links):
+        if place is not None:
+            poses[:, link] = g[:, place.node] @ place.at
+    if tree.rods:
+        place_rods(tree, poses)
+        for link in tree.bodies.links_of_rods(tree.rods):
+            poses[:, link] = poses[:, tree.bodies.of[link]] @ tree.bodies.poses[link]
+    return poses
