@@ -17,6 +17,7 @@ from gruebler.cli.tables import Cell, print_table
 from gruebler.files.measured_lengths import length_of, same_unit
 from gruebler.mechanics.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.mechanics.geometry.sizing import Sizing
+from gruebler.structure.chain.pairs import Alphabet
 
 _HEADERS = (
     *(
@@ -140,22 +141,21 @@ def _print_size(linkage: Guidance, sizing: Sizing, task: tuple[float, float, str
     )
     lengths = (
         f"{_in_language(key, lang)} = {number(value, lang, 'n')}"
-        for key, value in _lengths(linkage, sizing.factor).items()
+        for key, value in _lengths(linkage, sizing.factor, Alphabet.of_language(lang)).items()
     )
     print(translate("Lengths: {lengths}{unit}.", lang, lengths=number_separator(lang).join(lengths), unit=unit))
 
 
 def _in_language(key: str, lang: str) -> str:
-    """A length's key, links and joints in a language."""
-    if lang == "en":
+    """A length's key, its links in a language."""
+    if lang == LANGUAGES[0]:
         return key
-    links = re.sub(r"[a-z]+", lambda match: _LINKS[match[0]].in_language(lang) if match[0] in _LINKS else match[0], key)
-    return links.replace("R(", "D(") if lang == "de" else links
+    return re.sub(r"[a-z]+", lambda match: _LINKS[match[0]].in_language(lang) if match[0] in _LINKS else match[0], key)
 
 
-def _lengths(linkage: Guidance, factor: float) -> dict[str, float]:
+def _lengths(linkage: Guidance, factor: float, alphabet: Alphabet = Alphabet.INTERNATIONAL) -> dict[str, float]:
     """Distances of the joints on every link, by link and joints."""
-    chain, names = linkage.linkage.mechanism.chain, linkage.linkage.mechanism.chain.joint_names()
+    chain, names = linkage.linkage.mechanism.chain, linkage.linkage.mechanism.chain.joint_names(alphabet)
     lengths: dict[str, float] = {}
     for link in chain.links:
         joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]

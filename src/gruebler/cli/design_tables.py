@@ -14,6 +14,7 @@ from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.minimax_search import digits_for_error
 from gruebler.design.synthesis.results import EXACT, FITTED
 from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.chain.pairs import Alphabet
 
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
 _COLUMNS = (
@@ -127,7 +128,7 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
     verdict = design.verdict
     return [
         f"{position} {design.form_in_language(lang)}",
-        ", ".join(_named(design.linkage, lang).mechanism.drive_names("german" if lang == "de" else "international")),
+        ", ".join(_named(design.linkage, lang).mechanism.drive_names(Alphabet.of_language(lang))),
         message("yes") if verdict.turns_fully else message("no"),
         *(_transmission(mu, lang) for mu in (verdict.transmission, design.transmission_over_range)),
         _lengths(design.linkage, lang),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.plain_data import plain
-from gruebler.base.text import error_in_language, joined, message, number, translate
+from gruebler.base.text import decimal_sign_in, error_in_language, joined, message, number, translate
 from gruebler.cli.arguments import take
 from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json, print_svg, write_file
@@ -16,6 +16,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.files.measured_lengths import length_of, same_unit
 from gruebler.mechanics.fourbar.length_texts import size_of
+from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.sheets import Sheet, SizedMechanism, StatedValue, all_sheets, sheet
 from gruebler.teaching.sheets.messages import explanation_paragraphs, typeset_number
@@ -206,7 +207,7 @@ def _row(value: StatedValue, lang: str) -> tuple[Cell, ...]:
         name,
         value.exact.typeset if value.exact else "",
         typeset_number(value.derived, lang, "g" if whole else ".6f") + value.unit,
-        printed.replace(".", ",") if lang == "de" else printed,
+        decimal_sign_in(printed, lang),
         _remark(value, lang),
     )
 
@@ -232,7 +233,7 @@ def _item(mechanism_sheet: Sheet, lang: str) -> dict[str, Any]:
             **plain(features, "drive_joints drive_joints_at_frame output_links output_links_at_frame links"),
             "links_by_joints": {str(k): count for k, count in features.links_by_joints},
             "joints": features.joints,
-            "joints_by_symbol": dict(features.by_symbol("german" if lang == "de" else "international")),
+            "joints_by_symbol": dict(features.by_symbol(Alphabet.of_language(lang))),
         },
         "dimensions": [_value(value) for value in mechanism_sheet.dimensions],
         "quantities": [_value(value) for value in (*mechanism_sheet.quantities, *mechanism_sheet.example_values)],

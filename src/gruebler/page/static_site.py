@@ -22,7 +22,6 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES
 from gruebler.page.page import static_page
 from gruebler.page.requests import answer
-from gruebler.page.structures import pair_name
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.enumeration import chains, count_chains
@@ -217,7 +216,7 @@ def _common_packs() -> _Packs:
             "text": pair.symbols.get(Alphabet.INTERNATIONAL, pair.name),
             "group": pair.is_group,
             "said": {
-                lang: [pair.symbols.get(Alphabet.of_language(lang), pair.name), pair_name(pair, lang)]
+                lang: [pair.symbols.get(Alphabet.of_language(lang), pair.name), pair.plain_name(lang)]
                 for lang in LANGUAGES
             },
         }

@@ -12,7 +12,7 @@ from gruebler.pictures.canvas.shapes import Point, bounds
 from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.structure import PlacedChain, draw_structure, paint, place_joints
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair
+from gruebler.structure.chain.pairs import PAIRS, Alphabet
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.isomorphism import symmetry
 from gruebler.structure.mechanism import Mechanism
@@ -145,15 +145,10 @@ def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, A
         text = Mechanism(second, mechanism.frame, drives).text() if _drivable(second, drives) else second.text()
         yield {
             "symbol": pair.symbols.get(alphabet, pair.name),
-            "name": pair_name(pair, lang),
+            "name": pair.plain_name(lang),
             "text": text,
             "chosen": pair is joint.pair,
         }
-
-
-def pair_name(pair: Pair, lang: str) -> str:
-    """What a reader calls a pair."""
-    return pair.german if lang == "de" else pair.name.replace("_", "-")
 
 
 def _drivable(chain: Chain, drives: list[int]) -> bool:

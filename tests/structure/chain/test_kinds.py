@@ -79,6 +79,8 @@ def questions(tree):
                 asks = is_kind(node.slice)
             case ast.MatchValue():
                 asks = is_kind(node.value)
+            case ast.Call(func=ast.Attribute(attr="replace")):  # one symbol written over by another
+                asks = any(is_kind(a) or ast.unparse(a).strip("'").removesuffix("(") in SYMBOLS for a in node.args)
             case ast.Call(func=ast.Attribute(attr="get" | "startswith", value=value)):
                 starts = {a.value for a in node.args if isinstance(a, ast.Constant) and isinstance(a.value, str)}
                 asks = any(map(is_kind, node.args)) or ("direction" in ast.unparse(value) and bool(starts & FREEDOMS))
@@ -116,6 +118,7 @@ def test_no_code_outside_the_tables_asks_which_pair_it_is():
         'kinds["prismatic"]',
         'direction[0] == "T"',
         'codes = {"R": 0, "P": 1}',
+        'text.replace("R(", "D(")',
         'match joint.pair.name:\n    case "revolute":\n        pass',
     ],
 )

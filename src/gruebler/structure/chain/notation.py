@@ -228,6 +228,5 @@ def write_joints(
     'R(0-1) R(1-2) P(2-0)'
     """
     symbols = symbols_for((pair for pair, _ in joints), space, alphabet)
-    lang = "de" if alphabet is Alphabet.GERMAN else "en"
-    prefix = "" if space is Space.PLANAR else f"{space.adjective.in_language(lang)}: "
+    prefix = "" if space is Space.PLANAR else f"{space.adjective.in_language(alphabet.language)}: "
     return prefix + " ".join(joint_text(symbols[pair], links) for pair, links in joints)

@@ -25,7 +25,7 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from gruebler.base.errors import PairError, nearest
-from gruebler.base.text import LANGUAGES, joined, message
+from gruebler.base.text import LANGUAGES, Text, joined, message
 from gruebler.structure.chain.spaces import Freedom, Space
 
 
@@ -35,6 +35,11 @@ class Alphabet(StrEnum):
     GERMAN = "german"
     INTERNATIONAL = "international"
 
+    @property
+    def language(self) -> str:
+        """The language whose readers expect it."""
+        return "de" if self is Alphabet.GERMAN else LANGUAGES[0]
+
     @classmethod
     def of_language(cls, lang: str) -> Alphabet:
         """The symbols that a reader of this language expects.
@@ -42,7 +47,7 @@ class Alphabet(StrEnum):
         >>> Alphabet.of_language("de"), Alphabet.of_language("en")
         (<Alphabet.GERMAN: 'german'>, <Alphabet.INTERNATIONAL: 'international'>)
         """
-        return cls.GERMAN if lang == "de" else cls.INTERNATIONAL
+        return next(each for each in cls if each.language == lang)
 
 
 class Contact(StrEnum):
@@ -297,7 +302,11 @@ class Pair:
         >>> pair("revolute").full_name("de")
         'Drehgelenk'
         """
-        return self.german if lang == "de" else self.name
+        return Text(en=self.name, de=self.german).in_language(lang)
+
+    def plain_name(self, lang: str) -> str:
+        """The name in a sentence, without underscores."""
+        return self.full_name(lang).replace("_", "-")
 
     def symbol(self, alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str:
         """The symbol in this alphabet, or the full name where the alphabet has none."""

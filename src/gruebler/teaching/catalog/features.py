@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gruebler.base.text import Message, arity, message
+from gruebler.base.text import Message, Text, arity, message
 from gruebler.structure.chain.pairs import Alphabet, Contact, Pair
 from gruebler.structure.mechanism import Mechanism
 
@@ -54,7 +54,7 @@ class AccessFeatures:
 
 def _name(kind: Pair, count: int, lang: str) -> str:
     """The kind of joint, singular or plural."""
-    return kind.german + "e" * (count > 1) if lang == "de" else kind.name.replace("_", "-")
+    return Text(en=kind.plain_name("en"), de=kind.german + "e" * (count > 1)).in_language(lang)
 
 
 def access_features(mechanism: Mechanism, outputs: Iterable[str] = ()) -> AccessFeatures:
