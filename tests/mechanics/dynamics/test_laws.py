@@ -3,13 +3,14 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import chebyshev
 
 from gruebler.mechanics.dynamics import InverseDynamics, inverse_dynamics, simulate
 from gruebler.mechanics.dynamics.starts import starting_pose
-from gruebler.mechanics.forces import Loads, RigidBody, Spring, TorsionSpring
+from gruebler.mechanics.forces import Gas, Loads, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.kinematics.solve import cached_plan
@@ -235,7 +236,7 @@ BODIES = {
 def test_a_free_linkage_follows_the_efforts_of_its_motion():
     """The drive goes 0.5 + 8 t + 0.3 sin 5t; a motor with the found efforts, a series in the time, takes it there."""
     nodes = chebyshev.chebpts1(48)
-    t = 0.3 * (nodes + 1)
+    t = 0.1 * (nodes + 1)
     loads = Loads(bodies=BODIES, springs=(Spring(("frame:20,90", "R(coupler-rocker)"), stiffness=0.2, damping=0.01),))
     motion = move(
         CRANK_ROCKER,
@@ -245,17 +246,52 @@ def test_a_free_linkage_follows_the_efforts_of_its_motion():
         branch="+",
     )
     effort = chebyshev.chebfit(nodes, inverse_dynamics(motion, loads).drive[:, 0], 40)
-    motor = {"R(frame-crank)": lambda state: chebyshev.chebval(state.time / 0.3 - 1, effort)}
+    motor = {"R(frame-crank)": lambda state: chebyshev.chebval(state.time / 0.1 - 1, effort)}
     free = simulate(
         CRANK_ROCKER,
         replace(loads, motors=motor),
         at=0.5,
         speed=9.5,
         branch="+",
-        until=0.6,
-        times=[0.3, 0.6],
+        until=0.2,
+        times=[0.1, 0.2],
         tolerance=1e-11,
     )
     at = free.times
     close(free.drives[:, 0], 0.5 + 8 * at + 0.3 * np.sin(5 * at), 1.0, 1e-8)
     close(free.accelerations[:, 0], -7.5 * np.sin(5 * at), 8.0, 1e-6)
+
+
+def test_series_of_the_forces_and_sums_over_the_bodies_move_alike():
+    """Loads that are numbers are taken from series along the drive, laws from each pose: a force is given as both."""
+    springs = (
+        Spring(("frame:20,90", "R(coupler-rocker)"), stiffness=0.2, free_length=30.0, damping=0.01),
+        Spring(("frame:0,-80", "R(crank-coupler)"), law=Gas(force=5.0, extended=150.0, stroke=120.0)),
+    )
+    ends = [
+        simulate(
+            CRANK_ROCKER,
+            Loads({"R(coupler-rocker)": force}, bodies=BODIES, springs=springs, moments={"crank": 40.0}),
+            at=0.5,
+            speed=5.0,
+            branch="+",
+            until=0.1,
+            times=[0.05, 0.1],
+            tolerance=1e-11,
+        )
+        for force in ((3.0, -5.0), ("3 + 0*time", -5.0))
+    ]
+    for name, scale in (("drives", 1.0), ("speeds", 10.0), ("work", np.ptp(ends[0].kinetic))):
+        close(getattr(ends[0], name), getattr(ends[1], name), scale, 1e-9)
+    assert max(run.defect for run in ends) < 1e-9
+
+
+@pytest.mark.slow
+def test_energy_over_a_thousand_turns():
+    loads = Loads(bodies=BODIES | {"crank": RigidBody(3.0, (4.0, 1.0), 3000.0)})
+    end = 50 * np.pi
+    run = simulate(
+        CRANK_ROCKER, loads, at=0.0, speed=40.0, branch="+", until=end, times=[0, end / 2, end], tolerance=1e-13
+    )
+    assert run.drives[-1, 0] > 2000 * np.pi
+    assert run.defect < 1e-9

@@ -81,13 +81,24 @@ class Charts:
 
     def jets(self, q: float) -> Jets:
         """The pose and its derivatives by the drive. Raises `Blocked` where the branch does not lead."""
+        chart, x = self.chart(q)
+        jets = self.jets_on(chart, np.array([x]))
+        return Jets(jets.places, jets.turns[0], jets.rates)
+
+    def chart(self, q: float) -> tuple[Chart, float]:
+        """The chart on which the drive lies, and where in [-1, 1]. Raises `Blocked` where the branch does not lead."""
         at, chart = self._reduced(q), self._now
         if chart is None or not chart.low <= at <= chart.high:
             chart = self._now = self._found(q)
             at = self._reduced(q)
-        basis = np.cos(np.arange(_DEGREE + 1) * np.arccos(min(max((at - chart.middle) / chart.half, -1.0), 1.0)))
-        six = (basis @ chart.series).reshape(6, self.links)
-        return Jets(six[:3, None] * self.plan.lower.size, six[3] / np.abs(six[3]), six[4:, None].real)
+        return chart, min(max((at - chart.middle) / chart.half, -1.0), 1.0)
+
+    def jets_on(self, chart: Chart, x: Reals) -> Jets:
+        """Poses and derivatives by the drive at places of a chart, a row each; turns are (rows, links)."""
+        basis = np.cos(np.arccos(x)[:, None] * np.arange(_DEGREE + 1))
+        numbers = np.einsum("rk,kn->rn", basis, chart.series.view(np.float64))  # BLAS would start threads for this
+        six = numbers.view(np.complex128).reshape(len(x), 6, self.links).swapaxes(0, 1)
+        return Jets(six[:3] * self.plan.lower.size, six[3] / np.abs(six[3]), six[4:].real)
 
     def _reduced(self, q: float) -> float:
         """The drive less whole turns, if a turn leads back to the same pose."""

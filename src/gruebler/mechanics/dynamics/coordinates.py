@@ -35,7 +35,7 @@ class Coordinates:
         self.plan = plan
         self.links = plan.lower.mechanism.chain.links
         self.count = len(plan.linkage.mechanism.drives)
-        self._charts = Charts(plan, start) if self.count == 1 else None
+        self.charts = Charts(plan, start) if self.count == 1 else None
         self._state = start
         self._branching = plan.branching
 
@@ -52,8 +52,8 @@ class Coordinates:
 
     def jets(self, q: Reals, v: Reals) -> Jets:
         """For unit speeds of each drive, and with several drives in one row more for the speeds given."""
-        if self._charts is not None:
-            return self._charts.jets(float(q[0]))
+        if self.charts is not None:
+            return self.charts.jets(float(q[0]))
         if not (np.isfinite(q).all() and np.isfinite(v).all()):
             raise Blocked
         speeds = np.vstack([np.eye(self.count), v])

@@ -11,6 +11,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.dynamics.charts import Jets
 from gruebler.mechanics.dynamics.coordinates import Coordinates, CoordinateSets
 from gruebler.mechanics.dynamics.equations import EquationsOfMotion, Influences
+from gruebler.mechanics.dynamics.reduced_series import ReducedSeries
 from gruebler.mechanics.forces.acting import MovingLinks
 from gruebler.mechanics.forces.loads import Loads
 from gruebler.mechanics.kinematics.plan import Plan
@@ -52,6 +53,7 @@ class FreeLinkage:
         self.equations = EquationsOfMotion(plan.linkage, self.coordinates.links, loads)
         self.conservative = self.equations.acting.conservative
         self._lossy = EquationsOfMotion(plan.linkage, self.coordinates.links, _without_potential(loads))
+        self._series = dict[Coordinates, ReducedSeries]()
         self.last: Instant | None = None
         self.evaluations = 0
 
@@ -103,6 +105,27 @@ class FreeLinkage:
         return values
 
     # --- what acts -----------------------------------------------------------------------------------
+
+    def rates(self, time: float, q: Reals, v: Reals) -> tuple[Reals, float]:
+        """Q'' of the coordinates and the power of what has no potential; from series where these are known."""
+        reduced = self._reduced(float(q[0]), float(v[0])) if self._of_the_pose else None
+        if reduced is None:
+            now = self.instant(time, q, v)
+            return self.acceleration(now), self.power(now)
+        mass, force, power = reduced
+        self.evaluations += 1
+        return np.array([force / mass]), power * float(v[0])
+
+    @property
+    def _of_the_pose(self) -> bool:
+        """Whether one freedom's forces depend on the pose alone, and linearly on the speed."""
+        return self.coordinates.charts is not None and self.equations.acting.of_the_pose
+
+    def _reduced(self, q: float, v: float) -> tuple[float, float, float] | None:
+        charts = self.coordinates.charts
+        if self.coordinates not in self._series and charts is not None:
+            self._series[self.coordinates] = ReducedSeries(charts, self.equations, self._lossy)
+        return self._series[self.coordinates].at(q, v)
 
     def acceleration(self, instant: Instant) -> Reals:
         """Q'' of the coordinates."""

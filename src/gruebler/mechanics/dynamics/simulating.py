@@ -71,7 +71,8 @@ def simulate(
             numbers that are not usable, a start that cannot be assembled.
 
     Cost:
-        Some 0.2 ms for each evaluation of the forces, 12 evaluations a step; a crank takes 20 to 60 steps a turn.
+        12 evaluations of the forces a step, 20 to 100 steps a turn of a crank. An evaluation costs some 0.03 ms for one
+        freedom and loads that are numbers, else some 0.2 ms.
 
     Example:
         >>> from gruebler.mechanics.forces import RigidBody
@@ -215,8 +216,9 @@ class _Run:
     def _rate(self, t: float, y: Reals) -> Reals:
         """Y' of (q, q', work); NaN where the linkage does not go, so that the step is taken shorter."""
         try:
-            now = self._at(t, y)
-            return np.concatenate([now.speeds, self.free.acceleration(now), [self.free.power(now)]])
+            q, v = self._parts(y)
+            acceleration, power = self.free.rates(t, q, v)
+            return np.concatenate([v, acceleration, [power]])
         except (Blocked, np.linalg.LinAlgError):
             return np.full(len(y), np.nan)
 

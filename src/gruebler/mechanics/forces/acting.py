@@ -224,6 +224,18 @@ class ActingLoads:
         damped = any(spring.damping for spring in loads.springs) or any(s.damping for s in loads.torsion_springs)
         return not (damped or loads.forces or loads.moments or loads.motors)
 
+    @cached_property
+    def of_the_pose(self) -> bool:
+        """Whether all that acts depends on places alone, and of dampers linearly on velocities: no law, no motor.
+
+        Torsion springs are left out, since they count whole turns.
+        """
+        loads = self.loads
+        parts = [
+            part for given in loads.forces.values() for part in (given if isinstance(given, tuple | list) else [given])
+        ]
+        return not (loads.motors or loads.torsion_springs or any(map(_varies, [*parts, *loads.moments.values()])))
+
     # --- parts ---------------------------------------------------------------------------------------
 
     @cached_property

@@ -1,0 +1,67 @@
+"""M, h and Q of one freedom as series of its coordinate, chart by chart: what loads without laws need of a pose.
+
+docs/theory/free-motion.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from gruebler.base.arrays import Reals
+from gruebler.mechanics.dynamics.charts import Chart, Charts
+from gruebler.mechanics.dynamics.equations import EquationsOfMotion, Influences
+
+_NODES = 40  # products of two series of a chart have degree 34
+_ORDERS = np.arange(_NODES)
+_TAIL = 4  # the last coefficients, which tell whether a series has ended
+_ENDED = 1e-13  # of the largest mass or force
+
+
+class ReducedSeries:
+    """M, dM/dq / 2, Q and the power by speed of one freedom, without the poses."""
+
+    def __init__(self, charts: Charts, equations: EquationsOfMotion, lossy: EquationsOfMotion) -> None:
+        self.charts, self._equations, self._lossy = charts, equations, lossy
+        self._known = dict[Chart, Reals | None]()
+
+    def at(self, q: float, v: float) -> tuple[float, float, float] | None:
+        """M, Q - h and what loads without potential do, all at a value and speed of the coordinate.
+
+        None where forces are no short series: a spring whose ends meet.
+        """
+        chart, x = self.charts.chart(q)
+        if chart not in self._known:
+            self._known[chart] = self._found(chart)
+        series = self._known[chart]
+        if series is None:
+            return None
+        mass, slope, force, damped, lost, lost_by_speed = (np.cos(np.arccos(x) * _ORDERS) @ series).tolist()
+        return mass, force + v * (damped - v * slope), lost + v * lost_by_speed
+
+    def _found(self, chart: Chart) -> Reals | None:
+        """(nodes, 6): Chebyshev coefficients; forces are linear in the speed, since dampers are."""
+        x = np.cos(np.pi * (_ORDERS + 0.5) / _NODES)
+        jets = self.charts.jets_on(chart, x)
+        influences = Influences(
+            places=jets.places[0],
+            turns=jets.turns,
+            angles=np.angle(jets.turns),
+            unit_places=jets.places[1:2],
+            unit_rates=jets.rates[:1],
+            drift_places=jets.places[2],
+            drift_rates=jets.rates[1],
+        )
+        drives = (chart.middle + chart.half * x)[:, None]
+        still, unit = (influences.moving(0.0, drives, np.full_like(drives, speed)) for speed in (0.0, 1.0))
+        mass, bias = self._equations.inertia(influences, unit)
+        forces = list[Reals]()
+        for equations in (self._equations, self._lossy):
+            held = equations.generalised(influences, still)
+            forces += [held[:, 0], (equations.generalised(influences, unit) - held)[:, 0]]
+        values = np.stack([mass[:, 0, 0], bias[:, 0], *forces], axis=1)
+        series: Reals = chebyshev.chebvander(x, _NODES - 1).T @ values * (2 / _NODES)
+        series[0] /= 2
+        sizes = np.abs(values).max(axis=0)
+        sizes[:2], sizes[2:] = sizes[0], sizes[2:].max()  # what is small beside its like is rounding
+        return series if (np.abs(series[-_TAIL:]) <= _ENDED * sizes).all() else None
