@@ -73,7 +73,7 @@ class Body(NamedTuple):
 def bodies_at_start(given: Machine, start: Simulation) -> dict[str, Body]:
     found = {}
     for link, body in given.loads.bodies.items():
-        at, speed = (complex(start.complex_point((link, *body.centre), k)[0]) for k in (0, 1))
+        at, speed = (complex(start.complex_point((link, *body.centre), order=k)[0]) for k in (0, 1))
         found[link] = Body(at, speed, float(start.angular(link)[0]), body.mass, body.inertia)
     return found
 
