@@ -183,6 +183,27 @@ def test_double_pendulum():
     assert swing.drives[-1] == pytest.approx([a, b - a], abs=1e-10)
 
 
+def test_two_freedoms_pass_a_change_point():
+    """A pendulum on the coupler of a parallelogram, which only shifts: a double pendulum, by hand."""
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(2-4); frame=0; drive=R(0-1); drive=R(2-4)")
+    places = [(0, 0), (0, 1), (2, 1), (2, 0), (1, 1)]
+    points = {"P": ("2", 1.0, 1.0), "E": ("4", 2.0, 1.0)}
+    joints = dict(zip(mechanism.chain.joint_names(), places, strict=True))
+    linkage = Linkage.from_drawing(mechanism, joints, points=points, unit="m")
+    loads = Loads(masses={"P": 1.0, "E": 1.0}, gravity=(0, -9.81))
+    fall = simulate(linkage, loads, speed=[-1.0, 0.0], until=0.75, times=[0, 0.75], tolerance=1e-10)
+
+    def by_hand(_, y):
+        a, b, w, u = y
+        mass = np.array([[2, np.cos(a - b)], [np.cos(a - b), 1]])
+        right = [np.sin(a - b) * u**2 + 2 * 9.81 * np.cos(a), 9.81 * np.cos(b) - np.sin(a - b) * w**2]
+        return [w, u, *np.linalg.solve(mass, np.negative(right))]
+
+    a, b, *_ = solve_ivp(by_hand, (0, 0.75), [np.pi / 2, 0, -1, 0], method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+    assert a < -0.2  # at 0 both cranks and the coupler lie on one line
+    assert fall.drives[-1] - fall.drives[0] == pytest.approx([a - np.pi / 2, b], abs=1e-7)
+
+
 @pytest.mark.parametrize("amplitude", [0.1, 1.5, 3.0])
 def test_a_pendulum_of_any_amplitude_has_the_period_of_the_elliptic_integral(amplitude):
     """A quarter of 4 sqrt(l/g) K(sin²(a/2)) leads from rest at the amplitude to the lowest place; there v² = 2gh.

@@ -60,7 +60,7 @@ class ReducedSeries:
             held = equations.generalised(influences, still)
             forces += [held[:, 0], (equations.generalised(influences, unit) - held)[:, 0]]
         values = np.stack([mass[:, 0, 0], bias[:, 0], *forces], axis=1)
-        series: Reals = chebyshev.chebvander(x, _NODES - 1).T @ values * (2 / _NODES)
+        series = np.asarray(chebyshev.chebvander(x, _NODES - 1).T @ values * (2 / _NODES), np.float64)
         series[0] /= 2
         sizes = np.abs(values).max(axis=0)
         sizes[:2], sizes[2:] = sizes[0], sizes[2:].max()  # what is small beside its like is rounding
