@@ -15,6 +15,7 @@ from gruebler.teaching.catalog import entries, exercises
 
 FOUR_BAR = "four-bar:25,70,40,70"
 ENGINE = str(Path(__file__).with_name("engine.toml"))
+SWING = str(Path(__file__).with_name("swing.toml"))
 QUAD = "R(0-1) R(1-2) R(2-3) R(3-0)"
 
 JSON = {
@@ -42,6 +43,7 @@ JSON = {
     ],
     "enumerate": [["--links", "6"], ["--links", "6", "--assortments"], ["--links", "6", "--count"]],
     "construct": [[], ["geneva"], ["dead-centres", "slider-crank:17,60,15"]],
+    "design": [[SWING]],
     "exercise": [["list"], ["show", "exercise-1"], ["solve", "example-3.5.4-lambda"]],
     "extend": [["lambda", "--dyad"], ["quad_strut", "--derivation"]],
     "gears": [["sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; load arm=-50"]],

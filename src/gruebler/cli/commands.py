@@ -53,6 +53,9 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
         (
             Command("analyse", message("analyse a motion: dead centres, times, transmission angle, poses, velocities")),
             Command("synthesise", message("design linkages for given positions, functions, paths or dead centres")),
+            Command(
+                "design", message("from what a machine has to do to machines of several types, the best ones listed")
+            ),
             Command("realise", message("find dimensions with which a mechanism can move")),
             Command(
                 "grashof", message("type and rotatability of a four-bar or slider-crank, and the limits of its lengths")

@@ -13,6 +13,7 @@ from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.minimax_search import digits_for_error
 from gruebler.design.synthesis.results import EXACT, FITTED
+from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
 
@@ -32,10 +33,7 @@ _ANGLES = message(
     "`analyse` gives it."
 )
 _LOW = message("!: below 40°.")
-_PARETO = (
-    *(message("design"), message("error"), message("µ at targets"), message("size"), message("links")),
-    message("structure"),
-)
+_PARETO = (message("design"), message("error"), message("µ at targets"), message("µ of range"))
 _LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"}
 """Lengths as the closed forms name them; those of other links have the names of their links."""
 
@@ -77,16 +75,10 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
         more = len(result.designs) - len(shown.designs)
         if more:
             print(plural("and {count} more", "and {count} more", more, lang))
-        angles = [
-            mu for design in shown.designs for mu in (design.verdict.transmission, design.transmission_over_range)
-        ]
-        low = [_LOW] if any(mu < GOOD for mu in angles) else []
-        print_text(joined([_ANGLES, *low], " ").in_language(lang))
-        if any(design.sensitivity is not None for design in shown.designs):
-            print_text(_SHIFT.in_language(lang))
+        print_notes(shown, lang)
         _print_missing_optima(shown, lang)
         if any(design.form == FITTED for design in shown.designs):
-            _print_pareto(shown, lang)
+            print_pareto(shown, lang)
     else:
         print(translate("None of the designs examined meets the task.", lang))
     if (rejected or not result.designs) and result.rejected:
@@ -105,7 +97,16 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
             )
 
 
-def _print_pareto(result: SynthesisResult, lang: str) -> None:
+def print_notes(shown: SynthesisResult, lang: str) -> None:
+    """What the columns of transmission angles and shifts mean, if there are such."""
+    angles = [mu for design in shown.designs for mu in (design.verdict.transmission, design.transmission_over_range)]
+    low = [_LOW] if any(mu < GOOD for mu in angles) else []
+    print_text(joined([_ANGLES, *low], " ").in_language(lang))
+    if any(design.sensitivity is not None for design in shown.designs):
+        print_text(_SHIFT.in_language(lang))
+
+
+def print_pareto(result: SynthesisResult, lang: str) -> None:
     """The designs that no other one beats in everything."""
     numbers_of = {id(design): number for number, design in enumerate(result.designs, 1)}
     rows: list[list[Cell]] = [
@@ -113,15 +114,19 @@ def _print_pareto(result: SynthesisResult, lang: str) -> None:
             str(numbers_of[id(row.design)]),
             number(row.error, lang, ".1e"),
             _transmission(row.transmission, lang),
+            _transmission(row.design.transmission_over_range, lang),
             number(row.size, lang, "n"),
             str(row.links),
+            _shift(row.design, lang),
             row.structure,
         ]
         for row in pareto(result)
     ]
+    size = message("size") if gives_lengths(result.task) else message("size ratio")
     print()
     print(translate("Not beaten in error, transmission angle, size and number of links at once:", lang))
-    print_table(_PARETO, rows, numbers=[0, 1, 2, 3, 4], lang=lang)
+    headers = (*_PARETO, size, message("links"), message("shift"), message("structure"))
+    print_table(headers, rows, numbers=[0, 1, 2, 3, 4, 5], lang=lang)
 
 
 def _row(position: int, design: Design, lang: str) -> list[Cell]:

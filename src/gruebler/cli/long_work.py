@@ -93,3 +93,15 @@ def run_progress(lang: str) -> Iterator[Callable[[Progress], None] | None]:
             live.update(Text(line), refresh=True)
 
         yield draw
+
+
+def count_line(lang: str) -> Callable[[int, int], None] | None:
+    """A line on a terminal that counts paths, verdicts or starts; None elsewhere."""
+    if not sys.stderr.isatty():
+        return None
+
+    def show(done: int, count: int) -> None:
+        line = translate("{done:,} of {count:,}", lang, done=done, count=count)
+        print(f"\r{line}", end="\n" if done >= count else "", file=sys.stderr, flush=True)
+
+    return show

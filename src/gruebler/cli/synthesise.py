@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -14,14 +13,15 @@ from typing import Any
 
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, joined_by_and, translate
+from gruebler.cli.design_files import check_picture, design_to_write, draw_designs
 from gruebler.cli.design_tables import print_designs, print_optimum
 from gruebler.cli.executors import executor_of
-from gruebler.cli.output import print_json, say_written, write_file
+from gruebler.cli.long_work import count_line
+from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
 from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
-    Design,
     FunctionLaw,
     FunctionTask,
     PathTask,
@@ -38,9 +38,7 @@ from gruebler.design.synthesis.results import in_order_of
 from gruebler.files.designs import result_to_json
 from gruebler.files.linkages import write_linkage
 from gruebler.files.tasks import read_task
-from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 
-_ON_A_PAGE, _IN_A_PICTURE = 24, 6  # designs that are drawn
 _OPTIONS = {
     "swing": "--swing",
     "stroke": "--stroke",
@@ -185,7 +183,7 @@ def add(parser: Parser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Solve the task, print designs, write and draw the best. Status 1: no design was accepted."""
     if arguments.draw is not None:
-        _check_picture(arguments.draw)
+        check_picture(arguments.draw)
     demands = _demands(arguments)
     task = _task(arguments)
     orders = _orders(arguments)
@@ -194,13 +192,13 @@ def run(arguments: argparse.Namespace) -> int:
     if orders:
         result = result.sorted_by(*orders)
     shown = _best(result, arguments.number)
-    written = _design_to_write(arguments, shown)
+    written = design_to_write(arguments, shown)
     drawn = arguments.draw is not None and bool(result.designs or result.rejected)
     if written is not None:
         write_linkage(arguments.out, written.linkage)
         say_written(arguments.out, arguments.lang)
     if drawn:
-        _draw(arguments.draw, result, len(shown.designs), arguments.lang)
+        draw_designs(arguments.draw, result, arguments.lang, most=len(shown.designs))
     if arguments.json:
         print_json(result_to_json(shown))
     else:
@@ -216,16 +214,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _orders(arguments: argparse.Namespace) -> list[str]:
     return [name.strip() for name in arguments.sort.split(",") if name.strip()]
-
-
-def _design_to_write(arguments: argparse.Namespace, shown: SynthesisResult) -> Design | None:
-    """The best design or the one that was asked for; None without a file or a design."""
-    if arguments.out is None or not shown.designs:
-        return None
-    number, count = arguments.design or 1, len(shown.designs)
-    if number > count:
-        raise SynthesisError("--design: expected 1 to {count}, but found {number}", count=count, number=number)
-    return shown.designs[number - 1]
 
 
 def _best(result: SynthesisResult, number: int | None) -> SynthesisResult:
@@ -360,7 +348,7 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
 
 
 def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> SynthesisResult:
-    progress = _progress(arguments.lang)
+    progress = count_line(arguments.lang)
     if arguments.structure:
         return _fitted(arguments, task, demands, progress)
     more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
@@ -396,35 +384,3 @@ def _fitted(
         executor=executor_of(arguments),
         progress=progress,
     )
-
-
-def _progress(lang: str) -> Callable[[int, int], None] | None:
-    """A line on a terminal that counts paths, verdicts or starts; None elsewhere."""
-    if not sys.stderr.isatty():
-        return None
-
-    def show(done: int, count: int) -> None:
-        line = translate("{done:,} of {count:,}", lang, done=done, count=count)
-        print(f"\r{line}", end="\n" if done >= count else "", file=sys.stderr, flush=True)
-
-    return show
-
-
-def _check_picture(path: Path) -> None:
-    suffix_of(path, (*SUFFIXES, "html"))
-    if not path.parent.is_dir():
-        raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
-
-
-def _draw(path: Path, result: SynthesisResult, number: int, lang: str) -> None:
-    """The best designs side by side, or all on a page; so many at most, if there are any."""
-    from gruebler.pictures.designs.picture import designs_figure, designs_page
-
-    suffix = suffix_of(path, (*SUFFIXES, "html"))
-    if suffix == "html":
-        content = designs_page(result, lang=lang, most=min(number or _ON_A_PAGE, _ON_A_PAGE)).encode("utf-8")
-    else:
-        content = picture_bytes(
-            designs_figure(result, lang=lang, most=min(number or _IN_A_PICTURE, _IN_A_PICTURE)), suffix
-        )
-    write_file(path, content, lang)

@@ -318,7 +318,9 @@ def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demand
 
 
 def transmission_fault(transmission: float) -> Message:
-    """That a transmission angle, in radians, is too small."""
+    """That a transmission angle, in radians, is too small, or that there is none: NaN."""
+    if np.isnan(transmission):
+        return message("there is no transmission angle, as no dyad drives the output")
     return message("the transmission angle falls to {angle:.1f}°", angle=np.degrees(transmission))
 
 
@@ -402,7 +404,7 @@ def _carried(
             return values, float("inf"), float("nan")
         least = min(least, _least_transmission(motion))
         worst = max(worst, _error(motion, targets, rows, begin, forward=forward))
-    return values, worst, least
+    return values, worst, least if np.isfinite(least) else np.nan
 
 
 def _error(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: int, *, forward: bool) -> float:

@@ -16,7 +16,7 @@ from gruebler.base.text import Message, joined, message, number, plural, transla
 from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.sensitivity import Sensitivity, length_sensitivity
 from gruebler.design.synthesis.targets import Targets
-from gruebler.design.synthesis.tasks import Task
+from gruebler.design.synthesis.tasks import Task, gives_lengths
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import measure_transmission
@@ -316,11 +316,12 @@ class ParetoRow:
     error: float
     transmission: float
     size: float
+    """Its own; of a task of angles alone, which linkages of any size meet, the longest length by the shortest."""
     links: int
     design: Design
 
     def dominates(self, other: ParetoRow) -> bool:
-        """Whether it is nowhere worse and somewhere better."""
+        """Whether it is nowhere worse and somewhere better, in the digits that are printed."""
         own, its = self._costs, other._costs
         return all(a <= b for a, b in zip(own, its, strict=True)) and own != its
 
@@ -328,7 +329,7 @@ class ParetoRow:
     def _costs(self) -> tuple[float, ...]:
         mu = 0.0 if isnan(self.transmission) else self.transmission
         error = 0.0 if self.error < EXACT else self.error
-        return error, -mu, self.size, float(self.links)
+        return float(f"{error:.1e}"), -round(degrees(mu), 1), float(f"{self.size:.4g}"), float(self.links)
 
 
 def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
@@ -338,7 +339,7 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
             structure=design.linkage.mechanism.text(),
             error=design.verdict.error,
             transmission=design.verdict.transmission,
-            size=design.linkage.size,
+            size=design.linkage.size if gives_lengths(found.task) else design.verdict.size_ratio,
             links=design.links,
             design=design,
         )

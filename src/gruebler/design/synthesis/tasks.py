@@ -70,7 +70,8 @@ def _numbers(task: object, key: str) -> tuple[float, ...]:
     return tuple(_number(value, _numbered(key, k)) for k, value in enumerate(_entries(task, key)))
 
 
-def _rows(task: object, key: str, count: int) -> tuple[tuple[float, ...], ...]:
+def number_rows(task: object, key: str, count: int) -> tuple[tuple[float, ...], ...]:
+    """The entries of a field that is a list of so many numbers each."""
     return tuple(_row(row, _numbered(key, k), count) for k, row in enumerate(_entries(task, key)))
 
 
@@ -102,9 +103,9 @@ class PositionTask:
     curve_parameters: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        rows = _rows(self, "positions", 3)
+        rows = number_rows(self, "positions", 3)
         settle(self, positions=rows)
-        settle(self, **{name: _rows(self, name, 2) for name in ("moving_pivots", "fixed_pivots")})
+        settle(self, **{name: number_rows(self, name, 2) for name in ("moving_pivots", "fixed_pivots")})
         if len(rows) < 2:
             raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
         if (self.moving_pivots or self.fixed_pivots) and len(rows) > 4:
@@ -178,9 +179,9 @@ class PathTask:
     unit: str = "mm"
 
     def __post_init__(self) -> None:
-        rows = _rows(self, "points", 2)
+        rows = number_rows(self, "points", 2)
         settle(self, points=rows)
-        pivots = _rows(self, "fixed_pivots", 2)
+        pivots = number_rows(self, "fixed_pivots", 2)
         settle(self, fixed_pivots=pivots)
         free = enumerate(_entries(self, "angles"))
         angles = tuple(None if a is None else _number(a, _numbered("angles", k)) for k, a in free)
@@ -389,3 +390,15 @@ class DeadCentreTask:
 
 
 Task = PositionTask | PathTask | FunctionTask | DeadCentreTask
+
+
+def output_travels(task: Task) -> bool:
+    """Whether the output of a task slides."""
+    if isinstance(task, DeadCentreTask):
+        return task.swing is None
+    return isinstance(task, FunctionTask) and task.output == "travel"
+
+
+def gives_lengths(task: Task) -> bool:
+    """Whether a task has lengths; angles alone are met by linkages of any size."""
+    return output_travels(task) or not isinstance(task, DeadCentreTask | FunctionTask)

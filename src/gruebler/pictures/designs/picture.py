@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import degrees, isnan, pi
+
+import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, joined, message, translate
+from gruebler.design.synthesis.clearances import guided_link
 from gruebler.design.synthesis.dead_centres import DeadCentreFamily, FamilyMember, dead_centre_family
 from gruebler.design.synthesis.results import FITTED, Design, SynthesisResult
+from gruebler.design.synthesis.specification import Clearance
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
@@ -19,6 +24,7 @@ from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.designs.alt_construction import STRAIGHT, alt_steps
 from gruebler.pictures.designs.plots import burmester_plot, function_plot
 from gruebler.pictures.linkage.animation import animated_svg
+from gruebler.pictures.linkage.bodies import Outline
 from gruebler.pictures.linkage.picture import draw_linkage
 
 _COLUMNS = 3
@@ -67,8 +73,19 @@ def _pins_at_pairs(design: Design) -> dict[str, Complexes]:
     return marks
 
 
-def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:
-    """A design in its first position with the path of its point and the targets.
+def clearance_outlines(design: Design, clear: Sequence[Clearance]) -> tuple[Outline, ...]:
+    """What a body carries and what it keeps clear of, once each, as lines of the design's links."""
+    link, frame = guided_link(design), design.linkage.mechanism.frame
+    motion = move_quietly(design.linkage, design.drives[:1])
+    turn = np.exp(-1j * motion.angle(link)[0])
+    shift = motion.complex_point(LinkPoint(link, 0.0, 0.0))[0]
+    bodies = dict.fromkeys(tuple(complex(z) for z in (each.outlines[0] - shift) * turn) for each in clear)
+    obstacles = dict.fromkeys(tuple(complex(z) for z in each.outlines[1]) for each in clear)
+    return (*(Outline(frame, line, "given") for line in obstacles), *(Outline(link, line, "new") for line in bodies))
+
+
+def design_figure(task: Task, design: Design, *, lang: str = "en", clear: Sequence[Clearance] = ()) -> Figure:
+    """A design in its first position with the path of its point and the targets, and outlines it keeps clear of.
 
     >>> from gruebler.design.synthesis import synthesise_path
     >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
@@ -78,7 +95,8 @@ def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:
     linkage = _marked(task, design)
     several = len(linkage.mechanism.drives) > 1
     drive = design.drive_rows[0] if several else design.drives[0] if design.drives else None
-    return draw_linkage(linkage, at=drive, curves=_path_of(linkage), lang=lang)
+    outlines = clearance_outlines(design, clear) if clear and design.drives else ()
+    return draw_linkage(linkage, at=drive, curves=_path_of(linkage), lang=lang, outlines=outlines)
 
 
 def _path_of(linkage: Linkage) -> list[str]:
@@ -86,7 +104,9 @@ def _path_of(linkage: Linkage) -> list[str]:
     return ["P"] if "P" in linkage.points and len(linkage.mechanism.drives) == 1 else []
 
 
-def designs_figure(result: SynthesisResult, *, lang: str = "en", most: int = 6) -> Figure:
+def designs_figure(
+    result: SynthesisResult, *, lang: str = "en", most: int = 6, clear: Sequence[Clearance] = ()
+) -> Figure:
     """The best designs side by side with their captions, before them the plots of the task.
 
     >>> from gruebler.design.synthesis import DeadCentreTask, synthesise
@@ -97,7 +117,7 @@ def designs_figure(result: SynthesisResult, *, lang: str = "en", most: int = 6) 
     shown = (result.designs or result.rejected)[:most]
     plots = [figure for figure, _ in _plots(result, lang)]
     figures = [
-        captioned(design_figure(result.task, design, lang=lang), f"{k} {_caption(design, lang)}")
+        captioned(design_figure(result.task, design, lang=lang, clear=clear), f"{k} {_caption(design, lang)}")
         for k, design in enumerate(shown, 1)
     ]
     title = translate("Designs", lang)
@@ -121,7 +141,7 @@ def _plots(result: SynthesisResult, lang: str) -> list[tuple[Figure, str]]:
     return []
 
 
-def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24) -> str:
+def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24, clear: Sequence[Clearance] = ()) -> str:
     """All accepted designs on one HTML page, moving, so many at most; rejected ones if there are no others.
 
     Before them stand the plots of the task: Burmester's curves of four positions, the structural error of a function;
@@ -130,8 +150,9 @@ def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24) -
     shown, heading = (result.designs, message("Accepted")) if result.designs else (result.rejected, message("Rejected"))
     items = []
     for number, design in enumerate(shown[:most]):
-        figure = design_figure(result.task, design, lang=lang)
-        items.append(Item(figure, f"{number + 1} {_caption(design, lang)}", moving=_moving(result.task, design, lang)))
+        figure = design_figure(result.task, design, lang=lang, clear=clear)
+        moving = _moving(result.task, design, lang, clear)
+        items.append(Item(figure, f"{number + 1} {_caption(design, lang)}", moving=moving))
     totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
     note = translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals)
     plots = [Section(caption, (Item(figure, caption),), wide=True) for figure, caption in _plots(result, lang)]
@@ -139,11 +160,16 @@ def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24) -
     return gallery_html(translate("Designs", lang), sections, lang=lang, note=note)
 
 
-def _moving(task: Task, design: Design, lang: str) -> str:
-    """A design that moves through its whole range, as SVG; empty where it cannot be followed."""
+def _moving(task: Task, design: Design, lang: str, clear: Sequence[Clearance] = ()) -> str:
+    """A design that moves through its range as SVG, or through its targets where it keeps clear; empty if stuck."""
     try:
         drives = design.drive_rows or None
-        return animated_svg(_marked(task, design), curves=_path_of(design.linkage), lang=lang, drives=drives)
+        curves, ends = _path_of(design.linkage), None
+        if clear and design.drives:
+            ends = min(design.drives), max(design.drives)
+        outlines = clearance_outlines(design, clear) if ends else ()
+        shown = _marked(task, design)
+        return animated_svg(shown, curves=curves, lang=lang, drives=drives, between=ends, outlines=outlines)
     except LinkageError:
         return ""
 

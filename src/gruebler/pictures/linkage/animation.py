@@ -24,7 +24,15 @@ from gruebler.mechanics.linkages.points import PointLike, each_point
 from gruebler.pictures.canvas.figure import MARGIN, Figure, svg_document
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds
 from gruebler.pictures.canvas.svg import svg_element, svg_number
-from gruebler.pictures.linkage.bodies import PINS, BodyPart, body_parts, shapes_at_pose
+from gruebler.pictures.linkage.bodies import (
+    PINS,
+    BodyPart,
+    Outline,
+    body_parts,
+    outline_parts,
+    room_for,
+    shapes_at_pose,
+)
 from gruebler.pictures.linkage.layers import coupler_curve_lines, drive_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.structure.messages import describe, title
@@ -42,6 +50,7 @@ class AnimationOptions(TypedDict, total=False):
     seconds: float
     lang: str
     name: str
+    outlines: Sequence[Outline]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,6 +86,7 @@ def scene(
     seconds: float = 4.0,
     lang: str = "en",
     name: str = "",
+    outlines: Sequence[Outline] = (),
 ) -> Scene:
     """The content of an animation, for all formats.
 
@@ -89,6 +99,7 @@ def scene(
         seconds: for a turn, or for both directions of a motion to and fro.
         lang: language of title and description, ``en`` or ``de``.
         name: the title; by default the kind of mechanism.
+        outlines: lines that links carry, in coordinates of the links.
 
     Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
     """
@@ -97,9 +108,9 @@ def scene(
         raise LinkageError(
             "the time is a number of seconds up to {longest:g}, not {seconds!r}", longest=_LONGEST, seconds=seconds
         )
-    posed = posed_linkage(linkage, branch=branch, between=between, drives=drives)
+    posed = room_for(posed_linkage(linkage, branch=branch, between=between, drives=drives), outlines)
     turns = posed.driven().span.turns
-    pieces = (*body_parts(posed), *drive_parts(posed))
+    pieces = (*body_parts(posed), *outline_parts(posed, outlines), *drive_parts(posed))
     rows = range(0, len(posed.path), 2)
     poses = [shape for row in rows for part in pieces for shape in shapes_at_pose(posed, part, posed.path, row)]
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]

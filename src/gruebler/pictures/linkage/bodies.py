@@ -9,6 +9,7 @@ import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,6 +32,7 @@ _FOOT = Point(13.0, 21.0)  # of a pedestal
 _FLAT = 1e-6  # sizes: points nearer to a line lie on it
 _LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
 _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
+_WIDEST = 520.0  # pixels of an outline
 _LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
 
 
@@ -59,6 +61,15 @@ class Slide:
     low: complex
     """The ends of the path of the middle, in the guide's coordinates."""
     high: complex
+
+
+class Outline(NamedTuple):
+    """A line that a link carries."""
+
+    link: str
+    points: tuple[complex, ...]
+    """In coordinates of the link."""
+    style: str = "help"
 
 
 # --- sliding joints ------------------------------------------------------------------------------
@@ -173,6 +184,20 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
     parts += [_block(posed, slide) for slide in joint_slides if slide.sign != "slot"]
     parts += _pin_parts(posed)
     return tuple(part for part in parts if part.shapes)
+
+
+def room_for(posed: PosedLinkage, outlines: Sequence[Outline]) -> PosedLinkage:
+    """The linkage in a scale in which none of the outlines it carries is too large for the picture."""
+    spread = max((abs(z - points[0]) for _, points, _ in outlines for z in points), default=0.0)
+    return replace(posed, scale=min(posed.scale, _WIDEST / spread)) if spread > 0 else posed
+
+
+def outline_parts(posed: PosedLinkage, outlines: Sequence[Outline]) -> tuple[BodyPart, ...]:
+    """Outlines as parts that move with their links, above the bodies."""
+    return tuple(
+        BodyPart(BODIES, link, (Polylines((tuple(posed.local(z) for z in points),), style),))
+        for link, points, style in outlines
+    )
 
 
 def corners_of(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> tuple[Point, ...]:

@@ -25,11 +25,14 @@ from gruebler.pictures.linkage.bodies import (
     FRAME,
     PINS,
     BodyPart,
+    Outline,
     Slide,
     barrel,
     body_parts,
     corners_of,
     layered,
+    outline_parts,
+    room_for,
     shapes_at_pose,
     slides,
 )
@@ -81,6 +84,7 @@ def draw_linkage(
     lang: str = "en",
     name: str = "",
     names: Mapping[str, str] | None = None,
+    outlines: Sequence[Outline] = (),
 ) -> Figure:
     """The picture of a linkage in one pose.
 
@@ -99,6 +103,7 @@ def draw_linkage(
         lang: language of title and description, ``en`` or ``de``.
         name: the title; by default the kind of mechanism.
         names: other names for links in the picture.
+        outlines: lines that links carry, in coordinates of the links.
 
     Raises `gruebler.LinkageError` for unreachable poses, unknown names, and layers that need a single drive.
 
@@ -108,10 +113,10 @@ def draw_linkage(
     True
     """
     linkage = as_linkage(linkage)
-    posed = posed_linkage(linkage, at, branch=branch, between=between)
+    posed = room_for(posed_linkage(linkage, at, branch=branch, between=between), outlines)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
-    pieces = body_parts(posed)
+    pieces = (*body_parts(posed), *outline_parts(posed, outlines))
     frame = layered(posed, pieces, FRAME, FRAME)
     pins = layered(posed, pieces, PINS, PINS)
     bodies = layered(posed, pieces, BODIES, PINS - 1)

@@ -1,0 +1,158 @@
+"""From specifications to machines of several types: what is tried, what is best, what is kept clear."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from gruebler.base.errors import SynthesisError
+from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
+from gruebler.design.synthesis.clearances import guided_link, stays_clear
+from gruebler.design.synthesis.proposals import candidate_types, propose
+from gruebler.design.synthesis.specification import Clearance, Specification
+from gruebler.design.synthesis.structures import synthesise_structures
+from gruebler.files.specifications import read_specification, specification_from_json
+from gruebler.mechanics.kinematics.solve import move_quietly
+
+SWING = DeadCentreTask(swing=math.radians(60), time_ratio=1.2)
+HOOD = PositionTask([(0, 0, 0), (-1, 2, math.radians(25)), (-1, 3, math.radians(50))], unit="cm")
+DEMANDS = Demands(transmission=math.radians(30), region=(-20, -25, 40, -2), size_ratio=5)
+
+
+@pytest.fixture(scope="module")
+def hinges():
+    return synthesise_positions(HOOD, DEMANDS).designs[:8]
+
+
+def test_the_swing_of_alt_has_its_best_transmission_angle():
+    """60 degrees in 196.36 degrees of the crank: 40.315 degrees by a search over 40,001 places of the pivot."""
+    found = propose(Specification(SWING, links=4, demands=Demands(crank=True)))
+    best = max(row.transmission for row in found.best)
+    assert math.degrees(best) == pytest.approx(40.315, abs=0.01)
+    assert [each.mechanism for each in found.tried] == [None]
+
+
+def test_types_are_those_of_watt_and_stephenson():
+    """Watt's chain has 2 frames, Stephenson's 3; R drives at the frame up to symmetry, an output off the drive.
+
+    Watt's chain has two ternary links, side by side: as frame it has drives at its two kinds of joint, as has a binary
+    frame: 4. Stephenson's chain has two ternary links apart: three kinds of frame, with 2, 1 and 2 kinds of drive: 5.
+    """
+    for task in (SWING, HOOD, PathTask([(0, 0), (1, 1), (2, 0)])):
+        types = candidate_types(Specification(task))
+        assert len(types) == 9
+        assert len(set(types)) == 9
+        assert {len(each.chain.links) for each in types} == {6}
+        assert all(each.drives[0].turning and each.frame in each.drives[0].between for each in types)
+    assert candidate_types(Specification(SWING, links=4)) == ()
+
+
+def test_a_travel_has_a_slide():
+    stroke = Specification(DeadCentreTask(stroke=50, time_ratio=1.2))
+    types = candidate_types(stroke)
+    assert types
+    for each in types:
+        (slide,) = (joint for joint in each.chain.joints if joint.pair.is_sliding)
+        assert each.frame in slide.links
+
+
+def test_a_six_bar_is_judged_as_a_four_bar_is():
+    """Watt's six-bar with a chain of two four-bars reaches angles that no crank-rocker has: here above 45 degrees."""
+    watt = candidate_types(Specification(SWING))[0]
+    found = synthesise_structures(SWING, [watt], Demands(crank=True, transmission=math.radians(45)), starts=1)
+    (design,) = found.designs
+    turn = np.linspace(0, 2 * math.pi, 2001) + design.drives[0] if design.drives else None
+    motion = move_quietly(design.linkage, turn)
+    swing = motion.angle(design.linkage.outputs[0])
+    assert motion.complete
+    assert np.degrees(np.ptp(np.unwrap(swing))) == pytest.approx(60, abs=0.01)
+
+
+def test_sizes_do_not_count_where_the_task_has_angles_alone():
+    found = propose(Specification(SWING, links=4)).result
+    small = replace(found, designs=tuple(replace(d, linkage=d.linkage.scaled(0.01)) for d in found.designs))
+    assert [row.size for row in pareto(found)] == pytest.approx([row.size for row in pareto(small)])
+    assert all(row.size == row.design.verdict.size_ratio for row in pareto(found))
+
+
+def _gap(design, clearance, count=1001):
+    """The least distance of the corners of each line from points of the other, by a fine walk: another method."""
+    drives = np.interp(np.linspace(0, 1, count), np.linspace(0, 1, len(design.drives)), design.drives)
+    motion = move_quietly(design.linkage, drives)
+    at = motion.angle(guided_link(design))
+    body, obstacle = (_dense(line) for line in clearance.outlines)
+    place = motion.complex_point("P")
+    moved = place[:, None] + np.exp(1j * (at - at[0]))[:, None] * (body - place[0])
+    return min(float(np.abs(row[:, None] - obstacle).min()) for row in moved[::4])
+
+
+def _dense(line, count=60):
+    parts = [np.linspace(a, b, count) for a, b in pairwise(line)]
+    return np.concatenate(parts)
+
+
+@pytest.mark.parametrize("distance", [0.2, 1.0, 2.0])
+def test_what_stays_clear_is_that_by_a_fine_walk(hinges, distance):
+    clearance = Clearance([(-3, 0.5), (0, 1), (30, 4)], obstacle=[(-3, -2), (-5, 0), (-25, 15)], distance=distance)
+    gaps = [_gap(design, clearance) for design in hinges]
+    sure = [k for k, gap in enumerate(gaps) if abs(gap - distance) > 0.05]  # points of the walk are so far apart
+    assert len(sure) > len(hinges) // 2
+    assert [stays_clear(hinges[k], clearance) for k in sure] == [gaps[k] > distance for k in sure]
+
+
+def test_an_obstacle_on_the_way_rejects_what_it_touches():
+    post = Clearance([(0, 0), (30, 0)], obstacle=[(15, 3), (15, 30)])
+    free = propose(Specification(HOOD, demands=DEMANDS, links=4))
+    blocked = propose(Specification(HOOD, demands=DEMANDS, links=4, clear=(post,)))
+    assert free.best
+    assert not blocked.best
+    reason = blocked.tried[0].reason
+    assert reason is not None
+    assert str(reason) == "the body comes too near to obstacle 1"
+    assert reason.in_language("de") == "der Körper kommt dem Hindernis 1 zu nahe"
+    assert not blocked.result.designs
+
+
+def test_files_have_all_keys(tmp_path):
+    path = tmp_path / "hood.toml"
+    path.write_text(
+        "positions = [[0, 0, 0], [-1, 2, 25], [-1, 3, 50]]\nunit = 'cm'\nlinks = 4\n[demands]\ntransmission = 30\n"
+        "region = [-20, -25, 40, -2]\nsize_ratio = 5\n[[clear]]\nbody = [[0, 0], [1, 0]]\nobstacle = [[0, 2], [1, 2]]\n"
+    )
+    clear = (Clearance([(0, 0), (1, 0)], obstacle=[(0, 2), (1, 2)]),)
+    assert read_specification(path) == Specification(HOOD, demands=DEMANDS, links=4, clear=clear)
+    assert specification_from_json({"stroke": 50, "time_ratio": 1.2}).demands.size_ratio == 20
+
+
+@pytest.mark.parametrize(
+    ("document", "words"),
+    [
+        ({"swing": 60, "time_ratio": 1.2, "links": 5}, "links: expected 4 or 6, but found 5"),
+        (
+            {"stroke": 6, "time_ratio": 1.2, "sliding_joints": 0},
+            "sliding_joints: expected a whole number of at least 1",
+        ),
+        ({"swing": 60, "time_ratio": 1.2, "demands": {"lengths": {"crank": 1}}}, "links = 4"),
+        ({"swing": 60, "time_ratio": 1.2, "demands": {"angle": 1}}, "angle"),
+        (
+            {"swing": 60, "time_ratio": 1.2, "clear": [{"body": [[0, 0], [1, 1]], "obstacle": [[0, 2], [1, 2]]}]},
+            "only a body on positions or a path",
+        ),
+        (
+            {"points": [[0, 0], [1, 1]], "clear": [{"body": [[0, 0]], "obstacle": [[0, 2], [1, 2]]}]},
+            "at least two points",
+        ),
+        (
+            {
+                "points": [[0, 0], [1, 1]],
+                "clear": [{"body": [[0, 0], [1, 0]], "obstacle": [[0, 2], [1, 2]], "distance": -1}],
+            },
+            "distance: expected a length, at least 0, but found -1",
+        ),
+    ],
+)
+def test_mistakes_name_their_key(document, words):
+    with pytest.raises(SynthesisError, match=words):
+        specification_from_json(document)
