@@ -263,7 +263,7 @@ def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
 
 _NO_NUMBER = message("none")
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
-    "dimensions": ("elements", "reference_pose", "places", "points", "drive"),
+    "dimensions": ("elements", "reference_pose", "places", "points", "outlines", "drive"),
     "screws": ("joints", "points", "drive"),
     "claims": ("idle", "motion", "travel", "dead_centres"),
     "loads": ("bodies", "masses", "forces", "moments", "springs", "torsion_springs", "motors"),

@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -22,7 +22,7 @@ from gruebler.mechanics.fourbar.four_bar import FourBar
 from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
 from gruebler.mechanics.fourbar.length_forms import ClosedForm, linkage_on_mechanism
 from gruebler.mechanics.fourbar.slider_crank import SliderCrank
-from gruebler.mechanics.linkages.elements import Pose2D
+from gruebler.mechanics.linkages.elements import Outline, Pose2D
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
 
@@ -62,6 +62,15 @@ class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     at: list[float]
 
 
+class OutlineRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """What a link looks like besides its joints: a disc about a place, or a line or polygon through several."""
+
+    link: str
+    at: list[float] | None = None
+    radius: float = 0.0
+    through: list[list[float]] = []
+
+
 class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The sizes of a mechanism, given in one of several ways."""
 
@@ -73,6 +82,7 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
     slider_crank: SliderCrankLengths | None = None
     inverted_slider_crank: InvertedSliderCrankLengths | None = None
     points: dict[str, Any] = {}
+    outlines: list[OutlineRecord] = []
 
 
 _DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
@@ -84,6 +94,14 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
 
     Raises `LinkageError` with the key of the first thing that does not fit.
     """
+    linkage = _linkage(sizes, mechanism, outputs)
+    if not sizes.outlines:
+        return linkage
+    poses = (linkage.reference_pose or {}) if sizes.places is not None else {}
+    return linkage.with_outlines(_outlines(sizes.outlines, linkage.mechanism.chain.links, poses))
+
+
+def _linkage(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
     given = [form for form in _WAYS if getattr(sizes, form) is not None]
     if len(given) != 1:
         raise LinkageError(
@@ -241,6 +259,22 @@ def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tupl
         x, y = read_numbers(point.at, f"{where}.at", (2,))
         places[name] = (point.link, x, y)
     return places
+
+
+def _outlines(
+    records: Sequence[OutlineRecord], links: tuple[str, ...], poses: Mapping[str, Pose2D]
+) -> dict[str, list[Outline]]:
+    """Outlines by link; those of a drawing in the coordinates of their links."""
+    by_link: dict[str, list[Outline]] = {}
+    for number, record in enumerate(records):
+        where = f"outlines[{number}]"
+        _check_link(record.link, links, where)
+        corners = record.through if record.at is None else [record.at, *record.through]
+        places = tuple((x, y) for x, y in (read_numbers(raw, where, (2,)) for raw in corners))
+        outline = Outline(places, record.radius).checked(where)
+        pose = poses.get(record.link)
+        by_link.setdefault(record.link, []).append(outline if pose is None else outline.seen_from(pose))
+    return by_link
 
 
 def _check_link(link: str, links: tuple[str, ...], where: str) -> None:

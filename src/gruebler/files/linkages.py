@@ -17,7 +17,7 @@ from gruebler.files.element_records import write_element
 from gruebler.files.linkage_records import Dimensions, linkage_from_record
 from gruebler.files.load_records import LoadsRecord
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
-from gruebler.mechanics.linkages.elements import Line
+from gruebler.mechanics.linkages.elements import Line, Outline
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
@@ -149,6 +149,10 @@ def linkage_to_json(linkage: Linkage, loads: Loads | None = None) -> dict[str, A
             for link in chain.links
         },
     }
+    if linkage.outlines:
+        document["outlines"] = [
+            {"link": link} | _outline(outline) for link, outlines in linkage.outlines.items() for outline in outlines
+        ]
     if linkage.reference_pose is not None:
         document["reference_pose"] = {
             link: write_element(Line(place.x, place.y, place.angle)) for link, place in linkage.reference_pose.items()
@@ -158,6 +162,11 @@ def linkage_to_json(linkage: Linkage, loads: Loads | None = None) -> dict[str, A
 
         document["loads"] = loads_to_json(loads, linkage)
     return document
+
+
+def _outline(outline: Outline) -> dict[str, Any]:
+    places = [[x + 0.0, y + 0.0] for x, y in outline.places]
+    return {"at": places[0], "radius": outline.radius} if outline.radius else {"through": places}
 
 
 def linkage_to_toml(linkage: Linkage, loads: Loads | None = None) -> str:

@@ -317,6 +317,39 @@ class LinkPoint:
     y: float
 
 
+@final
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """What a link looks like besides its joints, in its coordinates: drawn, and nothing else.
+
+    One place with a radius is a disc (the wheel of a locomotive, a flywheel), two places are a line (a rope), more are
+    the corners of a polygon.
+    """
+
+    places: tuple[tuple[float, float], ...]
+    radius: float = 0.0
+
+    def scaled(self, factor: float) -> Outline:
+        """The same with every length times a factor."""
+        return Outline(tuple((x * factor, y * factor) for x, y in self.places), self.radius * factor)
+
+    def mirrored(self) -> Outline:
+        """The mirror image in the x axis."""
+        return Outline(tuple((x, -y) for x, y in self.places), self.radius)
+
+    def seen_from(self, pose: Pose2D) -> Outline:
+        """The same in coordinates of a link that lies there."""
+        return Outline(tuple(pose.to_local(x, y) for x, y in self.places), self.radius)
+
+    def checked(self, where: Where) -> Outline:
+        """The same with its numbers as floats; `LinkageError` for neither a disc nor two places or more."""
+        places = tuple((_number(x, where), _number(y, where)) for x, y in self.places)
+        radius = _number(self.radius, where)
+        if radius < 0 or (len(places) < 2) != (radius > 0) or not places:
+            raise LinkageError("{where}: an outline is a place with a radius, or two places or more", where=where)
+        return Outline(places, radius)
+
+
 class Pose2D(NamedTuple):
     """Where a link lies: its origin, and the angle of its x axis."""
 

@@ -16,9 +16,15 @@ from gruebler.base.immutable import Immutable, settle
 from gruebler.base.notebook import explained
 from gruebler.mechanics.linkages.description import linkage_lines, sizes_in_a_line
 from gruebler.mechanics.linkages.drawing import taken_apart
-from gruebler.mechanics.linkages.elements import Element, LinkPoint, Pose2D
+from gruebler.mechanics.linkages.elements import Element, LinkPoint, Outline, Pose2D
 from gruebler.mechanics.linkages.points import PointLike, points_of
-from gruebler.mechanics.linkages.soundness import checked_elements, checked_link, checked_points, checked_pose
+from gruebler.mechanics.linkages.soundness import (
+    checked_elements,
+    checked_link,
+    checked_outlines,
+    checked_points,
+    checked_pose,
+)
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
@@ -45,6 +51,7 @@ class Linkage(Immutable):
         reference_pose: where the links lie in one position, ``(x, y, angle)`` for each link, if the assembly mode is
             to be that of a drawing.
         outputs: the links that a user looks at.
+        outlines: what links look like besides their joints, for pictures alone: by link, in its coordinates.
 
     Raises:
         LinkageError: a joint without dimensions, numbers that are not finite, pins of one link that coincide, a link or
@@ -71,6 +78,7 @@ class Linkage(Immutable):
     unit: str
     reference_pose: Mapping[str, Pose2D] | None
     outputs: tuple[str, ...]
+    outlines: Mapping[str, tuple[Outline, ...]]
 
     @door_that_raises(LinkageError)
     def __init__(
@@ -82,6 +90,7 @@ class Linkage(Immutable):
         unit: str = "mm",
         reference_pose: Mapping[str, tuple[float, float, float]] | None = None,
         outputs: Iterable[str] = (),
+        outlines: Mapping[str, Iterable[Outline]] | None = None,
     ) -> None:
         if mechanism.chain.space is not Space.PLANAR:
             raise LinkageError(
@@ -96,6 +105,7 @@ class Linkage(Immutable):
             unit=unit,
             reference_pose=pose,
             outputs=tuple(checked_link(mechanism, link, "outputs") for link in outputs),
+            outlines=MappingProxyType(checked_outlines(mechanism, outlines or {})),
         )
 
     @classmethod
@@ -185,6 +195,10 @@ class Linkage(Immutable):
         """The linkage with further named points, in coordinates of their links."""
         return self._changed(points={**{n: (p.link, p.x, p.y) for n, p in self.points.items()}, **points})
 
+    def with_outlines(self, outlines: Mapping[str, Iterable[Outline]]) -> Linkage:
+        """The same linkage with these outlines of links, in coordinates of the links, in its pictures."""
+        return self._changed(outlines=outlines)
+
     def with_outputs(self, outputs: Iterable[str]) -> Linkage:
         """The same linkage with these links looked at."""
         return self._changed(outputs=outputs)
@@ -238,6 +252,7 @@ class Linkage(Immutable):
             points={n: (new[p.link], p.x, p.y) for n, p in self.points.items()},
             reference_pose=None if pose is None else {new[link]: place for link, place in pose.items()},
             outputs=[new[link] for link in self.outputs],
+            outlines={new[link]: outlines for link, outlines in self.outlines.items()},
         )
 
     def scaled(self, factor: float) -> Linkage:
@@ -251,6 +266,7 @@ class Linkage(Immutable):
             reference_pose=None
             if self.reference_pose is None
             else {k: (p.x * factor, p.y * factor, p.angle) for k, p in self.reference_pose.items()},
+            outlines={link: [outline.scaled(factor) for outline in of] for link, of in self.outlines.items()},
         )
 
     def mirrored(self) -> Linkage:
@@ -261,6 +277,7 @@ class Linkage(Immutable):
             reference_pose=None
             if self.reference_pose is None
             else {k: (p.x, -p.y, -p.angle) for k, p in self.reference_pose.items()},
+            outlines={link: [outline.mirrored() for outline in of] for link, of in self.outlines.items()},
         )
 
     def _by_link(self, change: Callable[[Element], Element] = lambda e: e) -> dict[str, dict[str | int, object]]:
@@ -277,6 +294,7 @@ class Linkage(Immutable):
             "unit": self.unit,
             "reference_pose": self.reference_pose,
             "outputs": self.outputs,
+            "outlines": self.outlines,
         } | other
         return Linkage(**given)
 
@@ -286,7 +304,8 @@ class Linkage(Immutable):
         reference = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
         points = tuple(sorted(self.points.items(), key=lambda named: named[0]))
         elements = tuple(sorted(self.elements.items()))
-        return self.mechanism.written_form, elements, points, self.unit, reference, self.outputs
+        outlines = tuple(sorted((link, *((o.places, o.radius) for o in of)) for link, of in self.outlines.items()))
+        return self.mechanism.written_form, elements, points, self.unit, reference, self.outputs, outlines
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""

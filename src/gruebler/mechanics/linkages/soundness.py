@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import hypot, pi
 
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages.contacts import check_contacts, check_elements_fit
-from gruebler.mechanics.linkages.elements import Element, LinkPoint, Pose2D, read_element
+from gruebler.mechanics.linkages.elements import Element, LinkPoint, Outline, Pose2D, read_element
 from gruebler.mechanics.linkages.wheels import resolve_wheels
 from gruebler.structure.mechanism import Mechanism
 
@@ -86,6 +86,17 @@ def checked_points(mechanism: Mechanism, points: Mapping[str, tuple[str, float, 
         if name in mechanism.chain.links or mechanism.chain.find_joint(name) is not None:
             raise LinkageError("the point {name!r} has the name of a link or joint", name=name)
     return checked
+
+
+def checked_outlines(mechanism: Mechanism, outlines: Mapping[str, Iterable[Outline]]) -> dict[str, tuple[Outline, ...]]:
+    """Outlines by link, in the order of the links."""
+    what = "outlines"
+    given = {checked_link(mechanism, link, what): of for link, of in outlines.items()}
+    return {
+        link: tuple(outline.checked(f"{what}.{link}") for outline in given[link])
+        for link in mechanism.chain.links
+        if link in given
+    }
 
 
 def checked_pose(mechanism: Mechanism, poses_given: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:

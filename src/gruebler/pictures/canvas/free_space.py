@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.arrays import Complexes, Flags, Integers, Reals
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES
 
 HALF = 7.0
 """Half the height of a text."""
 _FILLED = ("body", "frame", "area", "block", "block-frame")
+_ROUND = ("area", "block-frame")
+_RIM = 36  # edges of a circle
 _FAR = 1e5
 _FROM_ANCHOR = {"start": 0.5, "middle": 0.0, "end": -0.5}
 
@@ -23,21 +26,28 @@ _Z = TypeVar("_Z", complex, Complexes)
 
 
 class Obstacles:
-    """The drawn shapes: strokes with half their width, texts as horizontal strokes, and filled polygons."""
+    """The drawn shapes: strokes with half their width, texts as horizontal strokes, and filled polygons.
 
-    def __init__(self, shapes: Sequence[Shape]) -> None:
+    With ``inside`` a text may stand on a wheel, cam or other round part, and only its outline is in the way.
+    """
+
+    def __init__(self, shapes: Sequence[Shape], *, inside: bool = False) -> None:
         self.filled = [
             complexes(part)
             for shape in shapes
             if isinstance(shape, Polylines) and shape.closed and shape.style in _FILLED
             for part in shape.parts
+            if not (inside and shape.style in _ROUND)
         ]
-        self.lines = _Strokes([stroke for shape in shapes for stroke in _strokes(shape)])
+        outlined = [_rim(shape) if inside and shape.style in _ROUND else shape for shape in shapes]
+        self.lines = _Strokes([stroke for shape in outlined for stroke in _strokes(shape)])
         self.texts = _Strokes([_text(shape) for shape in shapes if isinstance(shape, TextShape)])
 
-    def take(self, at: Point, wide: float) -> None:
-        """Add a text to the obstacles."""
+    def take(self, at: Point, wide: float, leader: Sequence[Point] = ()) -> None:
+        """Add a text to the obstacles, and the line that leads to it."""
         self.texts = self.texts.plus((*_core(complex(*at), wide), HALF))
+        for a, b in pairwise(leader):
+            self.lines = self.lines.plus((complex(*a), complex(*b), 0.5))
 
     def free(self, places: Complexes, wide: float) -> Reals:
         """The free pixels around a text at each of some places; negative where it would touch a shape."""
@@ -73,6 +83,10 @@ class _Strokes:
         """Pixels between lines (rows) and all strokes (columns); negative where they overlap."""
         return np.asarray(distance_between(first[:, None], last[:, None], self.a[None, :], self.b[None, :]) - self.half)
 
+    def crossed(self, first: Complexes, last: Complexes) -> Integers:
+        """How many of the strokes each of some lines crosses."""
+        return np.asarray((self.gaps(first, last) < 0).sum(axis=1))
+
     def gap(self, first: Complexes, last: Complexes) -> Reals:
         """The smallest of the gaps; infinite without strokes."""
         return np.asarray(np.min(self.gaps(first, last), axis=1, initial=np.inf))
@@ -87,6 +101,16 @@ def _strokes(shape: Shape) -> Iterator[_Stroke]:
                 yield from ((complex(*a), complex(*b), half) for a, b in pairwise(ends))
         case CircleShape(at, radius) | ArcShape(at, radius=radius):
             yield complex(*at), complex(*at), radius
+
+
+def _rim(shape: Shape) -> Shape:
+    """A circle as the line around it; any other shape as it is."""
+    if not isinstance(shape, CircleShape):
+        return shape
+    turns = (math.tau * k / _RIM for k in range(_RIM))
+    return Polylines(
+        (tuple(shape.at.plus(Point(math.cos(t), math.sin(t)), shape.radius) for t in turns),), shape.style, closed=True
+    )
 
 
 def _text(text: TextShape) -> _Stroke:

@@ -111,7 +111,7 @@ def _placed(
     names: Mapping[str, str],
 ) -> list[Shape] | None:
     """A text for every link, the longest first; None if a long one would touch a shape."""
-    room = Obstacles(shapes)
+    room, inside = Obstacles(shapes), Obstacles(shapes, inside=True)
     points = [point for outline in outlines.values() for point in outline]
     texts: list[Shape] = []
     for link in sorted(outlines, key=lambda link: -len(names[link])):
@@ -122,9 +122,14 @@ def _placed(
             farther = _best(room, points, outlines[link], closed[link], wide, _FARTHER[: _NEAR if long else None])
             if farther[0] < _LEAST and long:
                 return None
+            if farther[0] < _LEAST:  # of a number: on a wheel, if that is free
+                farther = _best(inside, points, outlines[link], closed[link], wide, (0.0, *_FARTHER))
             place = farther[1] if farther[0] >= _LEAST else place
-        room.take(place.at, wide)
-        texts += [*_leader(place, wide), TextShape(place.at, names[link], "name")]
+        leader = _leader(place, wide)
+        for obstacles in (room, inside):
+            obstacles.take(place.at, wide, leader)
+        texts += [Polylines((leader,), "measure"), CircleShape(place.beside, 2.0, "dot")] if leader else []
+        texts.append(TextShape(place.at, names[link], "name"))
     return texts
 
 
@@ -141,9 +146,8 @@ def _best(
     at = complexes([place.at for place in places])
     beside, directions = complexes([place.beside for place in places]), complexes([place.normal for place in places])
     free, rim = room.free(at, wide), room.open(at, directions)
-    crossed = (room.lines.gaps(at, beside + _CLEAR * directions) < 0).sum(axis=1)
-    if wide > _WIDE:
-        free = np.where(crossed > 0, np.minimum(free, 0.0), free)
+    crossed, written = (lines.crossed(at, beside + _CLEAR * directions) for lines in (room.lines, room.texts))
+    free = np.where((written > 0) | (crossed > 0) & (wide > _WIDE), np.minimum(free, 0.0), free)
     middle = Point(*(sum(axis) / len(points) for axis in zip(*points, strict=True)))
     most = max(*(p.minus(middle).length for p in points), 1.0)
 
@@ -175,12 +179,13 @@ def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Se
                     )
 
 
-def _leader(place: _LabelPlace, wide: float) -> Iterator[Shape]:
-    """A line from a link to its number, where there is a distance between them."""
-    if place.farther:
-        end = place.at.plus(place.normal, -HALF - abs(place.normal.x) * max(0.0, wide / 2 - HALF))
-        yield Polylines(((place.beside, end),), "measure")
-        yield CircleShape(place.beside, 2.0, "dot")
+def _leader(place: _LabelPlace, wide: float) -> tuple[Point, ...]:
+    """The ends of a line from a link to the next point of its name, where there is a distance between them."""
+    if not place.farther:
+        return ()
+    half = max(0.0, wide / 2 - HALF)
+    near = Point(min(max(place.beside.x, place.at.x - half), place.at.x + half), place.at.y)
+    return place.beside, near.plus(place.beside.minus(near).unit, HALF)
 
 
 def legend(names: Mapping[str, str], points: Sequence[Point], shapes: Sequence[Shape] = ()) -> Iterator[TextShape]:

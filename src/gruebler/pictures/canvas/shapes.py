@@ -125,8 +125,14 @@ def split_subscripts(text: str) -> list[tuple[str, bool]]:
 
 
 def text_width(text: str, size: float = 13.0) -> float:
-    """The approximate width of a text; widths differ between fonts."""
-    return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in text)
+    """The approximate width of a text; fonts differ, and this is that of a wide one (DejaVu Sans)."""
+    return size * sum(_letter_width(letter) for letter in text)
+
+
+def _letter_width(letter: str) -> float:
+    if letter in "iIjlt.,:;|!'() ":
+        return 0.33
+    return 0.91 if letter in "mwMW" else 0.68 if letter.isupper() else 0.6
 
 
 def _corners(shape: Shape) -> Iterator[Point]:

@@ -16,6 +16,7 @@ import numpy as np
 from gruebler.base.convex_hull import convex_hull
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Element, Linkage, LinkPoint
+from gruebler.pictures.canvas.free_space import is_inside
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.pictures.canvas.symbols import JointMember, joint_sign, ticks
 from gruebler.pictures.linkage.element_pictures import round_parts
@@ -180,7 +181,8 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
     parts += [
         BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
     ]
-    parts += [BodyPart(BODIES, frame, tuple(_pedestal(posed, pin))) for pin in _covered(posed, joint_slides)]
+    hidden = [pin for pin in _covered(posed, joint_slides) if not _in_frame(posed, pin)]
+    parts += [BodyPart(BODIES, frame, tuple(_pedestal(posed, pin))) for pin in hidden]
     parts += [_block(posed, slide) for slide in joint_slides if slide.sign != "slot"]
     parts += _pin_parts(posed)
     return tuple(part for part in parts if part.shapes)
@@ -288,10 +290,26 @@ def _block(posed: PosedLinkage, slide: Slide) -> BodyPart:
     if slide.sign == "cylinder":
         a, b = barrel(posed, slide)
         return BodyPart(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
-    line = posed.lower.elements[slide.joint, slide.block]
-    u = Point(math.cos(line.direction), -math.sin(line.direction))
-    at = posed.local(slide.middle)
+    at, u = posed.local(slide.middle), _along(posed, slide)
+    if _outline_extent(posed, slide) is not None:
+        return BodyPart(BLOCKS, slide.block, ())
     return BodyPart(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
+
+
+def _along(posed: PosedLinkage, slide: Slide) -> Point:
+    """The direction of a slide in coordinates of its block, in pixels."""
+    line = posed.lower.elements[slide.joint, slide.block]
+    return Point(math.cos(line.direction), -math.sin(line.direction))
+
+
+def _outline_extent(posed: PosedLinkage, slide: Slide) -> tuple[float, float] | None:
+    """Half the length and half the width of a block that has an outline of its own; None without one."""
+    at, u = posed.local(slide.middle), _along(posed, slide)
+    outlines = posed.linkage.outlines.get(slide.block, ())
+    corners = [posed.local(complex(*place)).minus(at) for o in outlines for place in o.places if len(o.places) > 2]
+    if not corners:
+        return None
+    return max(abs(corner.dot(u)) for corner in corners), max(abs(corner.dot(u.across)) for corner in corners)
 
 
 def _box(a: Point, b: Point, half: float) -> Polylines:
@@ -309,16 +327,28 @@ def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]
     shapes: list[Shape] = []
     for slide in joint_slides:
         if slide.guide == frame:
-            a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else _BLOCK[0] + _BEYOND)
-            half = 8.5 if slide.sign == "slot" else _BLOCK[1] + 2.5
+            long, wide = _outline_extent(posed, slide) or _BLOCK
+            a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else long + _BEYOND)
+            half = 8.5 if slide.sign == "slot" else wide + 2.5
             for side in (b.minus(a).unit.across, a.minus(b).unit.across):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
+    for outline in posed.linkage.outlines.get(frame, ()):
+        if len(outline.places) == 2:
+            a, b = (posed.local(complex(*place)) for place in outline.places)
+            shapes.append(ticks(a, b, b.minus(a).unit.across))
     covered = set(_covered(posed, joint_slides))
     for pin in dict.fromkeys(pins_of(lower, frame)):
-        if pin not in covered:
+        if pin not in covered and not _in_frame(posed, pin):
             shapes += _pedestal(posed, pin)
     return shapes
+
+
+def _in_frame(posed: PosedLinkage, pin: complex) -> bool:
+    """Whether a pin of the frame lies in an outline of the frame, which supports it in the place of a pedestal."""
+    outlines = (o.places for o in posed.linkage.outlines.get(posed.lower.mechanism.frame, ()) if len(o.places) > 2)
+    corners = (np.array([complex(*place) for place in places]) for places in outlines)
+    return any(bool(is_inside(np.array([pin]), polygon)[0]) for polygon in corners)
 
 
 def _pedestal(posed: PosedLinkage, pin: complex) -> list[Shape]:

@@ -24,6 +24,7 @@ from gruebler.mechanics.linkages.elements import (
     Line,
     LinkPoint,
     NonCircular,
+    Outline,
     Pin,
     Wheel,
 )
@@ -67,6 +68,8 @@ def round_parts(posed: PosedLinkage) -> Iterator[RoundPart]:
     """The round parts of a linkage, the larger first, each once for each link and centre."""
     parts: dict[tuple[object, ...], RoundPart] = {}
     elements = posed.linkage.elements
+    for link, outlines in posed.linkage.outlines.items():
+        parts |= {(link, outline): RoundPart(link, tuple(_drawn(posed, link, outline))) for outline in outlines}
     for (joint, link), element in elements.items():
         picture = PICTURES[type(element)]
         if picture.part is not None:
@@ -136,6 +139,21 @@ def _circle(posed: PosedLinkage, _: int, link: str, circle: Circle) -> RoundPart
     return _disc(posed, link, circle, crossed=posed.scale * abs(circle.radius) > 12)
 
 
+def _drawn(posed: PosedLinkage, link: str, outline: Outline) -> Iterator[Shape]:
+    """An outline of a link: a disc with a cross that shows how it turns, a line, or a polygon."""
+    if outline.radius:
+        yield from _disc(posed, link, Circle(*outline.places[0], outline.radius), crossed=True).shapes
+        return
+    corners = tuple(posed.local(complex(*place)) for place in outline.places)
+    filled = len(corners) > 2
+    yield Polylines((corners,), _area(posed, link) if filled else "edge", closed=filled)
+
+
+def _area(posed: PosedLinkage, link: str) -> str:
+    """The style of a filled shape: that of a moving link or of the frame."""
+    return "block-frame" if link == posed.linkage.mechanism.frame else "area"
+
+
 def _centre_and_radius(disc: Wheel | Circle) -> tuple[float, ...]:
     return disc.x, disc.y, disc.radius
 
@@ -143,15 +161,16 @@ def _centre_and_radius(disc: Wheel | Circle) -> tuple[float, ...]:
 def _disc(posed: PosedLinkage, link: str, element: Wheel | Circle, *, crossed: bool) -> RoundPart:
     """A disc with a cross, or a ring for an internal wheel; fixed wheels in the style of the frame."""
     centre, radius = complex(element.x, element.y), posed.scale * abs(element.radius)
-    at = posed.local(centre)
-    style = "block-frame" if link == posed.linkage.mechanism.frame else "area"
+    at, style = posed.local(centre), _area(posed, link)
     if element.radius < 0:
         rings = tuple(_ring(at, r)[:: 1 if r > radius else -1] for r in (radius + _RIM, radius))
         return RoundPart(link, (Polylines(rings, style, closed=True),))
     shapes: list[Shape] = [CircleShape(at, radius, style)]
     if crossed:
-        arm = _ARM * radius
-        cross = ((at.x - arm, at.y, at.x + arm, at.y), (at.x, at.y - arm, at.x, at.y + arm))
+        arm = (
+            _ARM * radius * math.sqrt(0.5)
+        )  # the cross lies beside bearings and bars, which are mostly level or upright
+        cross = ((at.x - s * arm, at.y - arm, at.x + s * arm, at.y + arm) for s in (1, -1))
         shapes.append(Polylines(tuple((Point(a, b), Point(c, d)) for a, b, c, d in cross), "hatch"))
     return RoundPart(link, tuple(shapes))
 
@@ -220,8 +239,7 @@ def _noncircular(posed: PosedLinkage, joint: int, link: str, wheel: NonCircular)
     curve = transfer_of(non_circular, other).curves()[wheel is other] * abs(far_axis - near_axis)
     contour = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, curve)
     ends = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, np.array([0, _ARM * curve[0]]))
-    style = "block-frame" if link == posed.linkage.mechanism.frame else "area"
-    return RoundPart(link, (Polylines((contour,), style, closed=True), Polylines((ends,), "hatch")))
+    return RoundPart(link, (Polylines((contour,), _area(posed, link), closed=True), Polylines((ends,), "hatch")))
 
 
 def _geneva_axes(posed: PosedLinkage, joint: int) -> tuple[GenevaShape, GenevaDriver, GenevaWheel, float]:

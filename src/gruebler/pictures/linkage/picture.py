@@ -183,7 +183,9 @@ def _outline(
     rod = next((slide for slide in joint_slides if slide.block == link and slide.sign == "cylinder"), None)
     rims = [rim for part in parts for shape in part.shapes if (rim := _rim(shape))]
     if link == posed.lower.mechanism.frame:
-        corners = next((shape for _, shape in lines if shape.style == "block-frame"), lines[0][1]).parts[0][-2:]
+        bases = [shape.parts[0][-2:] for _, shape in lines if shape.style == "block-frame"]
+        rails = [shape.parts[0] for _, shape in lines if shape.style == "rail"]
+        corners = bases[0] if bases else max(rails or [lines[0][1].parts[0]], key=lambda rail: max(p.y for p in rail))
     elif rims and (len(corners) < 2 or max(map(_perimeter, rims)) > _perimeter(corners)):
         corners = max(rims, key=_perimeter)
     elif len(corners) < 2 and rod is not None:

@@ -284,8 +284,15 @@ def _reached(lower: Linkage, path: Motion) -> Complexes:
 
 
 def _round_extent(lower: Linkage, path: Motion) -> float:
-    """The longer side of all that wheels and circles reach; 0 without any."""
-    rims = [(path.complex_point(LinkPoint(link, e.x, e.y)), e.rim) for (_, link), e in lower.elements.items() if e.rim]
+    """The longer side of all that wheels, circles and outlines reach; 0 without any."""
+    round_places = [(link, e.x, e.y, e.rim) for (_, link), e in lower.elements.items() if e.rim]
+    round_places += [
+        (link, x, y, outline.radius)
+        for link, of in path.linkage.outlines.items()
+        for outline in of
+        for x, y in outline.places
+    ]
+    rims = [(path.complex_point(LinkPoint(link, x, y)), rim) for link, x, y, rim in round_places]
     sides = (
         max((float(part(z).max()) + r for z, r in rims), default=0.0)
         - min((float(part(z).min()) - r for z, r in rims), default=0.0)

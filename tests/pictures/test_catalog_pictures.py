@@ -1,0 +1,125 @@
+"""All pictures of the catalog with names: no text lies over a line or another text, no leader ends in the empty."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gruebler.base.errors import LinkageError
+from gruebler.cli.draw import linkage_and_range
+from gruebler.files.linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.linkages import Outline
+from gruebler.pictures.canvas.free_space import distance_between
+from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, text_width
+from gruebler.pictures.canvas.styles import STYLES
+from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.teaching.catalog import entries, entry
+
+HALF = 4.0  # pixels: half the height of a digit, less the rounding of a place
+NEAR = 4.0 + HALF  # from the middle line of a text to the end of its leader
+WITH_SIZES = sorted(id for id, record in entries().items() if record.dimensions is not None)
+
+
+def middle_line(text):
+    wide = text_width(text.text, STYLES[text.style].size)
+    x = text.at.x + {"start": 0.5, "middle": 0.0, "end": -0.5}[text.anchor] * wide
+    half = max(0.0, wide / 2 - HALF)
+    return np.array([x - half + 1j * text.at.y, x + half + 1j * text.at.y])
+
+
+def edges(shape):
+    """The lines that are seen of a shape, by their ends; a circle is the line around it."""
+    if isinstance(shape, Polylines) and not shape.style.startswith("halo"):
+        lines = [[*part, part[0]] if shape.closed else part for part in shape.parts]
+    elif isinstance(shape, CircleShape | ArcShape):
+        begin, extent = (shape.begin, shape.extent) if isinstance(shape, ArcShape) else (0.0, math.tau)
+        turns = begin + extent * np.linspace(0, 1, 33)
+        lines = [[(shape.at.x + shape.radius * math.cos(t), shape.at.y + shape.radius * math.sin(t)) for t in turns]]
+    else:
+        return
+    for line in lines:
+        yield from ((complex(*a), complex(*b), STYLES[shape.style].width / 2) for a, b in itertools.pairwise(line))
+
+
+def faults(figure):
+    texts = [shape for shape in figure.shapes if isinstance(shape, TextShape)]
+    spans = [middle_line(text) for text in texts]
+    a, b, half = np.array([edge for shape in figure.shapes for edge in edges(shape)]).T
+    for text, span in zip(texts, spans, strict=True):
+        if np.min(distance_between(*span, a, b) - half.real) < HALF:
+            yield f"{text.text!r} over a line"
+    for (text, span), (other, far) in itertools.combinations(zip(texts, spans, strict=True), 2):
+        if distance_between(*span, *far) < 2 * HALF:
+            yield f"{text.text!r} over {other.text!r}"
+    for leader in (shape for shape in figure.shapes if isinstance(shape, Polylines) and shape.style == "measure"):
+        end = np.complex128(complex(*leader.parts[0][-1]))
+        if min((float(distance_between(*span, end, end)) for span in spans), default=math.inf) > NEAR:
+            yield f"a leader ends in the empty at {end}"
+
+
+def test_no_text_lies_over_a_line_and_no_leader_ends_in_the_empty():
+    found = {}
+    for id in WITH_SIZES:
+        linkage, between = linkage_and_range(id, "de")
+        found[id] = list(faults(draw_linkage(linkage, between=between, labels=True, lang="de")))
+    assert len(found) > 60
+    # Twelve links in little space: one number touches the circle of its joint by half a pixel.
+    assert {id: fault for id, fault in found.items() if fault} == {"excavator": ["'10' over a line"]}
+
+
+def test_the_check_itself_notices():
+    figure = draw_linkage(FourBar(25, 70, 40, 70).linkage(), labels=True)
+    joint = next(shape for shape in figure.shapes if isinstance(shape, CircleShape))
+    lost = Polylines(((joint.at, joint.at.plus(Point(-70.0, -100.0), 5.0)),), "measure")
+    worse = replace(figure, shapes=(*figure.shapes, TextShape(joint.at, "here", "name"), lost))
+    assert list(faults(figure)) == []
+    assert [fault.split(" at ")[0] for fault in faults(worse)] == ["'here' over a line", "a leader ends in the empty"]
+
+
+# --- outlines ------------------------------------------------------------------------------------
+
+
+def test_wheels_of_a_locomotive_are_drawn_and_turn_with_their_link():
+    """In the file 750 mm about the axle; the rail below is hatched, the axles need no pedestals in the frame."""
+    linkage = entry("loco2").linkage()
+    figure = draw_linkage(linkage)
+    wheels = [shape for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "area"]
+    apart = math.dist(wheels[0].at, wheels[1].at)
+    assert len(wheels) == 2
+    assert wheels[0].radius / apart == pytest.approx(750 / 2000)
+    assert [shape.style for shape in figure.shapes].count("block-frame") == 1  # the frame itself, no pedestal
+
+
+def test_outlines_come_back_from_files_and_follow_the_linkage(tmp_path):
+    rocker = (
+        FourBar(25, 70, 40, 70).linkage().with_outlines({"crank": [Outline(((0, 0),), 30), Outline(((0, 0), (0, 9)))]})
+    )
+    (tmp_path / "wheel.toml").write_text(linkage_to_toml(rocker))
+    assert read_linkage(tmp_path / "wheel.toml") == rocker
+    assert linkage_from_json(json.loads(json.dumps(linkage_to_json(rocker)))) == rocker
+    assert rocker != FourBar(25, 70, 40, 70).linkage()
+    assert rocker.scaled(2.0).outlines["crank"][0] == Outline(((0, 0),), 60)
+    assert rocker.mirrored().outlines["crank"][1] == Outline(((0, 0), (0, -9)))
+    assert list(rocker.renamed({"crank": "wheel"}).outlines) == ["wheel"]
+
+
+def test_an_outline_of_a_drawing_lies_where_it_is_drawn():
+    """The jackshaft of loco3 lies turned in its own coordinates; the wheels' middles are those of the axles."""
+    linkage = entry("loco3").linkage()
+    for link, x in (("jackshaft", 0), ("wheel1", 1400), ("wheel2", 3200)):
+        (disc,) = linkage.outlines[link]
+        assert linkage.required_pose[link].put(*disc.places[0]) == pytest.approx((x, 0), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "outline", [Outline(()), Outline(((0, 0),)), Outline(((0, 0), (1, 0)), 2), Outline(((0, 0),), -1)]
+)
+def test_neither_a_disc_nor_a_line_is_refused(outline):
+    with pytest.raises(LinkageError, match=r"outlines\.crank: an outline is a place with a radius"):
+        FourBar(25, 70, 40, 70).linkage().with_outlines({"crank": [outline]})
