@@ -135,8 +135,8 @@ class CoordinateSets:
         jets = now.jets(q, v)
         size = now.plan.lower.size
         ways = np.array([f.speeds(jets)[: now.count] / (size if f.line else 1.0) for f in self._freedoms])
-        one = now.count == 1  # then the pivot is the largest
-        chosen = np.abs(ways).argmax(axis=0) if one else np.sort(qr(ways.T, pivoting=True, mode="r")[1][: now.count])
+        alone = now.count == 1  # then the pivot is the largest
+        chosen = np.abs(ways).argmax(axis=0) if alone else np.sort(qr(ways.T, pivoting=True, mode="r")[1][: now.count])
         if not abs(np.linalg.det(ways[chosen])) * np.prod(now.scale) * _SLOW > 1.0:
             return None
         freedoms = [self._freedoms[k] for k in chosen]

@@ -24,7 +24,7 @@ from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.designs.alt_construction import STRAIGHT, alt_steps
 from gruebler.pictures.designs.plots import burmester_plot, function_plot
 from gruebler.pictures.linkage.animation import animated_svg
-from gruebler.pictures.linkage.bodies import Outline
+from gruebler.pictures.linkage.bodies import CarriedLine
 from gruebler.pictures.linkage.picture import draw_linkage
 
 _COLUMNS = 3
@@ -73,7 +73,7 @@ def _pins_at_pairs(design: Design) -> dict[str, Complexes]:
     return marks
 
 
-def clearance_outlines(design: Design, clear: Sequence[Clearance]) -> tuple[Outline, ...]:
+def clearance_outlines(design: Design, clear: Sequence[Clearance]) -> tuple[CarriedLine, ...]:
     """What a body carries and what it keeps clear of, once each, as lines of the design's links."""
     link, frame = guided_link(design), design.linkage.mechanism.frame
     motion = move_quietly(design.linkage, design.drives[:1])
@@ -81,7 +81,10 @@ def clearance_outlines(design: Design, clear: Sequence[Clearance]) -> tuple[Outl
     shift = motion.complex_point(LinkPoint(link, 0.0, 0.0))[0]
     bodies = dict.fromkeys(tuple(complex(z) for z in (each.outlines[0] - shift) * turn) for each in clear)
     obstacles = dict.fromkeys(tuple(complex(z) for z in each.outlines[1]) for each in clear)
-    return (*(Outline(frame, line, "given") for line in obstacles), *(Outline(link, line, "new") for line in bodies))
+    return (
+        *(CarriedLine(frame, line, "given") for line in obstacles),
+        *(CarriedLine(link, line, "new") for line in bodies),
+    )
 
 
 def design_figure(task: Task, design: Design, *, lang: str = "en", clear: Sequence[Clearance] = ()) -> Figure:

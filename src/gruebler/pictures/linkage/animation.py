@@ -27,7 +27,7 @@ from gruebler.pictures.canvas.svg import svg_element, svg_number
 from gruebler.pictures.linkage.bodies import (
     PINS,
     BodyPart,
-    Outline,
+    CarriedLine,
     body_parts,
     outline_parts,
     room_for,
@@ -50,7 +50,7 @@ class AnimationOptions(TypedDict, total=False):
     seconds: float
     lang: str
     name: str
-    outlines: Sequence[Outline]
+    outlines: Sequence[CarriedLine]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,7 +86,7 @@ def scene(
     seconds: float = 4.0,
     lang: str = "en",
     name: str = "",
-    outlines: Sequence[Outline] = (),
+    outlines: Sequence[CarriedLine] = (),
 ) -> Scene:
     """The content of an animation, for all formats.
 

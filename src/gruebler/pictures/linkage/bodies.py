@@ -64,7 +64,7 @@ class Slide:
     high: complex
 
 
-class Outline(NamedTuple):
+class CarriedLine(NamedTuple):
     """A line that a link carries."""
 
     link: str
@@ -188,13 +188,13 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
     return tuple(part for part in parts if part.shapes)
 
 
-def room_for(posed: PosedLinkage, outlines: Sequence[Outline]) -> PosedLinkage:
+def room_for(posed: PosedLinkage, outlines: Sequence[CarriedLine]) -> PosedLinkage:
     """The linkage in a scale in which none of the outlines it carries is too large for the picture."""
     spread = max((abs(z - points[0]) for _, points, _ in outlines for z in points), default=0.0)
     return replace(posed, scale=min(posed.scale, _WIDEST / spread)) if spread > 0 else posed
 
 
-def outline_parts(posed: PosedLinkage, outlines: Sequence[Outline]) -> tuple[BodyPart, ...]:
+def outline_parts(posed: PosedLinkage, outlines: Sequence[CarriedLine]) -> tuple[BodyPart, ...]:
     """Outlines as parts that move with their links, above the bodies."""
     return tuple(
         BodyPart(BODIES, link, (Polylines((tuple(posed.local(z) for z in points),), style),))

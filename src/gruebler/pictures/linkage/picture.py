@@ -25,7 +25,7 @@ from gruebler.pictures.linkage.bodies import (
     FRAME,
     PINS,
     BodyPart,
-    Outline,
+    CarriedLine,
     Slide,
     barrel,
     body_parts,
@@ -84,7 +84,7 @@ def draw_linkage(
     lang: str = "en",
     name: str = "",
     names: Mapping[str, str] | None = None,
-    outlines: Sequence[Outline] = (),
+    outlines: Sequence[CarriedLine] = (),
 ) -> Figure:
     """The picture of a linkage in one pose.
 
