@@ -9,22 +9,40 @@ import { gzipSync, strToU8 } from "fflate";
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
 
-/** Style sheets, minified, and tables of texts stand packed in the module; the packer does the same everywhere. */
-const texts = {
-  name: "texts",
-  setup: ({ onLoad }) =>
+/** Bytes as text: four of them in five of the 85 characters from "(" to "~" without "<" and the backslash. */
+function written(bytes) {
+  let text = "";
+  for (let k = 0; k < bytes.length; k += 4) {
+    let value = 0;
+    for (let j = 0; j < 4; j++) value = 256 * value + (bytes[k + j] ?? 0);
+    const digits = [4, 3, 2, 1, 0].map((power) => Math.floor(value / 85 ** power) % 85);
+    const codes = digits.map((digit) => 40 + digit + (digit > 19) + (digit > 50));
+    text += String.fromCharCode(...codes).slice(0, Math.min(5, bytes.length - k + 1));
+  }
+  return JSON.stringify(text);
+}
+
+/** The kernel, style sheets, minified, and tables of texts stand packed in the module; the packer does the same
+ * everywhere. */
+const packed = {
+  name: "packed",
+  setup: ({ onLoad }) => {
+    onLoad({ filter: /\.gz$/ }, async ({ path: file }) => {
+      const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${written(await readFile(file))});`;
+      return { contents, loader: "js", resolveDir: path.join(here, "src") };
+    });
     onLoad({ filter: /\.(css|json)$/ }, async ({ path: file }) => {
       const text = await readFile(file, "utf8");
       const table = file.endsWith(".json");
       const code = table
         ? JSON.stringify(JSON.parse(text))
         : (await transform(text, { loader: "css", charset: "utf8", minify: true })).code.trim();
-      const data = Buffer.from(gzipSync(strToU8(code), { level: 9, mtime: 0 })).toString("base64");
-      const unpacked = `await textOf(${JSON.stringify(data)})`;
+      const unpacked = `await textOf(${written(gzipSync(strToU8(code), { level: 9, mtime: 0 }))})`;
       const value = table ? `JSON.parse(${unpacked})` : unpacked;
       const contents = `import { textOf } from "./packed";\nexport default ${value};`;
       return { contents, loader: "js", resolveDir: path.join(here, "src") };
-    }),
+    });
+  },
 };
 
 await build({
@@ -37,6 +55,5 @@ await build({
   minify: true,
   charset: "utf8",
   legalComments: "none",
-  loader: { ".gz": "binary" },
-  plugins: [texts],
+  plugins: [packed],
 });

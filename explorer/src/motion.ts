@@ -6,6 +6,8 @@ import { h, renew } from "./dom";
 import { Dragging } from "./dragging";
 import { exportPanel } from "./export";
 import { driveValue, type Found, factsOf } from "./facts";
+import { type Fall, Falling } from "./falling";
+import { type Arrow, Forces } from "./forces";
 import { History } from "./history";
 import { type Icon, icon } from "./icons";
 import { type Rows, Status } from "./kernel";
@@ -47,6 +49,7 @@ export class MotionView implements View, Editor {
     labels: true,
     grid: true,
     link: 0,
+    forces: () => this.arrows(),
   };
   linkage!: Linkage;
   dragging!: Dragging;
@@ -54,7 +57,10 @@ export class MotionView implements View, Editor {
   readonly plots = new Plots((value) => this.pick(value));
   readonly player = new Player(
     (seconds) => this.advance(seconds),
-    () => this.page.changed(),
+    () => {
+      this.land();
+      this.page.changed();
+    },
   );
   /** Milliseconds of the last frames in which something was drawn. */
   readonly frames: number[] = [];
@@ -74,6 +80,8 @@ export class MotionView implements View, Editor {
   private readonly checked = h("p", { class: "note" });
   private readonly words = h("details", { class: "words" });
   private readonly opened = new Set(["sizes", "measures", "plots"]);
+  private readonly forces = new Forces(this, () => this.opened.has("forces"));
+  private falling: Falling | null = null;
   private measuring = 0;
 
   constructor(readonly page: Page) {
@@ -101,6 +109,7 @@ export class MotionView implements View, Editor {
 
   /** Show another linkage; the way back to the one before is undoing. */
   open(model: Model): void {
+    this.pause();
     if (this.linkage) this.history.add(this.state());
     this.linkage = new Linkage(model);
     this.dragging = new Dragging(this.linkage);
@@ -154,6 +163,7 @@ export class MotionView implements View, Editor {
       this.panel("measures", t("Measures"), this.facts, this.words),
       this.panel("sizes", t("Sizes"), this.sizes.element),
       this.panel("plots", t("Plots"), this.plots.element),
+      this.panel("forces", t("Forces"), this.forces.element),
       this.panel("points", t("Coupler points"), pointsPanel(this)),
       this.panel("modes", t("Assembly modes"), modesPanel(this)),
       this.panel("show", t("Show"), optionsPanel(this)),
@@ -222,6 +232,9 @@ export class MotionView implements View, Editor {
       if (element.open) this.opened.add(key);
       else this.opened.delete(key);
       if (key === "plots" && element.open) this.plots.draw(this.linkage);
+      if (key !== "forces") return;
+      this.forces.changed();
+      this.redraw();
     });
     return element;
   }
@@ -248,6 +261,7 @@ export class MotionView implements View, Editor {
   }
 
   private begin(): void {
+    if (this.falling) this.pause();
     this.before = this.state();
   }
 
@@ -302,6 +316,7 @@ export class MotionView implements View, Editor {
 
   private goTo(old: State | undefined): void {
     if (!old) return;
+    if (this.falling) this.pause();
     const other = old.linkage !== this.linkage;
     this.linkage = old.linkage;
     this.dragging = old.dragging;
@@ -410,7 +425,32 @@ export class MotionView implements View, Editor {
     this.player.pause();
   }
 
+  /** Play poses of a free motion once, in real time. */
+  play(fall: Fall): void {
+    this.pause();
+    this.falling = new Falling(fall, this.linkage);
+    this.toggle();
+  }
+
+  /** A free motion is over: the linkage is as it was. */
+  private land(): void {
+    if (!this.falling) return;
+    this.linkage.pose = this.falling.start;
+    this.falling = null;
+    this.stage.draw();
+    this.showPose();
+  }
+
+  private fall(falling: Falling, seconds: number): void {
+    const pose = falling.later(seconds);
+    if (!pose) return this.pause();
+    this.linkage.pose = pose;
+    this.value.textContent = falling.text;
+    this.stage.draw();
+  }
+
   private advance(seconds: number): void {
+    if (this.falling) return this.fall(this.falling, seconds);
     const start = performance.now();
     const { active, cycle, drives } = this.linkage;
     const { range } = this.track;
@@ -418,6 +458,20 @@ export class MotionView implements View, Editor {
     this.way = next.way;
     if (range[1] > range[0]) this.go(next.value);
     this.timed(start);
+  }
+
+  /** The value of the drive as it is plotted. */
+  get drive(): number {
+    const { active, cycle, drives } = this.linkage;
+    return wrapped(cycle, drives[active] ?? 0);
+  }
+
+  get range(): [number, number] {
+    return this.track.range;
+  }
+
+  private arrows(): Arrow[] {
+    return this.falling ? [] : this.forces.arrows();
   }
 
   // --- what is read off ----------------------------------------------------------------------------------------------
@@ -432,6 +486,7 @@ export class MotionView implements View, Editor {
     this.refresh("modes", modesPanel(this));
     this.refresh("export", exportPanel(this.page, this));
     if (this.opened.has("plots")) this.plots.draw(this.linkage);
+    this.forces.changed();
     this.ask();
   }
 
@@ -470,7 +525,8 @@ export class MotionView implements View, Editor {
     const drive = linkage.drives[linkage.active];
     if (drive !== undefined) {
       this.track.set(drive);
-      this.plots.at(wrapped(linkage.cycle, drive));
+      this.plots.at(this.drive);
+      this.forces.at(this.drive);
     }
     const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
     this.facts.replaceChildren(

@@ -233,7 +233,7 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
 
 export function optionsPanel(editor: Editor): HTMLElement {
   const { linkage, shown } = editor;
-  const option = (key: Exclude<keyof Shown, "link">, text: string) => {
+  const option = (key: Exclude<keyof Shown, "link" | "forces">, text: string) => {
     const onchange = () => {
       shown[key] = box.checked;
       editor.show();

@@ -22,6 +22,7 @@ export class Scene {
   private labels: Label[] = [];
   private readonly arrows = svg("path", { class: "velocity" });
   private readonly changes = svg("path", { class: "acceleration" });
+  private readonly forces = svg("path", { class: "force" });
   private readonly circle = svg("circle", { class: "inflection", r: 0 });
   private readonly pole = svg("circle", { class: "pole", r: 4 });
 
@@ -76,7 +77,14 @@ export class Scene {
       return { element, point: number };
     });
     this.labels = shown.labels ? labelsOf(linkage) : [];
-    front.append(...this.labels.map(({ element }) => element), this.arrows, this.changes, this.circle, this.pole);
+    front.append(
+      ...this.labels.map(({ element }) => element),
+      this.arrows,
+      this.changes,
+      this.forces,
+      this.circle,
+      this.pole,
+    );
     renew(this.root, back, bodies, marks, front);
   }
 
@@ -128,7 +136,16 @@ export class Scene {
     }
     this.arrows.setAttribute("d", shown.velocities ? this.vectors(linkage, 1) : "");
     this.changes.setAttribute("d", shown.accelerations ? this.vectors(linkage, 2) : "");
+    this.forces.setAttribute("d", this.forceArrows(linkage, shown));
     this.drawPole(linkage, shown);
+  }
+
+  private forceArrows(linkage: Linkage, shown: Shown): string {
+    const drawn = shown.forces().map(([joint, x, y]) => {
+      const [u, v] = this.viewport.screen(...linkage.jointAt(joint));
+      return arrow(u, v, LONGEST_ARROW * x, -LONGEST_ARROW * y);
+    });
+    return drawn.join("");
   }
 
   /** Velocities (1) or accelerations (2) of all joints and points that move, as a path. */

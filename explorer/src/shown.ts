@@ -11,6 +11,8 @@ export interface Shown {
   grid: boolean;
   /** The link whose poles are shown. */
   link: number;
+  /** The forces that are drawn: joints, with parts against the largest force. */
+  forces: () => [joint: number, x: number, y: number][];
 }
 
 const PALETTE = ["--motion", "--accent", "--green", "--purple"] as const;

@@ -1,6 +1,6 @@
 /** The files of a static site: scripts beside the page, each of which hands over one packed text. */
 
-import { textOf } from "../packed";
+import { unpackedBytes } from "../packed";
 
 const waiting = new Map<string, (data: string) => void>();
 const packs = new Map<string, Promise<unknown>>();
@@ -25,5 +25,6 @@ async function loaded(name: string): Promise<unknown> {
     document.head.append(script);
   });
   script.remove();
-  return JSON.parse(await textOf(data));
+  const bytes = await unpackedBytes(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
+  return JSON.parse(new TextDecoder().decode(bytes));
 }

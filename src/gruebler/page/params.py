@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import pi
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -95,6 +96,36 @@ class ListChains(Params):
     links: Annotated[int, _within("links")]
     mobility: Annotated[int, _within("mobility")] = 1
     start: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
+
+
+class OuterLoad(Params):
+    """A force in newtons on a joint or a point, by its number; on a link a moment, x, in newtons times the unit."""
+
+    on: Literal["joint", "point", "link"]
+    number: Number
+    x: float
+    y: float = 0.0
+
+
+class LoadedLinkage(Params):
+    """A linkage at values of its drives, what acts on it, and what of its motion is asked."""
+
+    document: dict[str, Any]
+    drives: Annotated[list[float], msgspec.Meta(min_length=1, max_length=20)]
+    source: Word = ""
+    masses: Annotated[list[Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None], msgspec.Meta(max_length=200)] = []
+    """Of each link, in kilograms; without one those of the catalog entry."""
+    gravity: bool = True
+    load: OuterLoad | None = None
+    active: Number = 0
+    """The drive that runs at constant speed."""
+    range: tuple[float, float] = (0.0, 2 * pi)
+    full: bool = True
+    """Whether its range is whole turns; else its ends are limits, next to which no drive keeps its speed."""
+    speed: Annotated[float, msgspec.Meta(gt=0, le=1e6)] | None = None
+    """In rad/s or lengths a second."""
+    until: Annotated[float, msgspec.Meta(gt=0, le=20)] = 2.0
+    """How long it moves by itself, in seconds."""
 
 
 class Realise(Params):

@@ -19,6 +19,7 @@ from gruebler.page.params import (
     ListCatalog,
     ListChains,
     ListModes,
+    LoadedLinkage,
     MarkAnswers,
     NewExercise,
     Nothing,
@@ -219,6 +220,18 @@ def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
     return {"lines": measures(named).explain(lang).splitlines()}
 
 
+def _forces(asked: LoadedLinkage, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.page.forces import forces_record
+
+    return forces_record(asked, lang)
+
+
+def _fall(asked: LoadedLinkage, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.page.forces import fall_record
+
+    return fall_record(asked, lang)
+
+
 def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
     from gruebler.files import linkage_from_json
 
@@ -295,6 +308,8 @@ REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = 
     "realise": (Realise, _realise),
     "synthesise": (SynthesiseTask, _synthesise),
     "measures": (OpenDocument, _measures),
+    "forces": (LoadedLinkage, _forces),
+    "fall": (LoadedLinkage, _fall),
     "export": (Export, _export),
     "open_file": (OpenFile, _open_file),
     "saved_kinds": (Nothing, _saved_kinds),

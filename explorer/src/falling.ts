@@ -1,0 +1,44 @@
+/** A linkage that moves by itself: poses that the library found, played in real time. */
+
+import type { Rows } from "./kernel";
+import { number } from "./language";
+import type { Linkage } from "./linkage";
+
+/** Poses of all links, x and y, cosine and sine in turn, so many a second. */
+export interface Fall {
+  rate: number;
+  places: number[][];
+  turns: number[][];
+  lines: string[];
+}
+
+export class Falling {
+  /** The pose before. */
+  readonly start: Rows;
+  /** Seconds since it was let go. */
+  private time = 0;
+
+  constructor(
+    private readonly fall: Fall,
+    linkage: Linkage,
+  ) {
+    this.start = linkage.pose;
+  }
+
+  get text(): string {
+    return `${number(this.time, 3)} s`;
+  }
+
+  /** The pose so many seconds later, without rates; null when it is over. */
+  later(seconds: number): Rows | null {
+    const { rate, places, turns } = this.fall;
+    this.time += seconds;
+    const row = Math.round(this.time * rate);
+    if (row >= places.length) return null;
+    const { start } = this;
+    const still = new Float64Array(start.places.length).fill(NaN);
+    still.set(places[row]!);
+    const rates = new Float64Array(start.rates.length).fill(NaN);
+    return { ...start, places: still, turns: Float64Array.from(turns[row]!), rates };
+  }
+}

@@ -1,0 +1,197 @@
+/** The panel of forces: what the drive and the joints carry over a turn, and how the linkage falls; by the library. */
+
+import { documentOf } from "./document";
+import { h, renew } from "./dom";
+import type { Fall } from "./falling";
+import { t } from "./language";
+import type { Linkage } from "./linkage";
+import { LoadForm } from "./loads";
+import type { Model } from "./model";
+import { Plot } from "./plot";
+import { Polar, type Vectors, vectorAt } from "./polar";
+import type { Page } from "./view";
+import { awaited, moment } from "./waiting";
+
+const ASKED_AFTER = 350; // milliseconds
+
+/** Numbers of JSON, null where one is not known. */
+type Numbers = (number | null)[];
+
+/** What the library says; without anything that acts only masses and speed. */
+interface Answer {
+  masses: number[];
+  assumed: number[];
+  speed: number | null;
+  drives?: number[];
+  effort: Numbers;
+  /** By joint, with the link on which it acts. */
+  forces: { joint: number; link: number; force: [Numbers, Numbers] }[];
+  lines: string[];
+}
+
+/** A force on the stage: its joint, and its parts against the largest one. */
+export type Arrow = [joint: number, x: number, y: number];
+
+/** What the panel asks of its view. */
+export interface Loaded {
+  readonly page: Page;
+  readonly linkage: Linkage;
+  readonly range: [number, number];
+  /** The value of the drive that is plotted. */
+  readonly drive: number;
+  pick(drive: number): void;
+  redraw(): void;
+  play(fall: Fall): void;
+}
+
+export class Forces {
+  readonly element = h("div", { "data-part": "forces" });
+  private readonly form = new LoadForm(() => this.changed());
+  private readonly result = h("div", {});
+  private readonly polar = new Polar();
+  private readonly joint = h("select", { "data-field": "force-joint", onchange: () => this.showJoint() });
+  private plot: Plot | null = null;
+  private model: Model | null = null;
+  private forces: (Vectors & { joint: number })[] = [];
+  private timer = 0;
+
+  constructor(
+    private readonly view: Loaded,
+    private readonly opened: () => boolean,
+  ) {}
+
+  /** The linkage, its sizes, its loads or the language are others. */
+  changed(): void {
+    const { page, linkage } = this.view;
+    clearTimeout(this.timer);
+    if (!page.served || !linkage.drive) {
+      const word = linkage.model.source || "LINK";
+      renew(this.element, h("p", { class: "note" }, t("Forces need the library: gruebler explore {word}", { word })));
+      return;
+    }
+    if (this.model !== linkage.model) {
+      this.model = linkage.model;
+      this.forces = [];
+      this.form.clear();
+      renew(this.result);
+    }
+    if (!this.form.element.isConnected) renew(this.element, this.form.element, this.result);
+    this.result.classList.add("waiting");
+    if (!this.opened()) return;
+    if (!this.result.firstChild) renew(this.result, moment());
+    this.timer = window.setTimeout(() => void this.ask(), ASKED_AFTER);
+  }
+
+  private get question(): Record<string, unknown> {
+    const { linkage } = this.view;
+    const { drives, model } = linkage;
+    const held = [...drives].slice(0, model.drives.length);
+    return { document: documentOf(linkage), source: model.source, drives: held, ...this.form.record };
+  }
+
+  private async ask(): Promise<void> {
+    const { page, linkage, range } = this.view;
+    const { active, cycle } = linkage;
+    const running = { active, range, full: cycle.full, speed: this.form.speed };
+    try {
+      const found = await page.ask<Answer>("forces", { ...this.question, ...running });
+      if (linkage === this.view.linkage) this.show(linkage, found);
+    } catch (error) {
+      renew(this.result, h("p", { class: "note error" }, (error as Error).message));
+    }
+    this.result.classList.remove("waiting");
+  }
+
+  private show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed }: Answer): void {
+    const { drive, model } = linkage;
+    this.form.show(linkage, masses, speed ?? 0);
+    this.plot = null;
+    this.forces = [];
+    const assume = () => {
+      this.form.masses = assumed;
+      this.changed();
+    };
+    const weightless = masses.every((mass) => !mass);
+    const button = h("button", { class: "plain", "data-act": "assume", onclick: assume }, t("Assume bars of steel"));
+    const offer = weightless ? [h("div", { class: "form" }, button)] : [];
+    if (!drives) {
+      const note = t("Nothing acts yet. Type masses or a load, or assume bars of steel, 20 mm × 5 mm.");
+      renew(this.result, h("p", { class: "note" }, note), ...offer);
+    } else {
+      const places = Float64Array.from(drives);
+      const turning = drive!.turning;
+      const title = turning ? `${t("Drive torque")} [N·${model.unit}]` : `${t("Drive force")} [N]`;
+      this.plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.view.pick(value));
+      this.plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.view.range);
+      this.forces = forces.map(({ joint, force }) => {
+        const [x, y] = force.map(numbers) as [Float64Array, Float64Array];
+        const sizes = x.map((one, k) => Math.hypot(one, y[k]!)).filter(Number.isFinite);
+        return { joint, drives: places, x, y, most: Math.max(...sizes) || 1 };
+      });
+      const chosen = this.joint.selectedIndex;
+      const options = forces.map(({ joint, link }, value) => {
+        const links = model.joints[joint]!.links.filter((other) => other !== link);
+        const others = links.map((other) => linkage.linkName(other)).join(", ");
+        const text = t("{others} on {link}", { others, link: linkage.linkName(link) });
+        return h("option", { value, selected: value === Math.max(0, chosen) }, text);
+      });
+      renew(this.joint, ...options);
+      const fallen = h("div", { class: "form" });
+      const onclick = () => void this.fall(fallen);
+      const title2 = t("The drive is let go: the linkage falls by its weight, in real time");
+      renew(
+        this.result,
+        ...offer,
+        this.plot.element,
+        h("div", { class: "form" }, h("label", {}, t("Force"), this.joint)),
+        this.polar.element,
+        ...lines.map((line) => h("p", { class: "note" }, line)),
+        h(
+          "div",
+          { class: "form" },
+          h("button", { class: "plain", "data-act": "fall", title: title2, onclick }, t("Let go")),
+        ),
+        fallen,
+      );
+      this.showJoint();
+    }
+    this.at(this.view.drive);
+    this.view.redraw();
+  }
+
+  private showJoint(): void {
+    const force = this.forces[this.joint.selectedIndex];
+    if (!force) return;
+    this.polar.show(force, "N");
+    this.polar.at(this.view.drive);
+  }
+
+  /** The drive is elsewhere. */
+  at(drive: number): void {
+    if (!this.opened()) return;
+    this.plot?.at(drive);
+    this.polar.at(drive);
+  }
+
+  /** The forces on the stage where the drive is, against the largest of the range. */
+  arrows(): Arrow[] {
+    if (!this.opened() || this.model !== this.view.linkage.model) return [];
+    const most = Math.max(...this.forces.map((force) => force.most));
+    return this.forces.map((force) => {
+      const [x, y] = vectorAt(force, this.view.drive);
+      return [force.joint, (x * force.most) / most, (y * force.most) / most];
+    });
+  }
+
+  private async fall(place: HTMLElement): Promise<void> {
+    const { linkage, page } = this.view;
+    const found = await awaited(place, () => page.ask<Fall>("fall", this.question));
+    if (!found || linkage !== this.view.linkage) return;
+    renew(place, h("p", { class: "note" }, found.lines.join(" ")));
+    this.view.play(found);
+  }
+}
+
+function numbers(values: Numbers): Float64Array {
+  return Float64Array.from(values, (value) => value ?? NaN);
+}

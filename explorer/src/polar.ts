@@ -1,0 +1,50 @@
+/** The plot of a vector over a range of the drive: its end, drawn from the middle. */
+
+import { svg } from "./dom";
+import { number, t } from "./language";
+import { lineThrough, roundValues, valueAt } from "./plot";
+import type { Pair } from "./rows";
+
+/** A vector at values of the drive; NaN where it is not known. */
+export interface Vectors {
+  drives: Float64Array;
+  x: Float64Array;
+  y: Float64Array;
+  /** The length of the longest. */
+  most: number;
+}
+
+const RADIUS = 88;
+
+export class Polar {
+  readonly element = svg("svg", { class: "plot polar", viewBox: "-150 -100 300 200", role: "img" });
+  private readonly here = svg("path", { class: "cursor" });
+  private vectors: Vectors | null = null;
+
+  show(vectors: Vectors, unit: string): void {
+    this.vectors = vectors;
+    const { x, y, most } = vectors;
+    const scale = RADIUS / most;
+    const rings = roundValues(0, most, 2).filter((value) => value > 0);
+    const to = (factor: number) => (value: number) => factor * value;
+    this.element.setAttribute("aria-label", t("Largest {value}", { value: `${number(most)} ${unit}` }));
+    this.element.replaceChildren(
+      svg("path", { class: "mesh", d: "M-140 0H140M0 -96V96" }),
+      ...rings.map((value) => svg("circle", { class: "mesh", fill: "none", r: scale * value })),
+      ...rings.map((value) => svg("text", { x: 3, y: -scale * value - 2 }, `${number(value)} ${unit}`)),
+      svg("path", { class: "curve force", d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
+      this.here,
+    );
+  }
+
+  at(drive: number): void {
+    if (!this.vectors) return;
+    const [x, y] = vectorAt(this.vectors, drive);
+    this.here.setAttribute("d", Number.isFinite(x + y) ? `M0 0L${RADIUS * x} ${-RADIUS * y}` : "");
+  }
+}
+
+/** A vector at a value of the drive, against the longest. */
+export function vectorAt({ drives, x, y, most }: Vectors, drive: number): Pair {
+  return [valueAt(drives, x, drive) / most, valueAt(drives, y, drive) / most];
+}

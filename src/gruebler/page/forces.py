@@ -1,0 +1,178 @@
+"""What the page shows of forces: torque and joint forces over the range of a drive, and how the linkage falls."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.base.errors import GrueblerError
+from gruebler.base.units import metres_of
+from gruebler.files import linkage_from_json
+from gruebler.mechanics.dynamics import inverse_dynamics, simulate
+from gruebler.mechanics.forces import Loads, RigidBody
+from gruebler.mechanics.kinematics.solve import move_quietly
+from gruebler.mechanics.linkages import Linkage
+from gruebler.page.model import link_names
+from gruebler.page.params import LoadedLinkage
+from gruebler.teaching.catalog import entries
+
+_STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
+_ROWS = 180  # of a turn
+_MOST_ROWS = 1080
+_NO_ENDS = 0.02  # of a range, at either end: no drive keeps its speed up to where it turns back
+_USUAL = 2 * pi  # of a drive, rad/s or sizes a second: one turn
+_A_SECOND = 60  # poses of a free motion
+_ENOUGH = 1e-6  # of each of its steps: for the eye
+
+
+class _Laden(NamedTuple):
+    """A linkage with what acts on it, its links by their names in the reader's language."""
+
+    linkage: Linkage
+    loads: Loads
+    speed: float | None
+
+
+def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
+    """Effort of the drive and forces of the joints over a range of the drive that runs at constant speed.
+
+    Without anything that acts only masses are there, and those that could be assumed, of bars of steel.
+    """
+    linkage, loads, usual = _laden(asked, lang)
+    record = {"masses": _masses(linkage, loads), "assumed": _assumed(linkage), "speed": asked.speed or usual}
+    if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
+        return record
+    active, (low, high) = asked.active, asked.range
+    turning = linkage.mechanism.drives[active].turning
+    speed = record["speed"] or (_USUAL if turning else _USUAL * linkage.size)
+    if not asked.full:
+        low, high = low + _NO_ENDS * (high - low), high - _NO_ENDS * (high - low)
+    turns = abs(high - low) / (2 * pi) if turning else 1.0
+    values = np.linspace(low, high, 1 + min(_MOST_ROWS, max(_ROWS // 2, round(_ROWS * turns))))
+    rows, speeds = np.tile(np.array(asked.drives), (len(values), 1)), np.zeros(len(asked.drives))
+    rows[:, active], speeds[active] = values, speed
+    motion = move_quietly(linkage, rows, speed=speeds, order=2)
+    if not len(motion):
+        raise GrueblerError("{message}", message=motion.message(lang))
+    run = inverse_dynamics(motion, loads, times=(motion.drives[:, active] - values[0]) / speed)
+    chain = linkage.mechanism.chain
+    forces = [
+        {"joint": number, "link": chain.index(link), "force": _short(run.statics.force(number, link=link)).T.tolist()}
+        for number, one in enumerate(chain.joints)
+        for link in (one.links if len(one.links) > 2 else one.links[1:])
+    ]
+    return record | {
+        "speed": speed,
+        "drives": motion.drives[:, active].tolist(),
+        "effort": _short(run.drive[:, active]).tolist(),
+        "forces": forces,
+        "lines": run.explain(lang).splitlines(),
+    }
+
+
+def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
+    """Poses of all links, sixty a second, when only weights and springs act; why they end if they do too soon."""
+    linkage, loads, _ = _laden(asked, lang)
+    free = replace(loads, forces={}, moments={}, motors={})
+    times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
+    run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=_ENOUGH)
+    places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
+    turns = np.stack([run.turns.real, run.turns.imag], axis=-1)
+    return {
+        "rate": _A_SECOND,
+        "places": _short(places).reshape(len(run), -1).tolist(),
+        "turns": _short(turns).reshape(len(run), -1).tolist(),
+        "lines": run.explain(lang).splitlines(),
+    }
+
+
+def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
+    """Loads of the catalog entry while its links are there; masses and the load that the reader gave in their place."""
+    plain = linkage_from_json(asked.document)
+    linkage = plain.renamed(link_names(plain, asked.source, lang))
+    links, loads, speed = linkage.mechanism.chain.links, Loads(), None
+    entry = entries().get(asked.source)
+    if entry is not None and entry.loads is not None and entry.chain().links == plain.mechanism.chain.links:
+        _, loads, speed = entry.in_language(lang).loaded()
+    bodies = dict(loads.bodies)
+    for link, mass in zip(links, asked.masses, strict=False):
+        if mass is None:
+            continue
+        known = bodies.pop(link, None)
+        if mass and known is not None and known.mass:
+            bodies[link] = RigidBody(mass, known.centre, known.inertia * mass / known.mass)
+        elif mass:
+            bodies[link] = _spread(mass, linkage, link)
+    forces, moments = dict(loads.forces), dict(loads.moments)
+    if (own := asked.load) is not None and own.on == "link" and own.number < len(links):
+        moments[links[own.number]] = own.x
+    elif own is not None and own.on != "link":
+        names = [*linkage.points] if own.on == "point" else linkage.mechanism.chain.joint_names()
+        if own.number >= len(names):
+            raise GrueblerError("load: there is no {what} {number}", what=own.on, number=own.number)
+        forces[names[own.number]] = (own.x, own.y)
+    gravity = loads.gravity if asked.gravity else (0.0, 0.0)
+    return _Laden(linkage, replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies), speed)
+
+
+def _masses(linkage: Linkage, loads: Loads) -> list[float]:
+    return [loads.bodies[link].mass if link in loads.bodies else 0.0 for link in linkage.mechanism.chain.links]
+
+
+def _places(linkage: Linkage, link: str) -> list[complex]:
+    """Where a link has its joints and points, each place once."""
+    places = [complex(e.x, e.y) for (_, owner), e in sorted(linkage.elements.items()) if owner == link]
+    places += [complex(point.x, point.y) for point in linkage.points.values() if point.link == link]
+    near = 1e-9 * linkage.size
+    return [place for k, place in enumerate(places) if all(abs(place - other) > near for other in places[:k])]
+
+
+def _assumed(linkage: Linkage) -> list[float]:
+    """The masses of links that are bars of steel from the middle of their joints to each of them; short ones cubes."""
+    metre = metres_of(linkage.unit)
+    moving = [link for link in linkage.mechanism.chain.links if link != linkage.mechanism.frame]
+    lengths = {link: metre * sum(abs(arm) for _, arm in _arms(linkage, link)) for link in moving}
+    least = metre * linkage.size / 20
+    return [
+        float(f"{_STEEL_BAR * max(lengths[link], least):.3g}") if link in lengths else 0.0
+        for link in linkage.mechanism.chain.links
+    ]
+
+
+def _arms(linkage: Linkage, link: str) -> list[tuple[complex, complex]]:
+    """The middle of a link's places, and the way from there to each."""
+    places = _places(linkage, link)
+    middle = sum(places) / len(places)
+    return [(middle, place - middle) for place in places]
+
+
+def _spread(mass: float, linkage: Linkage, link: str) -> RigidBody:
+    """A mass on thin rods from the middle of a link's places to each, by their lengths; with one place a point.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> _spread(1.2, FourBar(25, 70, 40, 70).linkage(), "coupler")  # a rod: m l²/12
+    RigidBody(mass=1.2, centre=(35.0, 0.0), inertia=490.0)
+    """
+    arms = _arms(linkage, link)
+    total = sum(abs(arm) for _, arm in arms)
+    middle = (arms[0][0].real, arms[0][0].imag)
+    if not total > 0:
+        return RigidBody(mass, middle)
+    rods = [
+        RigidBody.bar(mass * abs(arm) / total, middle, (middle[0] + arm.real, middle[1] + arm.imag)) for _, arm in arms
+    ]
+    whole = rods[0]
+    for rod in rods[1:]:
+        whole = whole + rod
+    return whole
+
+
+def _short(values: Reals) -> Reals:
+    """Seven digits of the largest: what is plotted and drawn."""
+    largest = float(np.nanmax(np.abs(values), initial=0.0)) or 1.0
+    digits = int(7 - np.floor(np.log10(largest)))
+    return np.asarray(np.round(values, digits))

@@ -1,0 +1,91 @@
+"""The panel of forces: efforts and joint forces against velocities of the page's own kernel, and a free motion."""
+
+import math
+
+import pytest
+
+from gruebler.base.errors import GrueblerError
+from gruebler.files import linkage_to_json
+from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.page.requests import answer
+
+ROOT = "document.querySelector('.gruebler-explorer').shadowRoot"
+PANEL = '[data-panel="forces"]'
+READ = f"{ROOT}.querySelector('{PANEL} .plot .read')?.textContent"
+ARROWS = f"{ROOT}.querySelector('.stage path.force').getAttribute('d')"
+POSE = "JSON.stringify([...gruebler.motion.linkage.pose.turns])"
+
+
+def asked(linkage, **more):
+    return {"document": linkage_to_json(linkage), "drives": [0.0], **more}
+
+
+def test_masses_are_offered_before_there_are_any():
+    told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage()), "en", print)
+    assert (told["masses"], "drives" in told) == ([0, 0, 0, 0], False)
+    # 7850 kg/m³ · 20 mm · 5 mm · 70 mm
+    assert told["assumed"] == [0, pytest.approx(0.0196, abs=1e-4), pytest.approx(0.05495, abs=1e-4), 0.0314]
+
+
+def test_an_engine_shakes_by_the_law_of_its_crank():
+    """The piston of a slider-crank, m r w² (1 + r/l) in the outer dead centre (any book on machine dynamics)."""
+    question = asked(SliderCrank(30, 50).linkage(), masses=[0, 0, 0, 2.0], gravity=False, speed=100.0)
+    told = answer("forces", question, "en", print)
+    pin = next(one for one in told["forces"] if one["joint"] == 2)
+    assert abs(pin["force"][0][0]) == pytest.approx(2 * 0.03 * 100**2 * (1 + 30 / 50), rel=1e-6)
+    assert told["effort"][0] == pytest.approx(0, abs=1e-3)
+
+
+def test_a_pendulum_swings_in_its_own_time():
+    """A rod that hangs on two parallel cranks swings as a point on a string: T = 2 pi sqrt(l/g)."""
+    question = asked(FourBar(40, 70, 40, 70).linkage(), masses=[0, 0, 1.0, 0], until=1.0)
+    hanging = {"frame": [0, 0, 0], "crank": [0, 0, -90], "coupler": [0, -40, 0], "rocker": [70, 0, -90]}
+    question["document"]["reference_pose"] = hanging
+    question["drives"] = [-math.pi / 2 + 0.02]
+    told = answer("fall", question, "en", print)
+    crank = [math.atan2(row[3], row[2]) + math.pi / 2 for row in told["turns"]]
+    wanted = [0.02 * math.cos(math.sqrt(9.80665 / 0.04) * k / told["rate"]) for k in range(len(crank))]
+    assert crank == pytest.approx(wanted, abs=2e-5)
+
+
+def test_a_load_that_is_nowhere_is_refused():
+    load = {"on": "point", "number": 3, "x": 1.0}
+    with pytest.raises(GrueblerError, match="there is no point 3"):
+        answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), load=load), "en", print)
+
+
+@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
+def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
+    page = tab(locale=locale).open(server.address)
+    page.page.evaluate("gruebler.motion.pick(1)")
+    page.page.locator(f"{PANEL} summary").click()
+    page.page.locator("#force-load").select_option("link 3")
+    assert page.page.evaluate(ARROWS) == ""
+    page.page.locator("#force-x").fill("1000")
+    page.page.locator("#force-x").press("Tab")
+    page.until(f"![undefined, '0'].includes({READ})", 60)
+    # virtual work: the torque of the drive times its speed and that of the load cancel
+    for drive in (1.0, 2.5):
+        page.page.evaluate(f"gruebler.motion.pick({drive})")
+        speed = page.page.evaluate("gruebler.motion.linkage.pose.rates[3]")
+        read = float(page.page.evaluate(READ).replace(",", "."))
+        assert read == pytest.approx(-1000 * speed, rel=2e-3)
+        assert page.page.evaluate(ARROWS).count("L") == 12  # three strokes a joint
+    page.page.locator("#force-load").select_option("")
+    page.page.locator('[data-act="assume"]').click()
+    page.until(f"!{ROOT}.querySelector('[data-act=\"assume\"]') && {ROOT}.querySelector('[data-act=\"fall\"]')")
+    page.page.locator('[data-act="fall"]').click()
+    before = page.page.evaluate(POSE)
+    page.until(f"gruebler.motion.player.playing && {POSE} !== '{before}'", 90)
+    page.page.locator("button.play").click()
+    assert page.page.evaluate(POSE) == before
+
+
+def test_without_the_library_it_says_so(tab, tmp_path):
+    from gruebler.cli import main
+
+    path = tmp_path / "page.html"
+    assert main(["explore", "crankrocker", "-o", str(path)]) == 0
+    page = tab().open(path.as_uri())
+    page.page.locator(f"{PANEL} summary").click()
+    assert page.page.locator(f"{PANEL} .note").inner_text().endswith("gruebler explore crankrocker")
