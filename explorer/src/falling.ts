@@ -32,7 +32,7 @@ export class Falling {
   /** The pose so many seconds later, without rates; null when it is over. */
   later(seconds: number): Rows | null {
     const { rate, places, turns } = this.fall;
-    this.time += seconds;
+    this.time = Math.max(0, this.time + seconds); // the first frame may be older than the answer
     const row = Math.round(this.time * rate);
     if (row >= places.length) return null;
     const { start } = this;

@@ -62,8 +62,8 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     chain = linkage.mechanism.chain
     forces = [
         {"joint": number, "link": chain.index(link), "force": _short(run.statics.force(number, link=link)).T.tolist()}
-        for number, one in enumerate(chain.joints)
-        for link in (one.links if len(one.links) > 2 else one.links[1:])
+        for number, each in enumerate(chain.joints)
+        for link in (each.links if len(each.links) > 2 else each.links[1:])
     ]
     return record | {
         "speed": speed,
