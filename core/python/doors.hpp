@@ -18,9 +18,13 @@ namespace gruebler::doors {
 
 namespace nb = nanobind;
 
-// An array of numpy as it is: of this kind, C-contiguous, nothing converted; -1 stands for any length.
+// An array of numpy as it is: of this kind, C-contiguous, nothing converted; -1 stands for any length. One that begins
+// between two numbers in memory, as views of bytes may, is copied: kernels read whole numbers, several at once.
 template <class Number, int... lengths>
-using Array = nb::ndarray<const Number, nb::numpy, nb::shape<lengths...>, nb::c_contig, nb::device::cpu>;
+struct Array : nb::ndarray<const Number, nb::numpy, nb::shape<lengths...>, nb::c_contig, nb::device::cpu> {
+    using Base = nb::ndarray<const Number, nb::numpy, nb::shape<lengths...>, nb::c_contig, nb::device::cpu>;
+    using Base::Base;
+};
 
 template <class Number>
 using NewArray = nb::ndarray<nb::numpy, Number>;
@@ -65,3 +69,23 @@ void add_space(nb::module_& module);
 void add_structure(nb::module_& module);
 
 }  // namespace gruebler::doors
+
+template <class Number, int... lengths>
+struct nanobind::detail::type_caster<gruebler::doors::Array<Number, lengths...>> {
+    using Array = gruebler::doors::Array<Number, lengths...>;
+    using Whole = make_caster<typename Array::Base>;
+    NB_TYPE_CASTER(Array, Whole::Name)
+
+    bool from_python(handle given, uint8_t flags, cleanup_list* cleanup) noexcept {
+        Whole whole;
+        if (!whole.from_python(given, flags, cleanup)) return false;
+        if (reinterpret_cast<std::uintptr_t>(whole.value.data()) % alignof(Number) != 0) {
+            PyObject* copy = PyObject_CallMethod(given.ptr(), "copy", nullptr);
+            const bool copied = copy && whole.from_python(copy, flags, cleanup);
+            Py_XDECREF(copy);
+            if (!copied) return PyErr_Clear(), false;
+        }
+        static_cast<typename Array::Base&>(value) = std::move(whole.value);
+        return true;
+    }
+};

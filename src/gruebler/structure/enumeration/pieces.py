@@ -153,18 +153,13 @@ def _has_degrees(rows: Packed, assortment: Assortment) -> NDArray[np.bool_]:
     return matches
 
 
-def _aligned(graphs: Packed) -> Packed:
-    """As kernels read it: what came from another machine may begin at any byte of a message."""
-    return np.require(graphs, requirements=("C", "A"))
-
-
 def census(piece: WorkPiece, orbits: bool) -> NDArray[np.int64]:
     """The numbers of chains of each contracted graph: int64[k, 5], degrees, chains, inversions, orbits, drives."""
     from gruebler import _core
 
     loops = loop_count(piece.links, piece.mobility)
     assert loops is not None
-    return _core.take_census(_aligned(piece.graphs), loops, piece.mobility, orbits)
+    return _core.take_census(np.ascontiguousarray(piece.graphs), loops, piece.mobility, orbits)
 
 
 def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...]:
@@ -207,7 +202,7 @@ def list_piece(piece: WorkPiece, form: str = "edges") -> NDArray[np.uint8]:
     loops = loop_count(piece.links, piece.mobility)
     assert loops is not None
     write = _core.list_graph6 if form == "graph6" else _core.list_chains
-    return write(_aligned(piece.graphs), loops, piece.mobility)
+    return write(np.ascontiguousarray(piece.graphs), loops, piece.mobility)
 
 
 def graph6_lines(edges: NDArray[np.unsignedinteger[Any]], links: int) -> NDArray[np.uint8]:
