@@ -74,8 +74,8 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page.page.locator("#force-load").select_option("")
     page.page.locator('[data-act="assume"]').click()
     page.until(f"!{ROOT}.querySelector('[data-act=\"assume\"]') && {ROOT}.querySelector('[data-act=\"fall\"]')")
-    page.page.locator('[data-act="fall"]').click()
     before = page.page.evaluate(POSE)
+    page.page.locator('[data-act="fall"]').click()
     page.until(f"gruebler.motion.player.playing && {POSE} !== '{before}'", 90)
     page.page.locator("button.play").click()
     assert page.page.evaluate(POSE) == before

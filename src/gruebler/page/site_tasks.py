@@ -26,7 +26,7 @@ def task_pack(kind: str, level: int, seed: int, langs: Sequence[str]) -> dict[st
 
     >>> answers = task_pack("grashof", 1, 3, ["en"])["answers"]
     >>> answers["turns"]["en"]["no"]["mark"], answers["sum_ends"]["value"]
-    ('right', 75.0)
+    ('wrong', 110.0)
     """
     task = generate(kind, seed, level)
     solution = solve(task)

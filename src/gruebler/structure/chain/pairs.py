@@ -47,7 +47,7 @@ class Alphabet(StrEnum):
         >>> Alphabet.of_language("de"), Alphabet.of_language("en")
         (<Alphabet.GERMAN: 'german'>, <Alphabet.INTERNATIONAL: 'international'>)
         """
-        return next(each for each in cls if each.language == lang)
+        return next((each for each in cls if each.language == lang), cls.INTERNATIONAL)
 
 
 class Contact(StrEnum):
