@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import message, translate
 from gruebler.cli.inversions import item
 from gruebler.cli.long_work import ask_before, progress
-from gruebler.cli.output import print_json
+from gruebler.cli.output import print_count, print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.files import Entry
@@ -153,7 +152,7 @@ def _look_up(query: FeatureQuery, arguments: argparse.Namespace) -> None:
         if query.fits(entry_mechanism(entry), features) and not (arguments.claims and _moves(entry) == _counted(entry)):
             matches.append((entry, features))
     if arguments.count:
-        print(json.dumps({"count": len(matches)}) if arguments.json else len(matches))
+        print_count(arguments, len(matches))
     elif arguments.json:
         print_json([_document(*match) for match in matches])
     elif matches:

@@ -107,20 +107,10 @@ class SpatialMeasures:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`; angles in radians."""
-        stops = [None if stop is None else stop.explain() for stop in self.range.stops]
         return {
-            "low": self.range.low,
-            "high": self.range.high,
-            "full": self.range.full,
-            "ends": stops,
-            "output": self.output,
-            "freedom": self.freedom,
-            "turns": self.turns,
-            "travel": self.travel,
-            "dead_centres": plain(self.dead_centres),
-            "least_ratio": plain(self.least_ratio),
-            "greatest_ratio": plain(self.greatest_ratio),
-            "joints": plain(self.joints),
+            **plain(self.range, "low high full"),
+            "ends": [None if stop is None else stop.explain() for stop in self.range.stops],
+            **plain(self, "output freedom turns travel dead_centres least_ratio greatest_ratio joints"),
         }
 
     def _lines(self) -> Iterator[Message]:

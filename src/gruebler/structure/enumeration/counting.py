@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any
 
 from gruebler.base.notebook import explained
+from gruebler.base.plain_data import plain
 from gruebler.base.text import message
 from gruebler.structure.enumeration.assortment import Assortment, loop_count
 from gruebler.structure.enumeration.pieces import PieceCount, count_piece, pieces, run_pieces
@@ -56,11 +57,10 @@ class ChainCount:
         >>> count_simple_chains(6).to_json()
         {'links': 6, 'mobility': 1, 'chains': 2, 'by_assortment': {'4,2': 2}}
         """
-        document: dict[str, Any] = {"links": self.links, "mobility": self.mobility, "chains": self.chains}
-        document["by_assortment"] = {",".join(map(str, a)): k for a, k in self.by_assortment.items()}
-        orbits = {"inversions": self.inversions, "drives": self.drives, "joint_orbits": self.joint_orbits}
-        document |= {name: number for name, number in orbits.items() if number is not None}
-        return document | ({"by_fractionation": dict(self.by_fractionation)} if len(self.by_fractionation) > 1 else {})
+        counted = [name for name in ("inversions", "drives", "joint_orbits") if getattr(self, name) is not None]
+        classes = ["by_fractionation"] * (len(self.by_fractionation) > 1)
+        document: dict[str, Any] = plain(self, " ".join(["links mobility chains by_assortment", *counted, *classes]))
+        return document | {"by_assortment": {",".join(map(str, a)): k for a, k in self.by_assortment.items()}}
 
 
 _CHAINS = message("Chains of {links} links with F = {mobility}: {chains}.")
