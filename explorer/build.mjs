@@ -22,11 +22,25 @@ function written(bytes) {
   return JSON.stringify(text);
 }
 
+const texts = Object.keys(JSON.parse(await readFile(path.join(here, "src/de.json"), "utf8")));
+const literal = /"(?:[^"\\]|\\.)*"/g;
+
+/** `t("Play")` with the number of its text in the table, where both languages stand packed. */
+function numbered(source) {
+  return source.replace(/\bt\(\s*("(?:[^"\\]|\\.)*"(?:\s*\+\s*"(?:[^"\\]|\\.)*")*)\s*(?=[,)])/g, (call, text) => {
+    const number = texts.indexOf(text.match(literal).map(JSON.parse).join(""));
+    return number < 0 ? call : `t(${number}`;
+  });
+}
+
 /** The kernel, style sheets, minified, and tables of texts stand packed in the module; the packer does the same
  * everywhere. */
 const packed = {
   name: "packed",
   setup: ({ onLoad }) => {
+    onLoad({ filter: /src.[\w-]+\.ts$/ }, async ({ path: file }) => {
+      return { contents: numbered(await readFile(file, "utf8")), loader: "ts" };
+    });
     onLoad({ filter: /\.gz$/ }, async ({ path: file }) => {
       const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${written(await readFile(file))});`;
       return { contents, loader: "js", resolveDir: path.join(here, "src") };

@@ -5,6 +5,7 @@ import german from "./de.json";
 export type Language = "en" | "de";
 
 const TABLES: Record<Language, Record<string, string>> = { en: {}, de: german };
+const TEXTS = Object.keys(german);
 
 let language: Language = "en";
 
@@ -16,9 +17,10 @@ export function currentLanguage(): Language {
   return language;
 }
 
-/** A text in the reader's language; gaps are written {name}. */
-export function t(text: string, values: Record<string, string | number> = {}): string {
-  const found = TABLES[language][text] ?? text;
+/** A text in the reader's language; gaps are written {name}. In the built page its number stands for it (build.mjs). */
+export function t(text: string | number, values: Record<string, string | number> = {}): string {
+  const english = typeof text === "number" ? TEXTS[text]! : text;
+  const found = TABLES[language][english] ?? english;
   return found.replace(/\{(\w+)\}/g, (gap, name: string) => (name in values ? String(values[name]) : gap));
 }
 
