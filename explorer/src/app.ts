@@ -89,7 +89,7 @@ export class App implements Page {
     this.motion.open(this.model.get("machine") as Model);
     this.show("motion");
     const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches || location.hash.length > 1;
-    if ((this.model.get("machine") as Model).plays && !still) this.motion.toggle();
+    if ((this.model.get("machine") as Model).plays && !still) this.motion.transport.toggle();
     if (this.linkable) {
       await this.read();
       this.motion.forget();
@@ -99,7 +99,7 @@ export class App implements Page {
   }
 
   destroy(): void {
-    this.motion.pause();
+    this.motion.transport.pause();
     this.motion.stage.destroy();
     this.host.remove();
   }
@@ -149,7 +149,7 @@ export class App implements Page {
     }
     this.view = name;
     for (const [key, view] of Object.entries(this.views)) view.element.classList.toggle("shown", key === name);
-    if (name !== "motion") this.motion.pause();
+    if (name !== "motion") this.motion.transport.pause();
     this.arrangeHeader();
     this.views[name]!.appeared?.();
   }
@@ -260,7 +260,7 @@ export class App implements Page {
     if (this.motion.linkage) this.remember("motion");
     this.motion.open(model);
     this.show("motion");
-    if (drive !== undefined) this.motion.pick(drive);
+    if (drive !== undefined) this.motion.transport.pick(drive);
   }
 
   /** Show the structure of a text. */
@@ -358,9 +358,10 @@ export class App implements Page {
     }
     if (event.key === "?") showKeys(this.root);
     else if (this.view !== "motion") return;
-    else if (event.key === " " && target.tagName !== "BUTTON" && target.tagName !== "SUMMARY") this.motion.toggle();
-    else if (event.key === "ArrowRight") this.motion.nudge(event.shiftKey ? 10 : 1);
-    else if (event.key === "ArrowLeft") this.motion.nudge(event.shiftKey ? -10 : -1);
+    else if (event.key === " " && target.tagName !== "BUTTON" && target.tagName !== "SUMMARY")
+      this.motion.transport.toggle();
+    else if (event.key === "ArrowRight") this.motion.transport.nudge(event.shiftKey ? 10 : 1);
+    else if (event.key === "ArrowLeft") this.motion.transport.nudge(event.shiftKey ? -10 : -1);
     else if (event.key === "+") this.motion.stage.zoom(1.25);
     else if (event.key === "-") this.motion.stage.zoom(0.8);
     else if (event.key === "0") this.motion.stage.fit();

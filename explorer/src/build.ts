@@ -3,14 +3,11 @@
 import { gridStep } from "./canvas";
 import { h, renew, svg } from "./dom";
 import {
-  counted,
   type Drawing,
   documentOfDrawing,
   driven,
   EMPTY,
   joined,
-  jointName,
-  jointsOf,
   linksOf,
   moved,
   renamed,
@@ -24,13 +21,14 @@ import {
   withSlider,
 } from "./drawing";
 import { History } from "./history";
-import { convexHull, toHull } from "./hull";
-import { number, t } from "./language";
+import { toHull } from "./hull";
+import { t } from "./language";
+import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
+import { outlineOf, type Plane, planePicture } from "./plane";
 import type { Pair } from "./rows";
 import type { Page, View } from "./view";
 import { Viewport } from "./viewport";
-import { moment } from "./waiting";
 
 type Tool = "move" | "ground" | "link" | "slider" | "dyad";
 const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3 };
@@ -39,38 +37,23 @@ const WAYS: Record<string, Pair> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], Arr
 const GRIP = 16; // pixels
 const KEPT = "gruebler-drawing";
 
-interface Offer {
-  kind: "drive" | "undrive" | "bar" | "remove";
-  joint?: number;
-  links?: string[];
-  generic: number;
-}
-
-interface Told {
-  counted: number;
-  generic: number;
-  lines: string[];
-  offers: Offer[];
-}
-
-export class BuildView implements View {
+export class BuildView implements View, Plane, Drawn {
   readonly element = h("div", { class: "view motion", "data-page": "build" });
   drawing: Drawing = kept();
   readonly viewport = new Viewport();
   private tool: Tool = "link";
-  private spots: Spot[] = [];
-  private chosen: { knot: number } | { link: string } | null = null;
-  private cursor: Pair = [0, 0];
+  spots: Spot[] = [];
+  chosen: { knot: number } | { link: string } | null = null;
+  cursor: Pair = [0, 0];
   private snapping = true;
   private readonly history = new History<Drawing>();
   private readonly root = svg("svg", { role: "application", tabindex: 0, class: "drawing" });
   private readonly tools = h("div", { class: "transport" });
   private readonly side = h("div", { class: "side" });
-  private readonly mobility = h("div", { role: "status", "data-place": "mobility" });
+  private readonly mobility = new MobilityPanel(this);
   private readonly choice = h("div", {});
-  private asked = 0;
 
-  constructor(private readonly page: Page) {
+  constructor(readonly page: Page) {
     this.viewport.scale = 4;
     const stage = h("div", { class: "stage" }, this.root);
     this.element.append(stage, this.side, this.tools);
@@ -126,7 +109,7 @@ export class BuildView implements View {
     });
     renew(
       this.side,
-      h("section", { class: "panel" }, h("h2", {}, t("Mobility")), this.mobility),
+      h("section", { class: "panel" }, h("h2", {}, t("Mobility")), this.mobility.element),
       h("section", { class: "panel" }, h("h2", {}, t("What is chosen")), this.choice),
       h(
         "section",
@@ -198,7 +181,7 @@ export class BuildView implements View {
     }
     this.draw();
     this.showChoice();
-    void this.tell();
+    void this.mobility.tell();
   }
 
   /** What a click, a tap or Enter does at a place. */
@@ -239,20 +222,16 @@ export class BuildView implements View {
       else u = last.at[0];
     }
     if (knot !== null) return { at: drawing.knots[knot]!.at, knot, link: null };
-    const link = linksOf(drawing).find(
-      (one) => one !== drawing.frame && toHull(convexHull(this.cornersOf(one)), x, y) < GRIP / 2,
-    );
+    const link = linksOf(drawing).find((one) => one !== drawing.frame && toHull(outlineOf(this, one), x, y) < GRIP / 2);
     return { at: [u, v], knot: null, link: link ?? null };
   }
 
-  private cornersOf(link: string): Pair[] {
-    return this.drawing.knots
-      .filter(({ links, slide }) => links.includes(link) && slide === undefined)
-      .map(({ at }) => this.viewport.screen(...at));
+  get step(): number {
+    return gridStep(70 / this.viewport.scale);
   }
 
-  private get step(): number {
-    return gridStep(70 / this.viewport.scale);
+  private draw(): void {
+    renew(this.root, ...planePicture(this));
   }
 
   private hover(event: PointerEvent): void {
@@ -331,85 +310,6 @@ export class BuildView implements View {
 
   // --- the picture ---------------------------------------------------------------------------------------------------
 
-  private draw(): void {
-    const { drawing, viewport } = this;
-    const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
-    const path = (corners: readonly Pair[]) =>
-      corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
-    const links = bodies.flatMap((link) => {
-      const hull = convexHull(this.cornersOf(link));
-      const chosen = this.chosen && "link" in this.chosen && this.chosen.link === link ? " chosen" : "";
-      const d = path(hull) + (hull.length > 2 ? "Z" : "");
-      const [x, y] = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
-      return [
-        svg("path", { class: `outline${chosen}`, d, "data-link": link }),
-        svg("path", { class: "bar", d }),
-        svg("text", { x: x + 9, y: y - 9 }, link),
-      ];
-    });
-    const knots = drawing.knots.map((knot, k) => this.knotElement(k, knot.at));
-    const waiting = [...this.spots.map(({ at }) => at), this.cursor].map((at) => viewport.screen(...at));
-    const [cx, cy] = waiting.at(-1)!;
-    renew(
-      this.root,
-      ...this.grid(),
-      ...links,
-      ...knots,
-      ...(waiting.length > 1 ? [svg("path", { class: "pending", d: path(waiting) })] : []),
-      svg("path", { class: "crosshair", d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
-    );
-  }
-
-  private knotElement(k: number, at: Pair): SVGElement {
-    const { drawing } = this;
-    const { links, slide } = drawing.knots[k]!;
-    const [x, y] = this.viewport.screen(...at);
-    const classes = ["pin", "free"];
-    if (this.chosen && "knot" in this.chosen && this.chosen.knot === k) classes.push("chosen");
-    const element = svg("g", {
-      class: classes.join(" "),
-      "data-knot": String(k),
-      transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
-    });
-    const ground = drawing.frame !== null && links.includes(drawing.frame);
-    if (slide !== undefined) {
-      const turned = svg("g", { transform: `rotate(${-slide})` });
-      turned.append(
-        svg("path", { class: "rail", d: "M-46 10H46" }),
-        svg("path", { class: "rail-hatch", d: "M-46 15H46" }),
-      );
-      turned.append(svg("rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3 }));
-      element.append(turned);
-    } else if (ground) element.append(svg("path", { class: "support", d: "M0 0 L-11 17 H11 Z M-17 17 H17" }));
-    if (slide === undefined) element.append(svg("circle", { class: "joint", r: links.length > 1 || ground ? 5 : 3.2 }));
-    if (drawing.drives.includes(k)) element.append(svg("circle", { class: "driven", r: 12 }));
-    return element;
-  }
-
-  /** Lines with their numbers, and a bar as long as a step. */
-  private grid(): SVGElement[] {
-    const { viewport, step } = this;
-    const { width, height } = viewport;
-    const [left, top] = viewport.world(0, 0);
-    const [right, bottom] = viewport.world(width, height);
-    const out: SVGElement[] = [];
-    for (let k = Math.ceil(left / step); k * step <= right; k++) {
-      const [x] = viewport.screen(k * step, 0);
-      out.push(svg("path", { class: "mesh", d: `M${x} 0V${height}` }));
-      out.push(svg("text", { class: "tick", x: x + 3, y: height - 5 }, number(k * step)));
-    }
-    for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
-      const [, y] = viewport.screen(0, k * step);
-      out.push(svg("path", { class: "mesh", d: `M0 ${y}H${width}` }));
-      out.push(svg("text", { class: "tick", x: 4, y: y - 3 }, number(k * step)));
-    }
-    const long = step * viewport.scale;
-    const d = `M${width - 20 - long} 24v6h${long}v-6`;
-    const text = svg("text", { class: "tick", x: width - 20 - long / 2, y: 22, "text-anchor": "middle" });
-    text.append(`${number(step)} mm`);
-    return [...out, svg("path", { class: "scale", d }), text];
-  }
-
   // --- beside it -----------------------------------------------------------------------------------------------------
 
   private showChoice(): void {
@@ -446,69 +346,7 @@ export class BuildView implements View {
     renew(this.choice, h("p", { class: "note" }, links.join(" – ")), h("div", { class: "form" }, ...parts));
   }
 
-  /** The mobility by the count at once, then what the library says, with offers to mend it. */
-  private async tell(): Promise<void> {
-    const asked = ++this.asked;
-    const { drawing } = this;
-    const count = h("p", { class: "mobility", "data-fact": "drawn" }, `F = ${counted(drawing)}`);
-    const { frame } = drawing;
-    if (frame === null || linksOf(drawing).length < 3) {
-      const text = frame === null ? t("Put a ground: key G.") : t("Draw links: a mechanism has at least three.");
-      return renew(this.mobility, ...(linksOf(drawing).length ? [count] : []), h("p", { class: "note" }, text));
-    }
-    if (!this.mobility.querySelector('[data-fact="freedoms"]')) renew(this.mobility, count, moment());
-    const numbers = jointsOf(drawing);
-    const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
-    const drives = drawing.drives.map((k) => numbers.indexOf(k));
-    try {
-      const told = await this.page.ask<Told>("drawing", { joints, frame, drives });
-      if (asked !== this.asked) return;
-      const good = told.generic > 0 && told.generic === drives.length;
-      const text = t("Mobility {generic}, drives: {drives}", { generic: told.generic, drives: drives.length });
-      const offers = told.offers.map((offer) => this.offer(offer, numbers));
-      const move = h("button", { class: "key", "data-act": "move", onclick: () => void this.open() }, t("Move it"));
-      renew(
-        this.mobility,
-        count,
-        h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, text),
-        h("div", { class: "form" }, ...offers, ...(good ? [move] : [])),
-        h("details", {}, h("summary", {}, t("Why")), h("p", { class: "note" }, told.lines.join(" "))),
-      );
-    } catch (error) {
-      if (asked === this.asked) renew(this.mobility, count, h("p", { class: "note" }, (error as Error).message));
-    }
-  }
-
-  private offer({ kind, joint, links, generic }: Offer, numbers: number[]): HTMLElement {
-    const { drawing } = this;
-    const knot = joint === undefined ? -1 : numbers[joint]!;
-    const [one, two] = (links ?? []) as [string, string];
-    const [text, act] = {
-      drive: [t("Drive {joint}", { joint: knot < 0 ? "" : jointName(drawing, knot) }), () => driven(drawing, knot)],
-      undrive: [
-        t("Let {joint} free", { joint: knot < 0 ? "" : jointName(drawing, knot) }),
-        () => driven(drawing, knot),
-      ],
-      bar: [t("A link between {one} and {two}: F = {generic}", { one, two, generic }), () => this.barred(one, two)],
-      remove: [t("Without {one}: F = {generic}", { one, generic }), () => withoutLink(drawing, one)],
-    }[kind] as [string, () => Drawing];
-    return h("button", { class: "plain", "data-offer": kind, onclick: () => this.change(act()) }, text);
-  }
-
-  /** A link between two others: from an open end if there is one, to a place beside. */
-  private barred(one: string, two: string): Drawing {
-    const { drawing, step } = this;
-    const place = (link: string, aside: number): Spot => {
-      const end = drawing.knots.findIndex(({ links }) => links.length === 1 && links[0] === link);
-      if (end >= 0) return { at: drawing.knots[end]!.at, knot: end, link: null };
-      const mine = drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
-      const mean = (axis: 0 | 1) => mine.reduce((sum, at) => sum + at[axis], 0) / mine.length;
-      return { at: [mean(0) + aside * step, mean(1) + 0.4 * aside * step], knot: null, link };
-    };
-    return withLink(drawing, place(one, 1), place(two, 2));
-  }
-
-  private async open(): Promise<void> {
+  async move(): Promise<void> {
     try {
       const document = documentOfDrawing(this.drawing, "mm");
       this.page.open(await this.page.ask<Model>("open_document", { document, name: t("A drawn mechanism") }));

@@ -9,6 +9,7 @@ import { LoadForm } from "./loads";
 import type { Model } from "./model";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
+import type { Transport } from "./transport";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
 
@@ -36,12 +37,8 @@ export type Arrow = [joint: number, x: number, y: number];
 export interface Loaded {
   readonly page: Page;
   readonly linkage: Linkage;
-  readonly range: [number, number];
-  /** The value of the drive that is plotted. */
-  readonly drive: number;
-  pick(drive: number): void;
+  readonly transport: Transport;
   redraw(): void;
-  play(fall: Fall): void;
 }
 
 export class Forces {
@@ -90,7 +87,8 @@ export class Forces {
   }
 
   private async ask(): Promise<void> {
-    const { page, linkage, range } = this.view;
+    const { page, linkage } = this.view;
+    const { range } = this.view.transport;
     const { active, cycle } = linkage;
     const running = { active, range, full: cycle.full, speed: this.form.speed };
     try {
@@ -121,8 +119,8 @@ export class Forces {
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
       const title = turning ? `${t("Drive torque")} [N·${model.unit}]` : `${t("Drive force")} [N]`;
-      this.plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.view.pick(value));
-      this.plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.view.range);
+      this.plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.view.transport.pick(value));
+      this.plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.view.transport.range);
       this.forces = forces.map(({ joint, force }) => {
         const [x, y] = force.map(numbers) as [Float64Array, Float64Array];
         const sizes = x.map((one, k) => Math.hypot(one, y[k]!)).filter(Number.isFinite);
@@ -155,7 +153,7 @@ export class Forces {
       );
       this.showJoint();
     }
-    this.at(this.view.drive);
+    this.at(this.view.transport.drive);
     this.view.redraw();
   }
 
@@ -163,7 +161,7 @@ export class Forces {
     const force = this.forces[this.joint.selectedIndex];
     if (!force) return;
     this.polar.show(force, "N");
-    this.polar.at(this.view.drive);
+    this.polar.at(this.view.transport.drive);
   }
 
   /** The drive is elsewhere. */
@@ -178,7 +176,7 @@ export class Forces {
     if (!this.opened() || this.model !== this.view.linkage.model) return [];
     const most = Math.max(...this.forces.map((force) => force.most));
     return this.forces.map((force) => {
-      const [x, y] = vectorAt(force, this.view.drive);
+      const [x, y] = vectorAt(force, this.view.transport.drive);
       return [force.joint, (x * force.most) / most, (y * force.most) / most];
     });
   }
@@ -188,7 +186,7 @@ export class Forces {
     const found = await awaited(place, () => page.ask<Fall>("fall", this.question));
     if (!found || linkage !== this.view.linkage) return;
     renew(place, h("p", { class: "note" }, found.lines.join(" ")));
-    this.view.play(found);
+    this.view.transport.play(found);
   }
 }
 

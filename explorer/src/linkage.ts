@@ -325,3 +325,32 @@ export class Linkage {
     this.sizes.points.push({ name, link, at: this.toLocal(link, x, y) });
   }
 }
+
+/** The link whose poles are shown first: no neighbour of the frame, if there is one. */
+export function floatingLink({ frame, joints, own }: Model): number {
+  const near = new Set(joints.filter((j) => j.links.includes(frame)).flatMap((j) => j.links));
+  for (let link = 0; link < own; link++) if (!near.has(link)) return link;
+  return own - 1;
+}
+
+/** Whether sizes, points and assembly mode are the same but for rounding. */
+export function alike(one: Snapshot, two: Snapshot, size: number): boolean {
+  const values = ({ at, angles, points, signs }: Snapshot) => [
+    ...[...at, ...points.flatMap((point) => point.at)].map((value) => value / size),
+    ...angles,
+    ...signs,
+  ];
+  const [first, second] = [values(one), values(two)];
+  const names = ({ points }: Snapshot) => points.map(({ name, link }) => `${name} ${link}`).join();
+  return (
+    first.length === second.length &&
+    names(one) === names(two) &&
+    first.every((value, k) => Math.abs(value - second[k]!) < 1e-9)
+  );
+}
+
+/** Whether a change of the sizes, the points or the assembly mode left everything as it was. */
+export function sameSizes(one: Snapshot, two: Snapshot): boolean {
+  const key = ({ at, points, signs }: Snapshot) => JSON.stringify([at, points, signs]);
+  return key(one) === key(two);
+}

@@ -3,6 +3,7 @@
 import { Painter } from "./canvas";
 import { h, svg } from "./dom";
 import type { Dragging } from "./dragging";
+import { type Icon, icon } from "./icons";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Board, Pointer, type StageEvents } from "./pointer";
@@ -65,6 +66,30 @@ export class Stage implements Board {
 
   destroy(): void {
     this.observer.disconnect();
+  }
+
+  /** Write the buttons on the picture, in the language of the page. */
+  arrange(): void {
+    const button = (sign: Icon, title: string, onclick: () => void) =>
+      h("button", { title, "aria-label": title, onclick }, icon(sign));
+    const adder = button("point", t("Add a coupler point: click on a link"), () => {
+      this.adding = !this.adding;
+      adder.setAttribute("aria-pressed", String(this.adding));
+      this.element.classList.toggle("adding", this.adding);
+    });
+    adder.setAttribute("aria-pressed", String(this.adding));
+    for (const old of this.element.querySelectorAll(".tools, .hint")) old.remove();
+    this.element.append(
+      h(
+        "div",
+        { class: "tools" },
+        button("more", t("Zoom in"), () => this.zoom(1.25)),
+        button("less", t("Zoom out"), () => this.zoom(0.8)),
+        button("fit", t("Show everything"), () => this.fit()),
+        adder,
+      ),
+      h("div", { class: "hint" }, t("Drag a joint to change sizes, a link to move it.")),
+    );
   }
 
   get joints(): number[] {

@@ -1,51 +1,12 @@
 /** The view of the structure: a chain out of all, its frame, drive and joint types, its mobility; then dimensions. */
 
-import { h, picture, renew, svg, thumbnail } from "./dom";
+import { type Choice, chainPicture, type Structure, typesOf } from "./chain";
+import { ChainList } from "./chains";
+import { h, renew, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
 import { awaited, moment } from "./waiting";
-
-interface Choice {
-  text: string;
-  frame: string;
-  drives: string[];
-  family: string;
-  picture: string;
-}
-
-export interface Structure {
-  text: string;
-  /** The frame that was chosen, or the one of the list that is like it; empty if none was. */
-  chosen: string;
-  picture: string;
-  joints: {
-    name: string;
-    at: [number, number];
-    types: { symbol: string; name: string; text: string; chosen: boolean }[];
-  }[];
-  links: {
-    name: string;
-    at: [number, number];
-    outline: [number, number][];
-    overconstrained: boolean;
-    rigid: boolean;
-  }[];
-  frame: string;
-  counted: number;
-  generic: number;
-  verdict: string;
-  lines: string[];
-  drives: string;
-  inversions: Choice[];
-  driven: Choice[];
-}
-
-interface Chains {
-  total: number;
-  start: number;
-  items: { text: string; picture: string }[];
-}
 
 /** The names of the links of a linkage in the language of the page. */
 function namesOf({ links, linkNames }: Model): Record<string, string> {
@@ -66,24 +27,19 @@ interface Realised {
 export class StructureView implements View {
   readonly element = h("div", { class: "view", "data-page": "structure" });
   private text = "";
-  private links = 6;
-  private mobility = 1;
-  private chains: Chains | null = null;
   private structure: Structure | null = null;
   private joint = -1;
   private atFrame = true;
-  private readonly list = h("div", {});
-  private readonly count = h("span", { class: "note" });
+  private readonly chains: ChainList;
   private readonly shown = h("div", {});
   private readonly detail = h("div", {});
-  private readonly status = h("div", { class: "form" });
   private readonly error = h("p", { class: "error", role: "alert" });
   private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
   private typing = 0;
   private asked = 0;
-  private listed = 0;
 
   constructor(private readonly page: Page) {
+    this.chains = new ChainList(page, (text) => void this.describe(text));
     this.field.addEventListener("input", () => {
       clearTimeout(this.typing);
       this.typing = window.setTimeout(() => void this.describe(this.field.value), 300);
@@ -92,30 +48,10 @@ export class StructureView implements View {
 
   appeared(): void {
     if (!this.text) void this.describe(chainText(this.page.shown));
-    if (!this.chains) void this.listChains(0);
+    this.chains.appeared();
   }
 
   arrange(): void {
-    const links = h("input", {
-      type: "number",
-      ...this.page.limits.links,
-      value: this.links,
-      "aria-label": t("Links"),
-      onchange: () => {
-        this.links = Number(links.value);
-        void this.listChains(0);
-      },
-    });
-    const mobility = h("input", {
-      type: "number",
-      ...this.page.limits.mobility,
-      value: this.mobility,
-      "aria-label": t("Mobility"),
-      onchange: () => {
-        this.mobility = Number(mobility.value);
-        void this.listChains(0);
-      },
-    });
     this.field.setAttribute("aria-label", t("The chain as text"));
     renew(
       this.element,
@@ -123,66 +59,15 @@ export class StructureView implements View {
         "div",
         { class: "page" },
         step(1, t("Chain")),
-        h(
-          "div",
-          { class: "form" },
-          h("label", {}, t("Links"), links),
-          h("label", {}, t("Mobility"), mobility),
-          this.count,
-          this.status,
-        ),
-        this.list,
+        this.chains.element,
         this.shown,
         h("details", { class: "words" }, h("summary", {}, t("The chain as text")), this.field),
         this.error,
         this.detail,
       ),
     );
-    this.showChains();
+    this.chains.arrange();
     if (this.text) void this.describe(this.text);
-  }
-
-  private async listChains(start: number): Promise<void> {
-    const question = { links: this.links, mobility: this.mobility, start };
-    const number = ++this.listed;
-    const found = await awaited(this.status, (progress) => this.page.ask<Chains>("chains", question, progress));
-    if (number !== this.listed) return; // another list is wanted by now
-    if (found) {
-      const before = start && this.chains ? this.chains.items : [];
-      this.chains = { ...found, items: [...before, ...found.items] };
-    }
-    this.showChains();
-  }
-
-  private showChains(): void {
-    const { chains } = this;
-    if (!chains) return renew(this.list);
-    this.count.textContent = t("{shown} of {total} chains", { shown: chains.items.length, total: chains.total });
-    const more =
-      chains.items.length < chains.total
-        ? h("button", { class: "plain", onclick: () => void this.listChains(chains.items.length) }, t("More"))
-        : null;
-    renew(
-      this.list,
-      h(
-        "div",
-        { class: "cards few", "data-list": "chains" },
-        ...chains.items.map(({ text, picture: drawn }, k) =>
-          h(
-            "button",
-            {
-              class: "card",
-              "data-chain": text,
-              "aria-pressed": String(this.text.startsWith(text)),
-              onclick: () => void this.describe(text),
-            },
-            thumbnail(drawn, text),
-            h("span", {}, `${k + 1}`),
-          ),
-        ),
-      ),
-      ...(more ? [more] : []),
-    );
   }
 
   async describe(text: string): Promise<void> {
@@ -203,8 +88,7 @@ export class StructureView implements View {
       this.error.textContent = "";
       this.field.setAttribute("aria-invalid", "false");
       this.showStructure();
-      for (const card of this.list.querySelectorAll<HTMLElement>("[data-chain]"))
-        card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.chain!)));
+      this.chains.choose(text);
     } catch (error) {
       if (number !== this.asked) return;
       if (!this.structure) renew(this.shown);
@@ -230,73 +114,7 @@ export class StructureView implements View {
 
   private showStructure(): void {
     const found = this.structure!;
-    const drawn = picture(found.picture, found.text) as SVGSVGElement;
-    drawn.setAttribute("role", "group"); // its joints are buttons
-    const marks: SVGElement[] = found.links
-      .filter((link) => link.overconstrained || link.rigid)
-      .map((link) =>
-        svg("polyline", {
-          points: link.outline.map((p) => p.join(",")).join(" "),
-          fill: "none",
-          "stroke-width": 5,
-          "stroke-linecap": "round",
-          "stroke-linejoin": "round",
-          stroke: link.overconstrained ? "var(--accent)" : "var(--purple)",
-          opacity: 0.85,
-          "data-strained": link.name,
-        }),
-      );
-    const joints = found.joints.map((one, k) =>
-      svg(
-        "circle",
-        {
-          cx: one.at[0],
-          cy: one.at[1],
-          r: 13,
-          fill: "transparent",
-          stroke: k === this.joint ? "var(--key)" : "transparent",
-          "stroke-width": 3,
-          tabindex: 0,
-          role: "button",
-          "aria-label": one.name,
-          "data-joint": one.name,
-          style: null,
-          cursor: "pointer",
-          onclick: () => this.pick(k),
-          onkeydown: (event: KeyboardEvent) => {
-            if (event.key !== "Enter" && event.key !== " ") return;
-            event.preventDefault();
-            this.pick(k);
-          },
-        },
-        svg("title", {}, one.name),
-      ),
-    );
-    drawn.append(...marks, ...joints);
-    const joint = found.joints[this.joint];
-    const types = joint
-      ? h(
-          "div",
-          {},
-          h("p", { class: "note" }, t("Type of {joint}", { joint: joint.name })),
-          h(
-            "div",
-            { class: "joint-types" },
-            ...joint.types.map((type) =>
-              h(
-                "button",
-                {
-                  class: type.chosen ? "key" : "plain",
-                  title: type.name,
-                  "data-type": type.symbol,
-                  onclick: () => void this.describe(type.text),
-                },
-                `${type.symbol} ${type.name}`,
-              ),
-            ),
-          ),
-        )
-      : h("p", { class: "note" }, t("Click on a joint to change its type."));
+    const drawn = chainPicture(found, this.joint, (joint) => this.pick(joint));
     const strained = found.links.some((link) => link.overconstrained);
     const lines = [...found.lines.slice(1), ...found.drives.split("\n")].filter((line) => line.trim());
     renew(
@@ -304,7 +122,12 @@ export class StructureView implements View {
       h(
         "div",
         { class: "two" },
-        h("div", {}, h("div", { class: "chain-picture" }, drawn), types),
+        h(
+          "div",
+          {},
+          h("div", { class: "chain-picture" }, drawn),
+          typesOf(found.joints[this.joint], (text) => void this.describe(text)),
+        ),
         h(
           "div",
           {},

@@ -1,30 +1,15 @@
 /** The view of the synthesis: what a linkage is to do, put into a plane or a table; designs that do it play over it. */
 
-import { choice, h, renew, svg, thumbnail } from "./dom";
-import { Ghost, type Moving } from "./ghost";
-import { angle, number, t } from "./language";
-import type { LinkageDocument, Model, Target } from "./model";
+import { type Design, DesignCards, type Found } from "./designs";
+import { choice, h, renew, svg } from "./dom";
+import { Ghost } from "./ghost";
+import { t } from "./language";
+import type { Model, Target } from "./model";
 import { rowsTable, targetMark, tip } from "./targets";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
 
-interface Item extends Moving {
-  document: LinkageDocument;
-  picture: string;
-  form: string;
-  transmission: number | null;
-  error: number | null;
-  size: number;
-}
-
-interface Designs {
-  total: number;
-  refused: number;
-  items: Item[];
-}
-
 type Kind = "positions" | "points" | "function" | "dead-centres";
-type Order = "error" | "size" | "transmission";
 
 /** The rows of each kind at first, and how few there are at least. */
 const FEWEST: Record<Kind, number> = { positions: 3, points: 5, function: 3, "dead-centres": 1 };
@@ -52,9 +37,7 @@ export class SynthesisView implements View {
   private closed = false;
   private crank = true;
   private least = 20; // degrees
-  private order: Order = "error";
-  private designs: Designs | null = null;
-  private shownItem: Item | null = null;
+  private shownDesign: Design | null = null;
   /** What the pointer takes along. */
   private held: ((at: [number, number]) => void) | null = null;
   private readonly marks = svg("g");
@@ -66,7 +49,10 @@ export class SynthesisView implements View {
     this.ghost.element,
   );
   private readonly list = h("div", {});
-  private readonly found = h("div", {});
+  private readonly designs = new DesignCards(
+    (design) => this.play(design),
+    (design) => void this.open(design),
+  );
   private readonly status = h("div", { class: "form" });
 
   constructor(private readonly page: Page) {
@@ -76,7 +62,7 @@ export class SynthesisView implements View {
   }
 
   appeared(): void {
-    this.play(this.shownItem);
+    this.play(this.shownDesign);
   }
 
   /** Other points, out of a file. */
@@ -84,7 +70,7 @@ export class SynthesisView implements View {
     this.kind = "points";
     this.rows.points = points;
     this.closed = closed;
-    this.designs = null;
+    this.designs.show(null);
     this.arrange();
   }
 
@@ -182,16 +168,16 @@ export class SynthesisView implements View {
             this.status,
           ),
         ),
-        this.found,
+        this.designs.element,
       ),
     );
     this.draw();
-    this.showDesigns();
+    this.designs.arrange();
   }
 
   private turnTo(kind: Kind): void {
     this.kind = kind;
-    this.designs = null;
+    this.designs.show(null);
     this.play(null);
     renew(this.status);
     this.arrange();
@@ -240,10 +226,9 @@ export class SynthesisView implements View {
   private clear(): void {
     this.rows[this.kind] = [];
     this.pivots = [];
-    this.designs = null;
+    this.designs.show(null);
     this.play(null);
     this.draw();
-    this.showDesigns();
   }
 
   /** What is to be met, as the stage shows it. */
@@ -328,67 +313,17 @@ export class SynthesisView implements View {
       crank: this.crank,
       transmission: this.least,
     };
-    const found = await awaited(this.status, (progress) => this.page.ask<Designs>("synthesise", question, progress));
+    const found = await awaited(this.status, (progress) => this.page.ask<Found>("synthesise", question, progress));
     if (!found) return;
-    this.designs = found;
-    this.showDesigns();
-    this.play(this.sorted()[0] ?? null);
-    this.found.scrollIntoView({ block: "nearest", behavior: "smooth" });
-  }
-
-  private sorted(): Item[] {
-    const worth = ({ error, size, transmission }: Item) =>
-      ({ error: Math.abs(error ?? 0), size, transmission: -(transmission ?? 0) })[this.order];
-    const tiny = (value: number) => (Math.abs(value) < 1e-9 ? 0 : value);
-    return [...(this.designs?.items ?? [])].sort((one, two) => tiny(worth(one)) - tiny(worth(two)) || 0);
-  }
-
-  private showDesigns(): void {
-    const { designs } = this;
-    if (!designs) return renew(this.found);
-    const orders: [Order, string][] = [
-      ["error", t("by deviation")],
-      ["size", t("by size")],
-      ["transmission", t("by transmission angle")],
-    ];
-    renew(
-      this.found,
-      h("h2", {}, t("{count} designs", { count: designs.total })),
-      h(
-        "p",
-        { class: "note" },
-        designs.refused ? t("{count} others do not meet what is asked.", { count: designs.refused }) : "",
-      ),
-      designs.items.length > 1
-        ? choice(t("Order"), orders, this.order, (order) => {
-            this.order = order as Order;
-            this.showDesigns();
-          })
-        : "",
-      h("div", { class: "cards sorted", "data-list": "designs" }, ...this.sorted().map((item) => this.card(item))),
-    );
-  }
-
-  private card(item: Item): HTMLElement {
-    const { form, transmission, error, size } = item;
-    const deviation = error === null ? null : 100 * (Math.abs(error) < 1e-9 ? 0 : error);
-    const play = () => this.play(item);
-    return h(
-      "button",
-      { class: "card", onclick: () => void this.open(item), onpointerenter: play, onfocus: play },
-      thumbnail(item.picture, form),
-      h("b", {}, form),
-      h("span", {}, transmission === null ? "" : `μ ≥ ${angle((transmission * Math.PI) / 180, 3)}`),
-      h("span", {}, deviation === null ? "" : t("deviation {value} %", { value: number(deviation, 2) })),
-      h("span", {}, t("size {value}", { value: number(size, 3) })),
-    );
+    this.play(this.designs.show(found));
+    this.designs.element.scrollIntoView({ block: "nearest", behavior: "smooth" });
   }
 
   // --- a design plays over its targets -------------------------------------------------------------------------------
 
   /** Everything that is seen: the plane, and where the design that plays comes to. */
   private look(): void {
-    const places = this.shownItem?.frames.flat() ?? [];
+    const places = this.shownDesign?.frames.flat() ?? [];
     const fixed: [number, number][] =
       this.planar || !places.length
         ? [
@@ -403,13 +338,13 @@ export class SynthesisView implements View {
     this.plane.setAttribute("viewBox", box.map((value) => value.toPrecision(6)).join(" "));
   }
 
-  private play(item: Item | null): void {
-    this.shownItem = item;
+  private play(design: Design | null): void {
+    this.shownDesign = design;
     this.look();
-    this.ghost.play(item);
+    this.ghost.play(design);
   }
 
-  private async open(item: Item): Promise<void> {
+  private async open(design: Design): Promise<void> {
     const names: Record<Kind, string> = {
       points: t("A design for {count} points", { count: this.points.length }),
       positions: t("A design for {count} positions", { count: this.points.length }),
@@ -417,7 +352,7 @@ export class SynthesisView implements View {
       "dead-centres": t("A design for dead centres"),
     };
     try {
-      const question = { document: item.document, name: names[this.kind] };
+      const question = { document: design.document, name: names[this.kind] };
       const model = await this.page.ask<Model>("open_document", question);
       this.page.open({ ...model, targets: this.targets });
     } catch (error) {

@@ -77,7 +77,7 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     click(plane, (30, 30), (40, 80), (110, 60))  # from the coupler
     view.keyboard.press("g")
     click(plane, (110, 60))
-    plane.until("gruebler.views.build.mobility.textContent.includes('Mobility 1, drives: 1')")
+    plane.until("gruebler.views.build.mobility.element.textContent.includes('Mobility 1, drives: 1')")
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.motion.linkage.model.joints.length === 7")
     view.go_back()
@@ -105,7 +105,7 @@ def test_a_slider_crank_is_drawn_by_keys_alone(plane):
     view.keyboard.press("Enter")
     view.keyboard.press("s")
     view.keyboard.press("Enter")
-    plane.until("gruebler.views.build.mobility.textContent.includes('Mobility 1, drives: 0')")
+    plane.until("gruebler.views.build.mobility.element.textContent.includes('Mobility 1, drives: 0')")
     assert view.evaluate("gruebler.views.build.drawing.knots.map((knot) => knot.links.join('-'))") == [
         "frame-1",
         "1-2",

@@ -130,7 +130,7 @@ def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path
     dropped(page, "x.linkage2", b"<linkage2/>")
     page.until("gruebler.message.textContent.includes('gruebler explore FILE')")
     page.page.locator('[data-panel="export"] summary').click()
-    page.page.evaluate("gruebler.motion.speed = 60")  # a second
+    page.page.evaluate("gruebler.motion.transport.speed = 60")  # a second
     page.page.locator('[data-panel="export"] select').select_option("640")
     drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
     with page.page.expect_download(timeout=30_000) as saved:

@@ -57,7 +57,7 @@ def test_a_load_that_is_nowhere_is_refused():
 @pytest.mark.parametrize("locale", ["en-US", "de-DE"])
 def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page = tab(locale=locale).open(server.address)
-    page.page.evaluate("gruebler.motion.pick(1)")
+    page.page.evaluate("gruebler.motion.transport.pick(1)")
     page.page.locator(f"{PANEL} summary").click()
     page.page.locator("#force-load").select_option("link 3")
     assert page.page.evaluate(ARROWS) == ""
@@ -66,7 +66,7 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page.until(f"![undefined, '0'].includes({READ})", 60)
     # virtual work: the torque of the drive times its speed and that of the load cancel
     for drive in (1.0, 2.5):
-        page.page.evaluate(f"gruebler.motion.pick({drive})")
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
         speed = page.page.evaluate("gruebler.motion.linkage.pose.rates[3]")
         read = float(page.page.evaluate(READ).replace(",", "."))
         assert read == pytest.approx(-1000 * speed, rel=2e-3)
@@ -76,7 +76,7 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page.until(f"!{ROOT}.querySelector('[data-act=\"assume\"]') && {ROOT}.querySelector('[data-act=\"fall\"]')")
     before = page.page.evaluate(POSE)
     page.page.locator('[data-act="fall"]').click()
-    page.until(f"gruebler.motion.player.playing && {POSE} !== '{before}'", 90)
+    page.until(f"gruebler.motion.transport.player.playing && {POSE} !== '{before}'", 90)
     page.page.locator("button.play").click()
     assert page.page.evaluate(POSE) == before
 

@@ -21,9 +21,9 @@ def test_the_page_begins_with_a_machine_that_moves_unless_motion_is_unwelcome(ta
     page = tab()
     page.page.emulate_media(reduced_motion="reduce")
     page.open(path.as_uri())
-    assert page.page.evaluate("gruebler.motion.player.playing") is False
+    assert page.page.evaluate("gruebler.motion.transport.player.playing") is False
     page = tab().open(path.as_uri())
-    page.until("window.gruebler?.motion?.player?.playing")
+    page.until("window.gruebler?.motion?.transport.player?.playing")
     before = page.page.evaluate("gruebler.motion.linkage.drives[0]")
     page.until(f"Math.abs(gruebler.motion.linkage.drives[0] - {before}) > 0.1")
     assert page.page.evaluate("gruebler.motion.linkage.sizes.points.length") > 0  # and draws a curve
@@ -97,7 +97,7 @@ def test_names_stand_beside_their_links(tab, crank_rocker):
         });
     })()"""
     for drive in np.linspace(0, 6, 9):
-        page.page.evaluate(f"gruebler.motion.pick({drive})")
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
         assert min(page.page.evaluate(near)) > 2, drive
 
 

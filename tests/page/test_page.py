@@ -110,7 +110,7 @@ def test_output_angles_are_told_in_the_lap_in_which_they_are_plotted(tab, tmp_pa
     assert main(["explore", f"four-bar:{lengths}", "-o", str(path)]) == 0
     page = tab().open(path.as_uri())
     for way in ((-120, -160), (-60, 260), (250, 120)):
-        page.page.evaluate(f"gruebler.motion.pick({np.radians(start)})")
+        page.page.evaluate(f"gruebler.motion.transport.pick({np.radians(start)})")
         page.drag(page.middle('[data-joint="R(frame-rocker)"] .joint'), way)
         plotted = page.page.evaluate(PLOTTED)
         drives, values = np.array(plotted["drives"]), np.array(plotted["values"])
@@ -128,7 +128,7 @@ def test_output_angles_are_told_in_the_lap_in_which_they_are_plotted(tab, tmp_pa
         low, high = drives[0], drives[-1]
         for part in (0.1, 0.35, 0.6, 0.85):
             drive = low + part * (high - low)
-            page.page.evaluate(f"gruebler.motion.pick({drive})")
+            page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
             told = float(page.page.evaluate(OUTPUT).strip("°").replace("−", "-"))
             assert told == pytest.approx(np.interp(drive, drives, values), abs=1), (way, part)
 
@@ -240,13 +240,13 @@ def test_every_planar_machine_plays_without_an_error(tab, single_file, step):
     for machine in machines:
         page.page.evaluate("(model) => gruebler.open(model)", model_of(machine.linkage(), name=machine.name))
         page.page.evaluate(f"window.before = {pose}")
-        page.page.evaluate("gruebler.motion.toggle()")
+        page.page.evaluate("gruebler.motion.transport.toggle()")
         if machine.linkage().mechanism.drives:
             page.until(f"{pose} !== window.before")
         else:
             page.page.wait_for_timeout(120)
             assert page.page.evaluate(f"{pose} === window.before"), machine.id
-        page.page.evaluate("gruebler.motion.pause()")
+        page.page.evaluate("gruebler.motion.transport.pause()")
         assert page.errors == [], machine.id
     assert len(machines) * step >= 61
 

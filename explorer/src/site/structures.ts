@@ -1,7 +1,7 @@
 /** The structures of a static site: what is said of a chain, with the frame and the drive that are chosen. */
 
+import type { Structure } from "../chain";
 import type { Language } from "../language";
-import type { Structure } from "../structure";
 import type { Said } from "./marks";
 
 interface Frame {

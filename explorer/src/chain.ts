@@ -1,0 +1,115 @@
+/** A chain as the library describes it: its picture, whose joints are buttons, and the types that a joint may have. */
+
+import { h, picture, svg } from "./dom";
+import { t } from "./language";
+
+/** A mechanism of the chain. */
+export interface Choice {
+  text: string;
+  frame: string;
+  drives: string[];
+  family: string;
+  picture: string;
+}
+
+export interface Structure {
+  text: string;
+  /** The frame that was chosen, or the one of the list that is like it; empty if none was. */
+  chosen: string;
+  picture: string;
+  joints: {
+    name: string;
+    at: [number, number];
+    types: { symbol: string; name: string; text: string; chosen: boolean }[];
+  }[];
+  links: {
+    name: string;
+    at: [number, number];
+    outline: [number, number][];
+    overconstrained: boolean;
+    rigid: boolean;
+  }[];
+  frame: string;
+  counted: number;
+  generic: number;
+  verdict: string;
+  lines: string[];
+  drives: string;
+  inversions: Choice[];
+  driven: Choice[];
+}
+
+/** The picture of the chain with its strained links; a click on a joint picks it. */
+export function chainPicture(found: Structure, joint: number, pick: (joint: number) => void): Element {
+  const drawn = picture(found.picture, found.text) as SVGSVGElement;
+  drawn.setAttribute("role", "group"); // its joints are buttons
+  const marks: SVGElement[] = found.links
+    .filter((link) => link.overconstrained || link.rigid)
+    .map((link) =>
+      svg("polyline", {
+        points: link.outline.map((p) => p.join(",")).join(" "),
+        fill: "none",
+        "stroke-width": 5,
+        "stroke-linecap": "round",
+        "stroke-linejoin": "round",
+        stroke: link.overconstrained ? "var(--accent)" : "var(--purple)",
+        opacity: 0.85,
+        "data-strained": link.name,
+      }),
+    );
+  const joints = found.joints.map((one, k) =>
+    svg(
+      "circle",
+      {
+        cx: one.at[0],
+        cy: one.at[1],
+        r: 13,
+        fill: "transparent",
+        stroke: k === joint ? "var(--key)" : "transparent",
+        "stroke-width": 3,
+        tabindex: 0,
+        role: "button",
+        "aria-label": one.name,
+        "data-joint": one.name,
+        style: null,
+        cursor: "pointer",
+        onclick: () => pick(k),
+        onkeydown: (event: KeyboardEvent) => {
+          if (event.key !== "Enter" && event.key !== " ") return;
+          event.preventDefault();
+          pick(k);
+        },
+      },
+      svg("title", {}, one.name),
+    ),
+  );
+  drawn.append(...marks, ...joints);
+  return drawn;
+}
+
+/** The types of a joint, of which one is chosen. */
+export function typesOf(joint: Structure["joints"][number] | undefined, choose: (text: string) => void): HTMLElement {
+  return joint
+    ? h(
+        "div",
+        {},
+        h("p", { class: "note" }, t("Type of {joint}", { joint: joint.name })),
+        h(
+          "div",
+          { class: "joint-types" },
+          ...joint.types.map((type) =>
+            h(
+              "button",
+              {
+                class: type.chosen ? "key" : "plain",
+                title: type.name,
+                "data-type": type.symbol,
+                onclick: () => choose(type.text),
+              },
+              `${type.symbol} ${type.name}`,
+            ),
+          ),
+        ),
+      )
+    : h("p", { class: "note" }, t("Click on a joint to change its type."));
+}

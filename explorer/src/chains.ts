@@ -1,0 +1,121 @@
+/** The list of all chains of a size, of which one is taken. */
+
+import { h, renew, thumbnail } from "./dom";
+import { t } from "./language";
+import type { Page } from "./view";
+import { awaited } from "./waiting";
+
+interface Chains {
+  total: number;
+  start: number;
+  items: { text: string; picture: string }[];
+}
+
+export class ChainList {
+  readonly element = h("div", {});
+  private links = 6;
+  private mobility = 1;
+  private found: Chains | null = null;
+  /** The text of the chain that is described. */
+  private chosen = "";
+  private readonly list = h("div", {});
+  private readonly count = h("span", { class: "note" });
+  private readonly status = h("div", { class: "form" });
+  private asked = 0;
+
+  constructor(
+    private readonly page: Page,
+    private readonly take: (text: string) => void,
+  ) {}
+
+  appeared(): void {
+    if (!this.found) void this.ask(0);
+  }
+
+  arrange(): void {
+    const links = h("input", {
+      type: "number",
+      ...this.page.limits.links,
+      value: this.links,
+      "aria-label": t("Links"),
+      onchange: () => {
+        this.links = Number(links.value);
+        void this.ask(0);
+      },
+    });
+    const mobility = h("input", {
+      type: "number",
+      ...this.page.limits.mobility,
+      value: this.mobility,
+      "aria-label": t("Mobility"),
+      onchange: () => {
+        this.mobility = Number(mobility.value);
+        void this.ask(0);
+      },
+    });
+
+    renew(
+      this.element,
+      h(
+        "div",
+        { class: "form" },
+        h("label", {}, t("Links"), links),
+        h("label", {}, t("Mobility"), mobility),
+        this.count,
+        this.status,
+      ),
+      this.list,
+    );
+    this.show();
+  }
+
+  /** Mark the chain of a text. */
+  choose(text: string): void {
+    this.chosen = text;
+    for (const card of this.list.querySelectorAll<HTMLElement>("[data-chain]"))
+      card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.chain!)));
+  }
+
+  private async ask(start: number): Promise<void> {
+    const question = { links: this.links, mobility: this.mobility, start };
+    const number = ++this.asked;
+    const found = await awaited(this.status, (progress) => this.page.ask<Chains>("chains", question, progress));
+    if (number !== this.asked) return; // another list is wanted by now
+    if (found) {
+      const before = start && this.found ? this.found.items : [];
+      this.found = { ...found, items: [...before, ...found.items] };
+    }
+    this.show();
+  }
+
+  private show(): void {
+    const { found } = this;
+    if (!found) return renew(this.list);
+    this.count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
+    const more =
+      found.items.length < found.total
+        ? h("button", { class: "plain", onclick: () => void this.ask(found.items.length) }, t("More"))
+        : null;
+    renew(
+      this.list,
+      h(
+        "div",
+        { class: "cards few", "data-list": "chains" },
+        ...found.items.map(({ text, picture: drawn }, k) =>
+          h(
+            "button",
+            {
+              class: "card",
+              "data-chain": text,
+              "aria-pressed": String(this.chosen.startsWith(text)),
+              onclick: () => this.take(text),
+            },
+            thumbnail(drawn, text),
+            h("span", {}, `${k + 1}`),
+          ),
+        ),
+      ),
+      ...(more ? [more] : []),
+    );
+  }
+}

@@ -1,0 +1,91 @@
+/** The designs that the library found, as cards in an order; each plays when it is pointed at. */
+
+import { choice, h, renew, thumbnail } from "./dom";
+import type { Moving } from "./ghost";
+import { angle, number, t } from "./language";
+import type { LinkageDocument } from "./model";
+
+/** A linkage that does what is asked. */
+export interface Design extends Moving {
+  document: LinkageDocument;
+  picture: string;
+  form: string;
+  transmission: number | null;
+  error: number | null;
+  size: number;
+}
+
+export interface Found {
+  total: number;
+  refused: number;
+  items: Design[];
+}
+
+type Order = "error" | "size" | "transmission";
+
+export class DesignCards {
+  readonly element = h("div", {});
+  private found: Found | null = null;
+  private order: Order = "error";
+
+  constructor(
+    private readonly play: (design: Design) => void,
+    private readonly open: (design: Design) => void,
+  ) {}
+
+  /** Show others, or none; returns the first. */
+  show(found: Found | null): Design | null {
+    this.found = found;
+    this.arrange();
+    return this.sorted()[0] ?? null;
+  }
+
+  private sorted(): Design[] {
+    const worth = ({ error, size, transmission }: Design) =>
+      ({ error: Math.abs(error ?? 0), size, transmission: -(transmission ?? 0) })[this.order];
+    const tiny = (value: number) => (Math.abs(value) < 1e-9 ? 0 : value);
+    return [...(this.found?.items ?? [])].sort((one, two) => tiny(worth(one)) - tiny(worth(two)) || 0);
+  }
+
+  /** Write them, in the language of the page. */
+  arrange(): void {
+    const { found } = this;
+    if (!found) return renew(this.element);
+    const orders: [Order, string][] = [
+      ["error", t("by deviation")],
+      ["size", t("by size")],
+      ["transmission", t("by transmission angle")],
+    ];
+    renew(
+      this.element,
+      h("h2", {}, t("{count} designs", { count: found.total })),
+      h(
+        "p",
+        { class: "note" },
+        found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : "",
+      ),
+      found.items.length > 1
+        ? choice(t("Order"), orders, this.order, (order) => {
+            this.order = order as Order;
+            this.arrange();
+          })
+        : "",
+      h("div", { class: "cards sorted", "data-list": "designs" }, ...this.sorted().map((design) => this.card(design))),
+    );
+  }
+
+  private card(design: Design): HTMLElement {
+    const { form, transmission, error, size } = design;
+    const deviation = error === null ? null : 100 * (Math.abs(error) < 1e-9 ? 0 : error);
+    const play = () => this.play(design);
+    return h(
+      "button",
+      { class: "card", onclick: () => this.open(design), onpointerenter: play, onfocus: play },
+      thumbnail(design.picture, form),
+      h("b", {}, form),
+      h("span", {}, transmission === null ? "" : `μ ≥ ${angle((transmission * Math.PI) / 180, 3)}`),
+      h("span", {}, deviation === null ? "" : t("deviation {value} %", { value: number(deviation, 2) })),
+      h("span", {}, t("size {value}", { value: number(size, 3) })),
+    );
+  }
+}

@@ -1,0 +1,113 @@
+/** The panel that tells the mobility of what is drawn, and offers what would mend it. */
+
+import { h, renew } from "./dom";
+import {
+  counted,
+  type Drawing,
+  driven,
+  jointName,
+  jointsOf,
+  linksOf,
+  type Spot,
+  withLink,
+  withoutLink,
+} from "./drawing";
+import { t } from "./language";
+import type { Page } from "./view";
+import { moment } from "./waiting";
+
+interface Offer {
+  kind: "drive" | "undrive" | "bar" | "remove";
+  joint?: number;
+  links?: string[];
+  generic: number;
+}
+
+interface Told {
+  counted: number;
+  generic: number;
+  lines: string[];
+  offers: Offer[];
+}
+
+/** What the panel asks of its view. */
+export interface Drawn {
+  readonly page: Page;
+  readonly drawing: Drawing;
+  /** How far a new end is put beside others. */
+  readonly step: number;
+  change(next: Drawing): void;
+  /** Open the drawing as a linkage. */
+  move(): void;
+}
+
+export class MobilityPanel {
+  readonly element = h("div", { role: "status", "data-place": "mobility" });
+  private asked = 0;
+
+  constructor(private readonly view: Drawn) {}
+
+  /** The mobility by the count at once, then what the library says, with offers to mend it. */
+  async tell(): Promise<void> {
+    const asked = ++this.asked;
+    const { drawing, page } = this.view;
+    const count = h("p", { class: "mobility", "data-fact": "drawn" }, `F = ${counted(drawing)}`);
+    const { frame } = drawing;
+    if (frame === null || linksOf(drawing).length < 3) {
+      const text = frame === null ? t("Put a ground: key G.") : t("Draw links: a mechanism has at least three.");
+      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p", { class: "note" }, text));
+    }
+    if (!this.element.querySelector('[data-fact="freedoms"]')) renew(this.element, count, moment());
+    const numbers = jointsOf(drawing);
+    const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
+    const drives = drawing.drives.map((k) => numbers.indexOf(k));
+    try {
+      const told = await page.ask<Told>("drawing", { joints, frame, drives });
+      if (asked !== this.asked) return;
+      const good = told.generic > 0 && told.generic === drives.length;
+      const text = t("Mobility {generic}, drives: {drives}", { generic: told.generic, drives: drives.length });
+      const offers = told.offers.map((offer) => this.offer(offer, numbers));
+      const move = h("button", { class: "key", "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
+      renew(
+        this.element,
+        count,
+        h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, text),
+        h("div", { class: "form" }, ...offers, ...(good ? [move] : [])),
+        h("details", {}, h("summary", {}, t("Why")), h("p", { class: "note" }, told.lines.join(" "))),
+      );
+    } catch (error) {
+      if (asked === this.asked) renew(this.element, count, h("p", { class: "note" }, (error as Error).message));
+    }
+  }
+
+  private offer({ kind, joint, links, generic }: Offer, numbers: number[]): HTMLElement {
+    const { drawing } = this.view;
+    const knot = joint === undefined ? -1 : numbers[joint]!;
+    const [one, two] = (links ?? []) as [string, string];
+    const [text, act] = {
+      drive: [t("Drive {joint}", { joint: knot < 0 ? "" : jointName(drawing, knot) }), () => driven(drawing, knot)],
+      undrive: [
+        t("Let {joint} free", { joint: knot < 0 ? "" : jointName(drawing, knot) }),
+        () => driven(drawing, knot),
+      ],
+      bar: [
+        t("A link between {one} and {two}: F = {generic}", { one, two, generic }),
+        () => barred(this.view, one, two),
+      ],
+      remove: [t("Without {one}: F = {generic}", { one, generic }), () => withoutLink(drawing, one)],
+    }[kind] as [string, () => Drawing];
+    return h("button", { class: "plain", "data-offer": kind, onclick: () => this.view.change(act()) }, text);
+  }
+}
+
+/** A link between two others: from an open end if there is one, to a place beside. */
+function barred({ drawing, step }: Drawn, one: string, two: string): Drawing {
+  const place = (link: string, aside: number): Spot => {
+    const end = drawing.knots.findIndex(({ links }) => links.length === 1 && links[0] === link);
+    if (end >= 0) return { at: drawing.knots[end]!.at, knot: end, link: null };
+    const mine = drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
+    const mean = (axis: 0 | 1) => mine.reduce((sum, at) => sum + at[axis], 0) / mine.length;
+    return { at: [mean(0) + aside * step, mean(1) + 0.4 * aside * step], knot: null, link };
+  };
+  return withLink(drawing, place(one, 1), place(two, 2));
+}

@@ -1,0 +1,102 @@
+/** The plane on which a mechanism is drawn: its picture, with a grid. */
+
+import { svg } from "./dom";
+import { type Drawing, linksOf, type Spot } from "./drawing";
+import { convexHull } from "./hull";
+import { number } from "./language";
+import type { Pair } from "./rows";
+import type { Viewport } from "./viewport";
+
+export interface Plane {
+  readonly drawing: Drawing;
+  readonly viewport: Viewport;
+  readonly chosen: { knot: number } | { link: string } | null;
+  /** What the tool has got already. */
+  readonly spots: readonly Spot[];
+  readonly cursor: Pair;
+  /** Between lines of the grid. */
+  readonly step: number;
+}
+
+/** The hull of the knots of a link, in pixels. */
+export function outlineOf({ drawing, viewport }: Pick<Plane, "drawing" | "viewport">, link: string): Pair[] {
+  const mine = drawing.knots.filter(({ links, slide }) => links.includes(link) && slide === undefined);
+  return convexHull(mine.map(({ at }) => viewport.screen(...at)));
+}
+
+/** The picture of all of it, with the spots that are put already and the place of the cursor. */
+export function planePicture(plane: Plane): SVGElement[] {
+  const { chosen, cursor, drawing, spots, viewport } = plane;
+  const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
+  const path = (corners: readonly Pair[]) =>
+    corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+  const links = bodies.flatMap((link) => {
+    const hull = outlineOf(plane, link);
+    const mark = chosen && "link" in chosen && chosen.link === link ? " chosen" : "";
+    const d = path(hull) + (hull.length > 2 ? "Z" : "");
+    const [x, y] = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
+    return [
+      svg("path", { class: `outline${mark}`, d, "data-link": link }),
+      svg("path", { class: "bar", d }),
+      svg("text", { x: x + 9, y: y - 9 }, link),
+    ];
+  });
+  const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
+  const waiting = [...spots.map(({ at }) => at), cursor].map((at) => viewport.screen(...at));
+  const [cx, cy] = waiting.at(-1)!;
+  return [
+    ...grid(plane),
+    ...links,
+    ...knots,
+    ...(waiting.length > 1 ? [svg("path", { class: "pending", d: path(waiting) })] : []),
+    svg("path", { class: "crosshair", d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
+  ];
+}
+
+function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair): SVGElement {
+  const { links, slide } = drawing.knots[k]!;
+  const [x, y] = viewport.screen(...at);
+  const classes = ["pin", "free"];
+  if (chosen && "knot" in chosen && chosen.knot === k) classes.push("chosen");
+  const element = svg("g", {
+    class: classes.join(" "),
+    "data-knot": String(k),
+    transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
+  });
+  const ground = drawing.frame !== null && links.includes(drawing.frame);
+  if (slide !== undefined) {
+    const turned = svg("g", { transform: `rotate(${-slide})` });
+    turned.append(
+      svg("path", { class: "rail", d: "M-46 10H46" }),
+      svg("path", { class: "rail-hatch", d: "M-46 15H46" }),
+    );
+    turned.append(svg("rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3 }));
+    element.append(turned);
+  } else if (ground) element.append(svg("path", { class: "support", d: "M0 0 L-11 17 H11 Z M-17 17 H17" }));
+  if (slide === undefined) element.append(svg("circle", { class: "joint", r: links.length > 1 || ground ? 5 : 3.2 }));
+  if (drawing.drives.includes(k)) element.append(svg("circle", { class: "driven", r: 12 }));
+  return element;
+}
+
+/** Lines with their numbers, and a bar as long as a step. */
+function grid({ viewport, step }: Plane): SVGElement[] {
+  const { width, height } = viewport;
+  const [left, top] = viewport.world(0, 0);
+  const [right, bottom] = viewport.world(width, height);
+  const out: SVGElement[] = [];
+  for (let k = Math.ceil(left / step); k * step <= right; k++) {
+    const [x] = viewport.screen(k * step, 0);
+    out.push(svg("path", { class: "mesh", d: `M${x} 0V${height}` }));
+    out.push(svg("text", { class: "tick", x: x + 3, y: height - 5 }, number(k * step)));
+  }
+  for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
+    const [, y] = viewport.screen(0, k * step);
+    out.push(svg("path", { class: "mesh", d: `M0 ${y}H${width}` }));
+    out.push(svg("text", { class: "tick", x: 4, y: y - 3 }, number(k * step)));
+  }
+  const long = step * viewport.scale;
+  const d = `M${width - 20 - long} 24v6h${long}v-6`;
+  const text = svg("text", { class: "tick", x: width - 20 - long / 2, y: 22, "text-anchor": "middle" });
+  text.append(`${number(step)} mm`);
+  return [...out, svg("path", { class: "scale", d }), text];
+}
