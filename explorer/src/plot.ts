@@ -3,6 +3,8 @@
 import { gridStep } from "./canvas";
 import { svg } from "./dom";
 import { number } from "./language";
+import type { Pair } from "./rows";
+import { Span } from "./span";
 
 export interface Series {
   title: string;
@@ -10,6 +12,8 @@ export interface Series {
   colour: string;
   /** Below this value the ground is shaded. */
   floor?: number;
+  /** Values that differ by less are the same but for rounding. */
+  same?: number;
 }
 
 const WIDTH = 300;
@@ -18,6 +22,7 @@ const LEFT = 44;
 const RIGHT = 10;
 const TOP = 20;
 const BOTTOM = 18;
+const WIDE = WIDTH - LEFT - RIGHT;
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
 
 export class Plot {
@@ -27,7 +32,7 @@ export class Plot {
     role: "img",
   });
   private readonly curve = svg("path", { class: "curve" });
-  private readonly band = svg("rect", { class: "band", x: LEFT, width: WIDTH - LEFT - RIGHT, height: 0 });
+  private readonly band = svg("rect", { class: "band", x: LEFT, width: WIDE, height: 0 });
   private readonly zero = svg("path", { class: "axis" });
   private readonly cursor = svg("path", { class: "cursor" });
   private readonly here = svg("circle", { class: "here", r: 3 });
@@ -38,7 +43,9 @@ export class Plot {
   private pointed = NaN;
   private drive = NaN;
   private drives: Float64Array = new Float64Array(0);
-  private domain: [number, number] = [0, 1];
+  /** The whole range of the drive, and what is shown of it. */
+  private range: Pair = [0, 1];
+  private domain: Pair = [0, 1];
   private series: Series | null = null;
   private low = 0;
   private high = 1;
@@ -46,47 +53,87 @@ export class Plot {
   constructor(
     private readonly unit: number,
     pick: (drive: number) => void,
+    private readonly span = new Span(() => this.redraw()),
   ) {
     const frame = svg("path", {
       class: "axis",
       d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}`,
       fill: "none",
     });
-    const { band, cursor, curve, here, ticks, title, value, zero } = this;
-    this.element.append(band, ticks, frame, zero, curve, cursor, here, title, value);
+    const { band, cursor, curve, element, here, ticks, title, value, zero } = this;
+    // what is enlarged ends at the axes
+    const inner = { x: LEFT, y: 0, width: WIDE, height: HEIGHT, viewBox: `${LEFT} 0 ${WIDE} ${HEIGHT}` };
+    element.append(band, ticks, frame, zero, svg("svg", inner, curve), cursor, here, title, value);
+    const partOf = (x: number) => {
+      const box = element.getBoundingClientRect();
+      return (((x - box.left) / box.width) * WIDTH - LEFT) / WIDE;
+    };
     const driveOf = (event: MouseEvent) => {
-      const box = this.element.getBoundingClientRect();
-      const part = (((event.clientX - box.left) / box.width) * WIDTH - LEFT) / (WIDTH - LEFT - RIGHT);
       const [first, last] = this.domain;
-      return first + Math.max(0, Math.min(1, part)) * (last - first);
+      return first + Math.max(0, Math.min(1, partOf(event.clientX))) * (last - first);
     };
     const at = (event: MouseEvent) => pick(driveOf(event));
     const point = (drive: number) => {
       this.pointed = drive;
       this.at(this.drive);
     };
-    this.element.addEventListener("pointerleave", () => point(NaN));
-    // a finger that goes up or down scrolls the page; one that taps or goes sideways picks
+    element.addEventListener("pointerleave", () => point(NaN));
+    // a finger that goes up or down scrolls the page; one that taps or goes sideways picks, two of them enlarge
     let [startX, startY] = [0, 0];
-    this.element.addEventListener("pointerdown", (event) => {
+    const fingers = new Map<number, number>();
+    element.addEventListener("pointerdown", (event) => {
       [startX, startY] = [event.clientX, event.clientY];
+      fingers.set(event.pointerId, event.clientX);
       if (event.pointerType === "touch") return;
-      this.element.setPointerCapture(event.pointerId);
+      element.setPointerCapture(event.pointerId);
       at(event);
     });
-    this.element.addEventListener("pointermove", (event) => {
+    for (const name of ["pointerup", "pointercancel", "pointerleave"] as const)
+      element.addEventListener(name, (event) => void fingers.delete(event.pointerId));
+    element.addEventListener("pointermove", (event) => {
+      const before = fingers.get(event.pointerId);
+      const other = [...fingers].find(([id]) => id !== event.pointerId)?.[1];
+      if (before !== undefined) fingers.set(event.pointerId, event.clientX);
+      if (before !== undefined && other !== undefined) {
+        const [was, is, fixed] = [before, event.clientX, other].map(partOf) as [number, number, number];
+        if ((was - fixed) * (is - fixed) > 0) this.span.zoom((is - fixed) / (was - fixed), fixed);
+        return;
+      }
       const sideways = Math.abs(event.clientX - startX) > Math.abs(event.clientY - startY);
       if (event.buttons && (sideways || event.pointerType !== "touch")) at(event);
       else if (event.pointerType === "mouse") point(driveOf(event));
     });
-    this.element.addEventListener("click", at);
+    element.addEventListener("click", at);
+    element.addEventListener("dblclick", () => this.span.zoom(0, 0));
+    // the wheel alone scrolls the panel
+    element.addEventListener(
+      "wheel",
+      (event) => {
+        const along = event.deltaX || (event.shiftKey ? event.deltaY : 0);
+        if (event.ctrlKey || event.metaKey) this.span.zoom(Math.exp(-0.005 * event.deltaY), partOf(event.clientX));
+        else if (along && !this.span.whole) this.span.pan(along / WIDE);
+        else return;
+        event.preventDefault();
+      },
+      { passive: false },
+    );
   }
 
-  show(drives: Float64Array, series: Series, domain: [number, number]): void {
-    this.drives = drives;
-    this.domain = domain;
-    this.series = series;
-    const { low, high, wide } = plotRange(series.values);
+  show(drives: Float64Array, series: Series, range: Pair): void {
+    Object.assign(this, { drives, series, range });
+    this.redraw();
+  }
+
+  /** The same values in another part of the range. */
+  redraw(): void {
+    const { drives, range, series } = this;
+    if (!series) return;
+    this.domain = this.span.of(range);
+    const [first, last] = this.domain;
+    const seen = this.span.whole
+      ? series.values
+      : series.values.filter((_, k) => drives[k]! >= first && drives[k]! <= last);
+    const { low, high, wide } = plotRange(seen, series.same);
     const room = 0.06 * (high - low);
     [this.low, this.high] = [low - room, high + room];
     const outside = (value: number) => !(value <= this.high + 10 * wide && value >= this.low - 10 * wide);
@@ -112,11 +159,12 @@ export class Plot {
     this.band.setAttribute("y", (HEIGHT - BOTTOM - shaded).toFixed(1));
     this.title.textContent = series.title;
     this.element.setAttribute("aria-label", series.title);
-    this.showTicks(domain);
+    this.showTicks(this.domain);
+    this.at(this.drive);
   }
 
   /** Round values at both axes; they are made anew where they are others. */
-  private showTicks(domain: [number, number]): void {
+  private showTicks(domain: Pair): void {
     const [first, last] = [domain[0] / this.unit, domain[1] / this.unit];
     const { low, high, unit } = this;
     const across = this.unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
@@ -142,10 +190,11 @@ export class Plot {
   at(drive: number): void {
     this.drive = drive;
     const { drives, series } = this;
-    if (!series || drives.length < 2) return;
     const place = Number.isNaN(this.pointed) ? drive : this.pointed;
+    if (!series || drives.length < 2 || Number.isNaN(place)) return;
     const value = valueAt(drives, series.values, place);
-    const x = this.x(place).toFixed(1);
+    const outside = place < this.domain[0] || place > this.domain[1];
+    const x = outside ? "-9" : this.x(place).toFixed(1);
     this.cursor.setAttribute("d", `M${x} ${TOP}V${HEIGHT - BOTTOM}`);
     this.here.setAttribute("cx", x);
     this.here.setAttribute(
@@ -153,15 +202,15 @@ export class Plot {
       (Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.y(value))) : -9).toFixed(1),
     );
     const where = place === drive ? "" : `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: `;
-    this.value.textContent = `${where}${number(value, 4)}`;
+    this.value.textContent = where + number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
     const right = this.x(place) < (LEFT + WIDTH) / 2;
     this.value.setAttribute("text-anchor", right ? "start" : "end");
-    this.value.setAttribute("x", (this.x(place) + (right ? 5 : -5)).toFixed(1));
+    this.value.setAttribute("x", outside ? "-99" : (this.x(place) + (right ? 5 : -5)).toFixed(1));
   }
 
   private x(drive: number): number {
     const [first, last] = this.domain;
-    return LEFT + ((drive - first) / (last - first || 1)) * (WIDTH - LEFT - RIGHT);
+    return LEFT + ((drive - first) / (last - first || 1)) * WIDE;
   }
 
   private y(value: number): number {
@@ -189,8 +238,9 @@ export function lineThrough(x: Float64Array, y: Float64Array): string {
 
 /** From where to where values are plotted, and how wide the range of nearly all of them is.
  *
- * Next to limits rates grow without bound: the two hundredths at either end may stick out. */
-export function plotRange(values: Float64Array): { low: number; high: number; wide: number } {
+ * Next to limits rates grow without bound: the two hundredths at either end may stick out. A range below
+ * `same` is rounding, and shown as one value. */
+export function plotRange(values: Float64Array, same = 0): { low: number; high: number; wide: number } {
   const finite = values.filter((value) => Number.isFinite(value)).sort();
   let low = finite[0] ?? 0;
   let high = finite[finite.length - 1] ?? 1;
@@ -199,7 +249,8 @@ export function plotRange(values: Float64Array): { low: number; high: number; wi
   const wide = most - least;
   if (high > most + 3 * wide) high = most + wide;
   if (low < least - 3 * wide) low = least - wide;
-  if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 1, high + 1];
+  if (high - low < Math.max(same, 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)))
+    [low, high] = [low - 1, high + 1];
   return { low, high, wide };
 }
 

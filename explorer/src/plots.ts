@@ -2,12 +2,14 @@
 
 import { type Cycle, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
+import { type Icon, icon } from "./icons";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
 import { outputAlong, outputStandsStill, transmission } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
+import { Span } from "./span";
 import { rateUnit } from "./wording";
 
 /** The rows of a cycle in the order in which they are plotted, with their drive values. */
@@ -33,6 +35,9 @@ export class Plots {
   /** In place of the plots of an output that does not turn or travel. */
   private readonly still = h("p", { class: "note", "data-note": "still" });
   private last: Plotted | null = null;
+  private readonly span = new Span(() => {
+    for (const { plot } of this.parts) plot.redraw();
+  });
 
   constructor(private readonly pick: (drive: number) => void) {}
 
@@ -48,7 +53,7 @@ export class Plots {
         values: along(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
       }));
     const unit = drive?.turning ? TURN / 360 : 1;
-    this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick), make }));
+    this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.span), make }));
     const note = record?.note[currentLanguage()];
     const notes = note ? [h("p", { class: "note" }, note)] : [];
     if (record) {
@@ -58,7 +63,26 @@ export class Plots {
         ? t("Output {name} moves without turning.", { name })
         : t("Output {name} does not travel.", { name });
     }
-    renew(this.element, this.still, ...this.parts.map(({ plot }) => plot.element), ...notes);
+    const tool = (sign: Icon, text: string, factor: number) =>
+      h(
+        "button",
+        {
+          class: "quiet",
+          title: text,
+          "aria-label": text,
+          "data-plots": sign,
+          onclick: () => this.zoom(linkage, factor),
+        },
+        icon(sign),
+      );
+    const tools = h(
+      "div",
+      { class: "plot-tools" },
+      tool("more", t("Enlarge the plots where the drive is"), 2),
+      tool("less", t("Less enlarged"), 0.5),
+      tool("fit", t("The whole range"), 0),
+    );
+    renew(this.element, tools, this.still, ...this.parts.map(({ plot }) => plot.element), ...notes);
     this.draw(linkage);
   }
 
@@ -72,9 +96,14 @@ export class Plots {
     for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
       plot.element.style.display = still ? "none" : "";
     for (const { plot, make } of this.parts) {
-      plot.show(plotted.drives, make(plotted), cycle.full ? [0, TURN * cycle.turns] : [cycle.low, cycle.high]);
+      plot.show(plotted.drives, make(plotted), rangeOf(cycle));
       plot.at(wrapped(cycle, drives[active]!));
     }
+  }
+
+  private zoom({ active, cycle, drives }: Linkage, factor: number): void {
+    const [first, last] = this.span.of(rangeOf(cycle));
+    this.span.zoom(factor, (wrapped(cycle, drives[active] ?? 0) - first) / (last - first));
   }
 
   /** Put the cursor to a drive value. */
@@ -122,6 +151,10 @@ export function lapOf(cycle: Cycle): Lap {
   return { drives, rows };
 }
 
+function rangeOf({ full, high, low, turns }: Cycle): [number, number] {
+  return full ? [0, TURN * turns] : [low, high];
+}
+
 function along(rows: number[], f: (row: number) => number): Float64Array {
   return Float64Array.from(rows, f);
 }
@@ -133,20 +166,24 @@ function degrees(angle: number): number {
 function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
   const turning = record.joint === null;
   const name = linkage.linkName(record.link);
+  const same = 1e-9 * (turning ? 1 : linkage.size);
   const angle: Making = ({ outputs }) => ({
     title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${linkage.model.unit}]`),
     colour: "--motion",
     values: turning ? outputs[0].map(degrees) : outputs[0],
+    same: turning ? degrees(same) : same,
   });
   const velocity: Making = ({ outputs }) => ({
     title: t("Its velocity by the drive") + rateUnit(linkage, 1),
     colour: "--green",
     values: outputs[1],
+    same,
   });
   const acceleration: Making = ({ outputs }) => ({
     title: t("Its acceleration by the drive") + rateUnit(linkage, 2),
     colour: "--purple",
     values: outputs[2],
+    same,
   });
   const mu: Making = ({ rows }) => ({
     title: `${t("Transmission angle")} [°]`,

@@ -11,6 +11,7 @@ import { lineThrough, plotRange, roundValues, valueAt } from "../src/plot";
 import { lapOf } from "../src/plots";
 import { linesOf } from "../src/shapes";
 import { Sizes } from "../src/sizes";
+import { Span } from "../src/span";
 import { limitsOf, shownRange } from "../src/track";
 import { Viewport } from "../src/viewport";
 import { CRANK_ROCKER, fourBar } from "./fourbar";
@@ -94,6 +95,8 @@ test("a plot shows all values, but not how rates grow without bound", () => {
   const deep = plotRange(steep.map((value) => -value)); // the same downwards
   near([deep.low, deep.high, deep.wide], [-98 - 96, 0, 96]);
   assert.deepEqual(plotRange(new Float64Array(0)), { low: 0, high: 1, wide: 1 });
+  const rounding = plotRange(Float64Array.of(4e-12, -3e-12, 0), 1e-9);
+  near([rounding.low, rounding.high], [-1, 1]); // not a curve of its own
 });
 
 test("a line leaves out what is nearly straight, keeps corners and gaps", () => {
@@ -153,4 +156,18 @@ test("round values at an axis, and the value between two rows", () => {
   close(valueAt(places, values, 3), 0);
   close(valueAt(places, values, 9), 0);
   close(valueAt(places, values, -1), 4);
+});
+
+test("a part of a range is enlarged about a place, shifted within the range, and whole again", () => {
+  let changes = 0;
+  const span = new Span(() => changes++);
+  assert.ok(span.whole);
+  span.zoom(4, 0.75); // three quarters of the plot stay where they are: 270 of 360
+  near(span.of([0, 360]), [270 - 0.75 * 90, 270 + 0.25 * 90]);
+  span.pan(1);
+  near(span.of([0, 360]), [270, 360]); // no farther than its end
+  span.zoom(1e9, 0);
+  near(span.of([0, 360]), [270, 282]); // a thirtieth
+  span.zoom(0, 0.2);
+  assert.deepEqual([span.of([10, 20]), span.whole, changes], [[10, 20], true, 4]);
 });

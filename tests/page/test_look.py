@@ -77,6 +77,21 @@ def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
     assert float(value) == pytest.approx(np.interp(np.radians(float(place)), drives, values), abs=0.1)
     page.page.mouse.move(5, 300)
     assert read.text_content() == here
+    domains = "gruebler.motion.plots.parts.map(({ plot }) => plot.domain.map((one) => (one * 180) / Math.PI))"
+    for _ in range(2):
+        page.page.locator("[data-plots=more]").click()
+    drive = float(page.page.locator(".transport .value").text_content().strip("°"))
+    for first, last in page.page.evaluate(domains):  # all of them, about the drive
+        assert [first, last] == pytest.approx([0.75 * drive, 0.75 * drive + 90], abs=0.1)
+    assert read.text_content() == here
+    page.page.mouse.move(box["x"] + box["width"] * 0.6, plot.bounding_box()["y"] + box["height"] / 2)
+    page.page.keyboard.down("Control")
+    page.page.mouse.wheel(0, -200)
+    page.page.keyboard.up("Control")
+    page.page.wait_for_timeout(50)
+    assert np.ptp(page.page.evaluate(domains)[0]) == pytest.approx(90 / np.e, rel=1e-6)
+    plot.dblclick()
+    assert page.page.evaluate(domains)[0] == pytest.approx([0, 360])
 
 
 def test_names_stand_beside_their_links(tab, crank_rocker):
