@@ -92,48 +92,55 @@ def modules():
 FILES = dict(modules())
 
 
-@cache
 def tree(module):
     """The syntax of a file."""
     return ast.parse(FILES[module].read_text(encoding="utf-8"))
 
 
-def imported(module):
-    """The modules of this package that a file imports: anywhere, in functions and for type checking too.
+def imports(top):
+    """The statements of a file that import, anywhere in it; each with whether it stands in a function."""
+    open_nodes = [(top, False)]
+    while open_nodes:
+        node, inside = open_nodes.pop()
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            yield node, inside
+        elif not isinstance(node, ast.expr):  # no expression holds a statement
+            inside = inside or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+            open_nodes += [(child, inside) for child in ast.iter_child_nodes(node)]
 
-    Yields each with whether the import stands in a function.
+
+@cache
+def all_edges():
+    """What each file imports of this package: anywhere, in functions and for type checking too.
+
+    By names of modules, each with whether the import stands in a function.
     """
+    trees = {name: tree(name) for name in FILES}
+    defined = {name: {*names_of(top)} for name, top in trees.items() if name}
 
-    def walk(node, inside):
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "gruebler":
-            base = node.module.removeprefix("gruebler").lstrip(".")
-            for alias in node.names:
-                full = f"{base}.{alias.name}".lstrip(".")
-                # a function of a package may have the name of its file: the file is meant only where a name is not
-                yield (full if full in FILES and not defines(base, alias.name) else base), inside
-        elif isinstance(node, ast.Import):
-            for alias in node.names:
-                if alias.name.startswith("gruebler."):
-                    yield alias.name.removeprefix("gruebler."), inside
-        inside = inside or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
-        for child in ast.iter_child_nodes(node):
-            yield from walk(child, inside)
+    def meant(node):
+        if isinstance(node, ast.Import):
+            return [alias.name.removeprefix("gruebler.") for alias in node.names if alias.name.startswith("gruebler.")]
+        if not node.module or node.module.split(".")[0] != "gruebler":
+            return []
+        base = node.module.removeprefix("gruebler").lstrip(".")
+        full = {alias.name: f"{base}.{alias.name}".lstrip(".") for alias in node.names}
+        # a function of a package may have the name of its file: the file is meant only where a name is not
+        return [path if path in FILES and name not in defined.get(base, ()) else base for name, path in full.items()]
 
-    yield from walk(tree(module), False)
-
-
-def defines(module, name):
-    if module not in FILES or module == "":
-        return False
-    for node in tree(module).body:
-        if isinstance(node, ast.ImportFrom) and name in {alias.asname or alias.name for alias in node.names}:
-            return True
-        if getattr(node, "name", None) == name:
-            return True
-    return False
+    return {
+        name: sorted({(other, inside) for node, inside in imports(top) for other in meant(node) if other})
+        for name, top in trees.items()
+    }
 
 
-EDGES = {name: sorted({edge for edge in imported(name) if edge[0]}) for name in FILES}
+def names_of(top):
+    """What a file defines, or imports by name, at its top."""
+    for node in top.body:
+        if isinstance(node, ast.ImportFrom):
+            yield from (alias.asname or alias.name for alias in node.names)
+        elif hasattr(node, "name"):
+            yield node.name
 
 
 def test_every_module_has_a_floor():
@@ -144,7 +151,7 @@ def test_every_module_has_a_floor():
 def test_imports_run_downward():
     wrong = [
         f"{name} imports {other}"
-        for name, edges in EDGES.items()
+        for name, edges in all_edges().items()
         if name not in ENTRANCES | DOORS
         for other, _ in edges
         if room(other) != room(name) and depth(other) >= depth(name)
@@ -156,7 +163,7 @@ def test_no_two_files_need_each_other():
     """Within a room no imports form a circle, those in functions and for type checking included."""
     graph = {
         name: [other for other, _ in edges if room(other) == room(name)]
-        for name, edges in EDGES.items()
+        for name, edges in all_edges().items()
         if name not in ENTRANCES
     }
     done = set()
