@@ -31,7 +31,7 @@ export class Painter {
         const all = placesOf(rows, point.link, ...point.at);
         this.trace(values.length, ownColour(number), 2, (row) => viewport.screen(all[2 * row]!, all[2 * row + 1]!));
       });
-    this.paintTargets(linkage.model.targets ?? []);
+    this.paintTargets(linkage.beside.targets ?? []);
     if (rows.order < 1) return;
     if (shown.hodographs) this.paintHodographs(linkage);
     if (shown.poles) this.paintCentrodes(linkage, shown.link);
@@ -61,7 +61,7 @@ export class Painter {
   }
 
   /** What the linkage was designed for: rings with numbers, positions with their direction. */
-  private paintTargets(targets: Target[]): void {
+  private paintTargets(targets: readonly Target[]): void {
     const { pen, viewport } = this;
     pen.strokeStyle = pen.fillStyle = this.colour("--purple");
     pen.lineWidth = 2;
@@ -72,7 +72,7 @@ export class Painter {
       pen.arc(u, v, 6, 0, 7);
       const phi = ((degrees ?? 0) * Math.PI) / 180;
       const [c, s] = [Math.cos(phi), -Math.sin(phi)];
-      if (degrees !== null) {
+      if (degrees !== undefined) {
         pen.moveTo(u + 6 * c, v + 6 * s);
         pen.lineTo(u + 26 * c, v + 26 * s);
       }

@@ -1,5 +1,6 @@
 /** A linkage as `gruebler.files` reads and writes it. */
 
+import { besideOf } from "./beside";
 import type { Rows } from "./kernel";
 import { type Linkage, Refused } from "./linkage";
 import type { LinkageDocument } from "./model";
@@ -21,6 +22,7 @@ export function documentOf(linkage: Linkage, rows: Rows = linkage.pose, row = 0)
   });
   out.points = Object.fromEntries(sizes.points.map((p) => [p.name, { link: model.links[p.link]!, at: [...p.at] }]));
   delete out.home;
+  delete out.page;
   out.reference_pose = Object.fromEntries(
     model.links.slice(0, model.own).map((name, link) => {
       const [c, s] = turn(rows, row, link);
@@ -30,6 +32,12 @@ export function documentOf(linkage: Linkage, rows: Rows = linkage.pose, row = 0)
   return out;
 }
 
+/** The same with what the page keeps beside it, as it is saved. */
+export function savedDocument(linkage: Linkage): LinkageDocument {
+  const { beside } = linkage;
+  return { ...documentOf(linkage), ...(Object.keys(beside).length && { page: beside }) };
+}
+
 /** Take sizes and pose from the document of a linkage of the same structure. */
 export function applyDocument(linkage: Linkage, document: LinkageDocument, drive?: number): void {
   const { model, sizes } = linkage;
@@ -37,6 +45,7 @@ export function applyDocument(linkage: Linkage, document: LinkageDocument, drive
   const pose = oneRow(linkage.pose, 0);
   const meshes = meshesOf(linkage);
   linkage.change(() => {
+    linkage.beside = besideOf(document);
     if (drive !== undefined && Number.isFinite(drive)) linkage.drives[linkage.active] = drive;
     model.elements.forEach((e, k) => {
       const given = document.elements?.[model.links[e.link]!]?.[model.joints[e.joint]!.name];

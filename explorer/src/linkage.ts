@@ -1,5 +1,6 @@
 /** A linkage on the page: its sizes, its pose, its cycle; how it is solved and moved. */
 
+import { type Beside, besideOf } from "./beside";
 import { type Cycle, findCycle, type Stop, stopOf, TURN } from "./cycle";
 import { Kernel, type Rows, type State } from "./kernel";
 import { currentLanguage } from "./language";
@@ -18,6 +19,7 @@ export interface Snapshot {
   drives: number[];
   signs: number[];
   unknowns: number[];
+  beside: Beside;
 }
 
 /** Why a change was refused. */
@@ -29,6 +31,8 @@ export class Refused extends Error {
 
 export class Linkage {
   readonly sizes: Sizes;
+  /** What the page shows beside it. */
+  beside: Beside;
   readonly program: Program;
   /** All drive values, held ones of idle rollers behind the others. */
   readonly drives: Float64Array;
@@ -50,6 +54,7 @@ export class Linkage {
     this.program = p;
     this.kernel = new Kernel(p);
     this.sizes = new Sizes(model, p.size);
+    this.beside = besideOf(model.document);
     this.offsets = Float64Array.from(model.sources, (source, k) => {
       const angle = Math.atan2(p.lines[2 * k + 1]!, p.lines[2 * k]!);
       return angle - (source < 0 ? 0 : this.sizes.angles[source]!);
@@ -255,6 +260,7 @@ export class Linkage {
       drives: [...this.drives],
       signs: [...this.state.signs],
       unknowns: [...this.state.unknowns],
+      beside: this.beside,
     };
   }
 
@@ -266,6 +272,7 @@ export class Linkage {
 
   private put(old: Snapshot): void {
     this.sizes.restore(old);
+    this.beside = old.beside;
     this.drives.set(old.drives);
     this.state.signs.set(old.signs);
     this.state.unknowns.set(old.unknowns);
@@ -352,5 +359,5 @@ export function alike(one: Snapshot, two: Snapshot, size: number): boolean {
 /** Whether a change of the sizes, the points or the assembly mode left everything as it was. */
 export function sameSizes(one: Snapshot, two: Snapshot): boolean {
   const key = ({ at, points, signs }: Snapshot) => JSON.stringify([at, points, signs]);
-  return key(one) === key(two);
+  return one.beside === two.beside && key(one) === key(two);
 }

@@ -63,6 +63,8 @@ export type LinkageDocument = Record<string, unknown> & {
   elements?: Record<string, Record<string, unknown>>;
   points?: Record<string, { link: string; at: number[] }>;
   reference_pose?: Record<string, unknown>;
+  /** What the library keeps for the page (beside.ts). */
+  page?: unknown;
   /** The former name of reference_pose: links that were copied before. */
   home?: Record<string, unknown>;
 };
@@ -75,16 +77,14 @@ export interface PairRecord {
   free: { turn: boolean; along: boolean; across: boolean };
 }
 
-/** A place that is to be met, with the angle of a position in degrees. */
-export type Target = [number, number, number | null];
+/** A place that is to be met; of a position its angle in degrees, too. */
+export type Target = [number, number, number?];
 
 export interface Model {
   version: number;
   name: string;
   /** Whether it moves from the start. */
   plays?: boolean;
-  /** What it was designed for. */
-  targets?: Target[];
   /** Whether it has other sizes than what its name and its source stand for. */
   changed?: boolean;
   /** The name in several languages, if it has such. */

@@ -1,13 +1,13 @@
 /** The view of the motion: stage, drive, sizes, measures, plots, export. */
 
-import { applyDocument, documentOf } from "./document";
+import { applyDocument, documentOf, savedDocument } from "./document";
 import { h, renew } from "./dom";
 import { Dragging } from "./dragging";
 import { exportPanel } from "./export";
 import { type Found, factsOf } from "./facts";
 import { type Arrow, Forces } from "./forces";
 import { History } from "./history";
-import { type Rows, Status } from "./kernel";
+import { Status } from "./kernel";
 import { t } from "./language";
 import { alike, floatingLink, Linkage, Refused, type Snapshot, sameSizes } from "./linkage";
 import { deadCentres, leastTransmission } from "./measures";
@@ -345,7 +345,7 @@ export class MotionView implements View, Editor, Driven {
       this.checked.textContent = text;
     };
     this.measuring = window.setTimeout(() => {
-      const document = this.document(linkage.cycle.rows, linkage.cycle.home);
+      const document = documentOf(linkage, linkage.cycle.rows, linkage.cycle.home);
       this.page.ask<{ lines: string[] }>("measures", { document, source: linkage.model.source }).then(
         ({ lines }) => said(lines.join(" ")),
         (error: Error) => said(error.message),
@@ -376,8 +376,8 @@ export class MotionView implements View, Editor, Driven {
 
   // --- what is taken away --------------------------------------------------------------------------------------------
 
-  document(rows?: Rows, row?: number): LinkageDocument {
-    return documentOf(this.linkage, rows, row);
+  document(): LinkageDocument {
+    return savedDocument(this.linkage);
   }
 
   picture(): string {

@@ -211,7 +211,7 @@ function reachOf(linkage: Linkage): Box {
     box.bottom = Math.min(box.bottom, y - room);
     box.top = Math.max(box.top, y + room);
   };
-  for (const [x, y] of model.targets ?? []) add([x, y]);
+  for (const [x, y] of linkage.beside.targets ?? []) add([x, y]);
   const step = Math.max(1, Math.floor(values.length / 90));
   for (let row = 0; row < values.length; row += step) {
     for (const joint of model.joints.keys()) add(linkage.jointAt(joint, rows, row));

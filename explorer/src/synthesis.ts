@@ -5,7 +5,7 @@ import { choice, h, renew, svg } from "./dom";
 import { Ghost } from "./ghost";
 import { t } from "./language";
 import type { Model, Target } from "./model";
-import { rowsTable, targetMark, tip } from "./targets";
+import { evenly, rowsTable, targetMark, tip } from "./targets";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
 
@@ -18,6 +18,7 @@ const WIDE = 240;
 const HIGH = 150; // the plane, in units of length
 const STEP = 10; // between lines of its grid
 const NEAR = 4;
+const OF_STROKE = 20; // points of a curve that is drawn
 
 export class SynthesisView implements View {
   readonly element = h("div", { class: "view", "data-page": "synthesis" });
@@ -33,7 +34,8 @@ export class SynthesisView implements View {
     "dead-centres": [[60, 1.2]],
   };
   private pivots: number[][] = [];
-  private putsPivots = false;
+  /** What a click or a stroke puts. */
+  private puts: "" | "pivot" | "curve" = "";
   private closed = false;
   private crank = true;
   private least = 20; // degrees
@@ -58,7 +60,11 @@ export class SynthesisView implements View {
   constructor(private readonly page: Page) {
     this.plane.addEventListener("pointerdown", (event) => this.down(event));
     this.plane.addEventListener("pointermove", (event) => this.held?.(this.at(event)));
-    for (const event of ["pointerup", "pointercancel"]) this.plane.addEventListener(event, () => (this.held = null));
+    for (const event of ["pointerup", "pointercancel"])
+      this.plane.addEventListener(event, () => {
+        this.held = null;
+        if (this.puts === "curve") this.arrange(); // whether it is closed
+      });
   }
 
   appeared(): void {
@@ -113,10 +119,16 @@ export class SynthesisView implements View {
       function: t("While the crank turns by the first angle, the rocker turns by the second: three to five pairs."),
       "dead-centres": t("A crank that drives a rocker to and fro: its swing, and the slow time to the quick one."),
     };
-    const clicks: [string, string][] = [
-      ["", t("A click puts a position")],
-      ["pivot", t("A click puts a fixed pivot")],
-    ];
+    const clicks: [string, string][] =
+      this.kind === "points"
+        ? [
+            ["", t("A click puts a point")],
+            ["curve", t("A curve drawn by hand")],
+          ]
+        : [
+            ["", t("A click puts a position")],
+            ["pivot", t("A click puts a fixed pivot")],
+          ];
     this.plane.setAttribute("aria-label", t("What is to be met"));
     const open = this.kind === "points";
     renew(
@@ -133,8 +145,8 @@ export class SynthesisView implements View {
           h(
             "div",
             {},
-            this.kind === "positions"
-              ? choice(t("Click"), clicks, this.putsPivots ? "pivot" : "", (value) => (this.putsPivots = value !== ""))
+            this.planar
+              ? choice(t("Click"), clicks, this.puts, (value) => (this.puts = value as typeof this.puts))
               : null,
             h("div", { class: "chain-picture" }, this.plane),
           ),
@@ -177,6 +189,7 @@ export class SynthesisView implements View {
 
   private turnTo(kind: Kind): void {
     this.kind = kind;
+    this.puts = "";
     this.designs.show(null);
     this.play(null);
     renew(this.status);
@@ -199,6 +212,7 @@ export class SynthesisView implements View {
     if (!this.planar) return;
     const [x, y] = this.at(event);
     this.plane.setPointerCapture(event.pointerId);
+    if (this.puts === "curve") return this.stroke(x, y);
     const near = ([u, v]: number[]) => Math.hypot(u! - x, v! - y) < NEAR;
     const move = (row: number[]) => {
       this.held = ([u, v]) => {
@@ -215,12 +229,24 @@ export class SynthesisView implements View {
       };
     } else if (here) move(here);
     else {
-      const pivot = this.kind === "positions" && this.putsPivots;
+      const pivot = this.puts === "pivot";
       const row = this.kind === "positions" && !pivot ? [x, y, 0] : [x, y];
       (pivot ? this.pivots : this.points).push(row);
       move(row);
       this.draw();
     }
+  }
+
+  /** A curve in the place of the points; where it ends near its start it is closed. */
+  private stroke(x: number, y: number): void {
+    const line = [[x, y]];
+    this.held = (place) => {
+      line.push(place);
+      const { places, closed } = evenly(line, OF_STROKE);
+      this.rows.points = places;
+      this.closed = closed;
+      this.draw();
+    };
   }
 
   private clear(): void {
@@ -233,7 +259,7 @@ export class SynthesisView implements View {
 
   /** What is to be met, as the stage shows it. */
   private get targets(): Target[] {
-    return this.planar ? this.points.map(([x, y, turn]) => [x!, y!, turn ?? null]) : [];
+    return this.planar ? this.points.map((row) => [...row] as Target) : [];
   }
 
   private draw(): void {
@@ -352,9 +378,8 @@ export class SynthesisView implements View {
       "dead-centres": t("A design for dead centres"),
     };
     try {
-      const question = { document: design.document, name: names[this.kind] };
-      const model = await this.page.ask<Model>("open_document", question);
-      this.page.open({ ...model, targets: this.targets });
+      const document = { ...design.document, page: { targets: this.targets } };
+      this.page.open(await this.page.ask<Model>("open_document", { document, name: names[this.kind] }));
     } catch (error) {
       this.page.say((error as Error).message);
     }

@@ -2,6 +2,8 @@
 
 import { h, svg } from "./dom";
 import { number, parsed, t } from "./language";
+import { valueAt } from "./plot";
+import type { Pair } from "./rows";
 
 const ARM = 14; // of the arrow that shows the angle of a position
 
@@ -51,6 +53,31 @@ export function rowsTable(
       ),
     ),
   );
+}
+
+/** So many places evenly along a line that was drawn; of one that comes back to its start without the last. */
+export function evenly(line: number[][], count: number): { places: number[][]; closed: boolean } {
+  const lengths = [0];
+  for (let k = 1; k < line.length; k++) {
+    const [[x, y], [u, v]] = [line[k - 1]!, line[k]!] as [Pair, Pair];
+    lengths.push(lengths[k - 1]! + Math.hypot(u - x, v - y));
+  }
+  const long = lengths.at(-1)!;
+  const [[x, y], [u, v]] = [line[0]!, line.at(-1)!] as [Pair, Pair];
+  const closed = line.length > 2 && Math.hypot(u - x, v - y) < 0.1 * long;
+  const all = Float64Array.from(lengths);
+  const places = Array.from({ length: count }, (_, k) => {
+    const at = (long * k) / (closed ? count : count - 1);
+    return [0, 1].map((axis) => {
+      const value = valueAt(
+        all,
+        Float64Array.from(line, (place) => place[axis]!),
+        at,
+      );
+      return Math.round(10 * value) / 10;
+    });
+  });
+  return { places, closed };
 }
 
 /** The end of the arrow of a position. */

@@ -35,7 +35,9 @@ export async function film(pictures: Iterable<string>, width: number, type: stri
     recorder.onstop = () => resolve();
     recorder.onerror = () => reject(new Error("MediaRecorder"));
   });
+  const started = new Promise((resolve) => recorder.addEventListener("start", resolve));
   recorder.start();
+  await started; // on a busy machine that takes a while, and a short film would be over
   const start = performance.now();
   for (;;) {
     const frame = Math.floor(((performance.now() - start) / 1000) * FRAMES);

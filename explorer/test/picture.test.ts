@@ -12,6 +12,7 @@ import { lapOf } from "../src/plots";
 import { linesOf } from "../src/shapes";
 import { Sizes } from "../src/sizes";
 import { Span } from "../src/span";
+import { evenly } from "../src/targets";
 import { limitsOf, shownRange } from "../src/track";
 import { Viewport } from "../src/viewport";
 import { CRANK_ROCKER, fourBar } from "./fourbar";
@@ -170,4 +171,30 @@ test("a part of a range is enlarged about a place, shifted within the range, and
   near(span.of([0, 360]), [270, 282]); // a thirtieth
   span.zoom(0, 0.2);
   assert.deepEqual([span.of([10, 20]), span.whole, changes], [[10, 20], true, 4]);
+});
+
+test("a curve that is drawn gives points evenly along it", () => {
+  const square = [
+    [0, 0],
+    [10, 0],
+    [10, 10],
+    [0, 10],
+    [0, 2],
+  ]; // 38 long, its ends 2 apart
+  const { closed, places } = evenly(square, 19);
+  assert.ok(closed);
+  assert.deepEqual(places.slice(0, 2), [
+    [0, 0],
+    [2, 0],
+  ]);
+  assert.deepEqual(places.at(-1), [0, 4]); // two before its end
+  const open = evenly(square.slice(0, 3), 5);
+  assert.ok(!open.closed);
+  assert.deepEqual(open.places, [
+    [0, 0],
+    [5, 0],
+    [10, 0],
+    [10, 5],
+    [10, 10],
+  ]);
 });

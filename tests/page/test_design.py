@@ -8,6 +8,7 @@ import pytest
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import move
+from gruebler.page.links import read_link
 
 VIEW = "gruebler.views.synthesis"
 
@@ -61,7 +62,7 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     assert crank.get_attribute("points") != before
     targets = view.evaluate(f"{VIEW}.targets")
     linkage = opened(design)
-    assert view.evaluate("gruebler.motion.linkage.model.targets") == targets
+    assert view.evaluate("gruebler.motion.linkage.beside.targets") == targets
     purple = """([x, y]) => {
         const { viewport, canvas } = gruebler.motion.stage;
         const [u, v] = viewport.screen(x, y);
@@ -70,6 +71,12 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
         return pixels.filter((colour) => colour === "155,79,131").length;
     }"""
     assert all(view.evaluate(purple, target[:2]) > 4 for target in targets)
+    # a link has them, and undoing and doing again
+    assert read_link(view.evaluate("gruebler.hash")).document["page"] == {"targets": targets}
+    view.keyboard.press("Control+z")
+    assert view.evaluate("gruebler.motion.linkage.beside") == {}
+    view.keyboard.press("Control+y")
+    assert view.evaluate("gruebler.motion.linkage.beside.targets") == targets
     # the library moves it through the three places, and its coupler turns as the arrows do
     low, high = view.evaluate("[gruebler.motion.linkage.cycle.low, gruebler.motion.linkage.cycle.high]")
     motion = move(linkage, np.linspace(low, high, 20_001)[1:-1])
@@ -80,6 +87,31 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     joint = motion.point(next(one for one in linkage.mechanism.chain.joint_names() if "frame" not in one))
     arms = np.degrees(np.unwrap(np.angle([complex(*(joint[k] - path[k])) for k in row])))
     np.testing.assert_allclose(np.diff(arms), [23, 35], atol=0.2)
+
+
+def test_a_curve_is_drawn_by_hand(design):
+    view = design.page
+    view.click('[data-value="curve"]')
+    box = view.locator(".plane").bounding_box()
+    angles = np.linspace(0, 6.1, 40)
+    x = box["x"] + box["width"] * (0.5 + 40 / 240 * np.cos(angles))
+    y = box["y"] + box["height"] * (0.5 - 25 / 150 * np.sin(angles))
+    view.mouse.move(x[0], y[0])
+    view.mouse.down()
+    for place in zip(x, y, strict=True):
+        view.mouse.move(*place)
+    view.mouse.up()
+    points = np.array(view.evaluate(f"{VIEW}.points"))
+    assert view.locator('[data-field="closed"]').is_checked()
+    np.testing.assert_allclose(np.hypot(points[:, 0] / 40, points[:, 1] / 25), 1, atol=0.04)  # an ellipse
+    sides = np.hypot(*np.diff(points, axis=0).T)
+    assert np.ptp(sides) < 1.5
+    view.mouse.move(x[0], y[0])  # another one takes its place
+    view.mouse.down()
+    view.mouse.move(x[9], y[9], steps=5)
+    view.mouse.up()
+    assert not view.locator('[data-field="closed"]').is_checked()
+    assert len(view.evaluate(f"{VIEW}.points")) == len(points)
 
 
 def test_dead_centres_are_those_that_were_asked_for(design):

@@ -40,6 +40,23 @@ def test_what_is_saved_in_a_format_of_another_program_is_opened_again():
         assert ratios(linkage_from_json(found)) == pytest.approx([1, 40 / 25, 70 / 25, 70 / 25], rel=1e-4), name
 
 
+@pytest.mark.parametrize("kind", ["toml", "json"])
+def test_our_own_files_keep_what_the_page_shows_beside_a_linkage(kind, tmp_path):
+    from gruebler.cli.explore import _model
+
+    page = {"targets": [[k / 7, 0.1 * k, 30.5] for k in range(60)]}  # more points than a line of TOML may have dots
+    document = linkage_to_json(BAR.linkage()) | {"page": page}
+    saved = answer("export", {"document": document, "kind": kind}, "en", print)
+    opened = answer("open_file", {"name": f"x.{kind}", "base64": saved["base64"]}, "en", print)
+    assert opened["model"]["document"] == document
+    file = tmp_path / f"x.{kind}"
+    file.write_bytes(base64.b64decode(saved["base64"]))
+    assert _model(str(file), "en")["document"] == document
+    assert linkage_to_json(linkage_from_json(document)) == linkage_to_json(
+        BAR.linkage()
+    )  # the linkage has nothing of it
+
+
 def ratios(linkage) -> list[float]:
     """The distances of the two pins of each link, by the shortest of them."""
     pins: dict[str, list] = {}

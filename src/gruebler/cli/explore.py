@@ -13,7 +13,8 @@ from gruebler.cli.draw import entry_of, linkage_and_range
 from gruebler.cli.long_work import progress
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
-from gruebler.page.model import model_of
+from gruebler.page.exchange import own_document
+from gruebler.page.model import model_of, with_page
 
 _PORT = 8117
 _FIRST = "lambda"
@@ -92,7 +93,8 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         from gruebler.page.links import read_link
 
         shared = read_link(word)
-        return model_of(linkage_from_json(shared.document), name=shared.name, source=shared.source)
+        model = model_of(linkage_from_json(shared.document), name=shared.name, source=shared.source)
+        return with_page(model, shared.document)
     if "(" in word and not Path(word).is_file():
         from gruebler.design.realisation.realising import realise
         from gruebler.page.structures import mechanism_of_text
@@ -103,7 +105,8 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         return model_of(realisation.linkage)
     linkage, between = linkage_and_range(word)
     record = entry_of(word)
-    return model_of(linkage, name=word if record is None else record.name, source=word, between=between)
+    model = model_of(linkage, name=word if record is None else record.name, source=word, between=between)
+    return with_page(model, own_document(Path(word))) if record is None and Path(word).is_file() else model
 
 
 def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:

@@ -37,6 +37,8 @@ class LinkageRecord(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only
     drives: tuple[str, ...] | None = None
     outputs: tuple[str, ...] | None = None
     loads: LoadsRecord | None = None
+    page: dict[str, Any] | None = None
+    """What the page of `gruebler explore` shows beside the linkage; nothing else reads it."""
 
 
 def read_linkage(path: Path | str) -> Linkage:

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import base64
 import binascii
+import json
 import os
 import re
 from pathlib import Path
 from typing import Any
 
 from gruebler.base.atomic_files import atomic_file, temporary_directory
+from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, error_in_language, joined, translate
 from gruebler.files.formats import FORMATS, Format
+from gruebler.files.linkages import toml_key, toml_value
 from gruebler.files.values import format_of, read, write
 from gruebler.mechanics.linkages import Linkage
 
+_OWN = ("toml", "json")
 _NO_LINKAGES = frozenset({"csv", "spreadsheet", "parquet", "dxf-links"})
 """Formats of tables and folders; the page writes its table by itself."""
 
@@ -39,7 +43,7 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     Raises `GrueblerError` that names the file for what cannot be read or shown.
     """
     from gruebler.design.synthesis import PathTask
-    from gruebler.page.model import model_of
+    from gruebler.page.model import model_of, with_page
     from gruebler.structure.chain import Chain
 
     try:
@@ -56,10 +60,11 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
         except GrueblerError as error:
             text = error_in_language(error, lang).replace(f"{folder}{os.sep}", "")
             raise GrueblerError("{message}", message=text) from None
+        document = own_document(file) if isinstance(value, Linkage) else {}
     chains = value if isinstance(value, list) else [value]
     shown: dict[str, Any]
     if isinstance(value, Linkage):
-        shown = {"model": model_of(value, name=Path(name).stem)}
+        shown = {"model": with_page(model_of(value, name=Path(name).stem), document)}
     elif chains and isinstance(chains[0], Chain):
         shown = {"text": chains[0].text()}
     elif isinstance(value, PathTask):
@@ -69,8 +74,29 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     return shown | {"note": _note(notes, lang)}
 
 
-def saved_file(linkage: Linkage, kind: str, lang: str) -> dict[str, str]:
-    """A linkage in a format as base64, the ending of the file, and what was left out."""
+def _with_page(data: bytes, form: str, page: dict[str, Any]) -> bytes:
+    if form == "json":
+        return json.dumps(json.loads(data) | {"page": page}, ensure_ascii=False, indent=2).encode()
+    # a target a line: a line of TOML has a hundred points at most
+    rows = [f"    {toml_value(row)},\n" for row in page.get("targets", [])]
+    targets = f"targets = [\n{''.join(rows)}]\n" if rows else ""
+    table = [f"{toml_key(key)} = {toml_value(value)}\n" for key, value in page.items() if key != "targets"]
+    return data + f"\n[page]\n{targets}{''.join(table)}".encode()
+
+
+def own_document(file: Path) -> dict[str, Any]:
+    """What stands in a file of ours; nothing for those of other programs."""
+    if file.suffix.lower().lstrip(".") not in _OWN:
+        return {}
+    document = load_document(file, lambda problem: GrueblerError("{problem}", problem=problem))
+    return document if isinstance(document, dict) else {}
+
+
+def saved_file(linkage: Linkage, kind: str, lang: str, page: dict[str, Any] | None = None) -> dict[str, str]:
+    """A linkage in a format as base64, the ending of the file, and what was left out.
+
+    Our own formats keep what the page shows beside it.
+    """
     form = format_of("", kind)
     if form.name in _NO_LINKAGES:
         raise GrueblerError("the format {name} holds no linkage", name=form.name)
@@ -82,7 +108,10 @@ def saved_file(linkage: Linkage, kind: str, lang: str) -> dict[str, str]:
         except GrueblerError as error:
             text = error_in_language(error, lang).replace(f"{folder}{os.sep}", "")
             raise GrueblerError("{message}", message=text) from None
-        content = base64.b64encode(file.read_bytes()).decode("ascii")
+        data = file.read_bytes()
+        if page and form.name in _OWN:
+            data = _with_page(data, form.name, page)
+        content = base64.b64encode(data).decode("ascii")
     return {"base64": content, "type": "application/octet-stream", "ending": _ending(form), "note": _note(notes, lang)}
 
 

@@ -7,7 +7,7 @@ round trip. docs/theory/explorer.md says what may be changed there without a new
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,11 @@ from gruebler.teaching.catalog import entries
 _COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks
 
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
+
+
+def with_page(model: dict[str, Any], document: Mapping[str, Any]) -> dict[str, Any]:
+    """A model that keeps what the document of its linkage has for the page alone, under the key ``page``."""
+    return model | {"document": model["document"] | {"page": document["page"]}} if document.get("page") else model
 
 
 def model_of(
