@@ -117,13 +117,18 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
             for case in record.cases
         ]
         return "\n".join(lines)
-    names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
+    names = record.link_names(lang).items()
+    links = ", ".join(link if link == name else f"{link} = {name}" for link, name in names)
     record = record.in_language(lang)
     chain, alphabet = record.chain(), Alphabet.of_language(lang)
     drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
     lines += [
         translate("Chain: {chain}", lang, chain=chain.text(alphabet)),
-        translate("Links: {links}", lang, links=names if lang == "de" else ", ".join(record.links)),
+        translate(
+            "Links: {links}",
+            lang,
+            links=links,
+        ),
     ]
     if record.frame:
         lines.append(translate("Frame: {frame}", lang, frame=record.frame))

@@ -190,14 +190,13 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     if view is None and not arguments.structure and (has_sizes or asked or _is_sized_entry(arguments)):
         return _to_scale(arguments, moving)
     record = entry_of(arguments.chain, arguments.lang)
-    name = "" if record is None else record.name.in_language(arguments.lang)
+    name, names = called(record, arguments.lang)
     if has_sizes:
         in_space = spatial_of_word(arguments.chain, arguments.lang)
         placed = linkage_of_word(arguments.chain, arguments.lang)[0] if in_space is None else in_space.linkage
         thing: Chain | Mechanism = placed.mechanism
     else:
         thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive, arguments.lang)
-    names = german(record, arguments.lang)
     if view is draw_block:
         return _block(thing, record, arguments, name, names)
     if view is not None:
@@ -261,7 +260,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
             )
     linkage, between = linkage_and_range(arguments.chain, arguments.lang)
     linkage = with_points(linkage, moving["curve"])
-    record = entry_of(arguments.chain, arguments.lang)
+    name, names = called(entry_of(arguments.chain, arguments.lang), arguments.lang)
     return draw_linkage(
         linkage,
         branch=moving["branch"],
@@ -273,8 +272,8 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
         ghost=moving["ghosts"],
         labels=arguments.labels,
         lang=arguments.lang,
-        name="" if record is None else record.name.in_language(arguments.lang),
-        names=german(record, arguments.lang),
+        name=name,
+        names=names,
     )
 
 
@@ -285,7 +284,7 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, moving: Mappi
     for option in ("show", "ghosts", "branch", "output"):
         if moving[option] not in (None, []):
             raise GrueblerError("--{option} does not go with a linkage in space", option=option)
-    record = entry_of(arguments.chain, arguments.lang)
+    name, names = called(entry_of(arguments.chain, arguments.lang), arguments.lang)
     return draw_spatial(
         spatial.linkage,
         at=pose_of(moving["at"], spatial.linkage.mechanism) if moving["at"] else None,
@@ -294,8 +293,8 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, moving: Mappi
         view=arguments.view or next(iter(VIEWS)),
         labels=arguments.labels,
         lang=arguments.lang,
-        name="" if record is None else record.name.in_language(arguments.lang),
-        names=german(record, arguments.lang),
+        name=name,
+        names=names,
     )
 
 
@@ -320,9 +319,9 @@ def entry_of(word: str, lang: str = "en") -> Entry | None:
     return None if is_structure_text(word) or word not in entries() else entries()[word].in_language(lang)
 
 
-def german(record: Entry | None, lang: str) -> Mapping[str, str]:
-    """What a catalog entry calls its links in this language."""
-    return record.links if record is not None and lang == "de" else {}
+def called(record: Entry | None, lang: str) -> tuple[str, Mapping[str, str]]:
+    """What a catalog entry is called in a language, and its links; nothing without an entry."""
+    return ("", {}) if record is None else (record.name.in_language(lang), record.link_names(lang))
 
 
 def subject(word: str, space: str | None, frame: str | None, drives: list[str], lang: str = "en") -> Chain | Mechanism:

@@ -11,7 +11,7 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message, plural, reason_of, translate
-from gruebler.cli.draw import contacts_of, german, subject
+from gruebler.cli.draw import called, contacts_of, subject
 from gruebler.cli.inputs import assortment_of, outputs_of
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
@@ -166,8 +166,7 @@ def _fits(number: int) -> None:
 
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
     record = entry(id)
-    name = record.name.in_language(arguments.lang)
-    names = german(record, arguments.lang)
+    name, names = called(record, arguments.lang)
     shown = subject(id, None, None, [])
     if arguments.side:
         figure = draw_side_view(shown, lang=arguments.lang, name=name)

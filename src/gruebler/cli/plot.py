@@ -10,7 +10,7 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or, translate
-from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_path, picture_suffix, write_picture
+from gruebler.cli.draw import called, entry_of, linkage_and_range, picture_path, picture_suffix, write_picture
 from gruebler.cli.drive_rows import given_speeds, turning_drives
 from gruebler.cli.linkage_inputs import loaded_linkage, with_points
 from gruebler.cli.parser import Parser
@@ -67,10 +67,9 @@ def run(arguments: argparse.Namespace) -> int:
     _check(arguments)
     linkage, between = linkage_and_range(arguments.linkage, arguments.lang)
     linkage = with_points(linkage, arguments.point)
-    record = entry_of(arguments.linkage, arguments.lang)
-    name = "" if record is None else record.name.in_language(arguments.lang)
+    name, names = called(entry_of(arguments.linkage, arguments.lang), arguments.lang)
     figure = _KINDS[arguments.kind](
-        _Asked(linkage=linkage, between=between, name=name, names=german(record, arguments.lang), arguments=arguments)
+        _Asked(linkage=linkage, between=between, name=name, names=names, arguments=arguments)
     )
     write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
     return 0

@@ -240,7 +240,18 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         >>> entry("lambda").in_language("de").drives
         ('R(Gestell-Kurbel)',)
         """
-        return self if lang == LANGUAGES[0] else _with_link_names(self, _short_names(self.links, lang))
+        return self if lang == LANGUAGES[0] else _with_link_names(self, _short_names(self.link_names(lang), lang))
+
+    def link_names(self, lang: str) -> dict[str, str]:
+        """What each link is called in a language, in full.
+
+        >>> from gruebler.teaching.catalog import entry
+        >>> entry("lambda").link_names("de")["coupler"]
+        'Koppel mit Punkt C'
+        >>> entry("lambda").link_names("en")["coupler"]
+        'coupler'
+        """
+        return {link: link for link in self.links} if lang == LANGUAGES[0] else dict(self.links)
 
     def placed(self) -> Linkage | SpatialLinkage | None:
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""

@@ -72,8 +72,8 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
 def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     """The linkage to scale and its structure, with captions; the y below them."""
     high = 288.0
-    links = sheet.entry.links if lang == "de" else {link: link for link in sheet.entry.links}
-    names = {link: name.partition(f" {translate('with', lang)} ")[0] for link, name in links.items()}
+    links = sheet.entry.link_names(lang).items()
+    names = {link: name.partition(f" {translate('with', lang)} ")[0] for link, name in links}
     structure = draw_structure(
         sheet.linkage.mechanism, labels=True, symbols=True, outputs=sheet.entry.outputs, lang=lang, names=names
     )

@@ -32,7 +32,7 @@ def solution_figures(exercise: Exercise, solution: Solution, lang: str = "en") -
     if exercise.method == "mobility.machines":
         for case in exercise.cases:
             machine, name = entry(case.machine), case.name.in_language(lang)
-            names = machine.links if lang == "de" else {}
+            names = machine.link_names(lang)
             figure = draw_structure(machine.chain(), labels=True, lang=lang, name=name, names=names)
             yield figure, name
     for table in solution.tables:
