@@ -1,4 +1,5 @@
-"""Kinds of elements, of linkages by their lengths and of cam followers: no code outside their rooms asks for one.
+"""Kinds of elements, of linkages by their lengths, of fitted curves and of cam followers: no code outside their rooms
+asks for one.
 
 What a kind does stands in its class or in a row of a table by kinds. To refuse all kinds but one is no such question.
 """
@@ -42,6 +43,7 @@ FAMILIES = (
     Family(ELEMENTS, "mechanics/linkages/elements.py"),
     Family(frozenset({"FourBar", "SliderCrank", "InvertedSliderCrank"}), "mechanics/fourbar"),
     Family(frozenset({"Flat", "Roller"}), "machines/cams"),
+    Family(frozenset({"FOUR_BAR", "SLIDER_CRANK"}), "design/synthesis/four_bar_kinds.py"),
 )
 ALLOWED = {
     "mechanics/linkages/wheels.py": "radii from tooth numbers, meshes that repeat others: of toothed wheels only",

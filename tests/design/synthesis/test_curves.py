@@ -14,7 +14,8 @@ from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_starts import atlas
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
 from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
-from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, curve_points
+from gruebler.design.synthesis.four_bar_curves import curve_points
+from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import circuit, move

@@ -10,7 +10,8 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PathTask, synthesise_path
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
 from gruebler.design.synthesis.fit_limits import FitLimits, _nearest_within
-from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, curve_points
+from gruebler.design.synthesis.four_bar_curves import curve_points
+from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 
 ROWS = {
     FOUR_BAR: np.array([0.1, 0.2, 3.1, 0.4, 1, 3, 2.5, 1.2, 0.8]),

@@ -21,7 +21,8 @@ from gruebler.design.synthesis.curve_matching import (
     evenly_along,
 )
 from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
-from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, FourBarKind, curve_points
+from gruebler.design.synthesis.four_bar_curves import curve_points
+from gruebler.design.synthesis.four_bar_kinds import FourBarKind
 
 _CANDIDATES = 1500  # neighbours that are placed to see which of them keep within limits
 
@@ -53,18 +54,9 @@ def _halton(count: int, base: int) -> Reals:
 
 @cache
 def atlas(kind: FourBarKind, count: int = 0) -> CurveAtlas:
-    """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
-    count = count or (90_000 if kind is FOUR_BAR else 12_000)
-    first, second, third, fourth, fifth = (_halton(count, base) for base in (2, 3, 5, 7, 11))
-    spread = np.log(6.0)
-    if kind is FOUR_BAR:
-        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (first, second, third))
-        zero = 0 * b
-        rows = np.stack([zero, zero, d, zero, zero + 1, b, c, zero, zero])
-    else:
-        b, h = np.exp(spread * first) * 1.05, 3 * second
-        zero = 0 * b
-        rows = np.stack([zero, zero, zero, h, zero + 1, b, zero, zero])
+    """The atlas, made at its first use from so many trials, else as many as its kind wants. Cost: 1 s."""
+    *three, fourth, fifth = (_halton(count or kind.trials, base) for base in (2, 3, 5, 7, 11))
+    rows = kind.scattered(three)
     reach = np.maximum(rows[kind.unknowns.index("b")], 1.0)
     w = reach * (0.5 + 2.0 * np.sqrt(fourth) * np.exp(2j * np.pi * fifth))
     rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
@@ -98,7 +90,7 @@ def neighbours(z: Complexes, limits: FitLimits, *, closed: bool, number: int) ->
     """
     kind, (own, far) = limits.kind, limits.pivots
     book = atlas(kind)
-    frame = book.rows[kind.unknowns.index("b0x")] if kind is FOUR_BAR else np.ones(len(book.z))
+    frame = kind.frame(kind.named(book.rows))
     # A given pivot is the origin, a given frame runs from there to 1.
     origin = frame if own is None and far is not None else np.zeros(len(frame))
     unit = frame if own is not None and far is not None else np.ones(len(frame))
@@ -131,7 +123,7 @@ def _placed(book: CurveAtlas, match: CurveMatch) -> CurveStart:
     start = CurveStart(match.gap, book.rows[:, n], float(book.side[n]), drive_angles(book.phi[n], match.at))
     start = _moved(book.kind, start, match.turn, match.shift)
     if match.mirrored:
-        return CurveStart(match.gap, _mirrored(book.kind, start.row), -start.side, -start.phi)
+        return CurveStart(match.gap, _mirrored(book.kind, start.row), book.kind.mirrored_side * start.side, -start.phi)
     return start
 
 
@@ -141,24 +133,18 @@ def _moved(kind: FourBarKind, start: CurveStart, turn: complex, shift: complex) 
 
 def transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) -> Reals:
     """The numbers of a linkage that is turned, scaled and shifted."""
-    r = dict(zip(kind.unknowns, row, strict=True))
-    scale = abs(turn)
+    r = {name: float(value) for name, value in kind.named(row).items()}
+    own = turn * complex(r["a0x"], r["a0y"]) + shift
+    r |= {"a0x": own.real, "a0y": own.imag, **kind.moved_guide(r, turn, shift)}
     for name in ("a", "b", "c", "u", "v"):
         if name in r:
-            r[name] *= scale
-    pairs = [("a0x", "a0y")] + ([("b0x", "b0y")] if "b0x" in r else [])
-    for x, y in pairs:
-        z = turn * complex(r[x], r[y]) + shift
-        r[x], r[y] = z.real, z.imag
-    if "h" in r:
-        r["angle"] += float(np.angle(turn))
-        r["h"] = r["h"] * scale + float(np.imag(np.exp(-1j * r["angle"]) * shift))
+            r[name] *= abs(turn)
     return np.array([r[name] for name in kind.unknowns])
 
 
 def _mirrored(kind: FourBarKind, row: Reals) -> Reals:
-    """In the x axis; the branch of a four-bar changes, and that of a slider-crank stays but for the direction."""
-    r = dict(zip(kind.unknowns, row, strict=True))
+    """In the x axis."""
+    r = kind.named(row)
     for name in ("a0y", "b0y", "v", "h", "angle"):
         if name in r:
             r[name] = -r[name]
@@ -186,7 +172,7 @@ def timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: int
                 row = transformed(kind, book.rows[:, n], turn, complex(middle - turn * mean[n]))
                 phi, side = angles + float(np.angle(turn)), float(book.side[n])
                 if mirrored:
-                    row, phi, side = _mirrored(kind, row), -phi, -side
+                    row, phi, side = _mirrored(kind, row), -phi, kind.mirrored_side * side
                 starts.append(CurveStart(1 - float(likeness[n]), row, side, phi))
     starts.sort(key=lambda start: start.gap)
     return starts[:number]

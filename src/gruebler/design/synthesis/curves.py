@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import permutations
 
 import numpy as np
 
@@ -16,9 +17,10 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.curve_starts import CurveStart, neighbours, timed_neighbours, transformed
-from gruebler.design.synthesis.dyads import CRANK, SLIDER, GuidingDyad
+from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.fit_limits import FitLimits
-from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
+from gruebler.design.synthesis.four_bar_curves import curve_points
+from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
 from gruebler.design.synthesis.judging import Demands, best_of
 from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
@@ -112,7 +114,7 @@ def _different(fits: list[tuple[Fit, FitLimits]], number: int) -> list[tuple[Fit
     chosen: list[tuple[Fit, FitLimits]] = []
     for k in sorted(range(len(fits)), key=lambda k: (k not in firsts, k)):
         fit = fits[k][0]
-        if all(fit.kind is not o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o, _ in chosen):
+        if all(fit.kind != o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o, _ in chosen):
             chosen.append(fits[k])
         if len(chosen) == number:
             break
@@ -134,9 +136,8 @@ def _evened(
 
 def _shape(fit: Fit) -> Reals:
     """Lengths that do not depend on place and rotation, logarithmically."""
-    r = dict(zip(fit.kind.unknowns, fit.row, strict=True))
-    frame = np.hypot(r["b0x"] - r["a0x"], r["b0y"] - r["a0y"]) if "b0x" in r else 1.0
-    lengths = [r["a"], r["b"], r.get("c", 1.0), frame, np.hypot(r["u"], r["v"])]
+    r = fit.kind.named(fit.row)
+    lengths = [*fit.kind.lengths(r), np.hypot(r["u"], r["v"])]
     return np.asarray(np.log(np.array(lengths) + 1e-3))
 
 
@@ -160,12 +161,10 @@ def _limits(
     lengths = {_LENGTHS[name]: length / size for name, length in wanted.lengths if name in _LENGTHS}
     places = [(p - origin) / size for p in pivots]
     for kind in kinds:
-        if (len(places) == 2 or {"c", "frame"} & set(lengths)) and kind is not FOUR_BAR:
+        if len(places) > len(kind.pivots) or set(lengths) - {*kind.links}:
             continue
-        sides: list[dict[str, complex]] = [{}]
-        if places:
-            sides = [dict(zip(names, places, strict=False)) for names in (("a0", "b0"), ("b0", "a0"))]
-        for given in sides[: 2 if kind is FOUR_BAR else 1]:
+        sides = [dict(zip(names, places, strict=False)) for names in permutations(kind.pivots)] if places else [{}]
+        for given in sides:
             held = {name: value for name, value in lengths.items() if name in kind.unknowns}
             for name, place in given.items():
                 held |= {name + "x": place.real, name + "y": place.imag}
@@ -198,8 +197,6 @@ def _improved(
     rows = np.array([start.row for start in starts]).T  # (unknowns, starts)
     phi = np.array([start.phi for start in starts])
     side = np.array([start.side for start in starts])
-    if kind is SLIDER_CRANK:
-        side = _slider_branches(rows, phi, side, z)
     for name, value in limits.held.items():
         rows[kind.unknowns.index(name)] = value
     damping = np.full(len(starts), 1e-3)
@@ -272,17 +269,11 @@ def _step(
     return rows + change.T, phi + np.clip(along, -0.3, 0.3)
 
 
-def _slider_branches(rows: Reals, phi: Reals, side: Reals, z: Complexes) -> Reals:
-    """The branch that lies nearer to the target: a mirror image may or may not change it."""
-    costs = [_cost(SLIDER_CRANK, rows, phi, sign * np.ones_like(side), z) for sign in (1.0, -1.0)]
-    return np.where(costs[0] <= costs[1], 1.0, -1.0)
-
-
 def _cost(kind: FourBarKind, rows: Reals, phi: Reals, side: Reals, z: Complexes, power: int = 2) -> Reals:
     """The sum of powers of distances of each start; infinite where it cannot be assembled or a length is too small."""
     w = curve_points(kind, rows[:, :, None], phi, side[:, None]).z
     cost = np.sum(np.abs(w - z) ** power, axis=1)
-    lengths = rows[[kind.unknowns.index(name) for name in ("a", "b", "c") if name in kind.unknowns]]
+    lengths = rows[[kind.unknowns.index(name) for name in kind.links if name in kind.unknowns]]
     bad = ~np.isfinite(cost) | (lengths < 1e-3).any(axis=0) | (np.abs(rows) > 100).any(axis=0)
     return np.where(bad, np.inf, cost)
 
@@ -353,7 +344,7 @@ def _judged_fits(
 
 def linkages_of(fit: Fit, *, unit: str = "mm", named: bool = False) -> list[Linkage]:
     """The linkage of a fit in the position of its first point; with ``named`` its crank is the link that drives."""
-    r = dict(zip(fit.kind.unknowns, (float(v) for v in fit.row), strict=True))
+    r = {name: float(value) for name, value in fit.kind.named(fit.row).items()}
     phi = float(fit.phi[0])
     pivot = complex(r["a0x"], r["a0y"])
     pin = pivot + r["a"] * complex(np.exp(1j * phi))
@@ -361,13 +352,10 @@ def linkages_of(fit: Fit, *, unit: str = "mm", named: bool = False) -> list[Link
     theta = (point - pin) / complex(r["u"], r["v"])
     far = pin + r["b"] * theta
     own = GuidingDyad(CRANK, pin, pivot)
-    if fit.kind is FOUR_BAR:
-        other = GuidingDyad(CRANK, far, complex(r["b0x"], r["b0y"]))
-        if named:
-            return [linkage_of_dyads(own, other, point, unit)]
-        return list(four_bar_linkages(own, other, point, unit=unit))
-    slide = complex(np.exp(1j * r["angle"]))
-    return [linkage_of_dyads(own, GuidingDyad(SLIDER, far, far, slide), point, unit)]
+    guide = fit.kind.guide(r, far)
+    if named or len(fit.kind.pivots) < 2:
+        return [linkage_of_dyads(own, guide, point, unit)]
+    return list(four_bar_linkages(own, guide, point, unit=unit))
 
 
 def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
-from gruebler.design.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind
+from gruebler.design.synthesis.four_bar_kinds import FourBarKind
 
 _MARGIN = 1e-6  # sizes: so far from each limit
 _HELD = 1e-10  # sizes: a frame of a given length is as near to it
@@ -67,21 +67,21 @@ class FitLimits:
             rows: (unknowns, ..., starts), complex ones too: all is analytic but where two of its parts are equal.
             phi: (starts, points) crank angles.
         """
-        r = dict(zip(self.kind.unknowns, rows, strict=True))
+        r = self.kind.named(rows)
         limits = []
         if self.turning:
-            limits.append(_slack(self.kind, r) + _MARGIN)
+            limits.append(self.kind.turning_excess(r) + _MARGIN)
         for name, low, high in self._sides:
             limits += [low - r[name] + _MARGIN, r[name] - high + _MARGIN]
         if self.size_ratio < np.inf:
-            lengths = _lengths(self.kind, r)
+            lengths = self.kind.lengths(r)
             limits += [p / self.size_ratio - q + _MARGIN for p, q in permutations(lengths, 2)]
         if self.transmission > 0:
-            cosines = _cosines(self.kind, r, None if self.turning else phi)
+            cosines = self.kind.cosines(r, None if self.turning else phi)
             most = np.cos(self.transmission)
             limits += [_largest(cosines) - most + _MARGIN, _largest(-cosines) - most + _MARGIN]
         if self.frame:
-            frame = _frame(r)
+            frame = self.kind.frame(r)
             limits += [frame - self.frame - _HELD, self.frame - frame - _HELD]
         return np.array(limits) if limits else np.zeros((0, *rows.shape[1:]))
 
@@ -184,52 +184,7 @@ def _nearest_within(gram: Reals, normal: Reals, beyond: Reals) -> Reals:
 
 def crank_turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:
     """(linkages,) whether the crank turns fully, by Grashof."""
-    return np.asarray(_slack(kind, dict(zip(kind.unknowns, rows, strict=True))) < 0)
-
-
-def _slack(kind: FourBarKind, r: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
-    """A length that is negative where the crank turns fully."""
-    if kind is SLIDER_CRANK:
-        return np.asarray(r["a"] + _magnitude(_offset(r)) - r["b"])
-    lengths = np.array(_lengths(kind, r))
-    place = np.arange(4).reshape(4, *(1,) * (lengths.ndim - 1))
-    shortest = np.where(lengths[0].real <= lengths[3].real, 0, 3)  # another one makes the length positive
-    sign = -1.0 + 2 * (place == lengths.real.argmax(axis=0)) + 2 * (place == shortest)
-    return np.asarray(np.sum(sign * lengths, axis=0))
-
-
-def _lengths(kind: FourBarKind, r: Mapping[str, NDArray[Any]]) -> list[NDArray[Any]]:
-    """The distances of the pins of each link."""
-    return [r["a"], r["b"], r["c"], _frame(r)] if kind is FOUR_BAR else [r["a"], r["b"]]
-
-
-def _frame(r: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
-    return np.asarray(np.sqrt((r["b0x"] - r["a0x"]) ** 2 + (r["b0y"] - r["a0y"]) ** 2))
-
-
-def _offset(r: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
-    """The distance of the slide from the crank's pivot, to its left."""
-    return np.asarray(r["h"] - np.cos(r["angle"]) * r["a0y"] + np.sin(r["angle"]) * r["a0x"])
-
-
-def _cosines(kind: FourBarKind, r: Mapping[str, NDArray[Any]], phi: Reals | None) -> NDArray[Any]:
-    """(..., starts, places) cosines of the transmission angle: at crank angles, or where it is extreme over a turn."""
-    a, b = r["a"][..., None], r["b"][..., None]
-    if kind is SLIDER_CRANK:
-        offset = _offset(r)[..., None]
-        pin = a * np.array([1.0, -1.0]) if phi is None else a * np.sin(phi - r["angle"][..., None])
-        return np.asarray((offset - pin) / b)
-    c = r["c"][..., None]
-    if phi is None:
-        square = (_frame(r)[..., None] + a * np.array([1.0, -1.0])) ** 2
-    else:
-        x, y = (r["b0" + axis][..., None] - r["a0" + axis][..., None] for axis in "xy")
-        square = (x - a * np.cos(phi)) ** 2 + (y - a * np.sin(phi)) ** 2
-    return np.asarray((b * b + c * c - square) / (2 * b * c))
-
-
-def _magnitude(value: NDArray[Any]) -> NDArray[Any]:
-    return np.asarray(np.where(value.real < 0, -value, value))
+    return np.asarray(kind.turning_excess(kind.named(rows)) < 0)
 
 
 def _largest(values: NDArray[Any]) -> NDArray[Any]:

@@ -1,31 +1,17 @@
 """Coupler curves of many four-bars and slider-cranks at once, and their exact derivatives by every dimension.
 
-A linkage is a row of nine (or eight) numbers in the plane, see `FOUR_BAR` and `SLIDER_CRANK`. The crank angle is
-measured in the plane.
+A linkage is a row of numbers in the plane, whose meaning its kind tells (`four_bar_kinds`). The crank angle is measured
+in the plane.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
-
-
-@dataclass(frozen=True, slots=True)
-class FourBarKind:
-    """What the numbers of a row are."""
-
-    name: str
-    unknowns: tuple[str, ...]
-
-
-FOUR_BAR = FourBarKind("four-bar", ("a0x", "a0y", "b0x", "b0y", "a", "b", "c", "u", "v"))
-"""The fixed pivots A0, B0, crank a, coupler b, rocker c, coupler point u along AB, v to its left."""
-SLIDER_CRANK = FourBarKind("slider-crank", ("a0x", "a0y", "angle", "h", "a", "b", "u", "v"))
-"""A0, the direction of the slide, its distance from the origin to its left, crank, coupler, coupler point."""
+from gruebler.design.synthesis.four_bar_kinds import FourBarKind
 
 
 class CurvePoints(NamedTuple):
@@ -45,7 +31,7 @@ def curve_points(
     """Coupler points of linkages at crank angles.
 
     Args:
-        kind: `FOUR_BAR` or `SLIDER_CRANK`.
+        kind: of the linkages.
         rows: (unknowns, ...) numbers of the linkages, to be spread over the angles by numpy's rules.
         phi: (..., angles).
         side: +1 or -1, for each linkage.
@@ -53,26 +39,12 @@ def curve_points(
 
     Cost: about 0.1 us a point, 0.5 us with derivatives.
     """
-    r = dict(zip(kind.unknowns, rows, strict=True))
+    r = kind.named(rows)
     a, b = r["a"], r["b"]
     turned = np.exp(1j * phi)
     pin = r["a0x"] + 1j * r["a0y"] + a * turned
     with np.errstate(invalid="ignore", divide="ignore"):
-        if kind is FOUR_BAR:
-            far = r["b0x"] + 1j * r["b0y"]
-            gap = far - pin
-            f = np.abs(gap)
-            along = (b * b - r["c"] ** 2 + f * f) / (2 * f)
-            across = side * np.sqrt(b * b - along * along)
-            theta = gap / f * (along + 1j * across) / b
-            rocker = (pin + b * theta - far) / r["c"]
-            normal = np.conj(rocker)  # the rocker's pin cannot move along the rocker
-        else:
-            slide = np.exp(1j * r["angle"])
-            height = r["h"] - np.imag(np.conj(slide) * pin)
-            along = side * np.sqrt(b * b - height * height)
-            theta = slide * (along + 1j * height) / b
-            normal = -1j * np.conj(slide)
+        theta, normal = kind.coupler(r, pin, side)
         w = r["u"] + 1j * r["v"]
         z = pin + w * theta
         # The coupler's rate follows from what the far pin may not do: Re(normal (d pin + i b theta d angle)) = given.
@@ -94,13 +66,6 @@ def curve_points(
             "u": theta,
             "v": 1j * theta,
         }
-        if kind is FOUR_BAR:
-            columns |= {
-                "b0x": moved(0 * ones, np.real(normal * ones)),
-                "b0y": moved(0 * ones, np.real(normal * 1j * ones)),
-                "c": moved(0 * ones, 1.0),
-            }
-        else:
-            far = pin + b * theta
-            columns |= {"h": moved(0 * ones, 1.0), "angle": moved(0 * ones, np.real(np.conj(slide) * far))}
+        carried = kind.carried(pin + b * theta, normal)
+        columns |= {name: moved(0 * ones, given) for name, given in carried.items()}
     return CurvePoints(z, by_crank, np.stack([np.broadcast_to(columns[name], z.shape) for name in kind.unknowns]))
