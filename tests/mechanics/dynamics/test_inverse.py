@@ -56,6 +56,9 @@ def test_two_methods_agree(name):
     run = inverse_dynamics(motion, Loads(moments={link: "3*omega"}, bodies=bodies_of(linkage)))
     assert np.isfinite(run.drive).all()
     assert run.disagreement < ROUNDING
+    reduced, q2 = run.equations, motion.speeds[1]
+    effort = np.einsum("rfg,rg->rf", reduced.mass, q2) + reduced.bias - reduced.force
+    np.testing.assert_allclose(run.motion_effort, effort, atol=ROUNDING * np.abs(effort).max())
 
 
 def test_the_foundation_feels_the_shaking_force_and_the_loads():

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
-from gruebler.mechanics.forces import Loads, statics
+from gruebler.mechanics.forces import Loads, equilibrium, statics
+from gruebler.mechanics.forces.taking_apart import removal_steps
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import from_degrees, move
 from gruebler.mechanics.linkages import Circle, Linkage, LinkPoint
@@ -23,6 +24,10 @@ FIVE_BAR = Linkage.from_drawing(
 FORKED = Linkage.from_drawing(  # one pin for the crank and two rods: a V engine
     Mechanism.parse("R(0-1) R(1-2-3) R(2-4) R(3-5) P(0-4) P(0-5); frame=0; drive=R(0-1)"),
     {0: (0, 0), 1: (0, 2), 2: (-3, 6), 3: (3, 6), 4: (-3, 6, np.pi / 2), 5: (3, 6, np.pi / 2)},
+)
+ELEVATOR = Linkage.from_drawing(  # a slide is driven and hangs on another one; its load leans on a wall
+    Mechanism.parse("P(0-1) R(1-2) P(2-3) R(0-3); frame=0; drive=P(0-1)"),
+    {0: (1, 0, np.pi / 2), 1: (1, 1), 2: (2, 1.5, 0.4), 3: (4, 0)},
 )
 
 
@@ -109,6 +114,27 @@ def test_two_drives():
     held = statics(motion, Loads({"K": (1, -2)}, moments={"3": 0.5}))
     assert np.allclose(held.drive, held.work, rtol=1e-12)
     assert held.drive.shape == (2, 2)
+
+
+@pytest.mark.parametrize("name", [*MOVING, "five-bar", "forked", "elevator"])
+def test_link_by_link_is_all_links_at_once(name, monkeypatch):
+    """The linear system of all links is the second method, the only one for a triad and for a drive within a dyad."""
+    if name in MOVING:
+        motion, one, other = moved(name)
+    else:
+        linkage = {"five-bar": FIVE_BAR, "forked": FORKED, "elevator": ELEVATOR}[name]
+        pose = linkage.required_pose
+        drives = [pose["1"].angle, *([pose["4"].angle] if name == "five-bar" else [])]
+        drives = [[0.5]] if name == "elevator" else [drives]
+        (motion, one, other) = move(linkage, drives), "2", "3"
+    loads = Loads(forces={f"{one}:3,1": (3, -7)}, moments={one: 5.0, other: -9.0}, masses={f"{other}:1,2": 0.3})
+    assert (removal_steps(motion.lower_linkage) is None) == (name in ("cylinder", "six-bar"))
+    found = statics(motion, loads).reactions
+    monkeypatch.setattr(equilibrium, "removal_steps", lambda _: None)
+    wanted = statics(motion, loads).reactions
+    assert not wanted.singular.any()
+    for part, other_part in zip(found[:3], wanted[:3], strict=True):
+        np.testing.assert_allclose(part, other_part, rtol=1e-10, atol=1e-10 * np.abs(wanted.forces).max())
 
 
 def test_weights_are_the_slope_of_the_potential():

@@ -25,6 +25,7 @@ from gruebler.mechanics.linkages import LinkPoint
 
 _TORQUE, _FORCE = message("torque {joint}"), message("force {joint}")
 _LARGEST = message("Largest effort: {name} = {value:n} {unit} at {place}; effective (root mean square) {rms:n}.")
+_ROUNDING = float(np.finfo(np.float64).eps)  # nothing agrees better than numbers are written
 _AGREE = message("Equilibrium and equations of motion agree to {part:.1e} of the largest load.")
 
 
@@ -36,11 +37,10 @@ class InverseDynamics(Tabled):
 
     statics: Statics
     """All joint forces and drive efforts, from the equilibrium of every link with the forces of its inertia."""
-    equations: ReducedEquations
     inertia: tuple[Wrench, ...]
-    """The forces and moments of inertia: - m a at each centre, - J alpha on each link."""
-    motion_effort: Reals
-    """(rows, drives): M q'' + h - Q, without friction: the second way to the drives' efforts."""
+    """The forces and moments of inertia: - m a at each mass and centre, - J alpha on each body."""
+    loads: Loads
+    times: ArrayLike = 0.0
 
     @property
     def motion(self) -> Motion:
@@ -51,6 +51,19 @@ class InverseDynamics(Tabled):
     def drive(self) -> Reals:
         """The torque of a driven joint, or the force of a driven slide, by equilibrium; (rows, drives)."""
         return self.statics.drive
+
+    @property
+    def motion_effort(self) -> Reals:
+        """M q'' + h - Q, without friction, by the power of loads and inertia: the second way to the drives' efforts.
+
+        (rows, drives).
+        """
+        return self.statics.work if self.statics.friction is None else self.statics.friction.frictionless
+
+    @cached_property
+    def equations(self) -> ReducedEquations:
+        """M, h, Q and the energies over the rows."""
+        return reduced_equations(self.motion, self.loads, times=self.times)
 
     @cached_property
     def disagreement(self) -> float:
@@ -118,7 +131,7 @@ class InverseDynamics(Tabled):
                 )
             )
         if np.isfinite(self.disagreement):
-            lines.append(_AGREE.filled(part=self.disagreement))
+            lines.append(_AGREE.filled(part=max(self.disagreement, _ROUNDING)))
         texts = [*(line.in_language(lang) for line in lines), self.motion.message(lang), self.statics.message(lang)]
         return "\n".join(filter(None, texts))
 
@@ -163,7 +176,8 @@ def inverse_dynamics(
         LinkageError: a motion without accelerations, loads on points that are not there, an unknown unit of length.
 
     Cost:
-        That of `statics`, and the motion once more for each drive.
+        Some 0.5 us a row of a four-bar, 1.2 us of an eight-bar of dyads, three to five times `move`; where not all
+        links are dyads or driven, some 20 us. Of several drives, or speeds that are 0, the motion once more for each.
 
     Example:
         >>> from gruebler.mechanics.forces import RigidBody
@@ -183,17 +197,15 @@ def inverse_dynamics(
     motion.check_order(2)
     equations = EquationsOfMotion(motion.linkage, motion.links, loads)
     acting = equations.acting
-    none = np.zeros(len(motion))
     weights = equations.metres * acting.masses(len(motion))
-    inertia = [
-        Wrench(spot, -weights[:, k] * motion.complex_point(spot, order=2), none)
-        for k, spot in enumerate(acting.spots[acting.heavy])
-    ]
-    for link in loads.bodies:
-        moment = -equations.metres * loads.bodies[link].inertia * motion.angular(link, order=2)
-        inertia.append(Wrench(LinkPoint(link, 0.0, 0.0), none.astype(np.complex128), moment))
-    held = equilibrium(motion, loads, friction, times, tuple(inertia))
-    reduced = reduced_equations(motion, loads, times=times)
-    assert motion.speeds is not None  # it has accelerations
-    effort = np.einsum("rfg,rg->rf", reduced.mass, motion.speeds[1]) + reduced.bias - reduced.force
-    return InverseDynamics(statics=held, equations=reduced, inertia=tuple(inertia), motion_effort=effort)
+    spins = [*(0.0 for _ in loads.masses), *(equations.metres * body.inertia for body in loads.bodies.values())]
+    inertia = tuple(
+        Wrench(
+            spot,
+            -weights[:, k] * motion.complex_point(spot, order=2),
+            -spin * motion.angular(spot.link, order=2),
+        )
+        for k, (spot, spin) in enumerate(zip(acting.spots[acting.heavy], spins, strict=True))
+    )
+    held = equilibrium(motion, loads, friction, times, inertia)
+    return InverseDynamics(statics=held, inertia=inertia, loads=loads, times=times)

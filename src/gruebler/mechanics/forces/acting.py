@@ -75,14 +75,15 @@ class MovingLinks:
         )
 
 
-def moving_links(motion: Motion, time: ArrayLike = 0.0) -> MovingLinks:
-    """The links of a motion; without velocities all stand still."""
+def moving_links(motion: Motion, time: ArrayLike = 0.0, *, angles: bool = True) -> MovingLinks:
+    """The links of a motion; without velocities all stand still. Angles that nobody asks for are NaN."""
     rows, links = motion.turns.shape
+    known = [motion.angle(link) for link in motion.links] if angles else [np.full(rows, np.nan)] * links
     speeds = motion.drives * 0.0 if motion.speeds is None or not motion.order else motion.speeds[0]
     return MovingLinks(
         places=motion.places[0],
         turns=motion.turns,
-        angles=np.stack([motion.angle(link) for link in motion.links], axis=1),
+        angles=np.stack(known, axis=1),
         velocities=motion.places[1] if motion.order else np.zeros((rows, links), np.complex128),
         rates=motion.rates[0] if motion.order else np.zeros((rows, links)),
         time=np.broadcast_to(np.asarray(time, np.float64), (rows,)),
@@ -305,7 +306,8 @@ def loads_over_rows(motion: Motion, loads: Loads, time: ArrayLike = 0.0) -> tupl
 
     Raises `LinkageError` for a point or link that is not there and for numbers that are not finite.
     """
-    acting, moving = acting_loads(motion, loads), moving_links(motion, time)
+    acting = acting_loads(motion, loads)
+    moving = moving_links(motion, time, angles=not acting.of_the_pose)
     forces, moments = acting.forces_at(moving), acting.moments_on(moving)
     none = np.zeros(len(motion))
     wrenches = [Wrench(spot, forces[:, k], none) for k, spot in enumerate(acting.spots)]

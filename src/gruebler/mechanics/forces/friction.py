@@ -15,7 +15,13 @@ from gruebler.base.errors import LinkageError, expect
 from gruebler.base.notebook import brief
 from gruebler.mechanics.forces.acting import Rows, Wrench
 from gruebler.mechanics.forces.coulomb import Branches, Contacts, continued
-from gruebler.mechanics.forces.equilibrium import Reactions, joint_connections, joint_of_connection, reactions
+from gruebler.mechanics.forces.equilibrium import (
+    Reactions,
+    joint_connections,
+    joint_of_connection,
+    link_loads,
+    reactions,
+)
 from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint
@@ -193,7 +199,7 @@ def with_friction(
     unknown: Flags = np.asarray(np.isnan(directions).any(axis=1))
     directions = np.where(unknown[:, None], 0.0, directions)
     units = [_unit(motion, contact, directions[:, k]) for k, contact in enumerate(contacts)]
-    free, *mutual = reactions(motion, [wrenches, *units])
+    free, *mutual = reactions(motion, [link_loads(motion, case) for case in (wrenches, *units)])
     branches = _branches(motion, wrenches, contacts, directions, [free, *mutual], unknown)
     forces = FrictionForces(contacts=contacts, branches=branches, directions=directions, rates=rates, frictionless=work)
     return _total(motion, free, mutual, forces), forces
