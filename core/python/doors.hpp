@@ -26,6 +26,18 @@ struct Array : nb::ndarray<const Number, nb::numpy, nb::shape<lengths...>, nb::c
     using Base::Base;
 };
 
+// An array of numpy that is written: one that begins between two numbers is refused, as a copy would not reach the caller.
+template <class Number, int... lengths>
+struct Room : nb::ndarray<Number, nb::numpy, nb::shape<lengths...>, nb::c_contig, nb::device::cpu> {
+    using Base = nb::ndarray<Number, nb::numpy, nb::shape<lengths...>, nb::c_contig, nb::device::cpu>;
+    using Base::Base;
+};
+
+template <class Number>
+bool begins_at_a_number(const Number* data) {
+    return reinterpret_cast<std::uintptr_t>(data) % alignof(Number) == 0;
+}
+
 template <class Number>
 using NewArray = nb::ndarray<nb::numpy, Number>;
 
@@ -79,13 +91,28 @@ struct nanobind::detail::type_caster<gruebler::doors::Array<Number, lengths...>>
     bool from_python(handle given, uint8_t flags, cleanup_list* cleanup) noexcept {
         Whole whole;
         if (!whole.from_python(given, flags, cleanup)) return false;
-        if (reinterpret_cast<std::uintptr_t>(whole.value.data()) % alignof(Number) != 0) {
+        if (!gruebler::doors::begins_at_a_number(whole.value.data())) {
             PyObject* copy = PyObject_CallMethod(given.ptr(), "copy", nullptr);
             const bool copied = copy && whole.from_python(copy, flags, cleanup);
             Py_XDECREF(copy);
             if (!copied) return PyErr_Clear(), false;
         }
         static_cast<typename Array::Base&>(value) = std::move(whole.value);
+        return true;
+    }
+};
+
+template <class Number, int... lengths>
+struct nanobind::detail::type_caster<gruebler::doors::Room<Number, lengths...>> {
+    using Room = gruebler::doors::Room<Number, lengths...>;
+    using Whole = make_caster<typename Room::Base>;
+    NB_TYPE_CASTER(Room, Whole::Name)
+
+    bool from_python(handle given, uint8_t flags, cleanup_list* cleanup) noexcept {
+        Whole whole;
+        if (!whole.from_python(given, flags, cleanup) || !gruebler::doors::begins_at_a_number(whole.value.data()))
+            return false;
+        static_cast<typename Room::Base&>(value) = std::move(whole.value);
         return true;
     }
 };

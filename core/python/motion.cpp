@@ -19,10 +19,6 @@ using namespace motion;
 using Pair = std::complex<double>;  // what numpy stores as complex128; a `Complex` has its memory
 static_assert(sizeof(Complex) == sizeof(Pair));
 
-// An array that is written.
-template <class Number, int... lengths>
-using Room = nb::ndarray<Number, nb::numpy, nb::shape<lengths...>, nb::c_contig, nb::device::cpu>;
-
 const Complex* complex_of(const Pair* data) { return reinterpret_cast<const Complex*>(data); }
 Complex* complex_of(Pair* data) { return reinterpret_cast<Complex*>(data); }
 
