@@ -131,10 +131,13 @@ test-newest:
 	$(NEWEST_DIR)/venv/bin/python -m pip install --quiet --disable-pip-version-check --upgrade -e ".[test]"
 	$(NEWEST_DIR)/venv/bin/python -m pytest -q -n 2 $(BROAD)
 
-# For work on the C++ kernels: without pip's detour it takes as long as the compiler.
+# For work on the C++ kernels: without pip's detour it takes as long as the compiler. The tools alone, so that the package
+# may be in use meanwhile.
+TOOLS = import tomllib; \
+	print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["core"], sep="\n")
 $(VENV)/.core: pyproject.toml
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[core]"
+	@$(BIN)/python -c '$(TOOLS)' | $(BIN)/python -m pip install --quiet --disable-pip-version-check -r /dev/stdin
 	@touch $@
 
 CORE := PATH="$(CURDIR)/$(BIN):$$PATH" cmake
