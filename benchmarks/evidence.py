@@ -19,14 +19,13 @@ from numpy.typing import NDArray
 
 from gruebler import _core
 from gruebler.structure.enumeration.contracted import packed_graphs, unpacked
-from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, work_of_graphs
+from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, strings_of_graphs, work_of_graphs
 
 Int64 = NDArray[np.int64]
 Degrees = tuple[int, ...]
 """How many nodes of 3, 4, ... strings there are."""
 
 _FACTORIALS = np.array([factorial(k) for k in range(16)], np.int64)
-_PLACES = np.arange(0, 64, 4, dtype=np.uint64)  # of the numbers of strings in a row
 _SAMPLE = 3  # contracted graphs that are checked of an assortment with too much work for all
 
 
@@ -86,7 +85,7 @@ def check_chains(links: int, most: int) -> Iterator[Checked]:
 
 
 def _degree_sequences(block: Int64) -> list[Degrees]:
-    strings = (block[:, :, None] >> (4 * np.arange(16)) & 15).sum(axis=2)
+    strings = strings_of_graphs(block).sum(axis=2)
     most = int(strings.max())
     table = np.stack([(strings == k).sum(axis=1) for k in range(3, most + 1)], axis=1)
     unique, place = np.unique(table, axis=0, return_inverse=True)
@@ -96,8 +95,8 @@ def _degree_sequences(block: Int64) -> list[Degrees]:
 
 def _order(rows: Int64) -> int:
     """The order of the group of a packed graph, equal strings told apart."""
-    strings = rows[:, None].view(np.uint64) >> _PLACES & np.uint64(15)
-    return len(_core.find_automorphisms(rows)) * int(np.prod(_FACTORIALS[np.tril(strings)]))
+    strings = np.tril(strings_of_graphs(rows[None])[0])
+    return len(_core.find_automorphisms(rows)) * int(np.prod(_FACTORIALS[strings]))
 
 
 def sums_of_graphs(loops: int) -> tuple[int, dict[Degrees, Fraction]]:
@@ -106,7 +105,7 @@ def sums_of_graphs(loops: int) -> tuple[int, dict[Degrees, Fraction]]:
     number = 0
     for block in packed_graphs(loops):
         orders = np.array([_order(rows) for rows in block])
-        degrees = (block[:, :, None].view(np.uint64) >> _PLACES & np.uint64(15)).sum(axis=2)
+        degrees = strings_of_graphs(block).sum(axis=2)
         sequences = (degrees[:, :, None] == np.arange(3, degrees.max() + 1)).sum(axis=1)
         rows, counts = np.unique(np.column_stack([sequences, orders]), axis=0, return_counts=True)
         for (*sequence, order), count in zip(rows.tolist(), counts.tolist(), strict=True):

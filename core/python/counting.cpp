@@ -49,14 +49,13 @@ nb::list level_names() {
 }
 
 GraphRows rows_of(const Array<std::int64_t, -1, -1>& graphs) {
-    expect(graphs.shape(1) >= 2 && graphs.shape(1) <= 16, "a packed graph has 2 to 16 rows");
+    expect(graphs.shape(1) >= 2 && graphs.shape(1) <= most_nodes, "a packed graph has 2 to 18 rows");
     return {reinterpret_cast<const std::uint64_t*>(graphs.data()), static_cast<std::int64_t>(graphs.shape(0)),
             static_cast<int>(graphs.shape(1))};
 }
 
 std::string graph_is(std::int64_t k, const char* what) { return "graph " + std::to_string(k) + " " + what; }
 
-constexpr size_t most_rows = 16;
 constexpr const char* no_contracted_graph =
     "is not a connected graph of this number of loops with two or more nodes, all of three or more strings";
 constexpr const char* too_many_automorphisms = "has more automorphisms than there is room for";
@@ -64,7 +63,7 @@ constexpr const char* too_many_automorphisms = "has more automorphisms than ther
 constexpr const char* too_many_sets = "has more critical sets than there is room for";
 
 void check_chains(int loops, int mobility) {
-    expect(loops >= 2 && loops <= most_loops, "there are 2 to 9 loops");
+    expect(loops >= 2 && loops <= most_loops, "there are 2 to 10 loops");
     expect(mobility >= 0 && mobility <= most_mobility, "the mobility is 0 to 24");
 }
 
@@ -96,11 +95,11 @@ NewArray<std::int64_t> take_census(const Array<std::int64_t, -1, -1>& graphs, in
 }
 
 nb::tuple add_loop(const Array<std::int64_t, -1, -1>& parents, int loops, std::int64_t first, std::int64_t enough) {
-    expect(loops >= 2 && loops < most_loops, "the parents have 2 to 8 loops");
+    expect(loops >= 2 && loops < most_loops, "the parents have 2 to 9 loops");
     expect(first >= 0 && first <= static_cast<std::int64_t>(parents.shape(0)), "the first parent is one of the list");
     expect(enough >= 1, "at least one graph is to be enough");
     const GraphRows rows = rows_of(parents);
-    std::vector<PackedGraph> children;
+    std::vector<Words> children;
     const auto [end, next] =
         run([&](Watch& watch) { return counting::add_loop(rows, loops, first, enough, children, watch); });
     if (end == GrowthEnd::no_contracted_graph) throw nb::value_error(graph_is(next, no_contracted_graph).c_str());
@@ -168,7 +167,7 @@ NewArray<std::uint8_t> write_graph6(const Array<std::uint8_t, -1, -1, 2>& edges,
 }
 
 GraphSymmetry symmetry_of(const Array<std::int64_t, -1>& rows) {
-    expect(rows.shape(0) >= 1 && rows.shape(0) <= most_rows, "a packed graph has 1 to 16 rows");
+    expect(rows.shape(0) >= 1 && rows.shape(0) <= most_nodes, "a packed graph has 1 to 18 rows");
     GraphSymmetry found = find_symmetry(reinterpret_cast<const std::uint64_t*>(rows.data()),
                                         static_cast<int>(rows.shape(0)));
     expect(found.end != SymmetryEnd::no_graph, "the rows are not those of a packed graph without isolated vertices");
@@ -177,7 +176,7 @@ GraphSymmetry symmetry_of(const Array<std::int64_t, -1>& rows) {
 }
 
 NewArray<std::int64_t> canonical_rows(const Array<std::int64_t, -1>& rows) {
-    return hand_over<std::int64_t>(symmetry_of(rows).rows, {most_rows});
+    return hand_over<std::int64_t>(symmetry_of(rows).rows, {most_nodes});
 }
 
 NewArray<std::int64_t> find_automorphisms(const Array<std::int64_t, -1>& rows) {
@@ -197,7 +196,7 @@ void add_counting(nb::module_& module) {
                "graphs: int64[k, nodes], packed graphs of so many loops. level: for tests, one of level_names().");
     module.def("add_loop", add_loop, nb::arg("parents").noconvert(), nb::arg("loops"), nb::arg("first"),
                nb::arg("enough"),
-               "The contracted graphs with one loop more that have their canonical parent in a list: int64[m, 16] and "
+               "The contracted graphs with one loop more that have their canonical parent in a list: int64[m, 18] and "
                "the parent to go on with.\n\n"
                "parents: int64[k, nodes], packed graphs of so many loops, each isomorphism class once; begins with the "
                "parent `first` and ends after the one that brings `enough` graphs.");
@@ -210,7 +209,7 @@ void add_counting(nb::module_& module) {
     module.def("write_graph6", write_graph6, nb::arg("edges").noconvert(), nb::arg("links"),
                "Chains as lines of graph6, their ends included: uint8[k, bytes].\n\nedges: uint8[k, joints, 2].");
     module.def("canonical_rows", canonical_rows, nb::arg("rows").noconvert(),
-               "The canonical rows of one packed graph: int64[16].");
+               "The canonical rows of one packed graph: int64[18].");
     module.def("find_automorphisms", find_automorphisms, nb::arg("rows").noconvert(),
                "The automorphisms of one packed graph, as images of its vertices: int64[k, n], the identity first.");
 }

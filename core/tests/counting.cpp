@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::int64_t chains_of_loops[] = {0, 0, 2, 16, 230, 6856, 318162};  // OEIS A233288: 2 loops, 6 links, 2 chains
 
-GraphRows rows_of(const std::vector<PackedGraph>& graphs) {
-    return {graphs.data()->rows.data(), static_cast<std::int64_t>(graphs.size()), most_nodes};
+GraphRows rows_of(const std::vector<Words>& graphs) {
+    return {graphs.data()->data(), static_cast<std::int64_t>(graphs.size()), most_nodes};
 }
 
 }  // namespace
@@ -27,11 +27,11 @@ GraphRows rows_of(const std::vector<PackedGraph>& graphs) {
 int main(int argc, char** argv) {
     const int most = argc > 1 ? std::atoi(argv[1]) : 6;
     Watch watch{always, nullptr};
-    std::vector<PackedGraph> graphs(1);
-    graphs[0].set_edges(0, 1, 3);
+    std::vector<Words> graphs(1);
+    graphs[0][0] = 3 << 4, graphs[0][1] = 3;
     for (int loops = 2; loops <= most; ++loops) {
         if (loops > 2) {
-            std::vector<PackedGraph> children;
+            std::vector<Words> children;
             const GrowthOutcome grown = add_loop(rows_of(graphs), loops - 1, 0, INT64_MAX, children, watch);
             expect(grown.end == GrowthEnd::done, "a loop was not added");
             graphs = std::move(children);
@@ -53,15 +53,15 @@ int main(int argc, char** argv) {
                 expect(static_cast<std::int64_t>(bytes.size()) == chains * row, "another number of chains in a list");
             }
         }
-        for (const PackedGraph& graph : graphs)
-            expect(find_symmetry(graph.rows.data(), most_nodes).end == SymmetryEnd::done, "no symmetry was found");
+        for (const Words& graph : graphs)
+            expect(find_symmetry(graph.data(), most_nodes).end == SymmetryEnd::done, "no symmetry was found");
         Watch impatient{never, nullptr, 1};
         expect(take_census(rows_of(graphs), loops, 1, true, table.data(), impatient).end == CensusEnd::interrupted,
                "a census went on after it was to end");
         std::printf("%d loops: %zu graphs\n", loops, graphs.size());
     }
-    graphs[0].rows[0] = ~std::uint64_t{0};
-    std::vector<PackedGraph> children;
+    graphs[0][0] = ~std::uint64_t{0};
+    std::vector<Words> children;
     expect(add_loop(rows_of(graphs), 3, 0, 1, children, watch).end == GrowthEnd::no_contracted_graph,
            "something else was taken for a contracted graph");
 }

@@ -23,7 +23,7 @@ WRONG_KINDS = [
     np.asfortranarray(np.zeros((3, 16), np.int64)),
     np.zeros((4, 32), np.int64)[:, ::2],
 ]
-WRONG_WIDTHS = [np.zeros((1, width), np.int64) for width in (0, 1, 17, 1000)]
+WRONG_WIDTHS = [np.zeros((1, width), np.int64) for width in (0, 1, 19, 1000)]
 
 
 def calls(core):
@@ -44,11 +44,11 @@ def test_wrong_kinds(core, graphs):
 @pytest.mark.parametrize("graphs", WRONG_WIDTHS, ids=lambda graphs: str(graphs.shape[1]))
 def test_wrong_widths(core, graphs):
     for call in calls(core):
-        with pytest.raises(ValueError, match="2 to 16 rows"):
+        with pytest.raises(ValueError, match="2 to 18 rows"):
             call(graphs, 2)
 
 
-@pytest.mark.parametrize("loops", [-1, 0, 1, 10, 2**31 - 1])
+@pytest.mark.parametrize("loops", [-1, 0, 1, 11, 2**31 - 1])
 def test_wrong_loops(core, loops):
     for call in calls(core):
         with pytest.raises(ValueError, match="loops"):
@@ -79,10 +79,10 @@ def test_unknown_level(core):
 
 
 def test_no_graphs(core):
-    none = np.zeros((0, 16), np.int64)
+    none = np.zeros((0, 18), np.int64)
     assert core.take_census(none, 5, 1, True).shape == (0, 5)
     children, following = core.add_loop(none, 5, 0, 1)
-    assert children.shape == (0, 16)
+    assert children.shape == (0, 18)
     assert following == 0
 
 

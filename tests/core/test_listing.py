@@ -47,7 +47,7 @@ def test_a_ring_as_networkx(core, links):
 
 
 def as_rows(multigraph):
-    """int64[16]: the packed graph of a multigraph."""
+    """int64[18]: the packed graph of a multigraph."""
     rows = [0] * 16
     for u, v in multigraph.edges():
         rows[u] += 1 << 4 * v
@@ -98,14 +98,14 @@ def test_known_groups(core, graph, order):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda core: core.list_chains(THETA, 1, 1), "2 to 9 loops"),
+        (lambda core: core.list_chains(THETA, 1, 1), "2 to 10 loops"),
         (lambda core: core.list_chains(THETA, 2, 25), "0 to 24"),
         (lambda core: core.list_graph6(THETA, 3, 1), "graph 0 is not a connected graph of this number"),
-        (lambda core: core.list_graph6(THETA[:, :1].copy(), 2, 1), "2 to 16 rows"),
+        (lambda core: core.list_graph6(THETA[:, :1].copy(), 2, 1), "2 to 18 rows"),
         (lambda core: core.canonical_rows(np.zeros(16, np.int64)), "not those of a packed graph"),
         (lambda core: core.canonical_rows(np.full(16, -1)), "not those of a packed graph"),
-        (lambda core: core.canonical_rows(np.zeros(0, np.int64)), "1 to 16 rows"),
-        (lambda core: core.canonical_rows(np.zeros(17, np.int64)), "1 to 16 rows"),
+        (lambda core: core.canonical_rows(np.zeros(0, np.int64)), "1 to 18 rows"),
+        (lambda core: core.canonical_rows(np.zeros(19, np.int64)), "1 to 18 rows"),
         (lambda core: core.write_graph6(np.zeros((1, 1, 2), np.uint8), 3), "graph 0 has an edge"),
         (lambda core: core.write_graph6(np.array([[[0, 3]]], np.uint8), 3), "graph 0 has an edge"),
         (lambda core: core.write_graph6(np.zeros((0, 1, 2), np.uint8), 256), "0 to 255 links"),

@@ -12,7 +12,7 @@
 
 namespace gruebler::counting {
 
-inline constexpr int most_loops = 9;
+inline constexpr int most_loops = 10;
 inline constexpr int most_mobility = 24;
 
 // Packed graphs one after another, `width` rows each.

@@ -38,15 +38,14 @@ struct Frame {
     bool holds(Word set, int b) const { return (set >> bundle[b].u & set >> bundle[b].v & 1) != 0; }
 
 private:
-    std::array<int, 1 << most_nodes> within_;  // set of nodes -> bundles within
+    std::array<std::uint8_t, 1 << most_nodes> within_;  // set of nodes -> bundles within
 
     void list_bundles(const PackedGraph& graph) {
         bundles = 0;
         for (int v = 0; v < nodes; ++v) {
-            for (int u = 0; u < v; ++u) {
-                const int strings = graph.edges(u, v);
-                if (strings == 0) continue;
-                bundle[bundles] = {u, v, strings};
+            for (Word before = around.near[v] & ones(v); before != 0; before = without_lowest(before)) {
+                const int u = lowest(before);
+                bundle[bundles] = {u, v, graph.edges(u, v)};
                 bundle_between[u][v] = bundle_between[v][u] = bundles++;
             }
         }
@@ -62,7 +61,7 @@ private:
         for (Word s = 1; s < all; ++s) {
             const Word rest = without_lowest(s);
             const int within = within_[rest] + size(near[lowest(s)] & rest), bound = 3 * size(s) - 4;
-            within_[s] = within;
+            within_[s] = static_cast<std::uint8_t>(within);
             if (size(s) < 3 || 2 * within <= bound || has_loose_end(s)) continue;
             if (sets == most_sets) return false;
             critical[sets++] = {s, bound};

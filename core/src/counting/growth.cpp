@@ -9,12 +9,12 @@
 namespace gruebler::counting {
 namespace {
 
-constexpr int most_bundles = 24;                        // pairs of adjacent vertices; edges of nine loops
+constexpr int most_bundles = 27;                        // pairs of adjacent vertices; edges of ten loops
 constexpr int most_places = most_nodes + most_bundles;  // vertices, then bundles
 
 class Growth {
 public:
-    GrowthEnd grow(const std::uint64_t* words, int width, int loops, std::vector<PackedGraph>& children, Watch& watch) {
+    GrowthEnd grow(const std::uint64_t* words, int width, int loops, std::vector<Words>& children, Watch& watch) {
         if (!read_graph(words, width, loops, parent_)) return GrowthEnd::no_contracted_graph;
         if (!prepare()) return GrowthEnd::too_many_automorphisms;
         const int places = n_ + bundles_;
@@ -25,7 +25,7 @@ public:
                 for (int way = 0; way < (two_ways ? 2 : 1); ++way) {
                     const Fate fate = try_child(p, q, way == 0);
                     if (fate == Fate::no_room) return GrowthEnd::too_many_automorphisms;
-                    if (fate == Fate::kept) children.push_back(symmetry_.canonical);
+                    if (fate == Fate::kept) children.push_back(symmetry_.canonical.rows);
                 }
             }
             if (!spend(watch, steps_of_a_place)) return GrowthEnd::interrupted;
@@ -73,11 +73,10 @@ private:
         around_.survey(n_, parent_);
         bundles_ = 0;
         for (int v = 0; v < n_; ++v) {
-            for (int u = 0; u < v; ++u) {
-                const int number = parent_.edges(u, v);
-                if (number == 0) continue;
+            for (Word before = around_.near[v] & ones(v); before != 0; before = without_lowest(before)) {
+                const int u = lowest(before);
                 ends_[bundles_] = {u, v};
-                number_[bundles_] = number;
+                number_[bundles_] = parent_.edges(u, v);
                 removable_[bundles_] = is_removable(n_, around_.near, parent_, u, v);
                 bundle_between_[u][v] = bundle_between_[v][u] = bundles_++;
             }
@@ -146,6 +145,7 @@ private:
     // one of its edges or on two.
     void build(int p, int q, bool same_edge) {
         child_ = parent_;
+        child_.make_room(n_ + (p >= n_) + (q >= n_));
         h_ = n_;
         int x = p, y = q;
         if (p >= n_) {
@@ -187,9 +187,9 @@ private:
         const auto removable = [this](Edge e) { return is_removable(h_, child_around_.near, child_, e.u, e.v); };
         int found = 0;
         for (int v = 0; v < h_; ++v) {
-            for (int u = 0; u < v; ++u) {
-                const int number = child_.edges(u, v);
-                if (number == 0 || added_.joins(u, v)) continue;
+            for (Word before = child_around_.near[v] & ones(v); before != 0; before = without_lowest(before)) {
+                const int u = lowest(before), number = child_.edges(u, v);
+                if (added_.joins(u, v)) continue;
                 const int other = rank_of(number, child_around_.degree[u] + child_around_.degree[v]);
                 if (other > rank && removable({u, v})) return -1;
                 if (other == rank) rivals_[found++] = {u, v};
@@ -229,7 +229,7 @@ private:
 }  // namespace
 
 GrowthOutcome add_loop(const GraphRows& parents, int loops, std::int64_t first, std::int64_t enough,
-                       std::vector<PackedGraph>& children, Watch& watch) {
+                       std::vector<Words>& children, Watch& watch) {
     const std::unique_ptr<Growth> growth(new Growth);
     for (std::int64_t k = first; k < parents.count; ++k) {
         if (static_cast<std::int64_t>(children.size()) >= enough) return {GrowthEnd::done, k};

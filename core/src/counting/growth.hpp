@@ -30,6 +30,6 @@ struct GrowthOutcome {
 // `parents` are graphs of so many loops, 2 to most_loops - 1, each isomorphism class once; any words may stand there.
 // Cost: about 1 us for each graph of nine loops.
 GrowthOutcome add_loop(const GraphRows& parents, int loops, std::int64_t first, std::int64_t enough,
-                       std::vector<PackedGraph>& children, Watch& watch);
+                       std::vector<Words>& children, Watch& watch);
 
 }  // namespace gruebler::counting

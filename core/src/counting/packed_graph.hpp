@@ -1,10 +1,12 @@
-// Loopless multigraphs of at most 16 vertices in 16 words: one row a vertex, four bits a neighbour.
+// Loopless multigraphs of at most 18 vertices in 18 words: one row a vertex, four bits a neighbour, three bits if there are
+// more than 16 vertices.
 //
-// Bits 4u..4u+3 of row v hold the number of edges between u and v, so that a graph is copied, changed and compared in a
-// few instructions. Definitions: docs/theory/enumeration.md, "Contracted graphs".
+// Bits 4u..4u+3 (3u..3u+2) of row v hold the number of edges between u and v, so that a graph is copied, changed and
+// compared in a few instructions. Definitions: docs/theory/enumeration.md, "Contracted graphs".
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "base/bits.hpp"
 
@@ -12,20 +14,44 @@ namespace gruebler::counting::inline GRUEBLER_LEVEL {
 
 using bits::bit, bits::lowest, bits::ones, bits::size, bits::without_lowest, bits::Word;
 
-inline constexpr int most_nodes = 16;       // rows of a word each, four bits a neighbour
+inline constexpr int most_nodes = 18;       // rows of a word each; three bits a neighbour would do for 21
 inline constexpr int most_parallel = 15;    // edges between two vertices: what four bits hold
+
+// The bits of a neighbour in a graph of n vertices.
+inline constexpr int field_of(int n) { return n > 16 ? 3 : 4; }
 
 using Words = std::array<Word, most_nodes>;
 using Vertices = std::array<int, most_nodes>;
 
 struct PackedGraph {
     Words rows{};
+    int field = 4;  // bits a neighbour
 
-    int edges(int u, int v) const { return static_cast<int>((rows[u] >> (4 * v)) & 15); }
+    PackedGraph() = default;
+
+    // Words of which those of vertices come first and are not 0.
+    PackedGraph(const std::uint64_t* words, int width) {
+        for (int v = 0; v < width; ++v) rows[v] = words[v];
+        field = field_of(order());
+    }
+
+    int edges(int u, int v) const {
+        return static_cast<int>(field == 4 ? rows[u] >> (4 * v) & 15 : rows[u] >> (3 * v) & 7);
+    }
 
     void set_edges(int u, int v, int number) {
-        rows[u] = (rows[u] & ~(Word{15} << (4 * v))) | (static_cast<Word>(number) << (4 * v));
-        rows[v] = (rows[v] & ~(Word{15} << (4 * u))) | (static_cast<Word>(number) << (4 * u));
+        set(u, v, number);
+        set(v, u, number);
+    }
+
+    // Takes the field of n vertices, as many as there are or more; no number of edges is beyond it.
+    void make_room(int n) {
+        if (field == field_of(n)) return;
+        const PackedGraph old = *this;
+        field = field_of(n);
+        rows = {};
+        for (int v = 0; v < old.order(); ++v)
+            for (int u = 0; u < v; ++u) set_edges(u, v, old.edges(u, v));
     }
 
     // The number of vertices: none of them has an empty row.
@@ -33,6 +59,11 @@ struct PackedGraph {
         int n = 0;
         while (n < most_nodes && rows[n] != 0) ++n;
         return n;
+    }
+
+private:
+    void set(int u, int v, int number) {
+        rows[u] = (rows[u] & ~(ones(field) << (field * v))) | (static_cast<Word>(number) << (field * v));
     }
 };
 
@@ -45,11 +76,12 @@ struct Neighbours {
         for (int v = 0; v < n; ++v) {
             Word bits = 0;
             int total = 0;
-            for (int u = 0; u < n; ++u) {
-                const int number = graph.edges(v, u);
+            Word row = graph.rows[v];
+            for (int u = 0; row != 0; ++u, row >>= graph.field) {
+                const Word number = row & ones(graph.field);
                 if (number == 0) continue;
                 bits |= bit(u);
-                total += number;
+                total += static_cast<int>(number);
             }
             near[v] = bits;
             degree[v] = total;

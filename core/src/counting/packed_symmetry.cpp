@@ -8,8 +8,7 @@
 namespace gruebler::counting {
 
 GraphSymmetry find_symmetry(const std::uint64_t* words, int width) {
-    PackedGraph graph;
-    for (int v = 0; v < width; ++v) graph.rows[v] = words[v];
+    const PackedGraph graph(words, width);
     const int n = graph.order();
     if (n < 1 || !is_consistent(n, graph)) return {SymmetryEnd::no_graph, 0, {}, {}};
     Neighbours around;

@@ -11,11 +11,11 @@ enum class SymmetryEnd { done, no_graph, too_many_automorphisms };
 struct GraphSymmetry {
     SymmetryEnd end;
     int vertices = 0;
-    std::vector<std::uint64_t> rows;    // canonical, zeros behind, 16 in all
+    std::vector<std::uint64_t> rows;    // canonical, zeros behind, most_nodes in all
     std::vector<std::int64_t> images;   // automorphism by automorphism: where it sends each vertex; the identity first
 };
 
-// `words` are the rows of a graph, `width` of them, 1 to 16; any words may stand there.
+// `words` are the rows of a graph, `width` of them, 1 to most_nodes; any words may stand there.
 GraphSymmetry find_symmetry(const std::uint64_t* words, int width);
 
 }  // namespace gruebler::counting

@@ -8,7 +8,7 @@ namespace gruebler::counting::inline GRUEBLER_LEVEL {
 // Whether every edge stands in both its rows, no vertex is joined to itself, and no row points beyond the last vertex.
 inline bool is_consistent(int n, const PackedGraph& graph) {
     for (int v = 0; v < n; ++v) {
-        if (n < most_nodes && graph.rows[v] >> (4 * n) != 0) return false;
+        if (graph.field * n < 64 && graph.rows[v] >> (graph.field * n) != 0) return false;
         if (graph.edges(v, v) != 0) return false;
         for (int u = 0; u < v; ++u)
             if (graph.edges(u, v) != graph.edges(v, u)) return false;
@@ -33,10 +33,9 @@ inline bool is_connected(int n, const PackedGraph& graph) {
 }
 
 // Copies a graph; whether it is a connected one of this number of loops with at least two vertices and all degrees at
-// least 3. With at most nine loops it then has at most 16 vertices, 24 edges, 13 edges at a vertex: all tables have room.
+// least 3. With at most ten loops it then has at most 18 vertices, 27 edges, 15 edges at a vertex: all tables have room.
 inline bool read_graph(const std::uint64_t* words, int width, int loops, PackedGraph& graph) {
-    graph = PackedGraph{};
-    for (int v = 0; v < width; ++v) graph.rows[v] = words[v];
+    graph = PackedGraph(words, width);
     const int n = graph.order();
     if (n < 2 || !is_consistent(n, graph)) return false;
     int ends = 0;

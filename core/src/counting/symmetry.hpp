@@ -8,13 +8,13 @@
 
 namespace gruebler::counting::inline GRUEBLER_LEVEL {
 
-// Automorphisms there is room for; K(4,4), the most symmetric graph with nine loops, has 1152.
-inline constexpr int most_automorphisms = 4096;
+// Automorphisms there is room for; K(3,6), the most symmetric graph with ten loops, has 4320.
+inline constexpr int most_automorphisms = 4320;
 
 // One fixed random word for every (colour, number of edges): the outputs of splitmix64 from state 0.
-inline constexpr std::array<Word, 256> random_words = [] {
-    std::array<Word, 256> words{};
-    for (Word i = 1; i <= 256; ++i) {
+inline constexpr std::array<Word, 16 * most_nodes> random_words = [] {
+    std::array<Word, 16 * most_nodes> words{};
+    for (Word i = 1; i <= words.size(); ++i) {
         Word z = i * 0x9E3779B97F4A7C15;
         z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9;
         z = (z ^ (z >> 27)) * 0x94D049BB133111EB;
@@ -109,7 +109,7 @@ private:
     int cells_of_degrees(int n, const PackedGraph& graph) {
         for (int v = 0; v < n; ++v) {
             int degree = 0;
-            for (int u = 0; u < n; ++u) degree += graph.edges(v, u);
+            for (Word row = graph.rows[v]; row != 0; row >>= graph.field) degree += static_cast<int>(row & ones(graph.field));
             key_[v] = static_cast<Word>(most_nodes * most_parallel - degree);
             nodes_[0].order[v] = v;
         }
@@ -176,7 +176,7 @@ private:
             Word row = 0;
             for (Word bits = near[v]; bits != 0; bits = without_lowest(bits)) {
                 const int u = lowest(bits);
-                row |= static_cast<Word>(graph.edges(v, u)) << (4 * leaf.colour[u]);
+                row |= static_cast<Word>(graph.edges(v, u)) << (graph.field * leaf.colour[u]);
             }
             trial[i] = row;
             if (sign == 0 && row != canonical.rows[i]) {
@@ -184,8 +184,10 @@ private:
                 sign = 1;
             }
         }
-        if (sign > 0)
+        if (sign > 0) {
             for (int i = 0; i < most_nodes; ++i) canonical.rows[i] = i < n ? trial[i] : 0;
+            canonical.field = graph.field;
+        }
         return sign;
     }
 };

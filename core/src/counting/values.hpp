@@ -14,7 +14,7 @@ namespace gruebler::counting::inline GRUEBLER_LEVEL {
 // Numbers of chains and the like. They wrap beyond 64 bits; Totals::bulk notices.
 using Count = std::uint64_t;
 
-inline constexpr int most_lanes = 31;     // bundles that fit a word of 64 bits, two bits each; nine loops need 24
+inline constexpr int most_lanes = 31;     // bundles that fit a word of 64 bits, two bits each; ten loops need 27
 inline constexpr int most_freedoms = 24;  // products of binomial coefficients stay within 64 bits
 inline constexpr int most_cost = 3;       // of a bundle between two nodes alone, if F = 0; else 2
 inline constexpr int most_classes = (most_cost + 1) * most_freedoms;

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.enumeration import ContractedGraph, contracted_graphs
 from gruebler.structure.enumeration.contracted import pack, packed_graphs
+from gruebler.structure.enumeration.pieces import strings_of_graphs
 
 NUMBERS = {2: 1, 3: 4, 4: 17, 5: 118, 6: 1198}
 MORE_NUMBERS = {7: 17133, 8: 311757}
@@ -171,15 +172,34 @@ def test_what_is_no_contracted_graph(bundles, message):
 
 
 def test_limits():
-    for loops in (1, 10):
-        with pytest.raises(GrueblerError, match="2 to 9 loops"):
+    for loops in (1, 11):
+        with pytest.raises(GrueblerError, match="2 to 10 loops"):
             packed_graphs(loops)
-    ring = tuple((v, (v + 1) % 18, 1 + v % 2) for v in range(18))
-    with pytest.raises(GrueblerError, match="at most 16 nodes"):
+    ring = tuple((v, (v + 1) % 20, 1 + v % 2) for v in range(20))
+    with pytest.raises(GrueblerError, match="at most 18 nodes and 7 parallel strings"):
         ContractedGraph(ring).canonical()
+    thick = ContractedGraph(tuple((v, (v + 1) % 17, 8 if v == 0 else 2) for v in range(17)))
+    with pytest.raises(GrueblerError, match="7 parallel strings"):
+        thick.canonical()
+
+
+@pytest.mark.parametrize(
+    ("graph", "symmetries"),
+    [(nx.pappus_graph(), 216), (nx.complete_bipartite_graph(3, 6), 6 * 720), (nx.complete_graph(6), 720)],
+)
+def test_symmetry_with_ten_loops(graph, symmetries):
+    """The most symmetric ones have their room; the order of the group of Pappus' graph, 18 nodes: Coxeter 1950."""
+    one = ContractedGraph(tuple((u, v, 1) for u, v in graph.edges))
+    place = np.random.default_rng(2).permutation(one.nodes).tolist()
+    other = ContractedGraph(tuple((place[u], place[v], 1) for u, v in graph.edges))
+    assert one.loops == 10
+    assert len(one.automorphisms) == symmetries
+    assert strings_of_graphs(pack([one])).sum(axis=(0, 2)).tolist()[: one.nodes] == list(one.canonical().degrees)
+    assert one.canonical() == other.canonical() == one.canonical().canonical()
+    assert is_isomorphic(weighted(one.canonical().bundles), weighted(one.bundles))
 
 
 def test_packing():
     theta = ContractedGraph(((1, 0, 3),))
     assert pack([theta]).tolist() == next(iter(packed_graphs(2))).tolist()
-    assert pack([]).shape == (0, 16)
+    assert pack([]).shape == (0, 18)

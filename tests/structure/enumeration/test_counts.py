@@ -13,7 +13,7 @@ import pytest
 
 from gruebler import _core
 from gruebler.base.errors import GrueblerError
-from gruebler.structure.enumeration import chains, contracted_graphs, count_simple_chains, edge_blocks
+from gruebler.structure.enumeration import ContractedGraph, chains, contracted_graphs, count_simple_chains, edge_blocks
 from gruebler.structure.enumeration.contracted import pack
 from gruebler.structure.enumeration.counting import add_counts
 from gruebler.structure.enumeration.pieces import count_piece, list_piece, pieces
@@ -151,6 +151,25 @@ def test_chains_of_every_contracted_graph(loops, mobility):
         assert chains * len(graph.automorphisms) == fixed
 
 
+# Chains of 22 links of one contracted graph with 10 loops and 18 nodes each; counted by `pebble_oracle`.
+TEN_LOOPS = [(nx.pappus_graph(), 155), (nx.circular_ladder_graph(9), 826), (nx.LCF_graph(18, [5, -5], 9), 1554)]
+
+
+def test_chains_of_22_links():
+    """Against pebbles (fast: what they found once), and listed one by one."""
+    for graph, chains_ in TEN_LOOPS:
+        packed = pack([ContractedGraph(tuple((u, v, 1) for u, v in graph.edges))])
+        assert _core.take_census(packed, 10, 1, True)[0, 1] == len(_core.list_chains(packed, 10, 1)) == chains_
+
+
+@pytest.mark.slow
+def test_chains_of_22_links_by_pebbles():
+    from tests.structure.enumeration.pebble_oracle import count_by_pebbles
+
+    for graph, chains_ in TEN_LOOPS:
+        assert count_by_pebbles([(min(e), max(e), 1) for e in graph.edges], 22) == chains_
+
+
 @pytest.mark.parametrize(
     ("links", "mobility"),
     [(12, 1), (14, 1), (11, 0), (13, 0), (11, 2), (13, 2), (12, 3), (13, 4), (14, 5), (22, 15), (31, 24)],
@@ -217,7 +236,7 @@ def test_numbers_that_no_chain_has():
 def test_refusals():
     with pytest.raises(GrueblerError, match="mobility of at least 0"):
         count_simple_chains(4, -1)
-    with pytest.raises(GrueblerError, match="10 loops"):
-        count_simple_chains(22)
+    with pytest.raises(GrueblerError, match="11 loops"):
+        count_simple_chains(24)
     with pytest.raises(GrueblerError, match="mobility 24"):
         count_simple_chains(30, 25)

@@ -21,14 +21,14 @@ from gruebler.base.immutable import settle
 if TYPE_CHECKING:
     import networkx as nx
 
-MOST_LOOPS = 9
-"""Contracted graphs of more loops have more nodes than the kernels' 16; there are many millions of them."""
+MOST_LOOPS = 10
+"""Contracted graphs of more loops have more nodes than the kernels' 18; there are a thousand million of them."""
 
-_NODES = 16
+_NODES = 18
 _BLOCK = 8192  # graphs in a block
 
 Packed = NDArray[np.int64]
-"""int64[k, 16]: a graph in each row, four bits for the number of edges between two nodes."""
+"""int64[k, 18]: a graph in each row, four bits for the number of edges between two nodes; three from 17 nodes on."""
 
 
 @dataclass(frozen=True)
@@ -110,18 +110,20 @@ class ContractedGraph:
         return nx.MultiGraph((u, v) for u, v, k in self.bundles for _ in range(k))
 
     def _packed(self) -> Packed:
-        """int64[16]; `GrueblerError` if the graph is too large for it."""
-        if self.nodes > _NODES or max(k for _, _, k in self.bundles) > 15:
+        """int64[18]; `GrueblerError` if the graph is too large for it."""
+        field = _field(self.nodes)
+        if self.nodes > _NODES or max(k for _, _, k in self.bundles) >= 1 << field:
             raise GrueblerError(
-                "only contracted graphs of at most {most} nodes and 15 parallel strings can be processed, this one has "
-                "{nodes} nodes",
+                "only contracted graphs of at most {most} nodes and {strings} parallel strings can be processed, this "
+                "one has {nodes} nodes",
                 most=_NODES,
+                strings=(1 << field) - 1,
                 nodes=self.nodes,
             )
         rows = np.zeros(_NODES, np.uint64)
         for u, v, k in self.bundles:
-            rows[u] |= np.uint64(k << 4 * v)
-            rows[v] |= np.uint64(k << 4 * u)
+            rows[u] |= np.uint64(k << field * v)
+            rows[v] |= np.uint64(k << field * u)
         return rows.view(np.int64)
 
 
@@ -158,19 +160,24 @@ def _check(graph: ContractedGraph) -> None:
             )
 
 
+def _field(nodes: int) -> int:
+    """Bits for the number of edges between two nodes."""
+    return 3 if nodes > 16 else 4
+
+
 def unpacked(rows: Packed) -> ContractedGraph:
     """The value of one packed graph, without a check."""
-    numbers = [int(row) & (2**64 - 1) for row in rows]
-    bundles = tuple(
-        (u, v, numbers[u] >> 4 * v & 15) for v in range(len(numbers)) for u in range(v) if numbers[u] >> 4 * v & 15
-    )
+    numbers = [int(row) & (2**64 - 1) for row in rows if row]
+    field = _field(len(numbers))
+    strings = [[row >> field * v & (1 << field) - 1 for v in range(len(numbers))] for row in numbers]
+    bundles = tuple((u, v, strings[u][v]) for v in range(len(numbers)) for u in range(v) if strings[u][v])
     graph = object.__new__(ContractedGraph)
     settle(graph, bundles=bundles)
     return graph
 
 
 def packed_graphs(loops: int) -> Iterator[Packed]:
-    """All contracted graphs with this number of loops, canonically labelled, in blocks of int64[k, 16].
+    """All contracted graphs with this number of loops, canonically labelled, in blocks of int64[k, 18].
 
     Order: the theta graph; then the graphs that grow from each graph of one loop less, in turn. Within a
     graph the nodes have falling degrees. Memory: a block for each number of loops. Cost: 0.6 s for all 311757 graphs
@@ -222,6 +229,6 @@ def contracted_graphs(loops: int) -> Iterator[ContractedGraph]:
 
 
 def pack(graphs: Iterable[ContractedGraph]) -> Packed:
-    """The canonical packed form of graphs, int64[k, 16]."""
+    """The canonical packed form of graphs, int64[k, 18]."""
     rows = [graph.canonical()._packed() for graph in graphs]
     return np.array(rows, np.int64).reshape(-1, _NODES)

@@ -113,10 +113,11 @@ def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) ->
         yield WorkPiece(links, mobility, np.concatenate(waiting), load)
 
 
-def _strings(rows: Packed) -> NDArray[np.int64]:
+def strings_of_graphs(rows: Packed) -> NDArray[np.int64]:
     """int64[k, nodes, nodes]: the numbers of strings between nodes."""
     nodes = np.arange(rows.shape[1])
-    strings: NDArray[np.int64] = rows[:, :, None] >> (4 * nodes) & 15
+    fields = np.where(np.count_nonzero(rows, axis=1) > 16, 3, 4)[:, None, None]
+    strings: NDArray[np.int64] = rows[:, :, None] >> (fields * nodes) & (1 << fields) - 1
     return strings
 
 
@@ -126,7 +127,7 @@ def work_of_graphs(rows: Packed) -> NDArray[np.int64]:
     That is the number of assignments if no set of nodes could be rigid, one to five times too many. For the
     graphs that take most of the time counting costs 0.7 to 1.7 ns for each (seven and eight loops, F = 1).
     """
-    bundles = np.count_nonzero(_strings(rows), axis=(1, 2)) // 2
+    bundles = np.count_nonzero(strings_of_graphs(rows), axis=(1, 2)) // 2
     assignments: NDArray[np.int64] = _trinomials()[bundles, 3 * np.count_nonzero(rows, axis=1) - 4] + 5000
     return assignments
 
@@ -149,7 +150,7 @@ def _has_degrees(rows: Packed, assortment: Assortment) -> NDArray[np.bool_]:
     if len(degrees) > rows.shape[1]:
         return np.zeros(len(rows), np.bool_)
     row = np.array(degrees + [0] * (rows.shape[1] - len(degrees)), np.int64)
-    matches: NDArray[np.bool_] = (_strings(rows).sum(axis=2) == row).all(axis=1)
+    matches: NDArray[np.bool_] = (strings_of_graphs(rows).sum(axis=2) == row).all(axis=1)
     return matches
 
 
