@@ -9,17 +9,17 @@ import { gzipSync, strToU8 } from "fflate";
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
 
-/** Bytes as text: four of them in five of the 85 characters from "(" to "~" without "<" and the backslash. */
+/** Bytes as text: thirteen bits in two of the 91 characters from " " to "}" without quote, "<" and backslash; the last
+ * six or fewer in one. */
 function written(bytes) {
-  let text = "";
-  for (let k = 0; k < bytes.length; k += 4) {
-    let value = 0;
-    for (let j = 0; j < 4; j++) value = 256 * value + (bytes[k + j] ?? 0);
-    const digits = [4, 3, 2, 1, 0].map((power) => Math.floor(value / 85 ** power) % 85);
-    const codes = digits.map((digit) => 40 + digit + (digit > 19) + (digit > 50));
-    text += String.fromCharCode(...codes).slice(0, Math.min(5, bytes.length - k + 1));
-  }
-  return JSON.stringify(text);
+  const bits = Array.from(bytes, (byte) => byte.toString(2).padStart(8, "0")).join("");
+  const sign = (digit) => String.fromCharCode(32 + digit + (digit > 1) + (digit > 26) + (digit > 57));
+  const pairs = (bits.match(/.{1,13}/g) ?? []).map((part) => {
+    if (part.length < 7) return sign(parseInt(part.padEnd(6, "0"), 2));
+    const value = parseInt(part.padEnd(13, "0"), 2);
+    return sign(Math.floor(value / 91)) + sign(value % 91);
+  });
+  return JSON.stringify(pairs.join(""));
 }
 
 const texts = Object.keys(JSON.parse(await readFile(path.join(here, "src/de.json"), "utf8")));

@@ -26,8 +26,8 @@ export class App implements Page {
   private readonly views: Record<string, View>;
   private view = "motion";
   private readonly header = h("header", {});
-  private readonly message = h("div", { class: "message", role: "status", hidden: true });
-  private readonly lost = h("div", { class: "lost", role: "status", hidden: true });
+  private readonly message = h("div.message", { role: "status", hidden: true });
+  private readonly lost = h("div.lost", { role: "status", hidden: true });
   private readonly root: HTMLElement;
   private readonly host: HTMLElement;
   /** Whether the address is that of a link that could not be read: it stays until something is changed. */
@@ -39,7 +39,7 @@ export class App implements Page {
     readonly model: HostModel,
     element: HTMLElement,
   ) {
-    this.host = h("div", { class: "gruebler-explorer" });
+    this.host = h("div.gruebler-explorer", {});
     element.append(this.host);
     this.host.style.display = "block";
     this.host.style.height = model.get("host") === "notebook" ? `${Number(model.get("height") ?? 640)}px` : "100%";
@@ -64,8 +64,8 @@ export class App implements Page {
     }
     for (const view of Object.values(this.views)) if (view !== this.motion) view.arrange();
     this.root = h(
-      "div",
-      { class: "app" },
+      "div.app",
+      {},
       this.header,
       this.lost,
       this.message,
@@ -194,11 +194,7 @@ export class App implements Page {
     const keys = Object.keys(this.views);
     const [back, forth] = this.undoing.undoable!;
     const tool = (sign: Icon, title: string, act: () => void, disabled = false) =>
-      h(
-        "button",
-        { class: "quiet", title, "aria-label": title, "data-icon": sign, onclick: act, disabled },
-        icon(sign),
-      );
+      h("button.quiet", { title, "aria-label": title, "data-icon": sign, onclick: act, disabled }, icon(sign));
     const file = h("input", { type: "file", hidden: true, onchange: () => void this.openFile(file.files?.[0]) });
     if (keys.length > 1)
       for (const key of keys) {
@@ -210,7 +206,7 @@ export class App implements Page {
       this.header,
       h("h1", {}, "gruebler ", h("small", {}, this.name)),
       ...(keys.length > 1 ? [tabs(keys, this.view, (key) => this.turnTo(key))] : []),
-      h("span", { class: "spring" }),
+      h("span.spring", {}),
       tool("undo", t("Undo"), () => this.undoing.undo?.(), !back),
       tool("redo", t("Redo"), () => this.undoing.redo?.(), !forth),
       file,
@@ -238,7 +234,7 @@ export class App implements Page {
     if (this.message.firstChild?.textContent === text && !action) return;
     this.message.hidden = !text;
     this.message.classList.toggle("done", kind === "done");
-    const close = h("button", { class: "quiet", "aria-label": t("Close"), onclick: () => this.say("") }, "×");
+    const close = h("button.quiet", { "aria-label": t("Close"), onclick: () => this.say("") }, "×");
     this.message.replaceChildren(h("span", {}, text), ...(action ? [action] : []), close);
   }
 

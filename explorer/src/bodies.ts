@@ -98,7 +98,7 @@ export class Bodies {
       const here = sizes.xy(k);
       const turn = `rotate(${(-sizes.angles[k]! * 180) / Math.PI})`;
       const transform = `translate(${this.place(...here)}) ${turn}`;
-      out.push(svg("rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3, transform }));
+      out.push(svg("rect.block", { x: -15, y: -9, width: 30, height: 18, rx: 3, transform }));
       nodes.push(here);
       return;
     }

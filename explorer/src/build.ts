@@ -38,7 +38,7 @@ const GRIP = 16; // pixels
 const KEPT = "gruebler-drawing";
 
 export class BuildView implements View, Plane, Drawn {
-  readonly element = h("div", { class: "view motion", "data-page": "build" });
+  readonly element = h("div.view.motion", { "data-page": "build" });
   drawing: Drawing = kept();
   readonly viewport = new Viewport();
   private tool: Tool = "link";
@@ -48,14 +48,14 @@ export class BuildView implements View, Plane, Drawn {
   private snapping = true;
   private readonly history = new History<Drawing>();
   private readonly root = svg("svg", { role: "application", tabindex: 0, class: "drawing" });
-  private readonly tools = h("div", { class: "transport" });
-  private readonly side = h("div", { class: "side" });
+  private readonly tools = h("div.transport", {});
+  private readonly side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
   private readonly choice = h("div", {});
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
-    const stage = h("div", { class: "stage" }, this.root);
+    const stage = h("div.stage", {}, this.root);
     this.element.append(stage, this.side, this.tools);
     this.root.addEventListener("pointerdown", (event) => this.down(event));
     this.root.addEventListener("pointermove", (event) => this.hover(event));
@@ -109,21 +109,21 @@ export class BuildView implements View, Plane, Drawn {
     });
     renew(
       this.side,
-      h("section", { class: "panel" }, h("h2", {}, t("Mobility")), this.mobility.element),
-      h("section", { class: "panel" }, h("h2", {}, t("What is chosen")), this.choice),
+      h("section.panel", {}, h("h2", {}, t("Mobility")), this.mobility.element),
+      h("section.panel", {}, h("h2", {}, t("What is chosen")), this.choice),
       h(
-        "section",
-        { class: "panel options" },
+        "section.panel.options",
+        {},
         h("label", {}, snap, t("Snap to the grid")),
         h(
-          "p",
-          { class: "note" },
+          "p.note",
+          {},
           t(
             "Ground, slider: one click. Link: two clicks. Dyad: end, middle, end. Ends meet what is near them. " +
               "With Shift links are level or upright. Keys: arrows and Enter.",
           ),
         ),
-        h("button", { class: "plain", "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
+        h("button.plain", { "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
       ),
     );
     this.root.setAttribute("aria-label", t("Plane to draw on"));
@@ -315,10 +315,9 @@ export class BuildView implements View, Plane, Drawn {
   private showChoice(): void {
     const { chosen, drawing } = this;
     const button = (key: string, text: string, act: () => void) =>
-      h("button", { class: "plain", "data-act": key, onclick: act }, text);
+      h("button.plain", { "data-act": key, onclick: act }, text);
     const removing = button("remove", t("Remove"), () => this.remove());
-    if (!chosen)
-      return renew(this.choice, h("p", { class: "note" }, t("Nothing. Take Move and click on a joint or a link.")));
+    if (!chosen) return renew(this.choice, h("p.note", {}, t("Nothing. Take Move and click on a joint or a link.")));
     if ("link" in chosen) {
       const { link } = chosen;
       const name = h("input", {
@@ -332,7 +331,7 @@ export class BuildView implements View, Plane, Drawn {
           ),
       });
       const frame = button("frame", t("Hold as frame"), () => this.change({ ...drawing, frame: link, drives: [] }));
-      return renew(this.choice, h("div", { class: "form" }, name, frame, removing));
+      return renew(this.choice, h("div.form", {}, name, frame, removing));
     }
     const { links } = drawing.knots[chosen.knot]!;
     const parts: HTMLElement[] = [removing];
@@ -343,7 +342,7 @@ export class BuildView implements View, Plane, Drawn {
         button("split", t("Split"), () => this.change(split(drawing, chosen.knot, this.step / 2))),
       );
     }
-    renew(this.choice, h("p", { class: "note" }, links.join(" – ")), h("div", { class: "form" }, ...parts));
+    renew(this.choice, h("p.note", {}, links.join(" – ")), h("div.form", {}, ...parts));
   }
 
   async move(): Promise<void> {

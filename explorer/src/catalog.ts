@@ -17,14 +17,14 @@ interface Entry {
 }
 
 export class CatalogView implements View {
-  readonly element = h("div", { class: "view", "data-page": "catalog" });
+  readonly element = h("div.view", { "data-page": "catalog" });
   private words = "";
   private pairs = "";
   private joints = "";
   private features: Record<string, string> = {};
   private refining = false;
-  private readonly cards = h("div", { class: "cards", "data-list": "catalog" });
-  private readonly note = h("p", { class: "note", role: "status" });
+  private readonly cards = h("div.cards", { "data-list": "catalog" });
+  private readonly note = h("p.note", { role: "status" });
   private typing = 0;
   private asked = 0;
   private filled = false;
@@ -66,8 +66,8 @@ export class CatalogView implements View {
       { open: this.refining, "data-panel": "features", ontoggle: () => (this.refining = more.open) },
       h("summary", {}, t("Access features")),
       h(
-        "div",
-        { class: "form numbers" },
+        "div.form.numbers",
+        {},
         feature("mobility", t("Mobility by the count")),
         feature("drive_joints", t("Drive joints")),
         feature("drive_joints_at_frame", t("of them at the frame")),
@@ -96,13 +96,13 @@ export class CatalogView implements View {
     renew(
       this.element,
       h(
-        "div",
-        { class: "page" },
+        "div.page",
+        {},
         h("h2", {}, t("Catalog")),
         choice(t("Kinds of machines"), kinds, this.words, choose),
         h(
-          "div",
-          { class: "form" },
+          "div.form",
+          {},
           field(t("Words"), this.words, (text) => (this.words = text), t("crank, Kurbel, …"), "words"),
           field(t("Joint types"), this.pairs, (text) => (this.pairs = text), "P G", "pairs"),
           feature("links", t("Links")),
@@ -142,8 +142,8 @@ export class CatalogView implements View {
     const { id, links, counted, moves } = entry;
     const sizes = t("{links} links, F = {counted}", { links, counted });
     const card = h(
-      "button",
-      { class: "card", "data-id": id, onclick: () => void this.choose(entry) },
+      "button.card",
+      { "data-id": id, onclick: () => void this.choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, entry.name),
       h("span", {}, sizes + (moves ? "" : ` · ${t("structure only")}`)),

@@ -93,10 +93,10 @@ export function typesOf(joint: Structure["joints"][number] | undefined, choose: 
     ? h(
         "div",
         {},
-        h("p", { class: "note" }, t("Type of {joint}", { joint: joint.name })),
+        h("p.note", {}, t("Type of {joint}", { joint: joint.name })),
         h(
-          "div",
-          { class: "joint-types" },
+          "div.joint-types",
+          {},
           ...joint.types.map((type) =>
             h(
               "button",
@@ -111,5 +111,5 @@ export function typesOf(joint: Structure["joints"][number] | undefined, choose: 
           ),
         ),
       )
-    : h("p", { class: "note" }, t("Click on a joint to change its type."));
+    : h("p.note", {}, t("Click on a joint to change its type."));
 }

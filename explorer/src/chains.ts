@@ -19,8 +19,8 @@ export class ChainList {
   /** The text of the chain that is described. */
   private chosen = "";
   private readonly list = h("div", {});
-  private readonly count = h("span", { class: "note" });
-  private readonly status = h("div", { class: "form" });
+  private readonly count = h("span.note", {});
+  private readonly status = h("div.form", {});
   private asked = 0;
 
   constructor(
@@ -57,8 +57,8 @@ export class ChainList {
     renew(
       this.element,
       h(
-        "div",
-        { class: "form" },
+        "div.form",
+        {},
         h("label", {}, t("Links"), links),
         h("label", {}, t("Mobility"), mobility),
         this.count,
@@ -94,18 +94,17 @@ export class ChainList {
     this.count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
     const more =
       found.items.length < found.total
-        ? h("button", { class: "plain", onclick: () => void this.ask(found.items.length) }, t("More"))
+        ? h("button.plain", { onclick: () => void this.ask(found.items.length) }, t("More"))
         : null;
     renew(
       this.list,
       h(
-        "div",
-        { class: "cards few", "data-list": "chains" },
+        "div.cards.few",
+        { "data-list": "chains" },
         ...found.items.map(({ text, picture: drawn }, k) =>
           h(
-            "button",
+            "button.card",
             {
-              class: "card",
               "data-chain": text,
               "aria-pressed": String(this.chosen.startsWith(text)),
               onclick: () => this.take(text),

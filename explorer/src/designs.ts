@@ -59,18 +59,14 @@ export class DesignCards {
     renew(
       this.element,
       h("h2", {}, t("{count} designs", { count: found.total })),
-      h(
-        "p",
-        { class: "note" },
-        found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : "",
-      ),
+      h("p.note", {}, found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : ""),
       found.items.length > 1
         ? choice(t("Order"), orders, this.order, (order) => {
             this.order = order as Order;
             this.arrange();
           })
         : "",
-      h("div", { class: "cards sorted", "data-list": "designs" }, ...this.sorted().map((design) => this.card(design))),
+      h("div.cards.sorted", { "data-list": "designs" }, ...this.sorted().map((design) => this.card(design))),
     );
   }
 
@@ -79,8 +75,8 @@ export class DesignCards {
     const deviation = error === null ? null : 100 * (Math.abs(error) < 1e-9 ? 0 : error);
     const play = () => this.play(design);
     return h(
-      "button",
-      { class: "card", onclick: () => this.open(design), onpointerenter: play, onfocus: play },
+      "button.card",
+      { onclick: () => this.open(design), onpointerenter: play, onfocus: play },
       thumbnail(design.picture, form),
       h("b", {}, form),
       h("span", {}, transmission === null ? "" : `μ ≥ ${angle((transmission * Math.PI) / 180, 3)}`),

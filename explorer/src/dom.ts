@@ -1,4 +1,4 @@
-/** Elements in few words. Attributes that begin with `on` are listeners. */
+/** Elements in few words: a tag with its classes, as "p.note". Attributes that begin with `on` are listeners. */
 
 export type Child = Node | string | null | false | undefined;
 
@@ -6,7 +6,8 @@ type Attributes = Record<string, string | number | boolean | null | undefined | 
 
 const SVG = "http://www.w3.org/2000/svg";
 
-function filled<E extends Element>(element: E, attributes: Attributes, children: Child[]): E {
+function filled<E extends Element>(element: E, classes: string[], attributes: Attributes, children: Child[]): E {
+  if (classes.length) element.setAttribute("class", classes.join(" "));
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
     if (typeof value === "function") element.addEventListener(name.slice(2), value as unknown as EventListener);
@@ -17,19 +18,21 @@ function filled<E extends Element>(element: E, attributes: Attributes, children:
 }
 
 export function h<K extends keyof HTMLElementTagNameMap>(
-  tag: K,
+  tag: K | `${K}.${string}`,
   attributes: Attributes = {},
   ...children: Child[]
 ): HTMLElementTagNameMap[K] {
-  return filled(document.createElement(tag), attributes, children);
+  const [name, ...classes] = tag.split(".") as [K, ...string[]];
+  return filled(document.createElement(name), classes, attributes, children);
 }
 
 export function svg<K extends keyof SVGElementTagNameMap>(
-  tag: K,
+  tag: K | `${K}.${string}`,
   attributes: Attributes = {},
   ...children: Child[]
 ): SVGElementTagNameMap[K] {
-  return filled(document.createElementNS(SVG, tag), attributes, children) as SVGElementTagNameMap[K];
+  const [name, ...classes] = tag.split(".") as [K, ...string[]];
+  return filled(document.createElementNS(SVG, name) as SVGElementTagNameMap[K], classes, attributes, children);
 }
 
 /** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name. */
@@ -57,8 +60,8 @@ export function choice(
   more: Attributes = {},
 ): HTMLElement {
   const group: HTMLElement = h(
-    "div",
-    { class: "choice", role: "group", "aria-label": label, ...more },
+    "div.choice",
+    { role: "group", "aria-label": label, ...more },
     ...options.map(([value, text]) => {
       const press = () => {
         for (const one of group.children) one.setAttribute("aria-pressed", String(one === button));

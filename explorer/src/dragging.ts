@@ -1,9 +1,10 @@
 /** What a reader may do to the sizes: take joints elsewhere, give two joints of a link another distance. */
 
+import { type Distance, kept } from "./keeping";
 import type { Rows } from "./kernel";
 import { type Linkage, Refused } from "./linkage";
 import { placeBlocks, readState } from "./reading";
-import { direction, move, oneRow, type Pair, putOrigin, putTurn, turn } from "./rows";
+import { direction, move, oneRow, type Pair, place, putOrigin, putTurn, turn } from "./rows";
 import type { Cylinder } from "./sizes";
 import { type Mesh, meshesOf, onCircle, type Pivot, pivotOf, setPhases, shiftWheel } from "./wheels";
 
@@ -16,6 +17,8 @@ export interface Length {
 }
 
 const LONGEST = 1e9;
+/** How easily the joint that is dragged leaves its place, against others. */
+const DRAGGED = 1e-7;
 
 export class Dragging {
   /** Of each joint: whether its place is given by what touches there. */
@@ -25,6 +28,9 @@ export class Dragging {
   private readonly meshes: readonly Mesh[];
   /** Of each joint that is the centre of a wheel which can be moved around another one. */
   private readonly pivots: readonly (Pivot | null)[];
+  /** Joints that stay where they are while others are dragged, and lengths that do, by their elements. */
+  readonly held = new Set<number>();
+  private readonly lengthsKept = new Map<string, Pair>();
 
   constructor(private readonly linkage: Linkage) {
     const { model, sizes } = linkage;
@@ -62,7 +68,23 @@ export class Dragging {
   }
 
   draggable(joint: number): boolean {
-    return !this.locked[joint] || this.pivots[joint] !== null;
+    return !this.held.has(joint) && (!this.locked[joint] || this.pivots[joint] !== null);
+  }
+
+  /** Let a joint stay, or not. */
+  hold(joint: number): void {
+    if (!this.held.delete(joint)) this.held.add(joint);
+  }
+
+  /** Whether a length stays as it is; between lines none does. */
+  keeps(first: number, second: number): boolean {
+    return this.lengthsKept.has(`${first} ${second}`);
+  }
+
+  /** Let a length between two pins stay, or not. */
+  keep(first: number, second: number): void {
+    const key = `${first} ${second}`;
+    if (!this.lengthsKept.delete(key)) this.lengthsKept.set(key, [first, second]);
   }
 
   /** Where a joint comes to when it is dragged to a place. */
@@ -83,21 +105,79 @@ export class Dragging {
     const { model, sizes } = linkage;
     const pose = oneRow(linkage.pose, 0);
     const pivot = this.pivots[joint];
-    const [x, y] = this.permitted(joint, toX, toY);
+    const places = this.placesWith(joint, ...this.permitted(joint, toX, toY));
+    const rigid = model.links.map((_, link) => this.isKept(link));
     const cylinders = model.joints.map((_, k) => sizes.cylinder(k)).filter((found) => found !== null);
-    const kept = new Set(cylinders.flatMap(([, , one, two]) => [one, two]));
+    const ends = new Set(cylinders.flatMap(([, , one, two]) => [one, two]));
     linkage.change(() => {
-      if (pivot) shiftWheel(linkage, pose, pivot.wheel, joint, x, y);
-      for (const k of sizes.elementsOf(joint)) {
-        if (!kept.has(k) && sizes.element(k).link !== pivot?.wheel) this.moveElement(k, x, y, cylinders);
-      }
-      for (const cylinder of cylinders) this.straighten(pose, cylinder, joint, x, y);
+      if (pivot) shiftWheel(linkage, pose, pivot.wheel, joint, ...places.get(joint)!);
+      for (const [moved, [x, y]] of places)
+        for (const k of sizes.elementsOf(moved)) {
+          const { link } = sizes.element(k);
+          if (!ends.has(k) && !rigid[link] && link !== pivot?.wheel) this.moveElement(k, x, y, cylinders);
+        }
+      for (const [link, whole] of rigid.entries()) if (whole) this.carry(pose, link, places);
+      for (const cylinder of cylinders) this.straighten(pose, cylinder, places);
       for (const [link, axis] of this.axes.entries()) if (axis) this.align(pose, link, axis);
       linkage.writeSizes();
       placeBlocks(linkage, pose);
       readState(linkage, pose);
       setPhases(linkage, this.meshes, pose);
     });
+  }
+
+  /** Where joints come to when one is dragged: others follow where lengths are kept, and move as little as they can. */
+  private placesWith(joint: number, x: number, y: number): Map<number, Pair> {
+    const { linkage, lengthsKept } = this;
+    const { model, sizes } = linkage;
+    if (!lengthsKept.size) return new Map([[joint, [x, y]]]);
+    const before = model.joints.map((_, k) => linkage.jointAt(k));
+    const joints = ([one, two]: Pair) => [sizes.element(one).joint, sizes.element(two).joint] as const;
+    const distances = [...lengthsKept.values()].map((pair): Distance => [...joints(pair), sizes.gap(...pair)]);
+    const ease = before.map((_, k): number => (this.held.has(k) || this.locked[k] ? 0 : 1));
+    const moving = distances.filter(([one, two]) => one === joint || two === joint || ease[one]! + ease[two]! > 0);
+    const from = before.map((at, k): Pair => (k === joint ? [x, y] : at));
+    const eased = (own: number) =>
+      kept(
+        from,
+        moving,
+        ease.map((one, k) => (k === joint ? own * one : one)),
+      );
+    const places = eased(0) ?? eased(DRAGGED); // where it cannot come to, it comes near
+    if (!places) throw new Refused(null);
+    const others = places.map((at, k): [number, Pair] => [k, at]);
+    return new Map(others.filter(([k, [u, v]]) => k === joint || u !== before[k]![0] || v !== before[k]![1]));
+  }
+
+  /** Whether all of a link is kept: it has pins only, and all their distances stay. */
+  private isKept(link: number): boolean {
+    const { model, sizes } = this.linkage;
+    const mine = sizes.elementsOn(link);
+    const pairs = mine.flatMap((k, j) => mine.slice(0, j).map((m) => this.keeps(m, k)));
+    // a triangle is fixed by its sides; what has more pins by the distances from the first two
+    const wanted = mine.length < 2 ? Infinity : 2 * mine.length - 3;
+    return link !== model.frame && mine.every((k) => sizes.is(k, "pin")) && pairs.filter(Boolean).length >= wanted;
+  }
+
+  /** Take a link along as a whole, by two of its pins. */
+  private carry(pose: Rows, link: number, places: ReadonlyMap<number, Pair>): void {
+    const { linkage } = this;
+    const { sizes } = linkage;
+    const [one, two] = sizes.elementsOn(link) as [number, number];
+    const placeOf = (k: number) => places.get(sizes.element(k).joint) ?? linkage.elementAt(k);
+    const [from, to, was, end] = [placeOf(one), placeOf(two), linkage.elementAt(one), linkage.elementAt(two)];
+    const angle = Math.atan2(to[1] - from[1], to[0] - from[0]) - Math.atan2(end[1] - was[1], end[0] - was[0]);
+    const [c, s] = turn(pose, 0, link);
+    const [dc, ds] = [Math.cos(angle), Math.sin(angle)];
+    putTurn(pose, link, c * dc - s * ds, s * dc + c * ds);
+    const [rx, ry] = direction(pose, 0, link, sizes.xy(one));
+    putOrigin(pose, link, from[0] - rx, from[1] - ry);
+    // Newton's method may have turned a triangle over
+    for (const k of sizes.elementsOn(link)) {
+      const [x, y] = placeOf(k);
+      const [u, v] = place(pose, 0, link, ...sizes.xy(k));
+      if (!(Math.hypot(u - x, v - y) < 1e-9 * sizes.unit)) throw new Refused(null);
+    }
   }
 
   private moveElement(k: number, x: number, y: number, cylinders: readonly Cylinder[]): void {
@@ -125,13 +205,13 @@ export class Dragging {
   }
 
   /** A cylinder whose end is dragged keeps its links, and turns into the line of its pins. */
-  private straighten(pose: Rows, cylinder: Cylinder, dragged: number, x: number, y: number): void {
+  private straighten(pose: Rows, cylinder: Cylinder, places: ReadonlyMap<number, Pair>): void {
     const { linkage } = this;
     const { sizes } = linkage;
     const [one, two, pinOne, pinTwo] = cylinder;
-    const moved = (pin: number) => sizes.element(pin).joint === dragged;
+    const moved = (pin: number) => places.get(sizes.element(pin).joint);
     if (!moved(pinOne) && !moved(pinTwo)) return;
-    const endAt = (pin: number): Pair => (moved(pin) ? [x, y] : linkage.elementAt(pin));
+    const endAt = (pin: number): Pair => moved(pin) ?? linkage.elementAt(pin);
     const ends = [endAt(pinOne), endAt(pinTwo)] as const;
     const dx = ends[1][0] - ends[0][0];
     const dy = ends[1][1] - ends[0][1];
@@ -227,9 +307,26 @@ export class Dragging {
       const [x, y] = sizes.xy(first);
       const [u, v] = sizes.xy(second);
       const now = Math.hypot(u - x, v - y);
-      goal[2 * second] = x + ((u - x) / now) * length;
-      goal[2 * second + 1] = y + ((v - y) / now) * length;
+      this.putPin(goal, first, second, [x + ((u - x) / now) * length, y + ((v - y) / now) * length], length);
     }
     this.linkage.changeSlowly(goal);
+  }
+
+  /** Put a pin elsewhere on its link; other pins of it follow as far as lengths are kept. */
+  private putPin(goal: Float64Array, first: number, second: number, at: Pair, length: number): void {
+    const { sizes } = this.linkage;
+    const mine = sizes.elementsOn(sizes.element(first).link).filter((k) => sizes.is(k, "pin"));
+    const number = (k: number) => mine.indexOf(k);
+    const others = [...this.lengthsKept.values()].filter(
+      ([one, two]) => number(one) >= 0 && (one !== first || two !== second),
+    );
+    const distances = others.map(([one, two]): Distance => [number(one), number(two), sizes.gap(one, two)]);
+    const places = kept(
+      mine.map((k) => (k === second ? at : sizes.xy(k))),
+      [[number(first), number(second), length], ...distances],
+      mine.map((k) => (k === first ? 0 : 1)),
+    );
+    if (!places) throw new Refused(null);
+    for (const [m, k] of mine.entries()) goal.set(places[m]!, 2 * k);
   }
 }

@@ -40,7 +40,7 @@ interface Tried {
 }
 
 export class ExercisesView implements View {
-  readonly element = h("div", { class: "view", "data-page": "exercises" });
+  readonly element = h("div.view", { "data-page": "exercises" });
   private kind = "mobility";
   private level = 1;
   private seed = 1 + Math.floor(Math.random() * 9999);
@@ -48,7 +48,7 @@ export class ExercisesView implements View {
   private marked: Marked | null = null;
   private readonly place = h("div", {});
   private readonly kinds = h("div", {});
-  private readonly score = h("span", { class: "score", role: "status" });
+  private readonly score = h("span.score", { role: "status" });
   private answers: Record<string, string> = {};
   /** The tasks that were marked, and whether all their answers were right. */
   private readonly record = new Map<string, boolean>();
@@ -65,9 +65,9 @@ export class ExercisesView implements View {
       this.level = Number(value);
       void this.fresh();
     });
-    const next = h("button", { class: "plain", "data-act": "fresh", onclick: () => this.next() }, t("A fresh task"));
-    const form = h("div", { class: "form" }, level, next, this.score);
-    renew(this.element, h("div", { class: "page" }, h("h2", {}, t("Exercises")), this.kinds, form, this.place));
+    const next = h("button.plain", { "data-act": "fresh", onclick: () => this.next() }, t("A fresh task"));
+    const form = h("div.form", {}, level, next, this.score);
+    renew(this.element, h("div.page", {}, h("h2", {}, t("Exercises")), this.kinds, form, this.place));
     this.showScore();
     if (this.task) void this.fillKinds().then(() => this.fresh());
   }
@@ -97,7 +97,7 @@ export class ExercisesView implements View {
       this.marked = null;
       this.show();
     } catch (error) {
-      renew(this.place, h("p", { class: "error" }, (error as Error).message));
+      renew(this.place, h("p.error", {}, (error as Error).message));
     }
   }
 
@@ -116,10 +116,10 @@ export class ExercisesView implements View {
     renew(
       place,
       h(
-        "div",
-        { class: "task" },
+        "div.task",
+        {},
         h("div", {}, h("h2", {}, task.name), h("p", {}, task.task)),
-        task.figure ? h("div", { class: "chain-picture" }, picture(task.figure, t("The figure of the task"))) : "",
+        task.figure ? h("div.chain-picture", {}, picture(task.figure, t("The figure of the task"))) : "",
         h(
           "form",
           { onsubmit: submit },
@@ -132,8 +132,8 @@ export class ExercisesView implements View {
               )
             : null,
           h(
-            "div",
-            { class: "form" },
+            "div.form",
+            {},
             act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
             marked ? act("next", t("Next task"), solved, () => this.next()) : null,
             marked ? act("try", t("Try it"), false, () => void this.tryIt()) : null,
@@ -169,10 +169,10 @@ export class ExercisesView implements View {
           set,
           { "data-answer": key },
         )
-      : h("span", {}, symbol ? h("i", { class: "symbol" }, ...signs(symbol), " = ") : null, input, ` ${unit}`);
+      : h("span", {}, symbol ? h("i.symbol", {}, ...signs(symbol), " = ") : null, input, ` ${unit}`);
     return h(
-      "div",
-      { class: "answer", "data-state": mark?.mark },
+      "div.answer",
+      { "data-state": mark?.mark },
       choices.length ? h("span", {}, name) : h("label", { for: id }, name),
       field,
       mark ? h("b", { "data-mark": mark.mark }, words[mark.mark]) : null,

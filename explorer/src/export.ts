@@ -49,7 +49,7 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
   const stem = () => (page.shown.source || page.shown.name || "linkage").replace(/[^\w-]+/g, "_");
   const save = (suffix: string, type: string, content: string | Blob) =>
     download(`${stem()}.${suffix}`, content instanceof Blob ? content : new Blob([content], { type }));
-  const button = (text: string, act: () => void) => h("button", { class: "plain", onclick: act }, text);
+  const button = (text: string, act: () => void) => h("button.plain", { onclick: act }, text);
   const failed = (error: Error) => page.say(error.message);
   const ask = (kind: string, more: Record<string, unknown> = {}) => {
     page
@@ -93,24 +93,24 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
     "div",
     {},
     h(
-      "div",
-      { class: "chips" },
+      "div.chips",
+      {},
       ...own,
       ...served,
       button(t("Copy the link"), () => void page.share()),
     ),
-    h("div", { class: "form" }, h("span", {}, t("Moving picture")), width, ...films),
+    h("div.form", {}, h("span", {}, t("Moving picture")), width, ...films),
     page.served
       ? programs(page, ask)
-      : h("p", { class: "note" }, t("DXF and files of other programs: gruebler convert FILE OUT")),
-    h("p", { class: "note" }, t("The chain as text")),
+      : h("p.note", {}, t("DXF and files of other programs: gruebler convert FILE OUT")),
+    h("p.note", {}, t("The chain as text")),
     h("pre", { "data-text": "chain" }, chainText(model)),
     named
       ? null
-      : h("p", { class: "note", "data-note": "file" }, t("Save it as JSON first; the commands read {file}.", { file })),
-    h("p", { class: "note" }, t("The same on the command line")),
+      : h("p.note", { "data-note": "file" }, t("Save it as JSON first; the commands read {file}.", { file })),
+    h("p.note", {}, t("The same on the command line")),
     h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem()}.svg`),
-    h("p", { class: "note" }, t("The same in Python")),
+    h("p.note", {}, t("The same in Python")),
     h(
       "pre",
       {},
@@ -134,8 +134,8 @@ function programs(page: Page, ask: (kind: string) => void): HTMLElement {
       ),
     () => kinds.delete(lang), // it is asked again
   );
-  const save = h("button", { class: "plain", "data-act": "save", onclick: () => ask(kind.value) }, t("Save"));
-  return h("div", { class: "form" }, kind, save);
+  const save = h("button.plain", { "data-act": "save", onclick: () => ask(kind.value) }, t("Save"));
+  return h("div.form", {}, kind, save);
 }
 
 async function png(file: string): Promise<Blob> {

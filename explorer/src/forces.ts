@@ -63,7 +63,7 @@ export class Forces {
     clearTimeout(this.timer);
     if (!page.served || !linkage.drive) {
       const word = linkage.model.source || "LINK";
-      renew(this.element, h("p", { class: "note" }, t("Forces need the library: gruebler explore {word}", { word })));
+      renew(this.element, h("p.note", {}, t("Forces need the library: gruebler explore {word}", { word })));
       return;
     }
     if (this.model !== linkage.model) {
@@ -95,7 +95,7 @@ export class Forces {
       const found = await page.ask<Answer>("forces", { ...this.question, ...running });
       if (linkage === this.view.linkage) this.show(linkage, found);
     } catch (error) {
-      renew(this.result, h("p", { class: "note error" }, (error as Error).message));
+      renew(this.result, h("p.note.error", {}, (error as Error).message));
     }
     this.result.classList.remove("waiting");
   }
@@ -110,11 +110,11 @@ export class Forces {
       this.changed();
     };
     const weightless = masses.every((mass) => !mass);
-    const button = h("button", { class: "plain", "data-act": "assume", onclick: assume }, t("Assume bars of steel"));
-    const offer = weightless ? [h("div", { class: "form" }, button)] : [];
+    const button = h("button.plain", { "data-act": "assume", onclick: assume }, t("Assume bars of steel"));
+    const offer = weightless ? [h("div.form", {}, button)] : [];
     if (!drives) {
       const note = t("Nothing acts yet. Type masses or a load, or assume bars of steel, 20 mm × 5 mm.");
-      renew(this.result, h("p", { class: "note" }, note), ...offer);
+      renew(this.result, h("p.note", {}, note), ...offer);
     } else {
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
@@ -134,21 +134,17 @@ export class Forces {
         return h("option", { value, selected: value === Math.max(0, chosen) }, text);
       });
       renew(this.joint, ...options);
-      const fallen = h("div", { class: "form" });
+      const fallen = h("div.form", {});
       const onclick = () => void this.fall(fallen);
       const title2 = t("The drive is let go: the linkage falls by its weight, in real time");
       renew(
         this.result,
         ...offer,
         this.plot.element,
-        h("div", { class: "form" }, h("label", {}, t("Force"), this.joint)),
+        h("div.form", {}, h("label", {}, t("Force"), this.joint)),
         this.polar.element,
-        ...lines.map((line) => h("p", { class: "note" }, line)),
-        h(
-          "div",
-          { class: "form" },
-          h("button", { class: "plain", "data-act": "fall", title: title2, onclick }, t("Let go")),
-        ),
+        ...lines.map((line) => h("p.note", {}, line)),
+        h("div.form", {}, h("button.plain", { "data-act": "fall", title: title2, onclick }, t("Let go"))),
         fallen,
       );
       this.showJoint();
@@ -185,7 +181,7 @@ export class Forces {
     const { linkage, page } = this.view;
     const found = await awaited(place, () => page.ask<Fall>("fall", this.question));
     if (!found || linkage !== this.view.linkage) return;
-    renew(place, h("p", { class: "note" }, found.lines.join(" ")));
+    renew(place, h("p.note", {}, found.lines.join(" ")));
     this.view.transport.play(found);
   }
 }

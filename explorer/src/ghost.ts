@@ -15,7 +15,7 @@ export interface Moving {
 const spot = ([x, y]: [number, number]) => `${x},${-y}`;
 
 export class Ghost {
-  readonly element = svg("g", { class: "ghost", "data-ghost": "" });
+  readonly element = svg("g.ghost", { "data-ghost": "" });
   private frame = 0;
 
   /** It stands still while it is not seen. */
@@ -27,7 +27,7 @@ export class Ghost {
     const { frames, members, joints } = moving;
     const curves = frames[0]!.slice(joints).map((_, k) => {
       const points = [...frames, frames[0]!].map((frame) => spot(frame[joints + k]!)).join(" ");
-      return svg("polyline", { class: "curve", points });
+      return svg("polyline.curve", { points });
     });
     const bars = members.map(() => svg("polygon"));
     renew(this.element, ...curves, ...bars);

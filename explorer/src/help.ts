@@ -10,6 +10,7 @@ export function showKeys(root: HTMLElement): void {
     ["Esc", t("give up a drag")],
     ["← →", t("move the drive by 1°, with Shift by 10°")],
     ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
+    [t("Enter, double-click"), t("let a joint stay where it is while others are dragged")],
     ["Ctrl Z, Ctrl Y", t("undo, redo")],
     ["+ − 0", t("zoom, show everything")],
     ["?", t("this list")],
@@ -18,7 +19,7 @@ export function showKeys(root: HTMLElement): void {
     "dialog",
     { "aria-label": t("Keys") },
     h("table", {}, ...rows.map(([key, text]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, text)))),
-    h("form", { method: "dialog" }, h("button", { class: "key" }, t("Close"))),
+    h("form", { method: "dialog" }, h("button.key", {}, t("Close"))),
   );
   dialog.addEventListener("close", () => dialog.remove());
   root.append(dialog);

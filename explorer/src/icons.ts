@@ -12,11 +12,12 @@ const PATHS = {
   fit: "M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4",
   point: "M10 3v5M10 12v5M3 10h5M12 10h5M10 9.5v1",
   more: "M10 4v12M4 10h12",
+  lock: "M5 9h10v8H5zM7 9V6a3 3 0 0 1 6 0v3",
   less: "M4 10h12",
 } as const;
 
 export type Icon = keyof typeof PATHS;
 
 export function icon(name: Icon): SVGElement {
-  return svg("svg", { class: "icon", viewBox: "0 0 20 20", "aria-hidden": "true" }, svg("path", { d: PATHS[name] }));
+  return svg("svg.icon", { viewBox: "0 0 20 20", "aria-hidden": "true" }, svg("path", { d: PATHS[name] }));
 }

@@ -8,7 +8,7 @@ export class LibraryView implements View {
   readonly element: HTMLElement;
 
   constructor(private readonly name: "build" | "synthesis") {
-    this.element = h("div", { class: "view", "data-page": name });
+    this.element = h("div.view", { "data-page": name });
   }
 
   arrange(): void {
@@ -17,8 +17,8 @@ export class LibraryView implements View {
     renew(
       this.element,
       h(
-        "div",
-        { class: "page" },
+        "div.page",
+        {},
         h("h2", {}, build ? t("Draw") : t("Synthesis")),
         h(
           "p",

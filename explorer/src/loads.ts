@@ -86,11 +86,7 @@ export class LoadForm {
       this.changed();
     };
     const weight = h("input", { type: "checkbox", checked: this.weight, onchange: weigh });
-    renew(
-      this.element,
-      h("div", { class: "rows" }, ...rows),
-      h("div", { class: "form" }, h("label", {}, weight, t("Weight, downward"))),
-    );
+    renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, h("label", {}, weight, t("Weight, downward"))));
   }
 
   private row(key: string, label: string, unit: string, value: number, take: (value: number) => void): HTMLElement[] {
@@ -105,6 +101,6 @@ export class LoadForm {
     };
     const onkeydown = (event: KeyboardEvent) => event.stopPropagation();
     const field = h("input", { id, value: value ? number(value) : "", inputmode: "decimal", onchange, onkeydown });
-    return [h("label", { for: id }, label), field, h("span", { class: "unit" }, unit)];
+    return [h("label", { for: id }, label), field, h("span.unit", {}, unit)];
   }
 }

@@ -51,11 +51,11 @@ export class MobilityPanel {
   async tell(): Promise<void> {
     const asked = ++this.asked;
     const { drawing, page } = this.view;
-    const count = h("p", { class: "mobility", "data-fact": "drawn" }, `F = ${counted(drawing)}`);
+    const count = h("p.mobility", { "data-fact": "drawn" }, `F = ${counted(drawing)}`);
     const { frame } = drawing;
     if (frame === null || linksOf(drawing).length < 3) {
       const text = frame === null ? t("Put a ground: key G.") : t("Draw links: a mechanism has at least three.");
-      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p", { class: "note" }, text));
+      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text));
     }
     if (!this.element.querySelector('[data-fact="freedoms"]')) renew(this.element, count, moment());
     const numbers = jointsOf(drawing);
@@ -67,16 +67,16 @@ export class MobilityPanel {
       const good = told.generic > 0 && told.generic === drives.length;
       const text = t("Mobility {generic}, drives: {drives}", { generic: told.generic, drives: drives.length });
       const offers = told.offers.map((offer) => this.offer(offer, numbers));
-      const move = h("button", { class: "key", "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
+      const move = h("button.key", { "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
       renew(
         this.element,
         count,
         h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, text),
-        h("div", { class: "form" }, ...offers, ...(good ? [move] : [])),
-        h("details", {}, h("summary", {}, t("Why")), h("p", { class: "note" }, told.lines.join(" "))),
+        h("div.form", {}, ...offers, ...(good ? [move] : [])),
+        h("details", {}, h("summary", {}, t("Why")), h("p.note", {}, told.lines.join(" "))),
       );
     } catch (error) {
-      if (asked === this.asked) renew(this.element, count, h("p", { class: "note" }, (error as Error).message));
+      if (asked === this.asked) renew(this.element, count, h("p.note", {}, (error as Error).message));
     }
   }
 
@@ -96,7 +96,7 @@ export class MobilityPanel {
       ],
       remove: [t("Without {one}: F = {generic}", { one, generic }), () => withoutLink(drawing, one)],
     }[kind] as [string, () => Drawing];
-    return h("button", { class: "plain", "data-offer": kind, onclick: () => this.view.change(act()) }, text);
+    return h("button.plain", { "data-offer": kind, onclick: () => this.view.change(act()) }, text);
   }
 }
 

@@ -33,7 +33,7 @@ interface State {
 }
 
 export class MotionView implements View, Editor, Driven {
-  readonly element = h("div", { class: "view motion" });
+  readonly element = h("div.view.motion", {});
   readonly shown: Shown = {
     curves: true,
     velocities: false,
@@ -58,11 +58,11 @@ export class MotionView implements View, Editor, Driven {
   private readonly history = new History<State>();
   /** What was before the change that is going on. */
   private before: State | null = null;
-  private readonly side = h("div", { class: "side" });
-  private readonly facts = h("dl", { class: "facts" });
+  private readonly side = h("div.side", {});
+  private readonly facts = h("dl.facts", {});
   private readonly sizes = new SizeRows(this);
-  private readonly checked = h("p", { class: "note" });
-  private readonly words = h("details", { class: "words" });
+  private readonly checked = h("p.note", {});
+  private readonly words = h("details.words", {});
   private readonly opened = new Set(["sizes", "measures", "plots"]);
   private readonly forces = new Forces(this, () => this.opened.has("forces"));
   private measuring = 0;
@@ -78,6 +78,11 @@ export class MotionView implements View, Editor, Driven {
         movePointBy: (point, dx, dy) => this.movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
         addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
+        holdJoint: (joint) => {
+          this.dragging.hold(joint);
+          this.show();
+          this.stage.focus(joint);
+        },
         moveJointBy: (joint, dx, dy) => {
           const [x, y] = this.linkage.jointAt(joint);
           this.attempt(() => this.dragging.dragJoint(joint, x + dx, y + dy));

@@ -6,14 +6,20 @@ export function unpackedBytes(packed: BlobPart): Promise<ArrayBuffer> {
 
 /** The bytes that `written` of build.mjs made a text of. */
 export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
-  const out = new Uint8Array((4 * text.length) / 5);
-  for (let from = 0, to = 0; from < text.length; from += 5) {
-    let value = 0;
-    for (let k = from; k < from + 5; k++) {
-      const code = k < text.length ? text.charCodeAt(k) : 126;
-      value = 85 * value + code - 40 - Number(code > 60) - Number(code > 92);
+  const out = new Uint8Array(((13 * text.length) / 2) >> 3);
+  const digit = (k: number) => {
+    const code = text.charCodeAt(k);
+    return code - 32 - Number(code > 34) - Number(code > 60) - Number(code > 92);
+  };
+  let [rest, bits, to] = [0, 0, 0];
+  for (let k = 0; k < text.length; k += 2) {
+    const wide = k + 1 < text.length ? 13 : 6;
+    rest = (rest << wide) | (wide > 6 ? 91 * digit(k) + digit(k + 1) : digit(k));
+    for (bits += wide; bits >= 8; ) {
+      bits -= 8;
+      out[to++] = rest >> bits;
+      rest &= (1 << bits) - 1;
     }
-    for (let shift = 24; shift >= 0; shift -= 8) out[to++] = value / 2 ** shift;
   }
   return out;
 }

@@ -3,6 +3,7 @@
 import { applyDocument, documentOf } from "./document";
 import { h, renew } from "./dom";
 import type { Dragging, Length } from "./dragging";
+import { icon } from "./icons";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { LinkageDocument } from "./model";
@@ -38,8 +39,9 @@ const MOST_SIZES = 60;
 
 /** A label, a field and a unit for each size; the fields stay while the linkage does, so that one can type on. */
 export class SizeRows {
-  readonly element = h("div", { class: "rows" });
+  readonly element = h("div.rows.sizes", {});
   private fields: HTMLInputElement[] = [];
+  private locks: HTMLElement[] = [];
   private names = "";
 
   constructor(private readonly editor: Editor) {}
@@ -48,25 +50,33 @@ export class SizeRows {
     const { editor } = this;
     const lengths = editor.dragging.lengths();
     const sizes = lengths.slice(0, MOST_SIZES);
-    const rows = sizes.map((size) => sizeRow(editor, size));
+    // the only length of a link needs no other name
+    const alone = ({ link }: Length) => sizes.filter((one) => one.link === link).length === 1;
+    const rows = sizes.map((size) => sizeRow(editor, size, alone(size)));
     const names = rows.map(([label]) => label!.outerHTML).join("");
     if (names !== this.names || !this.element.isConnected) {
       this.names = names;
       this.fields = rows.map(([, input]) => input as HTMLInputElement);
+      // behind all fields, so that Tab leads from field to field
+      this.locks = rows.map((row, k) => {
+        const last = row.pop()!;
+        last.style.gridArea = `${k + 1} / 4`;
+        return last;
+      });
       const more = lengths.length - sizes.length;
-      const rest =
-        more > 0 ? [h("p", { class: "note" }, t("{count} more sizes are not listed.", { count: more }))] : [];
-      renew(this.element, ...rows.flat(), ...rest);
+      const rest = more > 0 ? [h("p.note", {}, t("{count} more sizes are not listed.", { count: more }))] : [];
+      renew(this.element, ...rows.flat(), ...this.locks, ...rest);
       return;
     }
-    sizes.forEach(({ value }, k) => {
+    sizes.forEach(({ first, second, value }, k) => {
+      this.locks[k]!.setAttribute("aria-pressed", String(editor.dragging.keeps(first, second)));
       this.fields[k]!.value = number(value, 7);
       this.fields[k]!.setAttribute("aria-invalid", "false");
     });
   }
 }
 
-function sizeRow(editor: Editor, { link, first, second, value }: Length): HTMLElement[] {
+function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: boolean): HTMLElement[] {
   const { linkage } = editor;
   const { joints, unit } = linkage.model;
   const others = (k: number) => {
@@ -91,8 +101,25 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length): HTMLEl
   });
   const name = linkage.linkName(link);
   const ends = `${others(first)} – ${others(second)}`;
-  const label = h("label", { for: id, title: `${name}: ${ends}` }, h("b", {}, name), ` ${ends}`);
-  return [label, input, h("span", { class: "unit" }, unit)];
+  const label = h("label", { for: id, title: `${name}: ${ends}` }, h("b", {}, name), alone ? "" : ` ${ends}`);
+  const pins = [first, second].every((k) => linkage.sizes.is(k, "pin"));
+  return [label, input, h("span.unit", {}, unit), pins ? lockOf(editor, first, second, name) : h("span", {})];
+}
+
+/** Keeps a length while joints are dragged. */
+function lockOf(editor: Editor, first: number, second: number, name: string): HTMLElement {
+  const press = () => {
+    editor.dragging.keep(first, second);
+    button.setAttribute("aria-pressed", String(editor.dragging.keeps(first, second)));
+  };
+  const title = t("Keep this length while joints are dragged");
+  const pressed = String(editor.dragging.keeps(first, second));
+  const button = h(
+    "button.lock",
+    { title, "aria-label": `${title}: ${name}`, "aria-pressed": pressed, onclick: press },
+    icon("lock"),
+  );
+  return button;
 }
 
 // --- points ----------------------------------------------------------------------------------------------------------
@@ -118,16 +145,11 @@ export function pointsPanel(editor: Editor): HTMLElement {
   return h(
     "div",
     {},
-    h("div", { class: "point-rows" }, ...rows),
+    h("div.point-rows", {}, ...rows),
+    h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
     h(
-      "div",
-      { class: "form" },
-      link,
-      h("button", { class: "plain", "data-act": "add-point", onclick: add }, t("Add a point")),
-    ),
-    h(
-      "p",
-      { class: "note" },
+      "p.note",
+      {},
       t("A double-click puts a point: on a link, or beside all links on the one chosen here. Points are dragged."),
     ),
   );
@@ -162,15 +184,15 @@ function pointRow(editor: Editor, k: number): HTMLElement {
   };
   const remove = () => editor.edit(() => points.splice(k, 1));
   const row = h(
-    "div",
-    { class: "point-row" },
+    "div.point-row",
+    {},
     h("i", {}),
     typed("point-name", t("Name"), point.name, rename),
-    h("span", { class: "unit" }, linkage.linkName(point.link)),
-    h("button", { class: "quiet", "aria-label": t("Remove {name}", { name: point.name }), onclick: remove }, "×"),
-    h("span", { class: "unit" }, "x"),
+    h("span.unit", {}, linkage.linkName(point.link)),
+    h("button.quiet", { "aria-label": t("Remove {name}", { name: point.name }), onclick: remove }, "×"),
+    h("span.unit", {}, "x"),
     typed("point-x", "x", numberText(point.at[0]), coordinate(0)),
-    h("span", { class: "unit" }, "y"),
+    h("span.unit", {}, "y"),
     typed("point-y", "y", numberText(point.at[1]), coordinate(1)),
   );
   row.style.setProperty("--own", `var(${ownColour(k)})`);
@@ -191,21 +213,21 @@ function later(act: () => void): void {
 export function modesPanel(editor: Editor): HTMLElement {
   const { linkage } = editor;
   const groups = linkage.model.groups.filter((group) => group.modes);
-  if (!groups.length) return h("p", { class: "note" }, t("There is one assembly mode only."));
+  if (!groups.length) return h("p.note", {}, t("There is one assembly mode only."));
   const chips = groups.map(({ dyad, form, links, number: mode }) => {
     const text = `${form} {${linkage.linkList(links)}}`;
-    if (!dyad) return h("div", { class: "chip" }, text);
+    if (!dyad) return h("div.chip", {}, text);
     const onclick = () => editor.attempt(() => linkage.switchMode(mode));
     const sign = linkage.state.signs[mode]! < 0 ? "−" : "+";
-    return h("button", { class: "plain", "data-mode": mode, onclick }, `${text}  ${sign}`);
+    return h("button.plain", { "data-mode": mode, onclick }, `${text}  ${sign}`);
   });
-  const own = h("div", { class: "chips" }, ...chips);
+  const own = h("div.chips", {}, ...chips);
   if (!editor.page.served || groups.every((group) => group.dyad)) return own;
   const onclick = () => void listModes(editor, all);
   const all = h(
-    "div",
-    { class: "chips" },
-    h("button", { class: "plain", "data-act": "modes", onclick }, t("All assembly modes at this position")),
+    "div.chips",
+    {},
+    h("button.plain", { "data-act": "modes", onclick }, t("All assembly modes at this position")),
   );
   return h("div", {}, own, all);
 }
@@ -224,7 +246,7 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
     editor.show();
   };
   const choices = found.map(({ label, document }) =>
-    h("button", { class: "plain", "data-mode": label, onclick: () => take(document) }, label),
+    h("button.plain", { "data-mode": label, onclick: () => take(document) }, label),
   );
   renew(place, ...choices);
 }
@@ -251,8 +273,8 @@ export function optionsPanel(editor: Editor): HTMLElement {
   };
   const link = h("select", { "aria-label": t("Link"), onchange }, ...choices);
   return h(
-    "div",
-    { class: "options" },
+    "div.options",
+    {},
     option("curves", t("Coupler curves")),
     option("velocities", t("Velocities")),
     option("accelerations", t("Accelerations")),

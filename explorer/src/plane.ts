@@ -37,7 +37,7 @@ export function planePicture(plane: Plane): SVGElement[] {
     const [x, y] = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
     return [
       svg("path", { class: `outline${mark}`, d, "data-link": link }),
-      svg("path", { class: "bar", d }),
+      svg("path.bar", { d }),
       svg("text", { x: x + 9, y: y - 9 }, link),
     ];
   });
@@ -48,8 +48,8 @@ export function planePicture(plane: Plane): SVGElement[] {
     ...grid(plane),
     ...links,
     ...knots,
-    ...(waiting.length > 1 ? [svg("path", { class: "pending", d: path(waiting) })] : []),
-    svg("path", { class: "crosshair", d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
+    ...(waiting.length > 1 ? [svg("path.pending", { d: path(waiting) })] : []),
+    svg("path.crosshair", { d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
   ];
 }
 
@@ -66,15 +66,12 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
   const ground = drawing.frame !== null && links.includes(drawing.frame);
   if (slide !== undefined) {
     const turned = svg("g", { transform: `rotate(${-slide})` });
-    turned.append(
-      svg("path", { class: "rail", d: "M-46 10H46" }),
-      svg("path", { class: "rail-hatch", d: "M-46 15H46" }),
-    );
-    turned.append(svg("rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3 }));
+    turned.append(svg("path.rail", { d: "M-46 10H46" }), svg("path.rail-hatch", { d: "M-46 15H46" }));
+    turned.append(svg("rect.block", { x: -15, y: -9, width: 30, height: 18, rx: 3 }));
     element.append(turned);
-  } else if (ground) element.append(svg("path", { class: "support", d: "M0 0 L-11 17 H11 Z M-17 17 H17" }));
-  if (slide === undefined) element.append(svg("circle", { class: "joint", r: links.length > 1 || ground ? 5 : 3.2 }));
-  if (drawing.drives.includes(k)) element.append(svg("circle", { class: "driven", r: 12 }));
+  } else if (ground) element.append(svg("path.support", { d: "M0 0 L-11 17 H11 Z M-17 17 H17" }));
+  if (slide === undefined) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
+  if (drawing.drives.includes(k)) element.append(svg("circle.driven", { r: 12 }));
   return element;
 }
 
@@ -86,17 +83,17 @@ function grid({ viewport, step }: Plane): SVGElement[] {
   const out: SVGElement[] = [];
   for (let k = Math.ceil(left / step); k * step <= right; k++) {
     const [x] = viewport.screen(k * step, 0);
-    out.push(svg("path", { class: "mesh", d: `M${x} 0V${height}` }));
-    out.push(svg("text", { class: "tick", x: x + 3, y: height - 5 }, number(k * step)));
+    out.push(svg("path.mesh", { d: `M${x} 0V${height}` }));
+    out.push(svg("text.tick", { x: x + 3, y: height - 5 }, number(k * step)));
   }
   for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
     const [, y] = viewport.screen(0, k * step);
-    out.push(svg("path", { class: "mesh", d: `M0 ${y}H${width}` }));
-    out.push(svg("text", { class: "tick", x: 4, y: y - 3 }, number(k * step)));
+    out.push(svg("path.mesh", { d: `M0 ${y}H${width}` }));
+    out.push(svg("text.tick", { x: 4, y: y - 3 }, number(k * step)));
   }
   const long = step * viewport.scale;
   const d = `M${width - 20 - long} 24v6h${long}v-6`;
-  const text = svg("text", { class: "tick", x: width - 20 - long / 2, y: 22, "text-anchor": "middle" });
+  const text = svg("text.tick", { x: width - 20 - long / 2, y: 22, "text-anchor": "middle" });
   text.append(`${number(step)} mm`);
-  return [...out, svg("path", { class: "scale", d }), text];
+  return [...out, svg("path.scale", { d }), text];
 }

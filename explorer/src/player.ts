@@ -7,7 +7,7 @@ import { t } from "./language";
 const LONGEST = 0.1; // seconds: what a page that slept goes on by
 
 export class Player {
-  readonly button = h("button", { class: "play", onclick: () => this.toggle() });
+  readonly button = h("button.play", { onclick: () => this.toggle() });
   playing = false;
   private last = 0;
   private frame = 0;

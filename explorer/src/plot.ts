@@ -26,18 +26,17 @@ const WIDE = WIDTH - LEFT - RIGHT;
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
 
 export class Plot {
-  readonly element = svg("svg", {
-    class: "plot",
+  readonly element = svg("svg.plot", {
     viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
     role: "img",
   });
-  private readonly curve = svg("path", { class: "curve" });
-  private readonly band = svg("rect", { class: "band", x: LEFT, width: WIDE, height: 0 });
-  private readonly zero = svg("path", { class: "axis" });
-  private readonly cursor = svg("path", { class: "cursor" });
-  private readonly here = svg("circle", { class: "here", r: 3 });
-  private readonly title = svg("text", { class: "title", x: LEFT, y: 13 });
-  private readonly value = svg("text", { class: "read", y: TOP + 10 });
+  private readonly curve = svg("path.curve", {});
+  private readonly band = svg("rect.band", { x: LEFT, width: WIDE, height: 0 });
+  private readonly zero = svg("path.axis", {});
+  private readonly cursor = svg("path.cursor", {});
+  private readonly here = svg("circle.here", { r: 3 });
+  private readonly title = svg("text.title", { x: LEFT, y: 13 });
+  private readonly value = svg("text.read", { y: TOP + 10 });
   private readonly ticks = svg("g");
   private ticked = "";
   private pointed = NaN;
@@ -55,8 +54,7 @@ export class Plot {
     pick: (drive: number) => void,
     private readonly span = new Span(() => this.redraw()),
   ) {
-    const frame = svg("path", {
-      class: "axis",
+    const frame = svg("path.axis", {
       d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}`,
       fill: "none",
     });
@@ -177,7 +175,7 @@ export class Plot {
       ...across.map((value) => `M${this.x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
     ];
     this.ticks.replaceChildren(
-      svg("path", { class: "mesh", d: lines.join("") }),
+      svg("path.mesh", { d: lines.join("") }),
       ...upward.map((value) =>
         svg("text", { x: LEFT - 4, y: this.y(value) + 4, "text-anchor": "end" }, number(value, 4)),
       ),

@@ -33,7 +33,7 @@ export class Plots {
   readonly element = h("div", {});
   parts: { plot: Plot; make: Making }[] = [];
   /** In place of the plots of an output that does not turn or travel. */
-  private readonly still = h("p", { class: "note", "data-note": "still" });
+  private readonly still = h("p.note", { "data-note": "still" });
   private last: Plotted | null = null;
   private readonly span = new Span(() => {
     for (const { plot } of this.parts) plot.redraw();
@@ -55,7 +55,7 @@ export class Plots {
     const unit = drive?.turning ? TURN / 360 : 1;
     this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.span), make }));
     const note = record?.note[currentLanguage()];
-    const notes = note ? [h("p", { class: "note" }, note)] : [];
+    const notes = note ? [h("p.note", {}, note)] : [];
     if (record) {
       const name = linkage.linkName(record.link);
       const turning = record.joint === null;
@@ -65,9 +65,8 @@ export class Plots {
     }
     const tool = (sign: Icon, text: string, factor: number) =>
       h(
-        "button",
+        "button.quiet",
         {
-          class: "quiet",
           title: text,
           "aria-label": text,
           "data-plots": sign,
@@ -76,8 +75,8 @@ export class Plots {
         icon(sign),
       );
     const tools = h(
-      "div",
-      { class: "plot-tools" },
+      "div.plot-tools",
+      {},
       tool("more", t("Enlarge the plots where the drive is"), 2),
       tool("less", t("Less enlarged"), 0.5),
       tool("fit", t("The whole range"), 0),

@@ -19,6 +19,8 @@ export interface StageEvents {
   dragPoint(point: number, x: number, y: number): void;
   movePointBy(point: number, dx: number, dy: number): void;
   moveJointBy(joint: number, dx: number, dy: number): void;
+  /** A joint is to stay where it is, or not any more. */
+  holdJoint(joint: number): void;
 }
 
 /** The picture as the pointer sees it. */
@@ -60,7 +62,10 @@ export class Pointer {
     root.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     root.addEventListener("dblclick", (event) => {
       const [x, y] = this.at(event);
-      if (board.linkage && this.jointNear(x, y, GRIP) === null && this.pointNear(x, y, GRIP) === null)
+      if (!board.linkage) return;
+      const joint = this.jointNear(x, y, GRIP, true);
+      if (joint !== null) this.events.holdJoint(joint);
+      else if (this.pointNear(x, y, GRIP) === null)
         this.events.addPoint(this.linkNear(x, y, NEAR), ...viewport.world(x, y));
     });
     root.addEventListener("pointermove", (event) => this.pinch(event));
@@ -104,12 +109,12 @@ export class Pointer {
     this.board.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.at(event));
   }
 
-  private jointNear(x: number, y: number, reach: number): number | null {
+  private jointNear(x: number, y: number, reach: number, held = false): number | null {
     const { dragging, joints, linkage, viewport } = this.board;
     let best: number | null = null;
     let least = reach;
     for (const joint of joints) {
-      if (!dragging!.draggable(joint)) continue;
+      if (!dragging!.draggable(joint) && !(held && dragging!.held.has(joint))) continue;
       const [px, py] = viewport.screen(...linkage!.jointAt(joint));
       const gap = Math.hypot(px - x, py - y);
       if (gap < least) [best, least] = [joint, gap];

@@ -17,8 +17,8 @@ export interface Vectors {
 const RADIUS = 88;
 
 export class Polar {
-  readonly element = svg("svg", { class: "plot polar", viewBox: "-150 -100 300 200", role: "img" });
-  private readonly here = svg("path", { class: "cursor" });
+  readonly element = svg("svg.plot.polar", { viewBox: "-150 -100 300 200", role: "img" });
+  private readonly here = svg("path.cursor", {});
   private vectors: Vectors | null = null;
 
   show(vectors: Vectors, unit: string): void {
@@ -29,10 +29,10 @@ export class Polar {
     const to = (factor: number) => (value: number) => factor * value;
     this.element.setAttribute("aria-label", t("Largest {value}", { value: `${number(most)} ${unit}` }));
     this.element.replaceChildren(
-      svg("path", { class: "mesh", d: "M-140 0H140M0 -96V96" }),
-      ...rings.map((value) => svg("circle", { class: "mesh", fill: "none", r: scale * value })),
+      svg("path.mesh", { d: "M-140 0H140M0 -96V96" }),
+      ...rings.map((value) => svg("circle.mesh", { fill: "none", r: scale * value })),
       ...rings.map((value) => svg("text", { x: 3, y: -scale * value - 2 }, `${number(value)} ${unit}`)),
-      svg("path", { class: "curve force", d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
+      svg("path.curve.force", { d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
       this.here,
     );
   }

@@ -20,11 +20,11 @@ export class Scene {
   private pins: { element: SVGGElement; joint: number }[] = [];
   private marks: { element: SVGGElement; point: number }[] = [];
   private labels: Label[] = [];
-  private readonly arrows = svg("path", { class: "velocity" });
-  private readonly changes = svg("path", { class: "acceleration" });
-  private readonly forces = svg("path", { class: "force" });
-  private readonly circle = svg("circle", { class: "inflection", r: 0 });
-  private readonly pole = svg("circle", { class: "pole", r: 4 });
+  private readonly arrows = svg("path.velocity", {});
+  private readonly changes = svg("path.acceleration", {});
+  private readonly forces = svg("path.force", {});
+  private readonly circle = svg("circle.inflection", { r: 0 });
+  private readonly pole = svg("circle.pole", { r: 4 });
 
   constructor(
     private readonly root: SVGSVGElement,
@@ -56,21 +56,20 @@ export class Scene {
     });
     this.pins = [...model.joints.keys()]
       .filter((joint) => sizes.elementsOf(joint).some((k) => sizes.is(k, "pin")))
-      .map((joint) => ({ element: this.pin(linkage, joint, dragging.draggable(joint)), joint }));
+      .map((joint) => ({ element: this.pin(linkage, joint, dragging), joint }));
     front.append(...this.pins.map(({ element }) => element));
     this.marks = sizes.points.map(({ name }, number) => {
       const element = svg(
-        "g",
+        "g.coupler-point",
         {
-          class: "coupler-point",
           "data-mark": name,
           tabindex: 0,
           role: "button",
           "aria-label": name,
           onkeydown: (event: KeyboardEvent) => this.keys.point(event, number),
         },
-        svg("circle", { class: "halo", r: 13 }),
-        svg("circle", { class: "dot", r: 4.2 }),
+        svg("circle.halo", { r: 13 }),
+        svg("circle.dot", { r: 4.2 }),
       );
       element.style.setProperty("--own", `var(${ownColour(number)})`);
       marks.append(element);
@@ -88,21 +87,23 @@ export class Scene {
     renew(this.root, back, bodies, marks, front);
   }
 
-  private pin({ model }: Linkage, number: number, free: boolean): SVGGElement {
+  private pin({ model }: Linkage, number: number, dragging: Dragging): SVGGElement {
     const joint = model.joints[number]!;
+    const held = dragging.held.has(number);
+    const free = held || dragging.draggable(number);
     const ground = joint.links.includes(model.frame) && joint.pair.turning;
     const element = svg("g", {
-      class: free ? "pin free" : "pin",
+      class: `pin${free ? " free" : ""}${held ? " held" : ""}`,
       "data-joint": joint.name,
       tabindex: free ? 0 : -1,
       role: free ? "button" : "img",
       "aria-label": joint.name,
+      "aria-pressed": free ? String(held) : null,
       onkeydown: (event: KeyboardEvent) => this.keys.joint(event, number),
     });
-    if (ground) element.append(svg("path", { class: "support", d: SUPPORT }));
-    element.append(svg("circle", { class: "halo", r: 13 }), svg("circle", { class: "joint", r: ground ? 5.5 : 4.6 }));
-    if (model.drives.some((drive) => drive.joint === number))
-      element.append(svg("path", { class: "driven", d: DRIVEN }));
+    if (ground) element.append(svg("path.support", { d: SUPPORT }));
+    element.append(svg("circle.halo", { r: 13 }), svg("circle.joint", { r: ground ? 5.5 : 4.6 }));
+    if (model.drives.some((drive) => drive.joint === number)) element.append(svg("path.driven", { d: DRIVEN }));
     return element;
   }
 
@@ -206,7 +207,7 @@ function labelsOf(linkage: Linkage): Label[] {
       return [mean(0), mean(1)];
     };
     const name = linkage.linkName(link);
-    const element = svg("text", { class: "name", "text-anchor": "middle" }, name);
+    const element = svg("text.name", { "text-anchor": "middle" }, name);
     const points = sizes.points.filter((point) => point.link === link);
     const beside = (): Pair => {
       const [one, two] = mine.length === 2 ? mine.map((k) => linkage.elementAt(k)) : [];
@@ -227,7 +228,7 @@ function labelsOf(linkage: Linkage): Label[] {
     return { element, at, beside };
   });
   const marks = sizes.points.map((point) => ({
-    element: svg("text", { class: "mark" }, point.name),
+    element: svg("text.mark", {}, point.name),
     at: () => place(linkage.pose, 0, point.link, ...point.at),
     beside: (): Pair => [9, -9],
   }));

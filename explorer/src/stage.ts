@@ -54,10 +54,13 @@ export class Stage implements Board {
     events: StageEvents,
     private shown: Shown,
   ) {
-    this.element = h("div", { class: "stage" }, this.canvas, this.root);
+    this.element = h("div.stage", {}, this.canvas, this.root);
     this.pointer = new Pointer(this, events);
     this.scene = new Scene(this.root, this.viewport, {
-      joint: (event, joint) => this.pointer.key(event, (dx, dy) => events.moveJointBy(joint, dx, dy)),
+      joint: (event, joint) => {
+        if (event.key === "Enter") events.holdJoint(joint);
+        else this.pointer.key(event, (dx, dy) => events.moveJointBy(joint, dx, dy));
+      },
       point: (event, point) => this.pointer.key(event, (dx, dy) => events.movePointBy(point, dx, dy)),
     });
     this.observer = new ResizeObserver(() => this.resize());
@@ -81,14 +84,14 @@ export class Stage implements Board {
     for (const old of this.element.querySelectorAll(".tools, .hint")) old.remove();
     this.element.append(
       h(
-        "div",
-        { class: "tools" },
+        "div.tools",
+        {},
         button("more", t("Zoom in"), () => this.zoom(1.25)),
         button("less", t("Zoom out"), () => this.zoom(0.8)),
         button("fit", t("Show everything"), () => this.fit()),
         adder,
       ),
-      h("div", { class: "hint" }, t("Drag a joint to change sizes, a link to move it.")),
+      h("div.hint", {}, t("Drag a joint to change sizes, a link to move it.")),
     );
   }
 

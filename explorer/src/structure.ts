@@ -25,7 +25,7 @@ interface Realised {
 }
 
 export class StructureView implements View {
-  readonly element = h("div", { class: "view", "data-page": "structure" });
+  readonly element = h("div.view", { "data-page": "structure" });
   private text = "";
   private structure: Structure | null = null;
   private joint = -1;
@@ -33,7 +33,7 @@ export class StructureView implements View {
   private readonly chains: ChainList;
   private readonly shown = h("div", {});
   private readonly detail = h("div", {});
-  private readonly error = h("p", { class: "error", role: "alert" });
+  private readonly error = h("p.error", { role: "alert" });
   private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
   private typing = 0;
   private asked = 0;
@@ -56,12 +56,12 @@ export class StructureView implements View {
     renew(
       this.element,
       h(
-        "div",
-        { class: "page" },
+        "div.page",
+        {},
         step(1, t("Chain")),
         this.chains.element,
         this.shown,
-        h("details", { class: "words" }, h("summary", {}, t("The chain as text")), this.field),
+        h("details.words", {}, h("summary", {}, t("The chain as text")), this.field),
         this.error,
         this.detail,
       ),
@@ -100,7 +100,7 @@ export class StructureView implements View {
       if (place) {
         const at = Number(place[1]);
         const before = text.slice(Math.max(0, at - 24), at - 1);
-        this.error.append(h("span", { class: "place" }, `\n${before}▸${text.slice(at - 1, at + 16)}`));
+        this.error.append(h("span.place", {}, `\n${before}▸${text.slice(at - 1, at + 16)}`));
       }
     }
   }
@@ -120,20 +120,20 @@ export class StructureView implements View {
     renew(
       this.shown,
       h(
-        "div",
-        { class: "two" },
+        "div.two",
+        {},
         h(
           "div",
           {},
-          h("div", { class: "chain-picture" }, drawn),
+          h("div.chain-picture", {}, drawn),
           typesOf(found.joints[this.joint], (text) => void this.describe(text)),
         ),
         h(
           "div",
           {},
           h(
-            "dl",
-            { class: "facts" },
+            "dl.facts",
+            {},
             h("div", {}, h("dt", {}, t("Counted")), h("dd", { "data-fact": "counted" }, `F = ${found.counted}`)),
             h(
               "div",
@@ -146,8 +146,8 @@ export class StructureView implements View {
               ),
             ),
           ),
-          ...lines.map((line) => h("p", { class: "said" }, line.trim())),
-          strained ? h("p", { class: "note" }, t("Orange: overconstrained links.")) : null,
+          ...lines.map((line) => h("p.said", {}, line.trim())),
+          strained ? h("p.note", {}, t("Orange: overconstrained links.")) : null,
         ),
       ),
     );
@@ -165,11 +165,7 @@ export class StructureView implements View {
     renew(
       this.detail,
       step(2, t("Frame")),
-      h(
-        "p",
-        { class: "note" },
-        t("Links that a symmetry exchanges give the same mechanism: each kind stands here once."),
-      ),
+      h("p.note", {}, t("Links that a symmetry exchanges give the same mechanism: each kind stands here once.")),
       this.cards("inversions", found.inversions, framed, (choice) => choice.frame === found.chosen),
       step(3, t("Drive")),
       this.cards(
@@ -178,16 +174,16 @@ export class StructureView implements View {
         (choice) => (found.chosen ? "" : `${framed(choice)}, `) + choice.drives.join(", "),
         (choice) => choice.text === found.text,
       ),
-      h("div", { class: "form" }, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
+      h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
       h(
-        "div",
-        { class: "form go" },
+        "div.form.go",
+        {},
         h(
-          "button",
-          { class: "key", "data-act": "realise", onclick: () => void this.realise() },
+          "button.key",
+          { "data-act": "realise", onclick: () => void this.realise() },
           t("Find dimensions and move it"),
         ),
-        found.drives ? "" : h("span", { class: "note" }, t("Choose a frame and a drive first.")),
+        found.drives ? "" : h("span.note", {}, t("Choose a frame and a drive first.")),
       ),
     );
   }
@@ -201,9 +197,8 @@ export class StructureView implements View {
   ): HTMLElement {
     const card = (choice: Choice) =>
       h(
-        "button",
+        "button.card",
         {
-          class: "card",
           "data-text": choice.text,
           "aria-pressed": String(chosen(choice)),
           onclick: () => void this.describe(choice.text),
@@ -212,7 +207,7 @@ export class StructureView implements View {
         h("b", {}, label(choice)),
         choice.family ? h("span", {}, choice.family) : null,
       );
-    return h("div", { class: "cards few", "data-list": key }, ...list.map(card));
+    return h("div.cards.few", { "data-list": key }, ...list.map(card));
   }
 
   private pick(joint: number): void {
@@ -222,7 +217,7 @@ export class StructureView implements View {
 
   private async realise(): Promise<void> {
     const text = this.field.value; // as it stands, described or not yet
-    const place = h("span", { class: "form" });
+    const place = h("span.form", {});
     this.detail.querySelector('[data-act="realise"]')!.parentElement!.append(place);
     const found = await awaited(place, (progress) => this.page.ask<Realised>("realise", { text }, progress));
     if (!found) return;

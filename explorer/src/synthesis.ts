@@ -21,7 +21,7 @@ const NEAR = 4;
 const OF_STROKE = 20; // points of a curve that is drawn
 
 export class SynthesisView implements View {
-  readonly element = h("div", { class: "view", "data-page": "synthesis" });
+  readonly element = h("div.view", { "data-page": "synthesis" });
   private kind: Kind = "points";
   private readonly rows: Record<Kind, number[][]> = {
     positions: [],
@@ -44,18 +44,13 @@ export class SynthesisView implements View {
   private held: ((at: [number, number]) => void) | null = null;
   private readonly marks = svg("g");
   private readonly ghost = new Ghost(() => this.element.classList.contains("shown"));
-  private readonly plane = svg(
-    "svg",
-    { class: "plane", role: "application", tabindex: 0 },
-    this.marks,
-    this.ghost.element,
-  );
+  private readonly plane = svg("svg.plane", { role: "application", tabindex: 0 }, this.marks, this.ghost.element);
   private readonly list = h("div", {});
   private readonly designs = new DesignCards(
     (design) => this.play(design),
     (design) => void this.open(design),
   );
-  private readonly status = h("div", { class: "form" });
+  private readonly status = h("div.form", {});
 
   constructor(private readonly page: Page) {
     this.plane.addEventListener("pointerdown", (event) => this.down(event));
@@ -134,47 +129,39 @@ export class SynthesisView implements View {
     renew(
       this.element,
       h(
-        "div",
-        { class: "page" },
+        "div.page",
+        {},
         h("h2", {}, t("Synthesis")),
         choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.turnTo(kind as Kind)),
-        h("p", { class: "note" }, hints[this.kind]),
+        h("p.note", {}, hints[this.kind]),
         h(
-          "div",
-          { class: "two wide" },
+          "div.two.wide",
+          {},
           h(
             "div",
             {},
             this.planar
               ? choice(t("Click"), clicks, this.puts, (value) => (this.puts = value as typeof this.puts))
               : null,
-            h("div", { class: "chain-picture" }, this.plane),
+            h("div.chain-picture", {}, this.plane),
           ),
           h(
             "div",
             {},
             this.list,
             h(
-              "div",
-              { class: "form" },
+              "div.form",
+              {},
               open ? option(t("closed curve"), this.closed, (on) => this.close(on), "closed") : null,
               option(t("the crank turns fully"), this.crank, (on) => (this.crank = on), "crank"),
               h("label", {}, t("transmission angle from"), least, "°"),
             ),
             h(
-              "div",
-              { class: "form" },
-              h(
-                "button",
-                { class: "key", "data-act": "synthesise", onclick: () => void this.search() },
-                t("Find four-bars"),
-              ),
+              "div.form",
+              {},
+              h("button.key", { "data-act": "synthesise", onclick: () => void this.search() }, t("Find four-bars")),
               this.planar
-                ? h(
-                    "button",
-                    { class: "plain", "data-act": "clear", onclick: () => this.clear() },
-                    t("Remove all points"),
-                  )
+                ? h("button.plain", { "data-act": "clear", onclick: () => this.clear() }, t("Remove all points"))
                 : null,
             ),
             this.status,
@@ -269,16 +256,15 @@ export class SynthesisView implements View {
         lines.push(svg("path", { class: x === 0 ? "axis" : "mesh", d: `M${x} ${-HIGH / 2}V${HIGH / 2}` }));
       for (let y = -HIGH / 2 + 5; y <= HIGH / 2; y += STEP)
         lines.push(svg("path", { class: y === 0 ? "axis" : "mesh", d: `M${-WIDE / 2} ${y}H${WIDE / 2}` }));
-      for (let x = -100; x <= 100; x += 50)
-        lines.push(svg("text", { class: "tick", x: x + 1, y: HIGH / 2 - 2 }, `${x}`));
+      for (let x = -100; x <= 100; x += 50) lines.push(svg("text.tick", { x: x + 1, y: HIGH / 2 - 2 }, `${x}`));
       if (this.kind === "points") {
         const d = this.points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${-y!}`).join("");
-        lines.push(svg("path", { class: "polygon", d: d + (this.closed && this.points.length > 2 ? "Z" : "") }));
+        lines.push(svg("path.polygon", { d: d + (this.closed && this.points.length > 2 ? "Z" : "") }));
       }
       for (const [k, row] of this.points.entries()) lines.push(targetMark(row, k));
       if (this.kind === "positions")
         for (const [x, y] of this.pivots)
-          lines.push(svg("path", { class: "pivot", d: `M${x} ${-y!}l4 6h-8z`, "data-pivot": "" }));
+          lines.push(svg("path.pivot", { d: `M${x} ${-y!}l4 6h-8z`, "data-pivot": "" }));
     }
     renew(this.marks, ...lines);
     this.look();
@@ -312,25 +298,20 @@ export class SynthesisView implements View {
       this.list,
       this.points.length
         ? h(
-            "div",
-            { class: "points" },
+            "div.points",
+            {},
             table(this.points, title, names),
             this.kind === "positions" && this.pivots.length ? table(this.pivots, t("Fixed pivot"), ["x", "y"]) : null,
           )
-        : h("p", { class: "note" }, t("No points yet.")),
-      this.kind === "function"
-        ? h("button", { class: "plain", "data-act": "pair", onclick: add }, t("Another pair"))
-        : "",
+        : h("p.note", {}, t("No points yet.")),
+      this.kind === "function" ? h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")) : "",
     );
   }
 
   private async search(): Promise<void> {
     const count = FEWEST[this.kind];
     if (this.points.length < count)
-      return renew(
-        this.status,
-        h("span", { class: "error", role: "alert" }, t("Give at least {count} points.", { count })),
-      );
+      return renew(this.status, h("span.error", { role: "alert" }, t("Give at least {count} points.", { count })));
     const question = {
       kind: this.kind,
       rows: this.points,

@@ -37,7 +37,7 @@ export function rowsTable(
       changed();
     };
     const name = t("Remove {name}", { name: called(k) });
-    return h("button", { class: "quiet", "aria-label": name, onclick: remove }, "×");
+    return h("button.quiet", { "aria-label": name, onclick: remove }, "×");
   };
   return h(
     "table",
@@ -96,8 +96,8 @@ export function targetMark(row: number[], k: number): SVGElement {
     ...(turn === undefined
       ? []
       : [
-          svg("path", { class: "arm", d: `M0 0L${u! - x!} ${y! - v!}` }),
-          svg("circle", { class: "tip", r: 1.8, cx: u! - x!, cy: y! - v! }),
+          svg("path.arm", { d: `M0 0L${u! - x!} ${y! - v!}` }),
+          svg("circle.tip", { r: 1.8, cx: u! - x!, cy: y! - v! }),
         ]),
     svg("circle", { r: 2.6 }),
     svg("text", { x: 3.4, y: -3.4 }, String(k + 1)),

@@ -7,7 +7,7 @@ import { angle, number, t } from "./language";
 export class Track {
   readonly element: HTMLElement;
   private readonly root = svg("svg", { "aria-hidden": "true" });
-  private readonly knob = svg("circle", { class: "knob", r: 9, cy: 17 });
+  private readonly knob = svg("circle.knob", { r: 9, cy: 17 });
   private cycle: Cycle | null = null;
   private unit = 1;
   private from = 0;
@@ -15,7 +15,7 @@ export class Track {
   private limits: [number, number] = [0, 1];
 
   constructor(private readonly pick: (value: number, beyond: boolean) => void) {
-    this.element = h("div", { class: "track", role: "slider", tabindex: 0 }, this.root);
+    this.element = h("div.track", { role: "slider", tabindex: 0 }, this.root);
     this.element.addEventListener("pointerdown", (event) => {
       this.element.setPointerCapture(event.pointerId);
       this.at(event);

@@ -26,7 +26,7 @@ export interface Driven {
 }
 
 export class Transport {
-  readonly element = h("div", { class: "transport" });
+  readonly element = h("div.transport", {});
   readonly player = new Player(
     (seconds) => this.advance(seconds),
     () => {
@@ -39,7 +39,7 @@ export class Transport {
   private speed = 12; // turns a minute; of a slide, strokes
   private way = 1;
   private readonly track = new Track((value, beyond) => this.pick(value, beyond));
-  private readonly value = h("span", { class: "value" });
+  private readonly value = h("span.value", {});
 
   constructor(private readonly view: Driven) {}
 
@@ -65,7 +65,7 @@ export class Transport {
     };
     const choices = model.drives.map((drive, k) => h("option", { value: k, selected: k === active }, drive.name));
     const drives = choices.length > 1 ? [h("select", { "aria-label": t("Drive"), onchange }, ...choices)] : [];
-    const speedLabel = h("label", { class: "speed" }, t("Speed"), speed, rate);
+    const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
     renew(this.element, this.player.button, ...drives, this.track.element, this.value, speedLabel);
   }
 

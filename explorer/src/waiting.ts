@@ -7,8 +7,8 @@ import { t } from "./language";
 /** That something is under way, where it will stand. */
 export function moment(): HTMLElement {
   return h(
-    "p",
-    { class: "note", role: "status", "data-waiting": "" },
+    "p.note",
+    { role: "status", "data-waiting": "" },
     h("progress", { "aria-hidden": "true" }),
     t("One moment …"),
   );
@@ -23,7 +23,7 @@ export async function awaited<Result>(
 ): Promise<Result | null> {
   const bar = h("span", {}, "…");
   const request = ask((text) => (bar.textContent = text));
-  const cancel = h("button", { class: "plain", "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel"));
+  const cancel = h("button.plain", { "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel"));
   renew(place, h("progress", {}), bar, cancel);
   try {
     const found = await request;
@@ -31,7 +31,7 @@ export async function awaited<Result>(
     return found;
   } catch (error) {
     const text = error instanceof Cancelled ? t("Cancelled.") : (error as Error).message;
-    renew(place, h("span", { class: "error", role: "alert" }, text));
+    renew(place, h("span.error", { role: "alert" }, text));
     return null;
   }
 }

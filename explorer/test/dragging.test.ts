@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { applyDocument, documentOf } from "../src/document";
 import { Dragging } from "../src/dragging";
+import { type Distance, kept } from "../src/keeping";
 import { Linkage, Refused } from "../src/linkage";
 import { onCircle } from "../src/wheels";
 import { A, B, C, CRANK_ROCKER, D, fourBar, sliderCrank } from "./fourbar";
@@ -142,4 +143,81 @@ test("a damaged document is refused, and nothing is changed", () => {
     assert.deepEqual(documentOf(linkage), before);
     close(linkage.drives[0]!, Math.PI / 2);
   }
+});
+
+/** A four-bar with its crank upright, of which lengths are kept: 0 frame, 1 crank, 2 coupler, 3 rocker. */
+function keeping(...lengths: number[]): { linkage: Linkage; dragging: Dragging } {
+  const { linkage, dragging } = upright();
+  const all = dragging.lengths();
+  for (const k of lengths) dragging.keep(all[k]!.first, all[k]!.second);
+  return { linkage, dragging };
+}
+
+test("a length that is kept takes the neighbours of a dragged joint along", () => {
+  const { linkage, dragging } = keeping(1, 2); // crank and coupler
+  dragging.hold(A);
+  dragging.hold(D);
+  const [, , c] = JOINTS.map((joint) => linkage.jointAt(joint));
+  dragging.dragJoint(C, c![0] + 3, c![1] - 2);
+  const [a, b, now, d] = JOINTS.map((joint) => linkage.jointAt(joint)) as [number, number][];
+  near([...a!, ...d!], [0, 0, 70, 0]);
+  near(now!, [c![0] + 3, c![1] - 2]);
+  close(Math.hypot(...b!), 25); // B: where the circles of 25 about A and 70 about C meet
+  close(Math.hypot(now![0] - b![0], now![1] - b![1]), 70);
+  const [frame, crank, coupler] = lengthsOf(dragging);
+  assert.deepEqual([frame, crank, coupler], [70, 25, 70]); // to the bit: whole links are carried
+});
+
+test("all lengths kept, a joint pulled beyond its reach ends on its circle, and the linkage moves", () => {
+  const { linkage, dragging } = keeping(0, 1, 2, 3);
+  dragging.hold(A);
+  dragging.hold(D);
+  dragging.dragJoint(B, 40, 30);
+  near(linkage.jointAt(B), [20, 15], 1e-5); // the nearest place on the circle of 25
+  close(linkage.drives[0]!, Math.atan2(15, 20), 1e-6);
+  assert.deepEqual(lengthsOf(dragging), [70, 25, 70, 40]);
+  near(linkage.jointAt(D), [70, 0]);
+  assert.ok(!dragging.draggable(A)); // it is held
+  dragging.hold(A);
+  assert.ok(dragging.draggable(A));
+});
+
+test("distances are met with the least moves, also those that follow from others; what is impossible is not", () => {
+  const square: [number, number][] = [
+    [0, 0],
+    [2, 0],
+    [2, 2],
+    [0, 2],
+  ];
+  // one of two free places a unit nearer: each moves half of it
+  near(kept(square.slice(0, 2), [[0, 1, 1]], [1, 1])!.flat(), [0.5, 0, 1.5, 0]);
+  const sides = [0, 1, 2, 3].map((k): Distance => [k, (k + 1) % 4, 2]);
+  const diagonals: Distance[] = [
+    [0, 2, Math.sqrt(8)],
+    [1, 3, Math.sqrt(8)],
+  ]; // six distances of four places: one too many
+  const turned = kept(
+    [
+      [0, 0],
+      [2.1, 0.3],
+      [2, 2],
+      [0, 2],
+    ],
+    [...sides, ...diagonals],
+    [0, 1e-4, 1, 1],
+  )!;
+  for (const [one, two, length] of [...sides, ...diagonals])
+    close(Math.hypot(turned[two]![0] - turned[one]![0], turned[two]![1] - turned[one]![1]), length);
+  assert.equal(
+    kept(
+      square,
+      [
+        [0, 1, 1],
+        [1, 2, 1],
+        [0, 2, 5],
+      ],
+      [1, 1, 1, 1],
+    ),
+    null,
+  ); // no triangle
 });

@@ -97,6 +97,26 @@ def test_a_drag_is_given_up(tab, crank_rocker):
     assert page.page.evaluate(SIZES) == sizes
 
 
+def test_lengths_and_joints_are_kept_while_others_are_dragged(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    for number in (1, 2):  # crank and coupler
+        page.page.locator(".lock").nth(number).click()
+    page.page.mouse.dblclick(*page.middle('[data-joint="R(frame-crank)"] .joint'))
+    page.page.locator('[data-joint="R(frame-rocker)"]').press("Enter")
+    held = page.page.locator('[aria-pressed="true"][data-joint]')
+    assert held.count() == 2
+    joints = "[0, 3].map((joint) => gruebler.motion.linkage.jointAt(joint))"
+    before = page.page.evaluate(joints)
+    page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (-40, -30))
+    frame, crank, coupler, rocker = page.page.evaluate(SIZES)
+    assert (frame, crank, coupler) == (70, 25, 70)
+    assert rocker > 41
+    assert page.page.evaluate(joints) == before
+    page.page.keyboard.press("Control+z")
+    assert page.page.evaluate(SIZES) == [70, 25, 70, 40]
+    assert held.count() == 2
+
+
 def test_the_focus_stays_and_the_panel_does_not_jump(tab, server):
     page = tab(height=500).open(server.address)
     note = f"{ROOT}.querySelector('[data-panel=\"measures\"] .note').textContent"

@@ -447,7 +447,9 @@ def test_links_have_the_names_of_the_language(tab, server):
     page.until(f"{side}.textContent.includes('Der Abtrieb Schwinge schwingt')")
     names = page.page.locator(".stage text.name").all_text_contents()
     assert sorted(names) == ["Koppel", "Kurbel", "Schwinge"]
-    assert "Schwinge Koppel – Gestell" in page.page.locator('[data-panel="sizes"]').inner_text()
+    rows = page.page.locator('[data-panel="sizes"] label')
+    assert rows.nth(3).get_attribute("title") == "Schwinge: Koppel – Gestell"
+    assert rows.all_inner_texts() == ["Gestell", "Kurbel", "Koppel", "Schwinge"]
     assert "rocker" in page.page.evaluate("JSON.stringify(gruebler.motion.document())")
     page.page.locator("header select").select_option("en")
     page.until(f"{side}.textContent.includes('The output rocker swings')")
