@@ -103,22 +103,13 @@ export function transmission(linkage: Linkage, rows: Rows, row: number): number 
 
 /** Cosine and sine between the force of a leg and the way of the point on which it acts. */
 function forceAndWay(linkage: Linkage, rows: Rows, row: number, leg: Leg): Pair {
-  const outer = legPlace(linkage, rows, row, leg.outer);
-  const inner = legPlace(linkage, rows, row, leg.inner);
-  const acts = leg.form === "RP" ? outer : inner;
-  let [fx, fy] = [inner.x - outer.x, inner.y - outer.y];
-  if (leg.form === "RP") [fx, fy] = [-inner.ly, inner.lx];
-  else if (leg.form === "PR") [fx, fy] = [-outer.ly, outer.lx];
-  let wx: number;
-  let wy: number;
-  if (leg.guide) {
-    const [kind, ...at] = leg.guide;
-    const held = legPlace(linkage, rows, row, at);
-    [wx, wy] = kind === "P" ? [held.lx, held.ly] : [held.y - acts.y, acts.x - held.x];
-  } else {
-    const from = leg.form === "RP" ? leg.outer : leg.inner;
-    [wx, wy] = wayOf(linkage, rows, row, leg.pushed, [acts.x, acts.y], from);
-  }
+  const { across, guide, pushed } = leg;
+  const from = legPlace(linkage, rows, row, leg.from);
+  const pin = legPlace(linkage, rows, row, leg.pin);
+  const [fx, fy] = across ? [-from.ly, from.lx] : [pin.x - from.x, pin.y - from.y];
+  const held = guide && legPlace(linkage, rows, row, guide.at);
+  let [wx, wy] = held ? [held.lx, held.ly] : wayOf(linkage, rows, row, pushed, [pin.x, pin.y], leg.pin);
+  if (held && !guide.slides) [wx, wy] = [held.y - pin.y, pin.x - held.x];
   const length = Math.hypot(fx, fy) * Math.hypot(wx, wy);
   return [(fx * wx + fy * wy) / length, (fx * wy - fy * wx) / length];
 }

@@ -25,12 +25,14 @@ export interface PointRecord {
 /** Link, point, direction, number of the plan's element (-1: none). */
 export type Place = [number, number, number, number, number, number];
 
+/** A link that pushes another: across a slide, or from one pin along the line to the other. */
 export interface Leg {
-  form: string;
-  outer: Place;
-  inner: Place;
+  from: Place;
+  across: boolean;
+  pin: Place;
   pushed: number;
-  guide: ["R" | "P", ...Place] | null;
+  /** The joint by which the link that is pushed hangs on the frame, if it is one. */
+  guide: { slides: boolean; at: Place } | null;
 }
 
 export interface OutputRecord {

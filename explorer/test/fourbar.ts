@@ -131,11 +131,11 @@ export function fourBar(lengths: Lengths, theta: number): Model {
         joint: null,
         legs: [
           {
-            form: "RR",
-            outer: [COUPLER, 0, 0, 1, 0, 3],
-            inner: [COUPLER, coupler, 0, 1, 0, 4],
+            from: [COUPLER, 0, 0, 1, 0, 3],
+            across: false,
+            pin: [COUPLER, coupler, 0, 1, 0, 4],
             pushed: ROCKER,
-            guide: ["R", 0, frame, 0, 1, 0, 6],
+            guide: { slides: false, at: [0, frame, 0, 1, 0, 6] },
           },
         ],
         note: {},
@@ -161,6 +161,6 @@ export function sliderCrank(crank: number, rod: number, line: number, theta: num
   model.groups[0]!.form = "RRP";
   const output = model.outputs[0]!;
   output.joint = D;
-  output.legs[0]!.guide = ["P", 0, 0, 0, 1, 0, 6];
+  output.legs[0]!.guide = { slides: true, at: [0, 0, 0, 1, 0, 6] };
   return model;
 }

@@ -6,10 +6,10 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import LANGUAGES, translate
 from gruebler.cli.linkage_inputs import linkage_of_lengths
 from gruebler.cli.point_inputs import point_of
-from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 
 
-def coupler_point(size: FourBar | SliderCrank | InvertedSliderCrank, text: str) -> tuple[float, float]:
+def coupler_point(size: ClosedForm, text: str) -> tuple[float, float]:
     """The coordinates of a point of the coupler: U along it from the crank, V to its left; links in any language.
 
     >>> coupler_point(FourBar(25, 70, 40, 70), "45,40"), coupler_point(FourBar(25, 70, 40, 70), "R(coupler-rocker)")

@@ -14,8 +14,7 @@ from gruebler.cli.linkage_inputs import linkage_of_word, with_points
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
-from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.fourbar.length_texts import size_of
+from gruebler.mechanics.fourbar.length_texts import ClosedForm, size_of
 from gruebler.mechanics.geometry.lever_contact import lever_pose
 from gruebler.mechanics.geometry.roberts import Cognate, all_cognates
 
@@ -36,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _given(
     arguments: argparse.Namespace,
-) -> tuple[FourBar | SliderCrank | InvertedSliderCrank, float, float, str | None, float | None]:
+) -> tuple[ClosedForm, float, float, str | None, float | None]:
     """The linkage by its lengths, the coupler point, the assembly mode, and the crank angle of the pose."""
     size = size_of(arguments.linkage)
     if size is not None:

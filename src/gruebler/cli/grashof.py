@@ -12,9 +12,9 @@ from gruebler.base.text import message, number, translate
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
-from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.fourbar.four_bar_types import LengthRange, turning_ranges, types_along
-from gruebler.mechanics.fourbar.length_texts import size_of
+from gruebler.mechanics.fourbar.length_texts import ClosedForm, size_of
 
 _HEADERS = (message("from"), message("to"), message("type"), message("below"), message("above"))
 
@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0 if turning else 1
 
 
-def _four_lengths(size: FourBar | SliderCrank | InvertedSliderCrank) -> list[float]:
+def _four_lengths(size: ClosedForm) -> list[float]:
     if not isinstance(size, FourBar):
         raise GrueblerError("--free goes with the lengths of a four-bar")
     return [size.a, size.b, size.c, size.d]
@@ -135,15 +135,15 @@ def _range_item(part: LengthRange) -> dict[str, object]:
     }
 
 
-def _document(size: FourBar | SliderCrank | InvertedSliderCrank) -> dict[str, object]:
+def _document(size: ClosedForm) -> dict[str, object]:
     document: dict[str, object] = {
         **size.named,
         "type": size.type.key,
         "english": size.type.name("en"),
         "german": size.type.name("de"),
     }
-    if (grashof := getattr(size, "grashof", None)) is not None:
-        document |= plain(grashof, "condition excess shortest")
+    if size.grashof is not None:
+        document |= plain(size.grashof, "condition excess shortest")
     document |= plain(size, "turning limits_deg")
     if (centres := size.dead_centres) is not None:
         name, travel = ("stroke", centres.travel) if size.output_slides else ("swing_deg", math.degrees(centres.travel))

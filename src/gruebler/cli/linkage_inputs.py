@@ -12,8 +12,7 @@ from gruebler.base.text import Message, translate
 from gruebler.cli.left_out import say_left_out
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
-from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.fourbar.length_texts import LENGTH_FORMS, LENGTH_KINDS, size_of
+from gruebler.mechanics.fourbar.length_texts import LENGTH_FORMS, LENGTH_KINDS, ClosedForm, size_of
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
@@ -32,7 +31,7 @@ def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
     return linkage
 
 
-def linkage_of_lengths(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str = "en") -> Linkage:
+def linkage_of_lengths(size: ClosedForm, lang: str = "en") -> Linkage:
     """The linkage of given lengths, its links by their names in a language.
 
     >>> linkage_of_lengths(FourBar(25, 70, 40, 70), "de").mechanism.chain.links

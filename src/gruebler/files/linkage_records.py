@@ -20,7 +20,8 @@ from gruebler.files.angles import in_degrees
 from gruebler.files.element_records import in_short, read_element_table, read_numbers
 from gruebler.mechanics.fourbar.four_bar import FourBar
 from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
-from gruebler.mechanics.fourbar.length_forms import ClosedForm, linkage_on_mechanism
+from gruebler.mechanics.fourbar.length_forms import linkage_on_mechanism
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 from gruebler.mechanics.fourbar.slider_crank import SliderCrank
 from gruebler.mechanics.linkages.elements import Outline, Pose2D
 from gruebler.mechanics.linkages.model import Linkage

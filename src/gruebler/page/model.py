@@ -246,11 +246,11 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
 
     record["legs"] = [
         {
-            "form": leg.form,
-            "outer": place(leg.outer),
-            "inner": place(leg.inner),
+            "from": place(leg.slide or leg.outer),
+            "across": leg.slide is not None,
+            "pin": place(leg.pin),
             "pushed": index(leg.pushed),
-            "guide": None if leg.guide is None else [leg.guide[0].symbol(), *place(leg.guide[1])],
+            "guide": None if leg.guide is None else {"slides": leg.guide[0].is_sliding, "at": place(leg.guide[1])},
         }
         for leg in legs
     ]

@@ -19,6 +19,7 @@ from gruebler.base.text import Message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, GuidingDyad
 from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import branch_of_side
@@ -42,7 +43,7 @@ class Coordination:
     side: int
     """The side of the first pair: 1 on the branch ``+``, -1 on ``-``."""
 
-    def linkage(self) -> FourBar | SliderCrank | InvertedSliderCrank:
+    def linkage(self) -> ClosedForm:
         """The linkage by its usual lengths."""
         return self.row.size(*self.lengths)
 
@@ -142,7 +143,7 @@ class CoordinationKind:
 
     name: str
     _: KW_ONLY
-    size: Callable[..., FourBar | SliderCrank | InvertedSliderCrank]
+    size: Callable[..., ClosedForm]
     names: str
     """Of its lengths, a letter each."""
     output: str

@@ -9,7 +9,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.fourbar.four_bar import FourBar
 from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
-from gruebler.mechanics.fourbar.length_forms import ClosedForm
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 from gruebler.mechanics.fourbar.slider_crank import SliderCrank
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism

@@ -113,6 +113,10 @@ class InvertedSliderCrank(Lengths):
         return INVERTED_SLIDER_CRANK_TYPES[offset_relation(self.e, a=self.a, d=self.d)]
 
     @property
+    def grashof(self) -> None:
+        """None: Grashof's condition is for four-bars."""
+
+    @property
     def turning(self) -> tuple[str, ...]:
         """The links that turn fully against the frame: ``a`` the crank, ``guide``."""
         relation, shorter = offset_relation(self.e, a=self.a, d=self.d)

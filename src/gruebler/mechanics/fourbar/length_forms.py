@@ -5,14 +5,10 @@ from __future__ import annotations
 from itertools import pairwise
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.fourbar.four_bar import FourBar
-from gruebler.mechanics.fourbar.inverted_slider_crank import InvertedSliderCrank
-from gruebler.mechanics.fourbar.slider_crank import SliderCrank
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.structure.mechanism import Mechanism
-
-ClosedForm = FourBar | SliderCrank | InvertedSliderCrank
 
 
 def linkage_on_mechanism(

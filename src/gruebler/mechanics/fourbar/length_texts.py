@@ -12,7 +12,10 @@ from gruebler.mechanics.fourbar.slider_crank import SliderCrank
 
 _BARE = re.compile(r"[-+.\deE]+(,[-+.\deE]+){3}")
 
-LENGTH_KINDS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {
+ClosedForm = FourBar | SliderCrank | InvertedSliderCrank
+"""A linkage of a few lengths in closed form."""
+
+LENGTH_KINDS: dict[str, tuple[str, int, Callable[..., ClosedForm]]] = {
     "four-bar": ("a,b,c,d", 4, FourBar),
     "slider-crank": ("a,b[,e]", 2, SliderCrank),
     "inverted-slider-crank": ("a,d[,e]", 2, InvertedSliderCrank),
@@ -26,7 +29,7 @@ def is_lengths(word: str) -> bool:
     return kind in LENGTH_KINDS if colon else _BARE.fullmatch(word) is not None
 
 
-def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
+def size_of(word: str) -> ClosedForm | None:
     """The linkage of a kind and its lengths, or of the four lengths of a four-bar; None for any other word.
 
     >>> size_of("slider-crank:25,70"), size_of("25,70,40,70"), size_of("lambda")

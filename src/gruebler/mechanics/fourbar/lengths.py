@@ -13,7 +13,7 @@ from gruebler.base.notebook import explained
 from gruebler.base.text import joined_by_or, message
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion
 from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres
-from gruebler.mechanics.fourbar.four_bar_types import NOT_ASSEMBLABLE, LinkageType
+from gruebler.mechanics.fourbar.four_bar_types import NOT_ASSEMBLABLE, Grashof, LinkageType
 from gruebler.mechanics.linkages.model import Linkage
 
 
@@ -49,6 +49,16 @@ class Lengths(ABC):
     @abstractmethod
     def condition(self, lang: str = "en") -> str:
         """What it is by its lengths, and what turns fully, in a sentence."""
+
+    @property
+    @abstractmethod
+    def grashof(self) -> Grashof | None:
+        """Grashof's condition, which only four-bars have."""
+
+    @property
+    @abstractmethod
+    def turning(self) -> tuple[str, ...]:
+        """The links that turn fully against the frame."""
 
     @property
     @abstractmethod

@@ -182,6 +182,10 @@ class SliderCrank(Lengths):
         return SLIDER_CRANK_TYPES[offset_relation(self.e, a=self.a, b=self.b)]
 
     @property
+    def grashof(self) -> None:
+        """None: Grashof's condition is for four-bars."""
+
+    @property
     def turning(self) -> tuple[str, ...]:
         """The links a, b that turn fully against the frame: the shorter one, if l_min + |e| is at most l_max."""
         return tuple(offset_relation(self.e, a=self.a, b=self.b)[1])

@@ -15,7 +15,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion
-from gruebler.mechanics.fourbar.length_forms import ClosedForm
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch, branch_of_side
 from gruebler.mechanics.linkages.quantities import as_finite, as_numbers

@@ -24,7 +24,7 @@ from gruebler.mechanics.fourbar import (
     LinkageType,
     SliderCrank,
 )
-from gruebler.mechanics.fourbar.length_forms import ClosedForm
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import PAIRS, Alphabet, Contact, Pair

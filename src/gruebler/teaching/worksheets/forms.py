@@ -17,7 +17,7 @@ from gruebler.mechanics.fourbar import (
     double_slide_inversions,
     sized_inversions,
 )
-from gruebler.mechanics.fourbar.length_forms import ClosedForm
+from gruebler.mechanics.fourbar.length_texts import ClosedForm
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.linkage.picture import draw_linkage
