@@ -62,7 +62,7 @@ class Server:
         self.process.wait()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def server(tmp_path_factory) -> Iterator[Server]:
     for name in ("starlette", "uvicorn", "websockets"):
         pytest.importorskip(name, reason=f"the server of the page needs {name}")
