@@ -5,6 +5,9 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 INSTALLED := $(VENV)/.installed
 
+# Each of two workers begins with one half, so that files are not split between them and what they share is made once.
+TESTED := -m pytest -q -n 2 --dist worksteal
+
 .PHONY: help demo test docs messages slow wheel-test test-blas lowest-packages test-lowest test-newest page core test-core \
 	core-sanitize core-sanitize-python torture mutants bench evidence paper clean
 
@@ -56,7 +59,7 @@ test: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -q -n 2
+	$(BIN)/python $(TESTED)
 
 # Any warning stops it. English lies at the root, German in the folder de.
 SPHINX := -m sphinx -q -W --keep-going -b html
@@ -72,7 +75,7 @@ messages: $(READY)
 
 slow: $(READY)
 	$(BIN)/python -m pytest -q -m slow
-	GRUEBLER_NEW_EXAMPLES=1 $(BIN)/python -m pytest -q -n 2
+	GRUEBLER_NEW_EXAMPLES=1 $(BIN)/python $(TESTED)
 
 torture: $(READY)
 	$(BIN)/python -m tests.torture --inputs 5000 --interrupts 200 --kills 300
@@ -92,7 +95,7 @@ wheel-test: $(READY)
 	$(PYTHON) -m venv build/wheel/venv
 	build/wheel/venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps build/wheel/*.whl
 	$(BIN)/python -c '$(SITE)' > "$$(build/wheel/venv/bin/python -c '$(SITE)')/what_it_needs.pth"
-	cd build/wheel && venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
+	cd build/wheel && venv/bin/python $(TESTED) -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
 		$(addprefix ../../tests/,core cli/test_cli.py cli/test_languages.py teaching/exercises/test_tables.py test_front_door.py)
 
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise; `make test` has those that
@@ -102,7 +105,7 @@ NUMERIC := $(addprefix tests/,machines mechanics design/realisation $(addprefix 
 test-blas: $(READY)
 	for core in $$($(BIN)/python .ci/blas_core.py); do \
 		echo "OpenBLAS with the kernels for $$core"; \
-		OPENBLAS_CORETYPE=$$core $(BIN)/python -m pytest -q -n 2 $(NUMERIC) \
+		OPENBLAS_CORETYPE=$$core $(BIN)/python $(TESTED) $(NUMERIC) \
 			$(addprefix --ignore=,$(LEFT_OUT)) || exit 1; done
 
 # What other versions of Python and of the packages could break, in a few minutes; BROAD=tests runs everything.
@@ -122,14 +125,14 @@ lowest-packages:
 test-lowest: lowest-packages
 	build/lowest/venv/bin/python -m pip install --quiet --disable-pip-version-check -e ".[test]" \
 		-c build/lowest/constraints.txt
-	build/lowest/venv/bin/python -m pytest -q -n 2 $(BROAD) $(EXTRAS)
+	build/lowest/venv/bin/python $(TESTED) $(BROAD) $(EXTRAS)
 
 NEWEST_DIR = build/newest/$(shell $(NEWEST) -c "import sys; print('%d.%d' % sys.version_info[:2])")
 test-newest:
 	@mkdir -p $(NEWEST_DIR)
 	@test -x $(NEWEST_DIR)/venv/bin/python || $(NEWEST) -m venv $(NEWEST_DIR)/venv
 	$(NEWEST_DIR)/venv/bin/python -m pip install --quiet --disable-pip-version-check --upgrade -e ".[test]"
-	$(NEWEST_DIR)/venv/bin/python -m pytest -q -n 2 $(BROAD)
+	$(NEWEST_DIR)/venv/bin/python $(TESTED) $(BROAD)
 
 # For work on the C++ kernels: without pip's detour it takes as long as the compiler. The tools alone, so that the package
 # may be in use meanwhile.
@@ -177,7 +180,7 @@ core-sanitize-python: $(READY) $(VENV)/.core
 	rm -f $(SANITIZED)/gruebler/_core*.so
 	$(CORE) --install $(SANITIZED) >/dev/null
 	LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
-		PYTHONPATH=$(CURDIR)/$(SANITIZED) $(BIN)/python -m pytest -q -n 2 $(addprefix tests/,core mechanics/kinematics \
+		PYTHONPATH=$(CURDIR)/$(SANITIZED) $(BIN)/python $(TESTED) $(addprefix tests/,core mechanics/kinematics \
 		structure/enumeration structure/isomorphism structure/atlas)
 
 bench: $(READY)
