@@ -156,3 +156,10 @@ def test_every_place_has_the_same_version():
     changes = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert changes[0] == "[Unreleased]"
     assert changes[1].startswith(f"[{gr.__version__}] - 20")
+
+
+def test_changes_stand_in_the_order_of_keep_a_changelog():
+    order = ["Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"]
+    for version in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").split("\n## ")[1:]:
+        titles = re.findall(r"^### (.*)$", version, re.MULTILINE)
+        assert titles == [title for title in order if title in titles]
