@@ -8,8 +8,8 @@ INSTALLED := $(VENV)/.installed
 # Each of two workers begins with one half, so that files are not split between them and what they share is made once.
 TESTED := -m pytest -q -n 2 --dist worksteal
 
-.PHONY: help demo test docs messages slow wheel-test test-blas lowest-packages test-lowest test-newest page core test-core \
-	core-sanitize core-sanitize-python torture mutants bench evidence paper clean
+.PHONY: help demo test lint fast docs messages slow wheel-test test-blas lowest-packages test-lowest test-newest \
+	page core test-core core-sanitize core-sanitize-python torture mutants bench evidence paper clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -55,10 +55,14 @@ $(VENV)/.docs: pyproject.toml
 demo: $(INSTALLED)
 	@$(BIN)/gruebler demo
 
-test: $(READY)
+test: lint fast
+
+lint: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+
+fast: $(READY)
 	$(BIN)/python $(TESTED)
 
 # Any warning stops it. English lies at the root, German in the folder de.
