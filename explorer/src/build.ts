@@ -7,13 +7,17 @@ import {
   documentOfDrawing,
   driven,
   EMPTY,
+  isPin,
   joined,
+  lengthsOf,
   linksOf,
   moved,
   renamed,
   type Spot,
   split,
+  withCylinder,
   withDyad,
+  withGears,
   withGround,
   withLink,
   without,
@@ -27,14 +31,24 @@ import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
 import { outlineOf, type Plane, planePicture } from "./plane";
 import type { Pair } from "./rows";
+import { snapped } from "./snapping";
 import type { Page, View } from "./view";
 import { Viewport } from "./viewport";
 
-type Tool = "move" | "ground" | "link" | "slider" | "dyad";
-const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3 };
-const KEYS: Record<string, Tool> = { v: "move", g: "ground", l: "link", s: "slider", d: "dyad" };
+type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears";
+const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3, cylinder: 2, gears: 3 };
+const KEYS: Record<string, Tool> = {
+  v: "move",
+  g: "ground",
+  l: "link",
+  s: "slider",
+  d: "dyad",
+  c: "cylinder",
+  w: "gears",
+};
 const WAYS: Record<string, Pair> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const GRIP = 16; // pixels
+const SNAP = 7;
 const KEPT = "gruebler-drawing";
 
 export class BuildView implements View, Plane, Drawn {
@@ -92,7 +106,8 @@ export class BuildView implements View, Plane, Drawn {
           "aria-pressed": String(key === this.tool),
           onclick: () => this.take(key),
         },
-        `${text} (${letter})`,
+        text,
+        h("span.letter", {}, ` (${letter})`),
       );
     renew(
       this.tools,
@@ -101,6 +116,8 @@ export class BuildView implements View, Plane, Drawn {
       tool("link", t("Link"), "L"),
       tool("slider", t("Slider"), "S"),
       tool("dyad", t("Dyad"), "D"),
+      tool("cylinder", t("Cylinder"), "C"),
+      tool("gears", t("Gear pair"), "W"),
     );
     const snap = h("input", {
       type: "checkbox",
@@ -114,13 +131,14 @@ export class BuildView implements View, Plane, Drawn {
       h(
         "section.panel.options",
         {},
-        h("label", {}, snap, t("Snap to the grid")),
+        h("label", {}, snap, t("Snap")),
         h(
           "p.note",
           {},
           t(
-            "Ground, slider: one click. Link: two clicks. Dyad: end, middle, end. Ends meet what is near them. " +
-              "With Shift links are level or upright. Keys: arrows and Enter.",
+            "Ground, slider: one click. Link, cylinder: two clicks. Dyad: end, middle, end. Gear pair: both centres, " +
+              "then where they touch. Ends meet what is near them, and stop in line with others, at round angles and " +
+              "at lengths of other links. With Shift links are level or upright. Keys: arrows and Enter.",
           ),
         ),
         h("button.plain", { "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
@@ -193,6 +211,8 @@ export class BuildView implements View, Plane, Drawn {
     const [one, two, three] = spots as [Spot, Spot, Spot];
     if (tool === "ground") this.change(withGround(drawing, one));
     else if (tool === "slider") this.change(withSlider(drawing, one));
+    else if (tool === "gears") this.change(same(one, two) ? null : withGears(drawing, one, two, three.at));
+    else if (tool === "cylinder") this.change(same(one, two) ? null : withCylinder(drawing, one, two));
     else if (tool === "link") this.change(same(one, two) ? null : withLink(drawing, one, two));
     else if (tool === "dyad")
       this.change(same(one, two) || same(two, three) ? null : withDyad(drawing, one, two, three));
@@ -213,10 +233,17 @@ export class BuildView implements View, Plane, Drawn {
       const [px, py] = viewport.screen(...at);
       if (k !== but && Math.hypot(px - x, py - y) < least) [knot, least] = [k, Math.hypot(px - x, py - y)];
     });
-    let [u, v] = viewport.world(x, y);
-    const step = this.step / 5;
-    if (this.snapping) [u, v] = [step * Math.round(u / step), step * Math.round(v / step)];
     const last = this.spots.at(-1);
+    const pins = drawing.knots.filter((one, k) => isPin(one) && k !== but);
+    let [u, v] = viewport.world(x, y);
+    if (this.snapping)
+      [u, v] = snapped([u, v], {
+        places: [...pins, ...this.spots].map(({ at }) => at),
+        from: last?.at,
+        lengths: lengthsOf(drawing),
+        grid: this.step / 5,
+        reach: SNAP / viewport.scale,
+      });
     if (upright && last) {
       if (Math.abs(u - last.at[0]) > Math.abs(v - last.at[1])) v = last.at[1];
       else u = last.at[0];
@@ -339,8 +366,9 @@ export class BuildView implements View, Plane, Drawn {
       const is = drawing.drives.includes(chosen.knot);
       parts.unshift(
         button("drive", is ? t("Not driven") : t("Drive"), () => this.change(driven(drawing, chosen.knot))),
-        button("split", t("Split"), () => this.change(split(drawing, chosen.knot, this.step / 2))),
       );
+      if (isPin(drawing.knots[chosen.knot]!))
+        parts.push(button("split", t("Split"), () => this.change(split(drawing, chosen.knot, this.step / 2))));
     }
     renew(this.choice, h("p.note", {}, links.join(" – ")), h("div.form", {}, ...parts));
   }

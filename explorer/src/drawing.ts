@@ -11,6 +11,10 @@ export interface Knot {
   readonly links: readonly string[];
   /** Of a slide its direction, in degrees; joints that turn have none. */
   readonly slide?: number;
+  /** Of a cylinder the ends of its two links, of gears their centres. */
+  readonly between?: readonly [Pair, Pair];
+  /** Of gears: where between the centres they touch, as a part of the distance. */
+  readonly part?: number;
 }
 
 export interface Drawing {
@@ -40,9 +44,15 @@ export function jointsOf({ knots }: Drawing): number[] {
   return [...knots.keys()].filter((k) => knots[k]!.links.length > 1);
 }
 
-/** The formula of Grübler: each joint of k links takes 2(k - 1) freedoms. */
+/** Whether links turn about a knot. */
+export function isPin({ between, slide }: Knot): boolean {
+  return slide === undefined && !between;
+}
+
+/** The formula of Grübler: each joint of k links takes 2(k - 1) freedoms, teeth that mesh one. */
 export function counted(drawing: Drawing): number {
-  const taken = jointsOf(drawing).reduce((sum, k) => sum + 2 * (drawing.knots[k]!.links.length - 1), 0);
+  const takes = ({ links, part }: Knot) => (part === undefined ? 2 * (links.length - 1) : 1);
+  const taken = jointsOf(drawing).reduce((sum, k) => sum + takes(drawing.knots[k]!), 0);
   return 3 * (linksOf(drawing).length - 1) - taken;
 }
 
@@ -101,17 +111,67 @@ export function withSlider(drawing: Drawing, spot: Spot, slide = 0): Drawing {
   return { ...made, knots: [...made.knots, { at, links: [frame, block], slide }] };
 }
 
-/** Move a knot, and what lies at the same place, such as the slide of a block. */
+/** Two links of which one slides along the other, from one spot to another. */
+export function withCylinder(drawing: Drawing, from: Spot, to: Spot): Drawing {
+  const one = nextName(drawing);
+  const half = reaching(drawing, from, one);
+  const two = nextName(half);
+  const made = reaching(half, to, two);
+  return { ...made, knots: [...made.knots, placed({ at: to.at, links: [one, two], between: [from.at, to.at] })] };
+}
+
+/** Two gears about two spots that touch beside a place; null where both are the same link. */
+export function withGears(drawing: Drawing, one: Spot, two: Spot, touch: Pair): Drawing | null {
+  const [first, a] = withWheel(drawing, one);
+  const [made, b] = withWheel(first, two);
+  const between: [Pair, Pair] = [one.at, two.at];
+  const gears = placed({ at: touch, links: [a, b], between, part: partOf(between, touch) });
+  return a === b ? null : { ...made, knots: [...made.knots, gears] };
+}
+
+/** The link of a wheel about a spot: one that turns there already, else another one, on the ground if on nothing. */
+function withWheel(drawing: Drawing, spot: Spot): [Drawing, string] {
+  const links = spot.knot === null ? [] : drawing.knots[spot.knot]!.links;
+  const here = links.filter((link) => link !== drawing.frame).at(-1);
+  if (here !== undefined) return [drawing, here];
+  const name = nextName(drawing);
+  if (spot.knot !== null || spot.link !== null) return [reaching(drawing, spot, name), name];
+  const grounded = withGround(drawing, spot);
+  return [reaching(grounded, { ...spot, knot: grounded.knots.length - 1 }, name), name];
+}
+
+/** A cylinder or gears where their ends or centres have them. */
+function placed(knot: Knot): Knot {
+  const { between, part = 0.5 } = knot;
+  if (!between) return knot;
+  const [[x, y], [u, v]] = between;
+  return { ...knot, at: [x + part * (u - x), y + part * (v - y)] };
+}
+
+function partOf([[x, y], [u, v]]: readonly [Pair, Pair], [px, py]: Pair): number {
+  const part = ((px - x) * (u - x) + (py - y) * (v - y)) / ((u - x) ** 2 + (v - y) ** 2);
+  return Math.min(0.95, Math.max(0.05, part));
+}
+
+/** Move a knot, and what lies at the same place, such as the slide of a block; gears get another ratio. */
 export function moved(drawing: Drawing, number: number, at: Pair): Drawing {
   const [x, y] = drawing.knots[number]!.at;
-  const same = (knot: Knot) => knot.at[0] === x && knot.at[1] === y;
-  return { ...drawing, knots: drawing.knots.map((knot) => (same(knot) ? { ...knot, at } : knot)) };
+  const here = (place: Pair) => place[0] === x && place[1] === y;
+  const to = (place: Pair) => (here(place) ? at : place);
+  const knots = drawing.knots.map((knot, k) => {
+    const { between, part } = knot;
+    if (!between) return { ...knot, at: to(knot.at) };
+    if (k === number) return placed(part === undefined ? knot : { ...knot, part: partOf(between, at) });
+    return placed({ ...knot, between: [to(between[0]), to(between[1])] });
+  });
+  return { ...drawing, knots };
 }
 
 /** One joint out of two knots; null where a link would meet itself. */
-export function joined(drawing: Drawing, one: number, other: number): Drawing | null {
+export function joined(before: Drawing, one: number, other: number): Drawing | null {
+  const drawing = moved(before, one, before.knots[other]!.at);
   const [first, second] = [drawing.knots[one]!, drawing.knots[other]!];
-  if (one === other || first.slide !== undefined || second.slide !== undefined) return null;
+  if (one === other || !isPin(first) || !isPin(second)) return null;
   if (first.links.some((link) => second.links.includes(link))) return null;
   const links = [...second.links, ...first.links];
   return without({ ...drawing, knots: replaced(drawing.knots, other, { ...second, links }) }, one);
@@ -138,7 +198,7 @@ export function withoutLink(drawing: Drawing, link: string): Drawing {
     const knot = drawing.knots[k]!;
     if (!knot.links.includes(link)) continue;
     const links = knot.links.filter((one) => one !== link);
-    if (links.length === 0 || knot.slide !== undefined) out = without(out, k);
+    if (links.length === 0 || !isPin(knot)) out = without(out, k);
     else {
       const drives = links.length > 1 ? out.drives : out.drives.filter((one) => one !== k);
       out = { ...out, drives, knots: replaced(out.knots, k, { ...knot, links }) };
@@ -164,10 +224,19 @@ export function driven(drawing: Drawing, number: number): Drawing {
   return { ...drawing, drives: drives.includes(number) ? drives.filter((k) => k !== number) : [...drives, number] };
 }
 
+/** The distances of the joints of links that have two. */
+export function lengthsOf(drawing: Drawing): number[] {
+  return linksOf(drawing).flatMap((link) => {
+    const [one, two, three] = drawing.knots.filter((knot) => knot.links.includes(link) && isPin(knot));
+    return one && two && !three ? [Math.hypot(two.at[0] - one.at[0], two.at[1] - one.at[1])] : [];
+  });
+}
+
 /** What a joint is called in the text of the chain. */
 export function jointName({ knots }: Drawing, number: number): string {
-  const { links, slide } = knots[number]!;
-  return `${slide === undefined ? "R" : "P"}(${links.join("-")})`;
+  const knot = knots[number]!;
+  const sign = knot.part === undefined ? "P" : "G";
+  return `${isPin(knot) ? "R" : sign}(${knot.links.join("-")})`;
 }
 
 /** The document of the linkage, which the library reads; open ends are named points of their links. */
@@ -183,10 +252,20 @@ export function documentOfDrawing(drawing: Drawing, unit: string): LinkageDocume
     drives: drawing.drives.map(name),
     places: Object.fromEntries(
       joints.map((k) => {
-        const { at, slide } = drawing.knots[k]!;
-        return [name(k), slide === undefined ? [...at] : [...at, slide]];
+        return [name(k), placeOf(drawing.knots[k]!)];
       }),
     ),
     points: Object.fromEntries(ends.map(({ at, links }, k) => [`K${k + 1}`, { link: links[0]!, at: [...at] }])),
   };
+}
+
+/** Where a joint lies, as the document has it: a pin, a slide with its direction, two wheels with their radii. */
+function placeOf({ at, between, links, part, slide }: Knot): unknown {
+  if (!between) return slide === undefined ? [...at] : [...at, slide];
+  const [from, to] = between;
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  if (part === undefined) return [...from, (Math.atan2(dy, dx) * 180) / Math.PI];
+  const far = Math.hypot(dx, dy);
+  const radii = [part * far, far - part * far];
+  return Object.fromEntries(links.map((link, k) => [link, { at: [...between[k]!], radius: radii[k] }]));
 }

@@ -1,10 +1,11 @@
 /** The plane on which a mechanism is drawn: its picture, with a grid. */
 
 import { svg } from "./dom";
-import { type Drawing, linksOf, type Spot } from "./drawing";
+import { type Drawing, isPin, type Knot, linksOf, type Spot } from "./drawing";
 import { convexHull } from "./hull";
-import { number } from "./language";
+import { angle, number } from "./language";
 import type { Pair } from "./rows";
+import { guidelines } from "./snapping";
 import type { Viewport } from "./viewport";
 
 export interface Plane {
@@ -20,7 +21,7 @@ export interface Plane {
 
 /** The hull of the knots of a link, in pixels. */
 export function outlineOf({ drawing, viewport }: Pick<Plane, "drawing" | "viewport">, link: string): Pair[] {
-  const mine = drawing.knots.filter(({ links, slide }) => links.includes(link) && slide === undefined);
+  const mine = drawing.knots.filter((knot) => knot.links.includes(link) && isPin(knot));
   return convexHull(mine.map(({ at }) => viewport.screen(...at)));
 }
 
@@ -44,17 +45,45 @@ export function planePicture(plane: Plane): SVGElement[] {
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
   const waiting = [...spots.map(({ at }) => at), cursor].map((at) => viewport.screen(...at));
   const [cx, cy] = waiting.at(-1)!;
+  const inLine = drawing.knots.filter(isPin).map(({ at }) => at);
+  const guides = guidelines(cursor, [...inLine, ...spots.map(({ at }) => at)]);
+  const last = spots.at(-1);
+  const [dx, dy] = last ? [cursor[0] - last.at[0], cursor[1] - last.at[1]] : [0, 0];
+  const read = dx || dy ? `${number(Math.hypot(dx, dy), 4)} mm, ${angle(Math.atan2(dy, dx), 3)}` : "";
   return [
     ...grid(plane),
+    svg("path.guide", { d: guides.map((ends) => path(ends.map((at) => viewport.screen(...at)))).join("") }),
+    ...knots.filter((_, k) => !isPin(drawing.knots[k]!)),
     ...links,
-    ...knots,
+    ...knots.filter((_, k) => isPin(drawing.knots[k]!)),
     ...(waiting.length > 1 ? [svg("path.pending", { d: path(waiting) })] : []),
+    svg("text.tick", { x: cx + 12, y: cy + 18 }, read),
     svg("path.crosshair", { d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
   ];
 }
 
+/** A cylinder with its rod, or two wheels, from end to end along x; in pixels about where they meet. */
+function alongEnds({ between, part }: Knot, scale: number): SVGElement {
+  const [[x, y], [u, v]] = between!;
+  const [dx, dy] = [u - x, v - y];
+  const long = Math.hypot(dx, dy) * scale;
+  const turned = svg("g", { transform: `rotate(${(-Math.atan2(dy, dx) * 180) / Math.PI})` });
+  if (part === undefined)
+    turned.append(
+      svg("path.bar", { d: `M0 0H${long / 2}` }),
+      svg("rect.block", { x: -long / 2, y: -7, width: 0.6 * long, height: 14, rx: 3 }),
+    );
+  else
+    for (const [r, side] of [
+      [part * long, -1],
+      [(1 - part) * long, 1],
+    ] as const)
+      turned.append(svg("circle.wheel", { cx: side * r, r }));
+  return turned;
+}
+
 function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair): SVGElement {
-  const { links, slide } = drawing.knots[k]!;
+  const { between, links, slide } = drawing.knots[k]!;
   const [x, y] = viewport.screen(...at);
   const classes = ["pin", "free"];
   if (chosen && "knot" in chosen && chosen.knot === k) classes.push("chosen");
@@ -64,13 +93,14 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
     transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
   });
   const ground = drawing.frame !== null && links.includes(drawing.frame);
-  if (slide !== undefined) {
+  if (between) element.append(alongEnds(drawing.knots[k]!, viewport.scale));
+  else if (slide !== undefined) {
     const turned = svg("g", { transform: `rotate(${-slide})` });
     turned.append(svg("path.rail", { d: "M-46 10H46" }), svg("path.rail-hatch", { d: "M-46 15H46" }));
     turned.append(svg("rect.block", { x: -15, y: -9, width: 30, height: 18, rx: 3 }));
     element.append(turned);
   } else if (ground) element.append(svg("path.support", { d: "M0 0 L-11 17 H11 Z M-17 17 H17" }));
-  if (slide === undefined) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
+  if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
   if (drawing.drives.includes(k)) element.append(svg("circle.driven", { r: 12 }));
   return element;
 }

@@ -16,13 +16,17 @@ import {
   renamed,
   type Spot,
   split,
+  withCylinder,
   withDyad,
+  withGears,
   withGround,
   withLink,
   withoutLink,
   withSlider,
 } from "../src/drawing";
 import { setLanguage } from "../src/language";
+import { guidelines, snapped } from "../src/snapping";
+import { near } from "./near";
 
 const place = (x: number, y: number): Spot => ({ at: [x, y], knot: null, link: null });
 const knot = (drawing: Drawing, number: number): Spot => ({ at: drawing.knots[number]!.at, knot: number, link: null });
@@ -121,4 +125,57 @@ test("the ground has the name of the language in which it is drawn", () => {
   assert.equal(drawn.frame, "Gestell");
   assert.equal(withGround(drawn, place(9, 0)).frame, "Gestell");
   assert.equal(fourBar().frame, "frame");
+});
+
+test("a cylinder pushes a lever: four links, F = 1", () => {
+  const lever = withLink(withGround(EMPTY, place(0, 0)), { at: [0, 0], knot: 0, link: null }, place(10, 40));
+  const base = withGround(lever, place(60, 0));
+  const drawing = withCylinder(base, knot(base, 2), knot(base, 1));
+  assert.equal(counted(drawing), 1); // 3(4 - 1) - 2 * 4
+  const { joints, places } = documentOfDrawing(driven(drawing, 3), "mm") as { joints: string; places: object };
+  assert.equal(joints, "R(frame-1) R(1-3) R(frame-2) P(2-3)");
+  near((places as Record<string, number[]>)["P(2-3)"]!, [60, 0, (Math.atan2(40, -50) * 180) / Math.PI]);
+  const other = moved(drawing, 1, [20, 50]); // its end goes along
+  near(other.knots[3]!.between!.flat(), [60, 0, 20, 50]);
+  near(other.knots[3]!.at, [40, 25]);
+  assert.equal(counted(withoutLink(drawing, "2")), 2); // an open chain of the lever and what was its rod: 6 - 4
+});
+
+test("gears touch where they are put: 20 and 40 of 60", () => {
+  const drawing = withGears(EMPTY, place(0, 0), place(60, 0), [22, 7])!;
+  assert.equal(counted(drawing), 1); // 3(3 - 1) - 2 * 2 - 1
+  const wheels = (one: Drawing) => (documentOfDrawing(one, "mm").places as Record<string, unknown>)["G(1-2)"];
+  const touching = moved(drawing, jointsOf(drawing).at(-1)!, [20, -3]);
+  assert.deepEqual(wheels(touching), { "1": { at: [0, 0], radius: 20 }, "2": { at: [60, 0], radius: 40 } });
+  const wider = moved(touching, 1, [90, 0]); // the ratio stays
+  assert.deepEqual(wheels(wider), { "1": { at: [0, 0], radius: 30 }, "2": { at: [90, 0], radius: 60 } });
+  assert.equal(withGears(drawing, knot(drawing, 0), knot(drawing, 0), [1, 0]), null);
+});
+
+test("a place snaps to what is in line, to round angles and known lengths, else to the grid", () => {
+  const around = {
+    places: [
+      [0, 0],
+      [31, 17],
+    ] as [number, number][],
+    from: undefined,
+    lengths: [],
+    grid: 5,
+    reach: 2,
+  };
+  assert.deepEqual(snapped([29.5, 43], around), [31, 45]);
+  assert.deepEqual(snapped([12, 43], around), [10, 45]);
+  const linked = { ...around, places: [], from: [0, 0] as [number, number], lengths: [40] };
+  near(snapped([28, 29], linked), [40 * Math.SQRT1_2, 40 * Math.SQRT1_2]); // 45 degrees, 40 long
+  near(snapped([3, 33], linked), [5, 35]); // 85 degrees, 33 long: neither
+  assert.deepEqual(guidelines([31, 0], around.places), [
+    [
+      [31, 17],
+      [31, 0],
+    ],
+    [
+      [0, 0],
+      [31, 0],
+    ],
+  ]);
 });

@@ -1,11 +1,13 @@
 """A mechanism is drawn on an empty plane in a browser, and what is said of it while it grows."""
 
 import json
+import math
 
 import pytest
 
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.analysis.measuring import measures
+from gruebler.mechanics.kinematics import move
 from gruebler.page.drawings import drawing_record
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility import mobility_report
@@ -112,6 +114,61 @@ def test_a_slider_crank_is_drawn_by_keys_alone(plane):
         "2-3",
         "frame-3",
     ]
+
+
+def test_the_library_takes_cylinders_and_gears_as_they_are_drawn():
+    """The documents of explorer/test/drawing.test.ts; a cylinder is as long as its drive says."""
+    lever = {
+        "unit": "mm",
+        "joints": "R(frame-1) R(1-3) R(frame-2) P(2-3)",
+        "frame": "frame",
+        "drives": ["P(2-3)"],
+        "places": {
+            "R(frame-1)": [0, 0],
+            "R(1-3)": [10, 40],
+            "R(frame-2)": [60, 0],
+            "P(2-3)": [60, 0, math.degrees(math.atan2(40, -50))],
+        },
+    }
+    lengths = [60.0, 64.0]  # from end to end
+    ends = move(linkage_from_json(lever), lengths).point("R(1-3)")
+    assert [math.dist(end, (60, 0)) for end in ends] == pytest.approx(lengths, abs=1e-9)
+    gears = {
+        "unit": "mm",
+        "joints": "R(frame-1) R(frame-2) G(1-2)",
+        "frame": "frame",
+        "drives": ["R(frame-1)"],
+        "places": {
+            "R(frame-1)": [0, 0],
+            "R(frame-2)": [60, 0],
+            "G(1-2)": {"1": {"at": [0, 0], "radius": 20}, "2": {"at": [60, 0], "radius": 40}},
+        },
+    }
+    turns = move(linkage_from_json(gears), [0.0, 1.0]).angle("2")
+    assert turns[1] - turns[0] == pytest.approx(-0.5, abs=1e-12)
+
+
+def test_a_cylinder_is_drawn_and_driven(plane):
+    view = plane.page
+    view.click('[data-tool="ground"]')
+    click(plane, (0, 0), (60, 0))
+    view.keyboard.press("l")
+    click(plane, (0, 0), (12, 40))
+    view.keyboard.press("c")
+    click(plane, (60, 0), (12, 40))
+    (x, y), box = (
+        view.evaluate("gruebler.views.build.viewport.screen(91, 40.6)"),
+        view.locator(".drawing").bounding_box(),
+    )
+    view.mouse.move(box["x"] + x, box["y"] + y)
+    assert view.evaluate("gruebler.views.build.cursor[1]") == 40  # in line with the end of the lever, with a guideline
+    assert view.locator(".guide").get_attribute("d") != ""
+    view.keyboard.press("v")
+    click(plane, (36, 20))  # the middle of the cylinder
+    view.click('[data-act="drive"]')
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.drives[0]?.name === 'P(2-3)'")
+    assert view.evaluate("gruebler.motion.linkage.drive.turning") is False
 
 
 def test_joints_are_joined_split_named_and_removed(plane):
