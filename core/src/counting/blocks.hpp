@@ -1,94 +1,14 @@
 // Where the bundles of a contracted graph stand when their values are counted, and which tests they face.
 //
 // Bundles that the automorphism in question moves are searched, one value for each orbit of them. The others are cut into
-// blocks of at most seven. The assignments of one block whose c adds up to a given sum are at most 393, hence seven words
-// of bits; a critical set leaves of them those with c(X) <= t, X being its bundles in the block and t what everything
-// before has left over: one row of a table. c is written in unary, two bits a lane, so that c(S) is one mask and one
-// population count. Theorems: docs/theory/enumeration.md, "Strings" and "Counting without listing".
+// blocks. A critical set leaves of the assignments of a block those in which some of its bundles lack enough: one row of a
+// table. c is written in unary, two bits a lane, so that c(S) is one mask and one population count. Theorems:
+// docs/theory/enumeration.md, "Strings" and "Counting without listing".
 #pragma once
 
-#include "counting/frame.hpp"
+#include "counting/budgets.hpp"
 
 namespace gruebler::counting::inline GRUEBLER_LEVEL {
-
-inline constexpr int block_width = 7;  // bundles; with five or six the search before grows more than this saves
-inline constexpr int block_sums = 2 * block_width + 1;
-inline constexpr int block_subsets = 1 << block_width;
-inline constexpr int block_words = 7;  // words that the assignments of one sum fill: 393 bits at most
-inline constexpr int most_blocks = 6;  // five hold 31 bundles, and the last may be empty
-
-// Assignments of one block and one sum as bits.
-struct alignas(64) Assignments {  // a cache line, of which the last word is not used
-    std::array<Word, 8> words{};
-
-    void add(int i) { words[i >> 6] |= bit(i & 63); }
-
-    Assignments& operator&=(const Assignments& other) {
-        for (int i = 0; i < block_words; ++i) words[i] &= other.words[i];
-        return *this;
-    }
-};
-
-inline int size(const Assignments& set) {
-    int total = 0;
-    for (int i = 0; i < block_words; ++i) total += size(set.words[i]);
-    return total;
-}
-
-inline int size_of_both(const Assignments& a, const Assignments& b) {
-    int total = 0;
-    for (int i = 0; i < block_words; ++i) total += size(a.words[i] & b.words[i]);
-    return total;
-}
-
-// What is true of the c of seven bundles, the assignments of each sum numbered with c falling lexicographically.
-class BlockTables {
-public:
-    std::array<std::array<Assignments, block_width + 1>, block_sums> zeros;  // (sum, z): those with z zeros
-    std::array<std::array<Word, 64 * block_words>, block_sums> pattern;      // (sum, assignment): c in unary
-
-    BlockTables() {
-        std::array<int, block_sums> found{};
-        std::array<int, block_width> c;
-        c.fill(2);
-        do {
-            int sum = 0;
-            for (const int value : c) sum += value;
-            add(c, sum, found[sum]++);
-        } while (decrease(c));
-    }
-
-    // Those of the sum with c(subset) <= t, t = 0 .. 14.
-    const Assignments& allowed(int sum, int subset, int t) const { return allowed_[sum][subset][t]; }
-
-private:
-    using Costs = std::array<int, block_width>;
-
-    std::array<std::array<std::array<Assignments, block_sums>, block_subsets>, block_sums> allowed_;
-
-    void add(const Costs& c, int sum, int i) {
-        int empty = 0;
-        Word unary = 0;
-        for (int j = 0; j < block_width; ++j) {
-            empty += c[j] == 0;
-            unary |= ones(c[j]) << (2 * j);
-        }
-        zeros[sum][empty].add(i);
-        pattern[sum][i] = unary;
-        for (int subset = 0; subset < block_subsets; ++subset) {
-            int inside = 0;
-            for (int j = 0; j < block_width; ++j) inside += (subset >> j & 1) * c[j];
-            for (int t = inside; t < block_sums; ++t) allowed_[sum][subset][t].add(i);
-        }
-    }
-
-    static bool decrease(Costs& c) {
-        int j = block_width - 1;
-        for (; j >= 0 && c[j] == 0; --j) c[j] = 2;
-        if (j >= 0) --c[j];
-        return j >= 0;
-    }
-};
 
 // How an automorphism treats a bundle.
 enum class Manner { moved, fixed, turned };
@@ -99,39 +19,10 @@ struct Variable {
     Manner manner;
 };
 
-// c(masked lanes) <= limit.
-struct SearchTest {
-    Word mask;
-    int limit;
-};
-
-// c(subset of the block) <= limit - c(masked lanes, before the block); says nothing from `trivial_from` on. A lower test
-// counts what is left over of 2 a lane instead of what is used, and its limit rises with the sum of the block.
-struct BlockTest {
-    Word mask;
-    int subset, limit, trivial_from;
-};
-
-template <class Test>
-class Tests {
-public:
-    void clear() { size_ = 0; }
-    void add(const Test& test) { tests_[size_++] = test; }
-    const Test* begin() const { return tests_.data(); }
-    const Test* end() const { return tests_.data() + size_; }
-
-private:
-    int size_ = 0;
-    std::array<Test, most_sets> tests_;  // one of a critical set at most
-};
-
-// Whether a test is about what is used (c within the set) or what is left over (2 - c outside it).
-enum Side { upper = 0, lower = 1 };
-
 struct Block {
     int begin = 0, width = 0;                          // lanes
-    std::array<Assignments, block_sums> start;         // by sum: those that the block alone allows
-    std::array<Tests<BlockTest>, 2> tests;             // by side
+    int most_lack = 0;                                 // if no other bundle lacks anything
+    std::array<Assignments, block_lacks> start;        // by lack: those that the block alone allows
 };
 
 // The lanes of a graph under one automorphism: searched bundles first, then those in blocks.
@@ -142,6 +33,8 @@ public:
     std::array<Variable, most_lanes + 1> variable{};
     std::array<std::array<Tests<SearchTest>, most_lanes>, 2> search_tests;  // (side, variable)
     std::array<Block, most_blocks> block;
+    BlockTests block_tests;                            // that ask lanes before the block, too
+    Budgets budgets;                                   // of these
 
     const Block& last_block() const { return block[blocks - 1]; }
 
@@ -149,7 +42,6 @@ public:
     // where such a bundle differs from a single string only in counting twice for c = 2: these stand in the blocks before
     // the last.
     void arrange(int mobility, const Vertices& image, const Frame& frame) {
-        order_nodes(frame);
         const Word seen = find_orbits(mobility, image, frame);
         const int several = line_up(seen, frame);
         cut_blocks(frame.bundles, several);
@@ -161,38 +53,24 @@ public:
     // If F <= 1 the two are the same, and whichever of S and the rest is complete first decides; until then both must
     // still be possible.
     void place_tests(int target, int mobility, const Frame& frame, const BlockTables& tables) {
-        clear_tests(mobility, tables);
+        clear_tests(mobility, 2 * frame.bundles - target, tables);
+        const Word all = ones(2 * frame.bundles), nodes = ones(frame.nodes);
+        Words lanes_at{};
+        for (int lane = 0; lane < frame.bundles; ++lane)
+            for (const int node : {frame.bundle[bundle_at[lane]].u, frame.bundle[bundle_at[lane]].v})
+                lanes_at[node] |= Word{3} << (2 * lane);
         for (int i = 0; i < frame.sets; ++i) {
-            Word mask = 0;
-            for (int lane = 0; lane < frame.bundles; ++lane)
-                if (frame.holds(frame.critical[i].nodes, bundle_at[lane])) mask |= Word{3} << (2 * lane);
-            place_test(mask, ones(2 * frame.bundles) & ~mask, frame.critical[i].bound, target, mobility <= 1, tables);
+            Word rest = 0;
+            for (Word outside = nodes & ~frame.critical[i].nodes; outside != 0; outside = without_lowest(outside))
+                rest |= lanes_at[lowest(outside)];
+            place_test(all & ~rest, rest, frame.critical[i].bound, target, mobility <= 1, tables);
         }
+        budgets.take(blocks, block_tests, frame.bundles);
+        for (int i = 0; i < blocks - 1; ++i) budgets.tabulate(i, block[i].begin, block[i].width);
     }
 
 private:
     std::array<int, most_lanes> key_{};
-    std::array<int, most_nodes> place_{};  // node -> place in the order of nodes
-
-    // Each node has as many neighbours as possible among those before it and else few: so critical sets are complete
-    // early.
-    void order_nodes(const Frame& frame) {
-        const Words& near = frame.around.near;
-        Word placed = 0;
-        for (int i = 0; i < frame.nodes; ++i) {
-            int best = -1, chosen = 0;
-            for (int v = 0; v < frame.nodes; ++v) {
-                if (placed >> v & 1) continue;
-                const int rank = 64 * size(near[v] & placed) + 32 - size(near[v]);
-                if (rank > best) {
-                    best = rank;
-                    chosen = v;
-                }
-            }
-            place_[chosen] = i;
-            placed |= bit(chosen);
-        }
-    }
 
     // Gives lanes to the searched bundles, returned as bits.
     Word find_orbits(int mobility, const Vertices& image, const Frame& frame) {
@@ -223,7 +101,7 @@ private:
         int lane = searched, several = 0;
         for (int b = 0; b < frame.bundles; ++b) {
             if (seen >> b & 1) continue;
-            const int a = place_[frame.bundle[b].u], z = place_[frame.bundle[b].v];
+            const int a = frame.place[frame.bundle[b].u], z = frame.place[frame.bundle[b].v];
             int rank = std::max(a, z) * 32 + std::min(a, z);
             if (frame.bundle[b].strings > 1) {
                 ++several;
@@ -255,17 +133,21 @@ private:
         blocks = before + 1;
     }
 
-    void clear_tests(int mobility, const BlockTables& tables) {
+    void clear_tests(int mobility, int most_lack, const BlockTables& tables) {
         for (const Side side : {upper, lower}) {
             for (int v = 0; v < variables; ++v) search_tests[side][v].clear();
-            for (int i = 0; i < blocks; ++i) block[i].tests[side].clear();
+            for (int i = 0; i < blocks; ++i) block_tests[i][side].clear();
         }
         for (int i = 0; i < blocks; ++i) {
-            const int missing = block_width - block[i].width;
-            const int absent = (block_subsets - 1) & ~((1 << block[i].width) - 1);
-            for (int s = 0; s < block_sums; ++s) {
-                block[i].start[s] = tables.allowed(s, absent, 0);
-                if (mobility == 0) block[i].start[s] &= tables.zeros[s][missing];  // no string has c = 0
+            Block& now = block[i];
+            now.most_lack = std::clamp(most_lack, 0, 2 * now.width);
+            for (int lack = 0; lack <= now.most_lack; ++lack) {
+                const int number = assignments_of[now.width][lack], words = words_of(now.width, lack);
+                for (int w = 0; w < words; ++w) {
+                    now.start[lack][w] = ~Word{0};
+                    if (mobility == 0) now.start[lack][w] = tables.empty[lack][0][w];  // no string has c = 0
+                }
+                if (number % bits::word_bits != 0) now.start[lack][words - 1] &= ones(number % bits::word_bits);
             }
         }
     }
@@ -282,19 +164,20 @@ private:
             open_mask -= inside;
             open_rest -= width - inside;
             if (inside > 0 && size(mask & before) + 2 * inside > bound && (open_rest > 0 || open_mask == 0 || !exact))
-                demand(i, upper, {mask & before, subset, bound, 2 * inside}, tables);
+                demand(i, upper, {mask & before, subset, 2 * inside - bound}, tables);
             const int used = size(rest & before), limit = used - (target - bound - 2 * open_rest);
             if (width > inside && open_mask > 0 && limit < used)
-                demand(i, lower, {rest & before, subset, limit, 2 * inside}, tables);
+                demand(i, lower, {rest & before, subset, 2 * inside - 2 * width - limit + used}, tables);
             before |= ones(2 * width) << (2 * begin);
         }
     }
 
     // The lanes of a block that are in a mask, one bit each.
     static int lanes_of(Word mask, int begin, int width) {
-        int subset = 0;
-        for (int j = 0; j < width; ++j) subset |= static_cast<int>(mask >> (2 * (begin + j)) & 1) << j;
-        return subset;
+        Word bits = mask >> (2 * begin) & ones(2 * width) & first_bits;
+        bits = (bits | bits >> 1) & 0x3333;
+        bits = (bits | bits >> 2) & 0x0f0f;
+        return static_cast<int>((bits | bits >> 4) & 0x00ff);
     }
 
     // A test of the search is due at the last variable that has a lane of it.
@@ -307,13 +190,15 @@ private:
 
     // A test of a block that looks at nothing before it is made at once.
     void demand(int i, Side side, const BlockTest& test, const BlockTables& tables) {
-        if (test.mask != 0) return block[i].tests[side].add(test);
-        for (int s = 0; s < block_sums; ++s) {
-            const int t = test.limit + (side == lower ? s : 0);
-            if (t < 0) {
-                block[i].start[s] = Assignments{};
-            } else if (t < block_sums - 1) {
-                block[i].start[s] &= tables.allowed(s, test.subset, t);
+        if (test.mask != 0) return block_tests[i][side].add(test);
+        Block& now = block[i];
+        for (int lack = 0; lack <= now.most_lack; ++lack) {
+            const int part = test.need + (side == lower ? lack : 0), words = words_of(now.width, lack);
+            if (part > lack) {
+                for (int w = 0; w < words; ++w) now.start[lack][w] = 0;
+            } else if (part > 0) {
+                const Word* row = tables.with(lack, test.subset, part);
+                for (int w = 0; w < words; ++w) now.start[lack][w] &= row[w];
             }
         }
     }

@@ -45,7 +45,7 @@ struct CensusOutcome {
 // Counts the chains of each contracted graph, with orbits if they are asked for, else 0 stands for them.
 //
 // 2 <= loops <= most_loops, 0 <= mobility <= most_mobility; `table` has a row for each graph. Any words may stand in the
-// graphs: they are looked at first. Cost: about 4 us for each graph and 3 ns for each assignment if F = 1.
+// graphs: they are looked at first. Cost: about 4 us for each graph and 2 ns for each chain if F = 1.
 using TakeCensus = CensusOutcome(const GraphRows& graphs, int loops, int mobility, bool orbits, CensusRow* table,
                                  Watch& watch);
 

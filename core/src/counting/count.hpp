@@ -1,7 +1,7 @@
 // The number of string assignments that an automorphism of the contracted graph leaves as they are.
 //
 // The bundles in blocks but the last are gone through as words of bits, a whole block at a time; the last block is not
-// searched at all: its assignments are what remains of seven words after a few ANDs, and they are counted.
+// searched at all: its assignments are what remains of a few words after a few ANDs, and they are counted.
 // Theorems: docs/theory/enumeration.md, "Counting without listing" and "Symmetry".
 #pragma once
 
@@ -70,11 +70,12 @@ private:
 
     // Where a block stands.
     struct Stage {
-        Assignments left;  // not yet tried, of the present sum
-        int sum = -1;  // of this block
-        int current = block_words;  // the word of `left` to go on with
+        Assignments left;  // not yet tried, of the present lack
+        int lack = 0, last_lack = 0;  // of this block
+        int current = 0, words = 0;   // the word of `left` to go on with, and their number
         int total = 0;  // of the blocks and the search before
         Word word = 0;  // c in unary, before this block
+        Budgets::Row asked;  // of this block and of later ones
     };
 
     Arrangement lanes_;
@@ -111,18 +112,7 @@ private:
         return true;
     }
 
-    // Leaves of the assignments of one block and one sum those that pass; false if none can.
-    static bool apply(const Tests<BlockTest>& tests, Word used, int more, int sum, const BlockTables& tables,
-                      Assignments& left) {
-        for (const BlockTest& test : tests) {
-            const int t = more + test.limit - size(used & test.mask);
-            if (t < 0) return false;
-            if (t < sum && t < test.trivial_from) left &= tables.allowed(sum, test.subset, t);
-        }
-        return true;
-    }
-
-    static Word low_bits(int from, int to) { return ones(2 * to) & ~ones(2 * from) & 0x5555555555555555; }
+    static Word low_bits(int from, int to) { return ones(2 * to) & ~ones(2 * from) & first_bits; }
 
     // The first lane in blocks that has a single string; those of several strings stand before it.
     int first_single(const Frame& frame) const {
@@ -140,13 +130,18 @@ private:
         std::int64_t steps = 1;
         stages_[0].word = found.word;
         stages_[0].total = found.sum;
-        stages_[0].sum = -1;
-        stages_[0].current = block_words;
+        begin_block(0, target, spare, frame.bundles);
+        lanes_.budgets.begin(found.word, stages_[0].asked);
         for (int i = 0; i >= 0; ++steps) {
-            const Block& block = lanes_.block[i];
             Stage& now = stages_[i];
-            if (i < last && now.current < block_words) {
-                Word& left = now.left.words[now.current];
+            if (i == last) {
+                count_last_block(problem, found, target, several, singles, single, frame, tables, totals);
+                --i;
+                continue;
+            }
+            const Block& block = lanes_.block[i];
+            if (now.current < now.words) {
+                Word& left = now.left[now.current];
                 if (left == 0) {
                     ++now.current;
                     continue;
@@ -154,31 +149,61 @@ private:
                 const int chosen = 64 * now.current + lowest(left);
                 left = without_lowest(left);
                 Stage& next = stages_[++i];
-                next.word = now.word | tables.pattern[now.sum][chosen] << (2 * block.begin);
-                next.total = now.total + now.sum;
-                next.sum = -1;
-                next.current = block_words;
+                const Word unary = tables.pattern[now.lack][chosen] & ones(2 * block.width);
+                next.word = now.word | unary << (2 * block.begin);
+                lanes_.budgets.go_on(i - 1, block.begin, block.width, unary, now.asked, next.asked);
+                next.total = now.total + 2 * block.width - now.lack;
+                begin_block(i, target, spare, frame.bundles);
                 continue;
             }
-            const int missing = target - now.total;
-            const int still_open = i < last ? 2 * (frame.bundles - lanes_.block[i + 1].begin) : 0;
-            now.sum = std::max(now.sum + 1, missing - still_open);
-            if (now.sum > std::min(2 * block.width, missing + spare)) {
+            if (++now.lack > now.last_lack) {
                 --i;
-                continue;
-            }
-            Assignments left = block.start[now.sum];
-            if (!apply(block.tests[upper], now.word, 0, now.sum, tables, left)) continue;
-            if (!apply(block.tests[lower], ~now.word, now.sum, now.sum, tables, left)) continue;
-            if (i < last) {
-                now.left = left;
+            } else if (allowed(i, now.lack, tables, now.left)) {
                 now.current = 0;
-                continue;
+                now.words = words_of(block.width, now.lack);
             }
-            const int excess = now.sum - missing;
-            const Count many = excess == 0 ? static_cast<Count>(size(left))
-                                           : with_excess(problem.values, excess, left, now.sum,
-                                                         size(~now.word & singles) - (block_width - block.width), tables);
+        }
+        return steps;
+    }
+
+    // What block i can lack: c of all lanes reaches the target, and is more than it by the spare excess at most.
+    void begin_block(int i, int target, int spare, int bundles) {
+        Stage& now = stages_[i];
+        const Block& block = lanes_.block[i];
+        const int after = i + 1 < lanes_.blocks ? 2 * (bundles - lanes_.block[i + 1].begin) : 0;
+        const int missing = target - now.total;
+        now.last_lack = std::min(2 * block.width, 2 * block.width + after - missing);
+        now.lack = std::max(0, 2 * block.width - missing - spare) - 1;
+        now.current = now.words = 0;
+    }
+
+    // Leaves the assignments of a block with this lack that all tests allow; false if one of them allows none at all.
+    bool allowed(int i, int lack, const BlockTables& tables, Assignments& left) {
+        const Block& block = lanes_.block[i];
+        const int words = words_of(block.width, lack);
+        for (int w = 0; w < words; ++w) left[w] = block.start[lack][w];
+        return lanes_.budgets.each(stages_[i].asked, i, lack, [&](int subset, int part) {
+            const Word* row = tables.with(lack, subset, part);
+            for (int w = 0; w < words; ++w) left[w] &= row[w];
+        });
+    }
+
+    // Adds the assignments of the last block after those of all others.
+    void count_last_block(const Problem& problem, const Partial& found, int target, Word several, Word singles,
+                          int single, const Frame& frame, const BlockTables& tables, Totals& totals) {
+        Stage& now = stages_[lanes_.blocks - 1];
+        const Block& block = lanes_.last_block();
+        const int none = 2 * block.width - (target - now.total);  // lack without excess
+        while (++now.lack <= now.last_lack) {
+            Assignments left;
+            if (!allowed(lanes_.blocks - 1, now.lack, tables, left)) continue;
+            const int excess = none - now.lack, words = words_of(block.width, now.lack);
+            Count many = 0;
+            if (excess == 0) {
+                for (int w = 0; w < words; ++w) many += static_cast<Count>(size(left[w]));
+            } else {
+                many = with_excess(problem.values, excess, left, now.lack, words, size(~now.word & singles), tables);
+            }
             if (many == 0) continue;
             const int doubled = size(now.word & several);  // bundles of several strings that stand for two values
             totals.found += (many * found.count) << doubled;
@@ -186,17 +211,18 @@ private:
                            static_cast<double>(Count{1} << doubled);
             if (problem.orbits) add_orbits(problem.values, many, excess, found, single, frame, totals);
         }
-        return steps;
     }
 
     // The assignments of the last block, each as often as the excess x falls on the single strings with c = 0: in
     // C(z + x - 1, x) ways on z of them, of which `empty` stand before the block (less those that the block lacks).
-    static Count with_excess(const Values& values, int excess, const Assignments& left, int sum, int empty,
+    static Count with_excess(const Values& values, int excess, const Assignments& left, int lack, int words, int empty,
                              const BlockTables& tables) {
         Count many = 0;
-        for (int z = 0; z <= block_width; ++z)
-            if (empty + z > 0)
-                many += static_cast<Count>(size_of_both(left, tables.zeros[sum][z])) * values.ways[empty + z][excess];
+        for (int z = empty > 0 ? 0 : 1; z <= block_width; ++z) {
+            Count both = 0;
+            for (int w = 0; w < words; ++w) both += static_cast<Count>(size(left[w] & tables.empty[lack][z][w]));
+            many += both * values.ways[empty + z][excess];
+        }
         return many;
     }
 
@@ -218,7 +244,7 @@ private:
             weight *= value->many;
         }
         const int singles = lanes_.last_block().begin + lanes_.last_block().width - single;
-        const int c = last.sum + size(last.word & ~ones(2 * single));
+        const int c = 2 * lanes_.last_block().width - last.lack + size(last.word & ~ones(2 * single));
         const Count all_links = links + weight * static_cast<Count>(2 * singles - c + excess);
         const Count all_joints = joints + weight * static_cast<Count>(3 * singles - c + excess);
         totals.links += many * (found.links * weight + found.count * all_links);

@@ -26,11 +26,13 @@ struct Frame {
     std::array<Bundle, most_lanes> bundle;
     std::array<std::array<int, most_nodes>, most_nodes> bundle_between;
     std::array<CriticalSet, most_sets> critical;
+    std::array<int, most_nodes> place;  // node -> place in an order in which critical sets are complete early
 
     // Reads a graph; false if it has more critical sets than there is room for. Cost: O(2^nodes).
     bool survey(const PackedGraph& graph) {
         nodes = graph.order();
         around.survey(nodes, graph);
+        order_nodes();
         list_bundles(graph);
         return list_critical_sets();
     }
@@ -38,7 +40,28 @@ struct Frame {
     bool holds(Word set, int b) const { return (set >> bundle[b].u & set >> bundle[b].v & 1) != 0; }
 
 private:
-    std::array<std::uint8_t, 1 << most_nodes> within_;  // set of nodes -> bundles within
+    // Set of nodes -> 2 (bundles within) - 3 (nodes) + 3, `rigid` standing for 0: from there on c = 2 breaks the bound.
+    std::array<std::uint8_t, 1 << most_nodes> excess_{};
+    static constexpr std::uint8_t rigid = 128;
+
+    // Each node has as many neighbours as possible among those before it and else few.
+    void order_nodes() {
+        const Words& near = around.near;
+        Word placed = 0;
+        for (int i = 0; i < nodes; ++i) {
+            int best = -1, chosen = 0;
+            for (int v = 0; v < nodes; ++v) {
+                if (placed >> v & 1) continue;
+                const int rank = 64 * size(near[v] & placed) + 32 - size(near[v]);
+                if (rank > best) {
+                    best = rank;
+                    chosen = v;
+                }
+            }
+            place[chosen] = i;
+            placed |= bit(chosen);
+        }
+    }
 
     void list_bundles(const PackedGraph& graph) {
         bundles = 0;
@@ -54,19 +77,39 @@ private:
     // A set S, |S| >= 3, is critical if its bundles, c = 2 each, could break the bound, and every node of S has at least
     // two neighbours in S; the other sets follow from these.
     bool list_critical_sets() {
-        const Words& near = around.near;
+        list_excesses();
         sets = 0;
-        within_[0] = 0;
-        const Word all = ones(nodes);
-        for (Word s = 1; s < all; ++s) {
-            const Word rest = without_lowest(s);
-            const int within = within_[rest] + size(near[lowest(s)] & rest), bound = 3 * size(s) - 4;
-            within_[s] = static_cast<std::uint8_t>(within);
-            if (size(s) < 3 || 2 * within <= bound || has_loose_end(s)) continue;
-            if (sets == most_sets) return false;
-            critical[sets++] = {s, bound};
+        for (Word first = 0; first < ones(nodes); first += 8) {
+            if (none_is_rigid(first)) continue;
+            for (Word s = first; s < std::min(first + 8, ones(nodes)); ++s) {
+                if (excess_[s] < rigid || size(s) < 3 || has_loose_end(s)) continue;
+                if (sets == most_sets) return false;
+                critical[sets++] = {s, 3 * size(s) - 4};
+            }
         }
         return true;
+    }
+
+    bool none_is_rigid(Word first) const {
+        unsigned any = 0;
+        for (int i = 0; i < 8; ++i) any |= excess_[first + i];
+        return any < rigid;
+    }
+
+    // The excess is quadratic in the nodes: that of S with both h and k follows from those of S, S + h, S + k.
+    void list_excesses() {
+        const Words& near = around.near;
+        excess_[0] = rigid + 3;
+        for (int h = 0; h < nodes; ++h) {
+            std::uint8_t* with_h = excess_.data() + (1 << h);
+            with_h[0] = static_cast<std::uint8_t>(excess_[0] - 3);
+            for (int k = 0; k < h; ++k) {
+                const std::uint8_t* with_k = excess_.data() + (1 << k);
+                const int joined = 2 * (near[h] >> k & 1);
+                for (int s = 0; s < 1 << k; ++s)
+                    with_h[(1 << k) + s] = static_cast<std::uint8_t>(with_h[s] + with_k[s] - excess_[s] + joined);
+            }
+        }
     }
 
     // Whether a node of the set has fewer than two neighbours in it.
