@@ -8,8 +8,8 @@
 
 namespace gruebler::counting::inline GRUEBLER_LEVEL {
 
-// Bundles. Seven leave twice as many assignments of the blocks before to go through; nine gain a tenth for 18 links, and
-// their tables are five times as large.
+// Bundles. Seven leave twice as many assignments of the blocks before to go through; nine gain a tenth for 18 links,
+// and their tables are five times as large.
 inline constexpr int block_width = 8;
 inline constexpr int block_lacks = 2 * block_width + 1;
 inline constexpr int block_subsets = 1 << block_width;
@@ -30,7 +30,8 @@ constexpr int words_of(int width, int lack) {
 
 inline constexpr int block_words = words_of(block_width, block_width);  // at most
 
-// What is true of all assignments. They are numbered so that those of fewer bundles come first, the others lacking nothing.
+// What is true of all assignments. They are numbered so that those of fewer bundles come first, the others lacking
+// nothing.
 class BlockTables {
 public:
     using Assignments = std::array<Word, block_words>;

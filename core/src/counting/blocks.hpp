@@ -1,8 +1,8 @@
 // Where the bundles of a contracted graph stand when their values are counted, and which tests they face.
 //
-// Bundles that the automorphism in question moves are searched, one value for each orbit of them. The others are cut into
-// blocks. A critical set leaves of the assignments of a block those in which some of its bundles lack enough: one row of a
-// table. c is written in unary, two bits a lane, so that c(S) is one mask and one population count. Theorems:
+// Bundles that the automorphism in question moves are searched, one value for each orbit of them. The others are cut
+// into blocks. A critical set leaves of the assignments of a block those in which some of its bundles lack enough: one
+// row of a table. c is written in unary, two bits a lane, so that c(S) is one mask and one population count. Theorems:
 // docs/theory/enumeration.md, "Strings" and "Counting without listing".
 #pragma once
 

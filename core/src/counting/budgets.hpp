@@ -24,8 +24,8 @@ struct SearchTest {
     int limit;
 };
 
-// The subset of the block must lack `need` + c(masked lanes) if the test is an upper one; if it is a lower one, `need` -
-// c(masked lanes) + what the whole block lacks. The masked lanes stand before the block.
+// The subset of the block must lack `need` + c(masked lanes) if the test is an upper one; if it is a lower one,
+// `need` - c(masked lanes) + what the whole block lacks. The masked lanes stand before the block.
 struct BlockTest {
     Word mask;
     int subset, need;
