@@ -9,12 +9,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from gruebler.base.text import message
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.canvas.styles import STYLES, USUAL
 
 LISTED_CHAINS = {"links": {"min": 3, "max": 12}, "mobility": {"min": 0, "max": 6}}
 """The chains of which the page makes lists."""
 
+_DESCRIPTION = message(
+    "Mechanisms drawn, moved and designed: mobility, coupler curves, dead centres, transmission angles."
+)
 _STATIC = Path(__file__).parent / "static"
 
 
@@ -103,6 +107,7 @@ def _page(title: str, lang: str, host: str, values: Mapping[str, Any], script: s
     return (
         f'<!doctype html><html lang="{lang or "en"}"><head><meta charset="utf-8">{policy}'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f'<meta name="description" content="{html.escape(_DESCRIPTION.in_language(lang or "en"))}">'
         '<meta name="referrer" content="no-referrer"><link rel="icon" href="data:,">'
         f"<title>{html.escape(title)}</title></head>"
         f'<body><div data-gruebler="{host}"></div>'

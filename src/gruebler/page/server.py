@@ -19,6 +19,8 @@ from typing import Any, Literal
 
 import msgspec
 from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
@@ -84,6 +86,7 @@ class ExplorerServer:
                 WebSocketRoute("/{token}/ws", self._socket),
                 Route("/{path:path}", self._nothing),
             ],
+            middleware=[Middleware(GZipMiddleware)],  # the script is half as long, for pages that are not here
             lifespan=self._lifespan,
             exception_handlers={405: self._wrong_method},
         )
