@@ -137,6 +137,27 @@ def follow_modes(
     NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128], NDArray[np.float64], NDArray[np.int64]
 ]: ...
 
+# dynamics
+def reduced_forces(
+    ends: NDArray[np.float64], coefficients: NDArray[np.float64], closed: float, q: float, speed: float
+) -> tuple[float, float, float] | None: ...
+def free_step(
+    ends: NDArray[np.float64],
+    coefficients: NDArray[np.float64],
+    closed: float,
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    e3: NDArray[np.float64],
+    e5: NDArray[np.float64],
+    time: float,
+    state: NDArray[np.float64],
+    rate: NDArray[np.float64],
+    length: float,
+    until: float,
+    relative: float,
+    absolute: NDArray[np.float64],
+) -> tuple[float, float, NDArray[np.float64], NDArray[np.float64], int] | None: ...
+
 # layout
 def relax(
     layout: NDArray[np.float64],

@@ -103,6 +103,11 @@ def good_calls():
     yield "solve_back", (np.array([0]), np.array([0, 1]), np.array([1]), np.array([5]), np.ones((2, 1), np.int64))
     yield "reduce", (np.arange(6).reshape(2, 3),)
     yield "follow_modes", MODES
+    series = np.array([[-1.0, 1, 0, 1], [1, 3, 2, 1]]), np.arange(1.0, 25).reshape(2, 2, 6), -1.0
+    yield "reduced_forces", (*series, 0.5, 2.0)
+    method = np.tri(12) / 12, np.full(12, 1 / 12), np.full(13, 1e-3), np.full(13, 1e-3)
+    state = np.array([0.5, 0.1, 0.0])
+    yield "free_step", (*series, *method, 0.0, state, state, 0.01, 1.0, 1e-9, state)
     layout = np.array([[0.0, 0], [1, 0], [0, 1]]), RING[:2], np.ones(2), np.array([[0, 2], [1, 0]])
     yield "relax", (*layout, np.arange(3)[None], np.eye(2)[None], 2, 5)
     yield "closest", (*layout[:2], layout[3])

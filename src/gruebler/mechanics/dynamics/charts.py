@@ -73,9 +73,11 @@ class Charts:
         self.links = len(plan.lower.mechanism.chain.links)
         self.scale = 1.0 if plan.linkage.mechanism.drives[0].turning else plan.lower.size
         self._branching = plan.branching
-        self._charts: list[Chart] = []  # side by side along the drive
+        self.known: list[Chart] = []
+        """Side by side along the drive."""
         self._now: Chart | None = None
-        self._closed: float | None = None  # the low end of a whole turn, once it is known that it comes back
+        self.closed: float | None = None
+        """The low end of a whole turn, once it is known that it comes back."""
         self._blocked = set[int]()  # the sides, 1 and -1, on which the branch ends
         self._start = start
 
@@ -102,32 +104,32 @@ class Charts:
 
     def _reduced(self, q: float) -> float:
         """The drive less whole turns, if a turn leads back to the same pose."""
-        return q if self._closed is None else self._closed + (q - self._closed) % _PERIOD
+        return q if self.closed is None else self.closed + (q - self.closed) % _PERIOD
 
     def _found(self, q: float) -> Chart:
         """The chart on which the drive lies; charts are put beside charts until one reaches there."""
         if not np.isfinite(q):
             raise Blocked
-        self._charts = self._charts or [self._first()]
+        self.known = self.known or [self._first()]
         while True:
             at = self._reduced(q)
-            for chart in self._charts:
+            for chart in self.known:
                 if chart.low <= at <= chart.high:
                     return chart
-            side = 1 if at > self._charts[-1].high else -1
+            side = 1 if at > self.known[-1].high else -1
             if side in self._blocked:
                 raise Blocked
-            self._charts.insert(len(self._charts) if side > 0 else 0, self._next(side))
-            if self._closed is None and self._comes_back():
-                self._closed = self._charts[0].low
+            self.known.insert(len(self.known) if side > 0 else 0, self._next(side))
+            if self.closed is None and self._comes_back():
+                self.closed = self.known[0].low
 
     def _comes_back(self) -> bool:
         """Whether the charts make a whole turn at whose ends the linkage lies alike; then they are all."""
-        low, high = self._charts[0].low, self._charts[-1].high
+        low, high = self.known[0].low, self.known[-1].high
         if not self.plan.linkage.mechanism.drives[0].turning or self.plan.wheels or high - low < _PERIOD:
             return False
-        again = next(chart for chart in self._charts if chart.low <= low + _PERIOD <= chart.high)
-        gap = _pose_on(self._charts[0], low) - _pose_on(again, low + _PERIOD)
+        again = next(chart for chart in self.known if chart.low <= low + _PERIOD <= chart.high)
+        gap = _pose_on(self.known[0], low) - _pose_on(again, low + _PERIOD)
         return bool(np.abs(gap).max() < _SAME)
 
     # --- finding them --------------------------------------------------------------------------------
@@ -169,7 +171,7 @@ class Charts:
 
     def _next(self, side: int) -> Chart:
         """The chart beside the last one on a side."""
-        last = self._charts[-1 if side > 0 else 0]
+        last = self.known[-1 if side > 0 else 0]
         edge, start = (last.high, last.starts[1]) if side > 0 else (last.low, last.starts[0])
         for tried, width in enumerate(_WIDTHS):
             low, high = sorted((edge, edge + side * width * self.scale))

@@ -130,9 +130,8 @@ class CoordinateSets:
         self._known: dict[tuple[Drive, ...], list[Coordinates]] = {drives: [first]}
         self._refused = set[tuple[Drive, ...]]()
 
-    def exchanged(self, now: Coordinates, q: Reals, v: Reals) -> tuple[Coordinates, Reals, Reals] | None:
+    def exchanged(self, now: Coordinates, jets: Jets, v: Reals) -> tuple[Coordinates, Reals, Reals] | None:
         """Other coordinates for the same motion if the present ones move little beside other joints, else None."""
-        jets = now.jets(q, v)
         size = now.plan.lower.size
         ways = np.array([f.speeds(jets)[: now.count] / (size if f.line else 1.0) for f in self._freedoms])
         alone = now.count == 1  # then the pivot is the largest

@@ -108,7 +108,8 @@ class FreeLinkage:
 
     def rates(self, time: float, q: Reals, v: Reals) -> tuple[Reals, float]:
         """Q'' of the coordinates and the power of what has no potential; from series where these are known."""
-        reduced = self._reduced(float(q[0]), float(v[0])) if self._of_the_pose else None
+        series = self.series
+        reduced = None if series is None else series.at(float(q[0]), float(v[0]))
         if reduced is None:
             now = self.instant(time, q, v)
             return self.acceleration(now), self.power(now)
@@ -117,15 +118,14 @@ class FreeLinkage:
         return np.array([force / mass]), power * float(v[0])
 
     @property
-    def _of_the_pose(self) -> bool:
-        """Whether one freedom's forces depend on the pose alone, and linearly on the speed."""
-        return self.coordinates.charts is not None and self.equations.acting.of_the_pose
-
-    def _reduced(self, q: float, v: float) -> tuple[float, float, float] | None:
+    def series(self) -> ReducedSeries | None:
+        """Those of one freedom whose forces depend on the pose alone, and linearly on the speed."""
         charts = self.coordinates.charts
-        if self.coordinates not in self._series and charts is not None:
+        if charts is None or not self.equations.acting.of_the_pose:
+            return None
+        if self.coordinates not in self._series:
             self._series[self.coordinates] = ReducedSeries(charts, self.equations, self._lossy)
-        return self._series[self.coordinates].at(q, v)
+        return self._series[self.coordinates]
 
     def acceleration(self, instant: Instant) -> Reals:
         """Q'' of the coordinates."""

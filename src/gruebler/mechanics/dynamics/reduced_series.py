@@ -5,9 +5,12 @@ docs/theory/free-motion.md.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from gruebler._core import reduced_forces
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.dynamics.charts import Chart, Charts
 from gruebler.mechanics.dynamics.equations import EquationsOfMotion, Influences
@@ -18,26 +21,46 @@ _TAIL = 4  # the last coefficients, which tell whether a series has ended
 _ENDED = 1e-13  # of the largest mass or force
 
 
+class SeriesTable(NamedTuple):
+    """The series of all charts that are known, in order, as the kernels take them."""
+
+    ends: Reals
+    """(charts, 4): where each is used, from and to, its middle and half width."""
+    coefficients: Reals
+    """(charts, nodes, 6)."""
+    closed: float
+    """From where a whole turn of the drive leads back; NaN if none does."""
+
+
 class ReducedSeries:
     """M, dM/dq / 2, Q and the power by speed of one freedom, without the poses."""
 
     def __init__(self, charts: Charts, equations: EquationsOfMotion, lossy: EquationsOfMotion) -> None:
         self.charts, self._equations, self._lossy = charts, equations, lossy
         self._known = dict[Chart, Reals | None]()
+        self.table = self._tabled()
 
     def at(self, q: float, v: float) -> tuple[float, float, float] | None:
         """M, Q - h and what loads without potential do, all at a value and speed of the coordinate.
 
         None where forces are no short series: a spring whose ends meet.
         """
-        chart, x = self.charts.chart(q)
+        reduced = reduced_forces(*self.table, q, v)
+        if reduced is not None:
+            return reduced
+        chart, _ = self.charts.chart(q)
         if chart not in self._known:
             self._known[chart] = self._found(chart)
-        series = self._known[chart]
-        if series is None:
-            return None
-        mass, slope, force, damped, lost, lost_by_speed = (np.cos(np.arccos(x) * _ORDERS) @ series).tolist()
-        return mass, force + v * (damped - v * slope), lost + v * lost_by_speed
+        self.table = self._tabled()
+        return reduced_forces(*self.table, q, v)
+
+    def _tabled(self) -> SeriesTable:
+        known = [(chart, series) for chart in self.charts.known if (series := self._known.get(chart)) is not None]
+        return SeriesTable(
+            np.array([(chart.low, chart.high, chart.middle, chart.half) for chart, _ in known]).reshape(-1, 4),
+            np.array([series for _, series in known]).reshape(-1, _NODES, 6),
+            np.nan if self.charts.closed is None else self.charts.closed,
+        )
 
     def _found(self, chart: Chart) -> Reals | None:
         """(nodes, 6): Chebyshev coefficients; forces are linear in the speed, since dampers are."""

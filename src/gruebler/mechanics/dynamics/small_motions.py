@@ -269,8 +269,9 @@ def linearised(linkage: LinkageLike, loads: Loads, *, branch: Branch = None, at:
     free = FreeLinkage(solving, loads, start)
     still = np.zeros(len(drives))
     try:
-        free.keep(free.instant(0.0, drives, still))
-        other = free.sets.exchanged(free.coordinates, drives, still)
+        start_instant = free.instant(0.0, drives, still)
+        free.keep(start_instant)
+        other = free.sets.exchanged(free.coordinates, start_instant.jets, still)
         q = drives
         if other is not None:
             free.coordinates, q, _ = other

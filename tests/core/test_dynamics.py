@@ -1,0 +1,95 @@
+"""Free motion of one freedom in the core: series against numpy, steps against scipy's DOP853, wrong calls."""
+
+import numpy as np
+import pytest
+from numpy.polynomial import chebyshev
+from scipy.integrate import DOP853
+
+ENDS = np.array([[-1.0, 0.5, -0.25, 0.75], [0.5, 2.5, 1.5, 1.0], [3.0, 4.0, 3.5, 0.5]])
+SERIES = np.random.default_rng(0).normal(size=(3, 9, 6)) / np.arange(1, 10)[:, None] ** 3
+SERIES[:, 0, 0] = 5.0  # the mass is positive
+METHOD = (np.ascontiguousarray(DOP853.A), DOP853.B, DOP853.E3, DOP853.E5)
+LENGTHS, ERRORS = (0.05, 1.0), (1e-10, np.full(3, 1e-10))
+
+
+def by_numpy(piece, q, v):
+    _, _, middle, half = ENDS[piece]
+    mass, slope, force, damped, lost, lost_by_speed = chebyshev.chebval((q - middle) / half, SERIES[piece])
+    return mass, force + v * (damped - v * slope), lost + v * lost_by_speed
+
+
+@pytest.mark.parametrize(("piece", "q"), [(0, -1.0), (0, 0.3), (1, 0.7), (1, 2.5), (2, 3.2)])
+def test_forces_are_the_series(core, piece, q):
+    assert core.reduced_forces(ENDS, SERIES, np.nan, q, -0.7) == pytest.approx(by_numpy(piece, q, -0.7), rel=1e-13)
+
+
+def test_a_turn_leads_back(core):
+    turned = core.reduced_forces(ENDS, SERIES, -1.0, 0.3 - 4 * np.pi, 2.0)
+    assert turned == pytest.approx(by_numpy(0, 0.3, 2.0), rel=1e-12)
+
+
+@pytest.mark.parametrize("q", [-1.1, 2.7, 4.2, np.nan, np.inf])
+def test_where_no_piece_lies(core, q):
+    assert core.reduced_forces(ENDS, SERIES, np.nan, q, 1.0) is None
+
+
+@pytest.mark.parametrize("length", [0.05, 0.6])
+def test_a_step_is_that_of_scipy(core, length):
+    """The longer one is refused and taken shorter."""
+
+    def rate(_, y):
+        mass, force, power = by_numpy(0 if y[0] <= 0.5 else 1, y[0], y[1])
+        return [y[1], force / mass, power * y[1]]
+
+    start = np.array([0.55, 2.0, 0.0])
+    solver = DOP853(rate, 0.0, start, 1.0, rtol=1e-10, atol=1e-10, first_step=length)
+    first = np.array(solver.f)
+    solver.step()
+    time, following, state, rates, evaluations = core.free_step(
+        ENDS, SERIES, np.nan, *METHOD, 0.0, start, first, length, *LENGTHS[1:], *ERRORS
+    )
+    assert (time, following) == pytest.approx((solver.t, solver.h_abs), rel=1e-6)  # by errors near rounding
+    assert state == pytest.approx(solver.y, rel=1e-10)
+    assert rates == pytest.approx(solver.K, rel=1e-9, abs=1e-10)
+    assert evaluations == solver.nfev - 1  # the first one is the rate at the start
+
+
+def test_a_step_that_leaves_the_pieces(core):
+    leaving = np.array([2.4, 50.0, 0.0])
+    assert core.free_step(ENDS, SERIES, np.nan, *METHOD, 0.0, leaving, leaving, *LENGTHS, *ERRORS) is None
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"ends": ENDS[:2]}, "ends must have a row for each piece"),
+        ({"coefficients": SERIES[:, :0]}, "a series has one coefficient at least"),
+        ({"until": 0.0}, "the time ends after it begins"),
+        ({"until": np.inf}, "the time ends after it begins"),
+        ({"time": np.nan}, "the time ends after it begins"),
+        ({"length": 0.0}, "a step has a positive length"),
+        ({"length": np.nan}, "a step has a positive length"),
+    ],
+    ids=str,
+)
+def test_wrong_numbers(core, wrong, words):
+    state = np.array([0.1, 0.2, 0.0])
+    names = ("a", "b", "e3", "e5")
+    sound = {
+        "ends": ENDS,
+        "coefficients": SERIES,
+        "closed": np.nan,
+        **dict(zip(names, METHOD, strict=True)),
+        "time": 0.0,
+        "state": state,
+        "rate": state,
+        "length": 0.05,
+        "until": 1.0,
+        "relative": 1e-9,
+        "absolute": np.full(3, 1e-9),
+    }
+    assert core.free_step(**sound) is not None
+    with pytest.raises(ValueError, match=words):
+        core.free_step(**{**sound, **wrong})
+    with pytest.raises(TypeError, match="incompatible function arguments"):
+        core.free_step(**{**sound, "state": state[:2]})
