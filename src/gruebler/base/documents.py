@@ -15,7 +15,7 @@ from typing import Any, NoReturn, TypeVar
 import msgspec
 
 from gruebler.base.errors import near_words, visible
-from gruebler.base.text import Message, message, reason_of
+from gruebler.base.text import Message, joined_by_or, message, reason_of
 
 Failing = Callable[[Message], Exception]
 """Makes the exception of a message; the errors of the library are such makers themselves."""
@@ -121,27 +121,69 @@ def convert_document(data: object, kind: type[Record], fail: Failing, where: str
     try:
         return msgspec.convert(data, kind)
     except msgspec.ValidationError as error:
-        raise fail(_readable(str(error), prefix)) from None
+        raise fail(_readable(str(error), data, kind, prefix)) from None
 
 
-_PROBLEMS = (
-    (r"Expected `(?P<wanted>[^`]*)`, got `(?P<found>[^`]*)`", message("expected {wanted}, but found {found}")),
-    (r"Object missing required field `(?P<key>[^`]*)`", message("the key {key!r} is missing")),
-)
-"""What msgspec says most often."""
+_KINDS = {
+    "int": message("a whole number"),
+    "float": message("a number"),
+    "str": message("a text"),
+    "bool": message("true or false"),
+    "array": message("a list"),
+    "object": message("a table of keys"),
+}
 
 
-def _readable(error: str, prefix: str) -> Message:
-    """Msgspec's message with the path of the key in front: ``claims.n: expected int, got str``."""
+_EXPECTED = message("expected {wanted}, but found {found}")
+_MEASURED = message("expected {wanted} without a unit, but found {found}")
+
+
+def _readable(error: str, data: object, kind: type[msgspec.Struct], prefix: str) -> Message:
+    """Msgspec's message in the words of the file, with the key in front: ``claims.n: expected a whole number, ...``."""
     match = re.fullmatch(r"(.*?)(?: - at `\$\.?(.*)`)?", error, re.DOTALL)
     assert match is not None  # the second group is optional
-    text = match[1].replace("`", "")
-    problem: object = text[:1].lower() + text[1:]
-    for pattern, known in _PROBLEMS:
-        if (parts := re.fullmatch(pattern, match[1])) is not None:
-            problem = known.filled(**parts.groupdict())
-    key = (prefix + (match[2] or "")).rstrip(".")
-    return message("{key}: {problem}", key=key, problem=problem) if key else message("{problem}", problem=problem)
+    problem, path = match[1], match[2] or ""
+    key, word = (prefix + path).rstrip("."), _word_at(data, path)
+    if parts := re.fullmatch(r"Expected `([\w |]*)`, got `(\w+)`", problem):
+        wanted = [_KINDS[name] for name in parts[1].split(" | ") if name in _KINDS]
+        measured = _KINDS["str"] not in wanted and re.match(r"'[-+.]?\d", str(word))  # such as "20 mm"
+        text = (_MEASURED if measured else _EXPECTED).filled(
+            wanted=joined_by_or(wanted), found=word or _KINDS.get(parts[2], parts[2])
+        )
+    elif parts := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", problem):
+        text = message("expected {count} values, but found {found}", count=parts[1], found=parts[2])
+    elif parts := re.fullmatch(r"Object missing required field `([^`]*)`", problem):
+        text = message("the key {key!r} is missing", key=parts[1])
+    elif choices := _choices(kind, path):
+        text = _EXPECTED.filled(wanted=joined_by_or(choices), found=word)
+    else:
+        text = message("{problem}", problem=problem[:1].lower() + problem[1:].replace("`", ""))
+    return message("{key}: {problem}", key=key, problem=text) if key else text
+
+
+def _word_at(value: Any, path: str) -> str:
+    """The word at the path of an error, as it stands in a file; nothing where there is more than a word."""
+    for name, number in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path):
+        value = value[int(number)] if number else value.get(name) if isinstance(value, Mapping) else None
+    if isinstance(value, bool):
+        return str(value).lower()
+    return repr(value) if isinstance(value, str | int | float) else ""
+
+
+def _choices(kind: type[msgspec.Struct], path: str) -> list[str]:
+    """The words between which a key has to choose."""
+    records, hint = [kind], None
+    for name in re.findall(r"[^.\[\]\d]+", path):
+        hint = next((_fields(record)[name] for record in records if name in _fields(record)), None)
+        records = _records_within(hint)
+    return [repr(part) for part in _parts_of(hint) if isinstance(part, str)]
+
+
+def _parts_of(hint: Any) -> Iterator[Any]:
+    """A type, and all of which it is made."""
+    yield hint
+    for part in getattr(hint, "__args__", ()):
+        yield from _parts_of(part)
 
 
 @cache
@@ -172,6 +214,4 @@ def _refuse_strange_keys(data: Mapping[str, Any], kind: type[msgspec.Struct], fa
 
 
 def _records_within(annotation: Any) -> list[type[msgspec.Struct]]:
-    if isinstance(annotation, type) and issubclass(annotation, msgspec.Struct):
-        return [annotation]
-    return [record for part in getattr(annotation, "__args__", ()) for record in _records_within(part)]
+    return [part for part in _parts_of(annotation) if isinstance(part, type) and issubclass(part, msgspec.Struct)]

@@ -103,7 +103,7 @@ def test_refusals(first, second, kind, said):
         ({"at": [0, 0], "teeth": 20, "module": -2}, "a positive number"),
         ({"at": [0], "radius": 20}, r"expected \[x, y\]"),
         ({"at": [0, 0], "circle": 20, "teeth": 3}, "teeth: does not go with circle"),
-        ({"at": [0, 0], "radius": "20"}, "expected float"),
+        ({"at": [0, 0], "radius": "20"}, "expected a number without a unit, but found '20'"),
         ({"teeth": 20}, "missing"),
     ],
 )

@@ -110,7 +110,7 @@ unit = "mm"
     ("right", "wrong", "words"),
     [
         ("lead = 5", "laed = 5", r"unknown key 'screws\.joints\.H\(spindle-nut\)\.laed'; did you mean 'lead'"),
-        ("lead = 5", 'lead = "five"', r"lead: expected float"),
+        ("lead = 5", 'lead = "five"', r"lead: expected a number, but found 'five'"),
         ("x = [0, 0, 1]", "x = [0, 1]", "expected 3 numbers"),
         ("x = [0, 0, 1]", "z = [0, 0, 1]", "a prismatic joint needs its x axis"),
         ('unit = "mm"', "", "the key 'unit' is missing"),
