@@ -1,4 +1,7 @@
-"""Print the lowest versions that pyproject.toml allows, one `package==version` a line, as constraints for pip."""
+"""Print the lowest versions that pyproject.toml allows, one `package==version` a line, as constraints for pip.
+
+What only the tests need stands there too; of it those that the tests are written for have their lowest version.
+"""
 
 import tomllib
 from pathlib import Path
@@ -8,5 +11,6 @@ extras = project["optional-dependencies"]
 needed = [*project["dependencies"]]
 for extra in ("atlas", "cad", "cluster", "notebook", "plot", "web"):
     needed += extras[extra]
-tests = [line for line in extras["test"] if line.split(">=")[0] in {"hypothesis", "igraph", "pytest", "pytest-xdist"}]
-print("\n".join(line.replace(">=", "==") for line in dict.fromkeys([*needed, *tests])))
+lowest = {line.split(">=")[0] for line in needed} | {"hypothesis", "igraph", "pytest", "pytest-xdist"}
+for line in dict.fromkeys([*needed, *extras["test"]]):
+    print(line.replace(">=", "==") if line.split(">=")[0] in lowest else line)
