@@ -1,0 +1,129 @@
+// Modes in space without Python, for sanitizers: a hand that turns by the law of cosines, a body on a ball whose points
+// end at the distances that were asked for, numbers that are none, and work that is ended.
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include "check.hpp"
+#include "space/modes.hpp"
+
+using namespace gruebler;
+using namespace gruebler::space;
+
+namespace {
+
+constexpr std::int64_t still = 0, turns = 1, length = 2, none = -1;
+
+struct Point {
+    double x, y, z;
+};
+
+// A linkage with all that its paths need, nodes that stand still shifted so far from their parents.
+struct Linkage {
+    std::vector<std::int64_t> nodes, rows;
+    std::vector<Complex> frames, twists, lengths, given;
+
+    Linkage(std::vector<std::int64_t> all_nodes, std::vector<std::int64_t> all_rows, const std::vector<Point>& shifts)
+        : nodes(all_nodes),
+          rows(all_rows),
+          frames(shifts.size() * frame_size),
+          twists(shifts.size() * twist_size),
+          lengths(2 * all_rows.size() / row_fields),
+          given(2 * shifts.size()) {
+        for (std::size_t k = 0; k < shifts.size(); ++k) {
+            Complex* frame = frames.data() + k * frame_size;
+            for (int i = 0; i < 4; ++i) frame[5 * i] = {1, 0};
+            frame[3] = {shifts[k].x, 0}, frame[7] = {shifts[k].y, 0}, frame[11] = {shifts[k].z, 0};
+        }
+    }
+};
+
+struct Ends {
+    bool done;
+    std::vector<Complex> at, turns, frames;
+    std::vector<double> times;
+    std::vector<std::int64_t> steps;
+
+    Point place(int node) const {
+        const Complex* frame = frames.data() + node * frame_size;
+        return {frame[3].re, frame[7].re, frame[11].re};
+    }
+};
+
+Ends follow_all(const Linkage& linkage, const std::vector<Complex>& starts, const std::vector<Complex>& balls,
+                std::size_t count, Watch& watch) {
+    const std::size_t nodes = linkage.given.size() / 2, unknowns = linkage.lengths.size() / 2;
+    Ends ends{false,
+              starts,
+              balls,
+              std::vector<Complex>(count * nodes * frame_size),
+              std::vector<double>(count),
+              std::vector<std::int64_t>(count)};
+    const Structure structure{static_cast<int>(nodes),    static_cast<int>(unknowns),
+                              static_cast<int>(unknowns), static_cast<int>(balls.size() / count / turn_size),
+                              linkage.nodes.data(),       linkage.rows.data()};
+    const Way way{linkage.frames.data(), linkage.twists.data(), linkage.lengths.data(), linkage.given.data()};
+    const Paths paths{static_cast<std::int64_t>(count),
+                      starts.data(),
+                      balls.data(),
+                      1e-3,
+                      ends.at.data(),
+                      ends.turns.data(),
+                      ends.frames.data(),
+                      ends.times.data(),
+                      ends.steps.data()};
+    ends.done = follow(structure, way, paths, watch);
+    return ends;
+}
+
+double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+}  // namespace
+
+int main() {
+    Watch watch{always, nullptr};
+    const double quarter = std::acos(0.0);
+    // |(cos q, sin q, 0) - (2, 0, 0)| from the root of 5 to 1.2.
+    Linkage hand(
+        {-1, still, 0, 1, none, none, 0, turns, 2, 1, 0, none, 1, still, 0, 1, none, none, 0, still, 0, 1, none, none},
+        {length, 2, 3, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+    hand.lengths = {{std::sqrt(5.0), 0}, {1.2 - std::sqrt(5.0), 0}};
+    const Ends found = follow_all(hand, {{quarter, 0}, {-quarter, 0}}, {}, 2, watch);
+    const double angle = std::acos((1 + 4 - 1.44) / 4);
+    expect(found.done && found.times[0] == 1 && found.times[1] == 1, "the hand did not arrive");
+    expect(std::abs(found.at[0].re - angle) < 1e-13 && std::abs(found.at[1].re + angle) < 1e-13,
+           "the hand ended elsewhere");
+
+    // A body that turns about the origin, two of its points at three distances from two fixed ones.
+    const std::vector<Point> places{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0},
+                                    {1, 0, 0}, {0, 1, 0}, {2, 1, 1}, {1, -1, 2}};
+    Linkage body({-1, still, 0,    1,     none, none,  0, turns, 0,    1,     0, 0,     1,    turns, 1,    1,
+                  1,  none,  2,    turns, 2,    1,     2, none,  3,    still, 0, 1,     none, none,  3,    still,
+                  0,  1,     none, none,  0,    still, 0, 1,     none, none,  0, still, 0,    1,     none, none},
+                 {length, 4, 6, 0, 0, length, 4, 7, 0, 0, length, 5, 6, 0, 0}, places);
+    const double before[] = {distance(places[4], places[6]), distance(places[4], places[7]),
+                             distance(places[5], places[6])};
+    const double change[] = {0.2, -0.3, 0.25};
+    body.lengths.clear();
+    for (const double each : before) body.lengths.push_back({each, 0});
+    for (const double each : change) body.lengths.push_back({each, 0});
+    const std::vector<Complex> unturned{{1, 0}, {0, 0}, {0, 0}, {0, 0}, {1, 0}, {0, 0}, {0, 0}, {0, 0}, {1, 0}};
+    const Ends turned = follow_all(body, {{0, 0}, {0, 0}, {0, 0}}, unturned, 1, watch);
+    expect(turned.done && turned.times[0] == 1, "the body did not arrive");
+    const int pairs[][2] = {{4, 6}, {4, 7}, {5, 6}};
+    for (int i = 0; i < 3; ++i)
+        expect(std::abs(distance(turned.place(pairs[i][0]), turned.place(pairs[i][1])) - before[i] - change[i]) < 1e-12,
+               "a point of the body is at another distance");
+    expect(std::abs(distance(turned.place(4), {0, 0, 0}) - 1) < 1e-12 &&
+               std::abs(distance(turned.place(4), turned.place(5)) - std::sqrt(2.0)) < 1e-12,
+           "the body is not rigid");
+
+    for (const double odd : {1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        const Ends lost = follow_all(body, {{odd, odd}, {0, 0}, {odd, 0}}, unturned, 1, watch);
+        expect(lost.done && lost.times[0] < 1, "numbers that are none arrived");
+    }
+    Watch tired{never, nullptr, 1};
+    expect(!follow_all(hand, {{quarter, 0}, {-quarter, 0}}, {}, 2, tired).done, "nobody ended the work");
+    std::puts("space: all as it should be");
+}
