@@ -10,6 +10,7 @@ import ast
 import builtins
 import io
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from string import Formatter
 from typing import NamedTuple
@@ -125,14 +126,15 @@ def _of_arguments(file: str, node: ast.Call, name: str) -> Iterator[Found | Unre
                 yield Unreadable(file, node.lineno, ast.unparse(keyword.value))
 
 
-def messages() -> list[Found | Unreadable]:
+@cache
+def messages() -> tuple[Found | Unreadable, ...]:
     """All messages of the library, file by file."""
     ours = [entry for path in sorted(SOURCES.rglob("*.py")) for entry in in_file(path)]
-    return [
+    return (
         *ours,
         *(Found("argparse", 0, text) for text in ARGPARSE),
         Found("argparse", 0, "expected %s argument", "expected %s arguments"),
-    ]
+    )
 
 
 def catalog_path(lang: str) -> Path:

@@ -9,7 +9,7 @@ import pytest
 
 from gruebler.cli.commands import command as command_named
 from gruebler.cli.commands import command_names
-from gruebler.teaching.catalog import entries
+from gruebler.teaching.catalog import check_all, entries
 from tests.commands import run_main as run
 
 FOUR_BAR = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
@@ -34,7 +34,13 @@ KEYS = {
 }
 
 
-def test_the_whole_catalog(capsys):
+@pytest.fixture(scope="module")
+def checked_catalog():
+    return check_all()
+
+
+def test_the_whole_catalog(capsys, monkeypatch, checked_catalog):
+    monkeypatch.setattr("gruebler.cli.check.check_all", lambda: checked_catalog)
     summary = run(capsys, "check")
     status, out, err = run(capsys, "check", "--all")
     assert (status, err) == (0, "")
@@ -70,7 +76,8 @@ def test_explanations_in_both_languages(capsys):
     assert "F = 2(n - 1) - g1 = 2(3 - 1) - 3 = 1" in own
 
 
-def test_demo(capsys):
+def test_demo(capsys, monkeypatch, checked_catalog):
+    monkeypatch.setattr("gruebler.cli.demo.check_all", lambda: checked_catalog)
     status, out, _ = run(capsys, "demo")
     assert status == 0
     for title in ("(vcomp)", "(diff)", "(loco3)", "(quad_strut)"):

@@ -40,7 +40,7 @@ def test_small_trains(links, displacement, rotation):
         (6, 2, 45, 12),
         (6, 3, 6, 1),
         (7, 1, 647, 152),
-        (7, 2, 441, 81),
+        pytest.param(7, 2, 441, 81, marks=pytest.mark.slow),
         (7, 3, 103, 13),
         pytest.param(8, 1, 6360, 1070, marks=pytest.mark.slow),
         pytest.param(8, 2, 4361, 559, marks=pytest.mark.slow),
