@@ -1,6 +1,6 @@
 """Compiles what the page needs of the kernels into `motion.wasm.gz` beside this file, by the clang of `ziglang`.
 
-    python core/page/build.py            # needs `ziglang` and `zopfli`; some minutes the first time, then half a minute
+    python core/page/build.py      # needs `ziglang`, `zopfli` and npx; some minutes the first time, then half a minute
 
 The module tells which sources it was made of, so that a test can say whether it belongs to those that are here.
 """
@@ -53,6 +53,20 @@ OPTIONS = (
 )
 
 
+OPTIMISER = (
+    "npx",
+    "--yes",
+    "--package=binaryen@132.0.0",  # 5 % smaller, as quick, the same operations on numbers
+    "wasm-opt",
+    "-O3",
+    "--enable-simd",
+    "--enable-bulk-memory",
+    "--enable-sign-ext",
+    "--enable-nontrapping-float-to-int",
+    "--enable-mutable-globals",
+)
+
+
 def sources() -> list[Path]:
     """The units and all that they include of the core, and this file, which holds the options."""
     found: dict[Path, None] = {}
@@ -81,11 +95,12 @@ def with_digest(module: bytes) -> bytes:
 
 
 def compiled() -> bytes:
-    """The module as the linker makes it."""
+    """The module of the linker, made smaller."""
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / "motion.wasm"
         command = [sys.executable, "-m", "ziglang", "c++", *OPTIONS, f"-I{CORE / 'src'}", "-o", str(made)]
         subprocess.run([*command, *(str(CORE / unit) for unit in UNITS)], check=True)
+        subprocess.run([*OPTIMISER, str(made), "-o", str(made)], check=True)
         return made.read_bytes()
 
 

@@ -29,6 +29,7 @@ import { toHull } from "./hull";
 import { t } from "./language";
 import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
+import { placesPanel } from "./places";
 import { outlineOf, type Plane, planePicture } from "./plane";
 import type { Pair } from "./rows";
 import { snapped } from "./snapping";
@@ -66,6 +67,7 @@ export class BuildView implements View, Plane, Drawn {
   private readonly side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
   private readonly choice = h("div", {});
+  private readonly places = h("section.panel.options", {});
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
@@ -143,6 +145,7 @@ export class BuildView implements View, Plane, Drawn {
         ),
         h("button.plain", { "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
       ),
+      this.places,
     );
     this.root.setAttribute("aria-label", t("Plane to draw on"));
     this.changed();
@@ -199,6 +202,7 @@ export class BuildView implements View, Plane, Drawn {
     }
     this.draw();
     this.showChoice();
+    renew(this.places, ...placesPanel(this));
     void this.mobility.tell();
   }
 

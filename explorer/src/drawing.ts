@@ -1,6 +1,7 @@
 /** A mechanism that is being drawn: places where links meet. Every change makes another drawing; nothing here knows the
  * browser. The library makes a linkage of its document. */
 
+import type { Backdrop } from "./backdrop";
 import { t } from "./language";
 import type { LinkageDocument } from "./model";
 import type { Pair } from "./rows";
@@ -22,6 +23,9 @@ export interface Drawing {
   readonly frame: string | null;
   /** Knots that are driven. */
   readonly drives: readonly number[];
+  /** The picture behind it, and whether the document of the linkage keeps it. */
+  readonly picture?: Backdrop | undefined;
+  readonly keeps?: boolean;
 }
 
 /** Where something is put: at a knot, on a link, or beside all of them. */
@@ -250,6 +254,7 @@ export function documentOfDrawing(drawing: Drawing, unit: string): LinkageDocume
     links: linksOf(drawing),
     ...(drawing.frame === null ? {} : { frame: drawing.frame }),
     drives: drawing.drives.map(name),
+    ...(drawing.picture && drawing.keeps && { page: { picture: drawing.picture } }),
     places: Object.fromEntries(
       joints.map((k) => {
         return [name(k), placeOf(drawing.knots[k]!)];

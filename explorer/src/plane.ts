@@ -1,5 +1,6 @@
 /** The plane on which a mechanism is drawn: its picture, with a grid. */
 
+import { backdropElement, putBackdrop } from "./backdrop";
 import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, linksOf, type Spot } from "./drawing";
 import { convexHull } from "./hull";
@@ -50,7 +51,11 @@ export function planePicture(plane: Plane): SVGElement[] {
   const last = spots.at(-1);
   const [dx, dy] = last ? [cursor[0] - last.at[0], cursor[1] - last.at[1]] : [0, 0];
   const read = dx || dy ? `${number(Math.hypot(dx, dy), 4)} mm, ${angle(Math.atan2(dy, dx), 3)}` : "";
+  const { picture } = drawing;
+  const behind = picture ? [backdropElement(picture)] : [];
+  for (const element of behind) putBackdrop(element, picture!, viewport);
   return [
+    ...behind,
     ...grid(plane),
     svg("path.guide", { d: guides.map((ends) => path(ends.map((at) => viewport.screen(...at)))).join("") }),
     ...knots.filter((_, k) => !isPin(drawing.knots[k]!)),

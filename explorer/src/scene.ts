@@ -1,5 +1,6 @@
 /** The SVG of the picture: links, joints, points, names, vectors. */
 
+import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
@@ -20,6 +21,7 @@ export class Scene {
   private pins: { element: SVGGElement; joint: number }[] = [];
   private marks: { element: SVGGElement; point: number }[] = [];
   private labels: Label[] = [];
+  private backdrop: SVGElement | null = null;
   private readonly arrows = svg("path.velocity", {});
   private readonly changes = svg("path.acceleration", {});
   private readonly forces = svg("path.force", {});
@@ -84,7 +86,9 @@ export class Scene {
       this.circle,
       this.pole,
     );
-    renew(this.root, back, bodies, marks, front);
+    const { picture } = linkage.beside;
+    this.backdrop = picture ? backdropElement(picture) : null;
+    renew(this.root, ...(this.backdrop ? [this.backdrop] : []), back, bodies, marks, front);
   }
 
   private pin({ model }: Linkage, number: number, dragging: Dragging): SVGGElement {
@@ -125,6 +129,7 @@ export class Scene {
       const [cosine, minus, sine] = [c.toFixed(6), (-s).toFixed(6), s.toFixed(6)];
       group.setAttribute("transform", `matrix(${cosine} ${minus} ${sine} ${cosine} ${x.toFixed(2)} ${y.toFixed(2)})`);
     });
+    if (this.backdrop && linkage.beside.picture) putBackdrop(this.backdrop, linkage.beside.picture, viewport);
     for (const { element, joint } of this.pins) put(element, viewport.screen(...linkage.jointAt(joint)));
     for (const { element, point } of this.marks) {
       const record = sizes.points[point];

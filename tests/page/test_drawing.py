@@ -148,7 +148,7 @@ def test_the_library_takes_cylinders_and_gears_as_they_are_drawn():
     assert turns[1] - turns[0] == pytest.approx(-0.5, abs=1e-12)
 
 
-def test_a_cylinder_is_drawn_and_driven(plane):
+def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     view = plane.page
     view.click('[data-tool="ground"]')
     click(plane, (0, 0), (60, 0))
@@ -166,9 +166,23 @@ def test_a_cylinder_is_drawn_and_driven(plane):
     view.keyboard.press("v")
     click(plane, (36, 20))  # the middle of the cylinder
     view.click('[data-act="drive"]')
+    end = view.locator('[aria-label="Joint 3 y"]')
+    end.fill("44")  # the end of the lever
+    end.press("Enter")
+    assert view.evaluate("gruebler.views.build.drawing.knots.at(-1).at") == [36, 22]  # the cylinder goes along
+    view.locator(".drawing").screenshot(path=tmp_path / "sketch.png")
+    view.locator("input[accept]").set_input_files(tmp_path / "sketch.png")
+    view.locator('[data-field="keeps"]').check()
+    angle = view.locator('[aria-label="Picture 1 φ [°]"]')
+    angle.fill("30")
+    angle.press("Enter")
+    assert "rotate(-30)" in view.locator(".drawing .backdrop").get_attribute("transform")
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.drives[0]?.name === 'P(2-3)'")
     assert view.evaluate("gruebler.motion.linkage.drive.turning") is False
+    assert "rotate(-30)" in view.locator(".stage .backdrop").last.get_attribute("transform")
+    assert view.evaluate("gruebler.motion.document().page.picture.href.slice(0, 11)") == "data:image/"
+    view.evaluate("localStorage.clear()")
 
 
 def test_joints_are_joined_split_named_and_removed(plane):

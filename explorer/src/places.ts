@@ -1,0 +1,44 @@
+/** The panel in which the places of joints are typed, and that of a picture behind them. */
+
+import { backdropOf } from "./backdrop";
+import { h } from "./dom";
+import { isPin, moved } from "./drawing";
+import { t } from "./language";
+import type { Drawn } from "./mobility";
+import type { Pair } from "./rows";
+import { rowsTable } from "./targets";
+import type { Viewport } from "./viewport";
+
+export function placesPanel(view: Drawn & { readonly viewport: Viewport }): HTMLElement[] {
+  const { drawing, viewport } = view;
+  const { keeps, knots, picture } = drawing;
+  const numbers = [...knots.keys()].filter((k) => isPin(knots[k]!));
+  const rows = numbers.map((k) => [...knots[k]!.at]);
+  const typed = () => {
+    const k = rows.findIndex((row, m) => row.join() !== knots[numbers[m]!]!.at.join());
+    view.change(moved(drawing, numbers[k]!, rows[k] as unknown as Pair));
+  };
+  const frame = picture ? [[...picture.at]] : [];
+  const framed = () => view.change({ ...drawing, picture: frame[0] && { ...picture!, at: frame[0] } });
+  const read = () => {
+    const middle = viewport.world(viewport.width / 2, viewport.height / 2);
+    backdropOf(file.files![0]!, (0.6 * viewport.width) / viewport.scale, middle).then(
+      (made) => view.change({ ...view.drawing, picture: made }),
+      () => view.page.say(t("This file is no picture that the browser reads.")),
+    );
+  };
+  const file = h("input", { type: "file", accept: "image/*", hidden: true, onchange: read });
+  const onchange = () => view.change({ ...drawing, keeps: box.checked });
+  const box = h("input", { type: "checkbox", checked: keeps, "data-field": "keeps", onchange });
+  return [
+    ...(rows.length ? [rowsTable(rows, t("Joint"), ["x", "y"], false, typed)] : []),
+    ...(picture
+      ? [
+          rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed),
+          h("label", {}, box, t("Keep it in the document")),
+        ]
+      : []),
+    file,
+    h("button.plain", { "data-act": "picture", onclick: () => file.click() }, t("A picture behind it")),
+  ];
+}
