@@ -4,6 +4,7 @@ import gc
 import os
 from contextlib import suppress
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # The fast tests try the same examples on every machine, so that a failure is one of the change at hand; `make slow`
@@ -30,6 +31,7 @@ with suppress(ImportError):  # versions that do not know this
 gc.disable()
 
 
-def pytest_collection_finish():
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtestloop():
     gc.freeze()
     gc.enable()
