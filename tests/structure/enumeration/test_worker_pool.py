@@ -57,20 +57,28 @@ def processes():
     made.stop()
 
 
+@pytest.fixture(scope="module")
+def lasting_processes():
+    """For tests that kill none of them: to start them takes longer than what they do."""
+    made = ProcessPools(2)
+    yield made
+    made.stop()
+
+
 @pytest.mark.parametrize("ahead", [1, 3, 100])
-def test_results_come_in_order(processes, ahead):
+def test_results_come_in_order(lasting_processes, ahead):
     expected = [k * k for k in range(40)]
     told = {}
     assert list(run_work(square, range(40))) == expected
-    assert list(run_work(square, range(40), processes, ahead=ahead, finished=told.__setitem__)) == expected
+    assert list(run_work(square, range(40), lasting_processes, ahead=ahead, finished=told.__setitem__)) == expected
     assert told == dict(enumerate(expected))
     with ThreadPoolExecutor(3) as threads:
         assert list(run_work(square, range(40), threads, ahead=ahead)) == expected
         assert threads.submit(square, 3).result() == 9
 
 
-def test_known_pieces_are_not_done_again(processes):
-    for executor in (None, processes):
+def test_known_pieces_are_not_done_again(lasting_processes):
+    for executor in (None, lasting_processes):
         told = {}
         found = list(run_work(square, range(9), executor, known={2: -2, 8: -8}.get, finished=told.__setitem__))
         assert found == [0, 1, -2, 9, 16, 25, 36, 49, -8]
@@ -136,8 +144,8 @@ def test_an_executor_that_cannot_be_made_anew():
         list(run_work(square, range(3), Broken()))
 
 
-def test_what_a_piece_raises_is_raised(processes):
-    for executor in (None, processes):
+def test_what_a_piece_raises_is_raised(lasting_processes):
+    for executor in (None, lasting_processes):
         with pytest.raises(ZeroDivisionError, match="four"):
             list(run_work(fails, range(9), executor))
 
@@ -172,11 +180,11 @@ def test_a_lost_worker_changes_no_count(processes, tmp_path):
     [Request(12), Request(9, mobility=2, fractionated="all"), Request(8, multiple_joints="any"), Request(4)],
     ids=str,
 )
-def test_any_number_of_jobs_gives_the_same(request_, processes):
+def test_any_number_of_jobs_gives_the_same(request_, lasting_processes):
     alone = run_count(request_, orbits=True)
-    assert run_count(request_, orbits=True, executor=processes) == alone
+    assert run_count(request_, orbits=True, executor=lasting_processes) == alone
     for form in ("text", "json"):
-        assert list(run_list(request_, form, executor=processes)) == list(run_list(request_, form))
+        assert list(run_list(request_, form, executor=lasting_processes)) == list(run_list(request_, form))
     with ThreadPoolExecutor(2) as threads:
         assert run_count(request_, orbits=True, executor=threads) == alone
 
