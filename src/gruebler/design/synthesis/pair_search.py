@@ -27,6 +27,7 @@ _WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
 _APART = 4  # places in the sample: designs nearer to a better one are not listed
 _LOOKED_AT = 2000  # pairs for each design that is wanted
 _ALIKE = 0.05  # sizes: pivots of two designs that are improved differ by more
+_BITS = 30  # costs that differ behind them are equal: a tie is not decided by how a machine rounds
 BUILDABLE = 20.0
 """The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
 USUAL = ("full-turn", "transmission", "size-ratio")
@@ -76,7 +77,12 @@ class PairFacts:
             "size-ratio": self.size_ratio,
             "full-turn": np.asarray(1.0 - self.turns, np.float64),
         }
-        return [known[name] for name in (*orders, *USUAL) if name in known]
+        return [_rounded(known[name]) for name in (*orders, *USUAL) if name in known]
+
+
+def _rounded(values: Reals) -> Reals:
+    mantissa, power = np.frexp(values)
+    return np.asarray(np.ldexp(np.round(np.ldexp(mantissa, _BITS)), power - _BITS), np.float64)
 
 
 def pair_facts(
