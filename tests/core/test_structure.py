@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from gruebler import Chain
 from gruebler.structure.enumeration import edge_blocks
-from gruebler.structure.enumeration.condition import joint_masks
+from gruebler.structure.enumeration.fractionation_class import joint_masks
 from gruebler.structure.enumeration.listing import chains
 from gruebler.structure.type_synthesis import sliding
 

@@ -12,7 +12,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import function_task, minimax, synthesise_function
 from gruebler.design.synthesis.coordination import Coordination
 from gruebler.design.synthesis.formulas import FunctionLaw
-from gruebler.design.synthesis.structural_errors import ErrorFamily, coordination_of, largest_error
+from gruebler.design.synthesis.structural_errors import ErrorFamily, coordination_of
 from gruebler.mechanics.linkages.branch import branch_of_side
 
 RIGHT, HALF = np.pi / 2, np.pi / 3
@@ -100,7 +100,12 @@ def found(law, output, count):
     """The answers from each linkage that meets the pairs and can be assembled throughout."""
     exact = synthesise_function(function_task(law, count, output=output))
     starts = [coordination_of(d, exact.task, law) for d in (*exact.designs, *exact.rejected)]
-    return [minimax(s, law) for s in starts if s is not None and np.isfinite(largest_error(s, law))]
+    return [minimax(s, law) for s in starts if s is not None and is_assemblable(s, law)]
+
+
+def is_assemblable(solution, law):
+    family = ErrorFamily(solution.kind, solution.side, law)
+    return np.isfinite(family.largest(family.numbers_of(solution)))
 
 
 CASES = [

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.enumeration.condition import freedoms_of_sets, joint_masks
+from gruebler.structure.enumeration.fractionation_class import joint_masks
 from gruebler.structure.isomorphism import canonical_order, code
+from tests.structure.enumeration.definition_oracle import freedoms_of_sets
 
 __all__ = ["grown_one_by_one", "merge_joints", "split_multiple_joints"]
 

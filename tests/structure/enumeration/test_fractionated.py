@@ -6,16 +6,22 @@ import networkx as nx
 import pytest
 
 from gruebler import Chain, code, mobility_report
-from gruebler.structure.enumeration.condition import CLASSES, fractionation, is_constrained
 from gruebler.structure.enumeration.counting import count_simple_chains
-from gruebler.structure.enumeration.fractionated import fractionated_chains
+from gruebler.structure.enumeration.fractionated import block_additions, composed
+from gruebler.structure.enumeration.fractionation_class import CLASSES, fractionation
 from gruebler.structure.enumeration.listing import chains
 from gruebler.structure.enumeration.simple_chains import simple_chains as plain
+from tests.structure.enumeration.definition_oracle import is_constrained
 from tests.structure.enumeration.fractionated_oracle import count_fractionated
 
 
-def composed(links, mobility, kind):
-    return list(fractionated_chains(plain, links, mobility, kind))
+def fractionated_chains(links, mobility, kind):
+    for part in block_additions(links, mobility, kind):
+        yield from (compound.chain for compound in composed(plain, part))
+
+
+def fractionated_list(links, mobility, kind):
+    return list(fractionated_chains(links, mobility, kind))
 
 
 def plain_count(links, mobility):
@@ -50,7 +56,7 @@ def test_known_numbers(links, mobility, numbers):
     ("links", "mobility"), [(7, 2), (9, 2), (11, 2), (8, 3), (10, 3), (12, 3), (9, 4), (11, 4), (12, 5)]
 )
 def test_composition_agrees_with_counting_by_polya(links, mobility):
-    built = {kind: len(composed(links, mobility, kind)) for kind in ("link", "joint")}
+    built = {kind: len(fractionated_list(links, mobility, kind)) for kind in ("link", "joint")}
     assert built == count_fractionated(links, mobility, plain, plain_count)
 
 
@@ -68,7 +74,7 @@ def test_one_joint_link_is_an_unordered_pair_of_inversions(links, number):
 def test_every_composed_chain_is_one(links, mobility):
     seen = set()
     for kind in ("link", "joint"):
-        for chain in composed(links, mobility, kind):
+        for chain in fractionated_list(links, mobility, kind):
             graph = nx.Graph(chain.link_graph())
             assert nx.has_bridges(graph) == (kind == "joint")
             assert not nx.is_biconnected(graph)
@@ -150,9 +156,9 @@ def test_brute_force_holds_the_same_chains(links, mobility):
 
 
 def test_lazy_and_always_in_the_same_order():
-    first = next(fractionated_chains(plain, 15, 2, "link"))
+    first = next(fractionated_chains(15, 2, "link"))
     assert fractionation(first) == "link"
-    assert composed(11, 2, "link") == composed(11, 2, "link")
+    assert fractionated_list(11, 2, "link") == fractionated_list(11, 2, "link")
     assert list(chains(9, 2, fractionated="all")) == [
         chain for kind in CLASSES for chain in chains(9, 2, fractionated=kind)
     ]

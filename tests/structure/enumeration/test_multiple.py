@@ -7,10 +7,11 @@ import pytest
 
 import gruebler as gr
 from gruebler import Chain, code, mobility_report
-from gruebler.structure.enumeration.condition import fractionation, is_constrained, joint_masks
+from gruebler.structure.enumeration.fractionation_class import fractionation, joint_masks
 from gruebler.structure.enumeration.listing import chains
 from gruebler.structure.enumeration.multiple import grown_joints, with_multiple_joints
 from gruebler.structure.enumeration.multiple_assortment import joint_assortments
+from tests.structure.enumeration.definition_oracle import is_constrained
 from tests.structure.enumeration.growth_oracle import grown_one_by_one, merge_joints, split_multiple_joints
 
 

@@ -72,21 +72,6 @@ def structural_error(solution: Coordination, law: FunctionLaw, x: ArrayLike) -> 
     return family.unit * family.errors(family.numbers_of(solution), np.atleast_1d(np.asarray(x, np.float64)))
 
 
-def largest_error(solution: Coordination, law: FunctionLaw) -> float:
-    """The largest structural error over the whole interval, in radians or the unit of the travel.
-
-    Infinite where the linkage cannot be assembled throughout. Cost: 0.5 ms.
-
-    >>> law = FunctionLaw("x**2", interval=(0, 1), input_swing=np.pi / 2, output_swing=np.pi / 2)
-    >>> sizes = {"lengths": (0.8, 1.1, 0.9, 1.0), "input_start": 0.5, "output_start": 0.9}
-    >>> linkage = Coordination("four-bar", **sizes, side=1)
-    >>> round(largest_error(linkage, law), 6) >= round(float(np.abs(structural_error(linkage, law, 0.3))[0]), 6)
-    True
-    """
-    family = ErrorFamily(solution.kind, solution.side, law)
-    return family.unit * family.largest(family.numbers_of(solution))
-
-
 def error_extremes(solution: Coordination, law: FunctionLaw) -> Reals:
     """(extremes,) x where the structural error has an extreme, and both ends of the interval.
 

@@ -339,35 +339,10 @@ def measures(
 ) -> Measures:
     """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
 
-    Args:
-        linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
-        branch: as for `move`; without it that of the reference pose, else all ``+`` and 1. It applies where the motion
-            starts: `gruebler.mechanics.analysis.drive_cycles.drive_cycle`.
-        speed: of the drive in rad/s, for the times; not zero. `gruebler.rpm` converts.
-        output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
-
-    Returns:
-        `Measures`: dead centres, stroke, times (seconds), transmission angle, transfer functions; angles in radians,
-        lengths in the linkage's unit.
+    What the arguments are, what it costs, and an example: `gruebler.measures`, which takes linkages in space, too.
 
     Raises:
         LinkageError: more drives than one, a linkage that cannot be assembled, a wrong name or number.
-
-    Cost:
-        Some 60 ms for a dyad, 0.2 s for a group of four links.
-
-    Example:
-        >>> from gruebler.mechanics.kinematics.drive_rows import rpm
-        >>> from gruebler.mechanics.fourbar import FourBar
-        >>> found = measures(FourBar(a=2, b=7, c=4.5, d=5.5), speed=rpm(300))
-        >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
-        (1.357364, 0.115159, 1.205044)
-
-    See Also:
-        `move`, `plot`, `rpm`, `drive_range`, `Measures`
-
-    Theory:
-        docs/theory/events.md
     """
     linkage = as_linkage(linkage)
     looked_at = find_output(linkage, output)

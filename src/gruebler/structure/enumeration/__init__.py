@@ -7,7 +7,6 @@ from gruebler.structure.enumeration.assortment import (
     each_assortment,
     largest_degree,
 )
-from gruebler.structure.enumeration.condition import fractionation
 from gruebler.structure.enumeration.contracted import ContractedGraph, contracted_graphs
 from gruebler.structure.enumeration.counting import ChainCount, count_simple_chains
 from gruebler.structure.enumeration.epicyclic import (
@@ -16,6 +15,7 @@ from gruebler.structure.enumeration.epicyclic import (
     count_epicyclic_trains,
     epicyclic_trains,
 )
+from gruebler.structure.enumeration.fractionation_class import fractionation
 from gruebler.structure.enumeration.listing import chains, count_chains
 from gruebler.structure.enumeration.multiple_assortment import (
     each_joint_assortment,

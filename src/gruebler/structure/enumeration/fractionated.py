@@ -59,17 +59,6 @@ def block_additions(links: int, mobility: int, kind: str) -> list[BlockAddition]
     return additions
 
 
-def fractionated_chains(plain: Plain, links: int, mobility: int, kind: str) -> Iterator[Chain]:
-    """The chains that fall apart at a link only (kind ``link``) or at some joint (``joint``), each once, lazily.
-
-    `plain` gives the chains that are not fractionated. Cost: about two canonical forms for each link at which a block
-    can be added, and two for each resulting chain.
-    """
-    for part in block_additions(links, mobility, kind):
-        for compound in composed(plain, part):
-            yield compound.chain
-
-
 def composed(plain: Plain, part: BlockAddition) -> Iterator[Compound]:
     """The chains of one piece of work."""
     blocks = _rooted(plain, part.last_links, part.last_mobility)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from gruebler import _core
 from gruebler.base.errors import GrueblerError
 from gruebler.structure.chain import Chain
-from gruebler.structure.enumeration.condition import joint_masks
+from gruebler.structure.enumeration.fractionation_class import joint_masks
 
 _MANY = 99  # no limit: more than a chain can have
 _AT_ONCE = 64  # chains with simple joints that are grown together

@@ -11,7 +11,7 @@ from typing import Any
 from gruebler.base.errors import GrueblerError
 from gruebler.base.immutable import settle
 from gruebler.base.plain_data import plain
-from gruebler.structure.enumeration.condition import CLASSES
+from gruebler.structure.enumeration.fractionation_class import CLASSES
 
 _TOO_MANY = 1_000_000  # multiple joints: no chain that can be listed has as many
 

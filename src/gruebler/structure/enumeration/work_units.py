@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.assortment import Assortment, loop_count
-from gruebler.structure.enumeration.condition import fractionation
 from gruebler.structure.enumeration.counting import ChainCount
 from gruebler.structure.enumeration.fractionated import (
     BlockAddition,
@@ -25,6 +24,7 @@ from gruebler.structure.enumeration.fractionated import (
     composed,
     edges_of,
 )
+from gruebler.structure.enumeration.fractionation_class import fractionation
 from gruebler.structure.enumeration.multiple import grown_joints, with_multiple_joints
 from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, graph6_lines, list_piece, pieces
 from gruebler.structure.enumeration.request import Request
