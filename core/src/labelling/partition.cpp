@@ -15,7 +15,7 @@ constexpr int early_steps = 8;
 }  // namespace
 
 Partition::Partition(int n)
-    : vertex_at(n), place_of(n), cell_of(n), size_of(n), n_(n), sum_(n), keyed_(n), hits_(n), waits_(n), splitter_(n) {
+    : vertex_at(n), place_of(n), cell_of(n), size_of(n), n_(n), key_(n), sum_(n), keyed_(n), hits_(n), waits_(n), splitter_(n) {
     trail.reserve(n);
     waiting_.reserve(n);
     touched_.reserve(n);
@@ -37,31 +37,35 @@ void Partition::hash_surroundings(const ColouredGraph& graph) {
     std::int64_t top = 0;
     for (int v = 0; v < n_; ++v) {
         top = std::max(top, graph.vertex_colour[v]);
-        keyed_[v] = {mix(static_cast<Word>(graph.vertex_colour[v]) * mixer + static_cast<Word>(graph.degree(v))), v};
+        key_[v] = mix(static_cast<Word>(graph.vertex_colour[v]) * mixer + static_cast<Word>(graph.degree(v)));
     }
-    for (int round = 0; round < rounds; ++round) {
-        for (int v = 0; v < n_; ++v) sum_[v] = keyed_[v].key;
+    for (int round = 0; round < rounds; ++round) {  // edge by edge: how many stand at a vertex cannot be guessed
         for (int v = 0; v < n_; ++v) {
-            Word total = sum_[v] * golden;
-            for (int e = graph.start[v]; e < graph.start[v + 1]; ++e) total += weight_[e] * sum_[graph.neighbour[e]];
-            keyed_[v].key = mix(total);
+            sum_[v] = key_[v];
+            key_[v] *= golden;
         }
+        for (int e = 0; e < ends; ++e) key_[graph.owner[e]] += weight_[e] * sum_[graph.neighbour[e]];
+        for (int v = 0; v < n_; ++v) key_[v] = mix(key_[v]);
     }
     if (top == 0) return;
     const int bits = std::bit_width(static_cast<Word>(top));
     for (int v = 0; v < n_; ++v)
-        keyed_[v].key = static_cast<Word>(graph.vertex_colour[v]) << (64 - bits) | keyed_[v].key >> bits;
+        key_[v] = static_cast<Word>(graph.vertex_colour[v]) << (64 - bits) | key_[v] >> bits;
 }
 
 void Partition::begin(const ColouredGraph& graph) {
     hash_surroundings(graph);
     if (n_ <= short_length) {  // the first place of a cell is the number of smaller keys: no branch to be guessed wrong
-        for (int v = 0; v < n_; ++v) {
-            int smaller = 0;
-            for (int u = 0; u < n_; ++u) smaller += keyed_[u].key < keyed_[v].key;
-            cell_of[v] = smaller;
+        const Word* keys = key_.data();
+        const int n = n_;
+        for (int v = 0; v < n; ++v) {
+            const Word key = keys[v];
+            Word smaller = 0;  // as wide as a key, so that several are compared at once
+            for (int u = 0; u < n; ++u) smaller += keys[u] < key;
+            cell_of[v] = static_cast<int>(smaller);
         }
     } else {
+        for (int v = 0; v < n_; ++v) keyed_[v] = {key_[v], v};
         sort(keyed_.data(), keyed_.data() + n_);
         for (int i = 0, first = 0; i < n_; ++i) {
             if (keyed_[i].key != keyed_[first].key) first = i;

@@ -76,6 +76,7 @@ private:
 
     int n_;
     std::vector<Word> weight_;     // end of an edge -> hash of the colour
+    std::vector<Word> key_;        // vertex -> hash of its surroundings
     std::vector<Word> sum_;        // vertex -> weight of its edges into the splitting cell
     std::vector<Keyed> keyed_;
     std::vector<int> hits_;        // first place -> vertices of the cell met so far; 0 between steps
