@@ -233,7 +233,7 @@ def well_placed(seed: int) -> Linkage | None:
     return linkage if result.span.width > narrow else None
 
 
-@settings(max_examples=20)
+@settings(max_examples=12)
 @given(
     st.integers(0, 2**32 - 1),
     st.floats(-6, 6).map(lambda x: 10**x),

@@ -66,7 +66,7 @@ SMALL = st.one_of(
 
 
 @given(SMALL, st.data())
-@settings(max_examples=80)
+@settings(max_examples=50)
 def test_equal_codes_exactly_if_a_renaming_exists(chain, data):
     one, other = (
         Mechanism(
@@ -80,7 +80,7 @@ def test_equal_codes_exactly_if_a_renaming_exists(chain, data):
 
 
 @given(SMALL, st.integers(1, 2))
-@settings(max_examples=20)
+@settings(max_examples=12)
 def test_as_many_codes_as_orbits(chain, number):
     """Every orbit of frames and drives has a code of its own."""
     found = [driven.mechanism.code() for driven in driven_mechanisms(chain, drives=number, at_frame=False)]

@@ -27,13 +27,21 @@ def changed(record, k, **numbers):
 
 @pytest.mark.parametrize(("id", "k"), CLAIMED)
 def test_every_claim_can_turn_red(id, k):
-    record = entry(id)
-    assert not [wrong for wrong in wrong_quantities(record) if f"quantities {k + 1}," in wrong.key]
-    for key, printed in record.quantities[k].numbers.items():
-        wrong = list(wrong_quantities(changed(record, k, **{key: printed * 1.02 if printed else 0.01})))
-        assert [each.key for each in wrong] == [
-            f"quantities {k + 1}, {record.quantities[k].kind} {record.quantities[k].of}: {key}"
-        ]
+    """Each alone, since all claims of an entry are derived whenever one is asked about."""
+    claim = entry(id).quantities[k]
+    alone = msgspec.structs.replace(entry(id), quantities=(claim,))
+    assert list(wrong_quantities(alone)) == []
+    for key, printed in claim.numbers.items():
+        wrong = list(wrong_quantities(changed(alone, 0, **{key: printed * 1.02 if printed else 0.01})))
+        assert [each.key for each in wrong] == [f"quantities 1, {claim.kind} {claim.of}: {key}"]
+
+
+def test_a_wrong_claim_is_named_by_its_place():
+    record = next(one for one in entries().values() if len(one.quantities) > 2)
+    claim = record.quantities[2]
+    key, printed = next(iter(claim.numbers.items()))
+    (wrong,) = wrong_quantities(changed(record, 2, **{key: printed * 1.02 if printed else 0.01}))
+    assert wrong.key == f"quantities 3, {claim.kind} {claim.of}: {key}"
 
 
 # --- what a text says -----------------------------------------------------------------------------------
