@@ -12,6 +12,7 @@ from gruebler.mechanics.fourbar.length_texts import ClosedForm
 def coupler_point(size: ClosedForm, text: str) -> tuple[float, float]:
     """The coordinates of a point of the coupler: U along it from the crank, V to its left; links in any language.
 
+    >>> from gruebler.mechanics.fourbar import FourBar
     >>> coupler_point(FourBar(25, 70, 40, 70), "45,40"), coupler_point(FourBar(25, 70, 40, 70), "R(coupler-rocker)")
     ((45.0, 40.0), (70.0, 0.0))
     >>> coupler_point(FourBar(25, 70, 40, 70), "Koppel:45,40")

@@ -34,6 +34,7 @@ def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
 def linkage_of_lengths(size: ClosedForm, lang: str = "en") -> Linkage:
     """The linkage of given lengths, its links by their names in a language.
 
+    >>> from gruebler.mechanics.fourbar import FourBar
     >>> linkage_of_lengths(FourBar(25, 70, 40, 70), "de").mechanism.chain.links
     ('Gestell', 'Kurbel', 'Koppel', 'Schwinge')
     """
