@@ -93,19 +93,15 @@ def _degree_sequences(block: Int64) -> list[Degrees]:
     return [sequences[k] for k in place.reshape(-1).tolist()]
 
 
-def _order(rows: Int64) -> int:
-    """The order of the group of a packed graph, equal strings told apart."""
-    strings = np.tril(strings_of_graphs(rows[None])[0])
-    return len(_core.find_automorphisms(rows)) * int(np.prod(_FACTORIALS[strings]))
-
-
 def sums_of_graphs(loops: int) -> tuple[int, dict[Degrees, Fraction]]:
     """The number of contracted graphs, and the sum of 1/|Aut| for each sequence of degrees."""
     sums: defaultdict[Degrees, Fraction] = defaultdict(Fraction)
     number = 0
     for block in packed_graphs(loops):
-        orders = np.array([_order(rows) for rows in block])
-        degrees = strings_of_graphs(block).sum(axis=2)
+        strings = strings_of_graphs(block)
+        orders = _FACTORIALS[np.tril(strings)].prod(axis=(1, 2))  # equal strings told apart
+        orders *= [len(_core.find_automorphisms(rows)) for rows in block]
+        degrees = strings.sum(axis=2)
         sequences = (degrees[:, :, None] == np.arange(3, degrees.max() + 1)).sum(axis=1)
         rows, counts = np.unique(np.column_stack([sequences, orders]), axis=0, return_counts=True)
         for (*sequence, order), count in zip(rows.tolist(), counts.tolist(), strict=True):

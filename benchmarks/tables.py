@@ -17,6 +17,7 @@ from time import perf_counter
 
 import gruebler as gr
 from benchmarks.evidence import check_chains
+from benchmarks.real_modes import real_modes_of, stored_rows
 from gruebler.structure.assur import count_assur_groups
 from gruebler.structure.assur.modes import modes_of_trusses, sets_of_ends
 from gruebler.structure.enumeration import Request, edge_blocks
@@ -143,6 +144,14 @@ def _truss_modes(links: int) -> Iterator[tuple[str, int, int]]:
             yield " ".join(f"{a}-{b}" for a, b in ends), planar, spherical
 
 
+def real_modes(most: int | None = None) -> Rows:
+    """The Baranov trusses to 9 links with the dimensions of `benchmarks.real_modes`, solved again from other starts."""
+    yield "links", "joints", "modes", "real_modes", "points"
+    for links, joints, modes, _, points in stored_rows():
+        if int(links) <= (most or int(links)):
+            yield links, joints, modes, real_modes_of(joints, points, int(modes)), points
+
+
 def sliding(most: int | None = None) -> Rows:
     """Typed chains by the number of sliding joints, all other joints turning, all joints moving."""
     yield "mobility", "links", "sliding", "chains"
@@ -175,6 +184,7 @@ TABLES: dict[str, Callable[[int | None], Rows]] = {
         assur_groups,
         assembly_modes,
         truss_modes,
+        real_modes,
         driven_by_class,
         epicyclic_trains,
         second_method,

@@ -5,14 +5,20 @@ import io
 import json
 from collections import Counter
 from hashlib import sha256
+from itertools import combinations
 
+import numpy as np
 import pytest
 
 from benchmarks import oeis, tables
+from benchmarks.real_modes import joints_of_text, points_of_text
 from benchmarks.tables import FOLDER, TABLES, text_of
 from gruebler.base.errors import GrueblerError
+from gruebler.mechanics.kinematics.assembly_modes import conditions, search_modes
+from gruebler.mechanics.kinematics.kernel_records import PIN
 from gruebler.structure.count_tables import count_table, count_tables
 from gruebler.structure.enumeration import count_simple_chains
+from tests.structure.assur.monodromy_oracle import Truss
 
 
 def test_every_table_has_its_record():
@@ -73,6 +79,8 @@ def test_a_table_as_json_and_parquet():
         ("assur_groups", 12),
         ("assembly_modes", 11),
         ("truss_modes", 11),
+        ("real_modes", 5),
+        pytest.param("real_modes", 9, marks=pytest.mark.slow),
         ("driven_by_class", 10),
         ("epicyclic_trains", 6),
         ("sampled_chains", 8),
@@ -84,6 +92,43 @@ def test_first_rows(name, most):
     made = list(csv.DictReader(text_of(TABLES[name](most)).splitlines()))
     assert made
     assert made == [row for row in table if int(row["links"]) <= most]
+
+
+@pytest.mark.parametrize("most", [7, pytest.param(9, marks=pytest.mark.slow)])
+def test_real_modes_by_random_starts(most):
+    """As many as Newton's method finds from random starts; each is proved to be there, alone within a small ball."""
+    modes = {(row[0], row[1]): row[2] for row in count_table("truss_modes").rows}
+    stored = [row for row in count_table("real_modes").rows if row[0] <= most]
+    for links, joints, possible, real, points in stored:
+        pairs = joints_of_text(joints)
+        places = points_of_text(pairs, points)
+        places /= np.abs(places).mean()
+        rows = [(PIN, a - 1, b - 1, complex(p), 1, complex(q), 1) for (a, b), (p, q) in zip(pairs, places, strict=True)]
+        found = search_modes(conditions(rows))
+        assert len(found) == real <= possible == modes[links, joints]
+        assert real == possible or links == 9
+        balls = [kantorovich(Truss(links, pairs).closing(places), angles) for angles in found.poses[:, :, 2]]
+        for (a, reach), (b, other) in combinations(balls, 2):
+            assert np.linalg.norm(a - b) > reach + other
+
+
+def kantorovich(closing, angles):
+    """Cosines and sines of all links but the first, and a radius in which there is exactly one real mode.
+
+    The loops are linear, the circles c² + s² = 1 quadratic with a second derivative of norm 2 at most: one real
+    solution lies within 2 |step| if 2 |inverse slope| |step| <= 1/2 (Kantorovich 1948); rounding is far below
+    what is left.
+    """
+    x = np.concatenate([np.cos(angles), np.sin(angles)])
+    turning, n = closing[:, 1:], len(angles)
+    loops = np.block([[turning.real, -turning.imag], [turning.imag, turning.real]])
+    slope = np.concatenate([loops, np.hstack([2 * np.diag(x[:n]), 2 * np.diag(x[n:])])])
+    fixed = np.concatenate([closing[:, 0].real, closing[:, 0].imag])
+    miss = np.concatenate([loops @ x + fixed, x[:n] ** 2 + x[n:] ** 2 - 1])
+    inverse = np.linalg.inv(slope)
+    step = np.linalg.norm(inverse @ miss)
+    assert 2 * np.linalg.norm(inverse, 2) * step < 1e-6
+    return x, 2 * step + 1e-12
 
 
 def test_driven_mechanisms_of_all_classes_are_those_of_the_chains():

@@ -48,10 +48,14 @@ def noise(rng, *shape):
     return rng.normal(size=shape) + 1j * rng.normal(size=shape)
 
 
-def newton_step(first, second, turns):
-    """One step for all solutions at once; turns: (solutions, links - 1), link 0 is not turned."""
+def newton_step(first, second, turns, right=None):
+    """One step for all solutions at once, with other matrices on the right where ``right`` gives them.
+
+    turns: (solutions, links - 1), link 0 is not turned.
+    """
     whole = np.concatenate([np.ones((len(turns), 1)), turns], axis=1)
-    miss = np.concatenate([whole @ first.T, (1 / whole) @ second.T], axis=1)
+    one, other = right or (first, second)
+    miss = np.concatenate([whole @ one.T, (1 / whole) @ other.T], axis=1)
     slope = np.empty((len(turns), 2 * len(first), turns.shape[1]), complex)
     slope[:, : len(first)] = first[:, 1:]
     slope[:, len(first) :] = -second[:, 1:] / turns[:, None, :] ** 2
