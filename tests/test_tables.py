@@ -83,7 +83,7 @@ def test_a_table_as_json_and_parquet():
         pytest.param("real_modes", 9, marks=pytest.mark.slow),
         ("driven_by_class", 10),
         ("epicyclic_trains", 6),
-        ("sampled_chains", 8),
+        pytest.param("sampled_chains", 8, marks=pytest.mark.slow),
         pytest.param("second_method", 12, marks=pytest.mark.slow),
     ],
 )
