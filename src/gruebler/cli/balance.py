@@ -123,9 +123,8 @@ def _balance_document(balance: ForceBalance) -> dict[str, Any]:
 
 def _part_document(part: PartialBalance, harmonics: Complexes) -> dict[str, Any]:
     before, after = part.largest
-    exact = np.where(
-        np.abs([harmonics.real, harmonics.imag]) < _ROUNDING * before, 0.0, [harmonics.real, harmonics.imag]
-    )
+    parts = np.array([harmonics.real, harmonics.imag])
+    exact = np.where(np.abs(parts) < _ROUNDING * before, 0.0, parts)
     return {
         **plain(part, "products"),
         "largest_before": before,

@@ -109,10 +109,8 @@ def tangent_windows(
     middle = move_quietly(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
     if not len(middle):
         raise LinkageError("{reason}", reason=middle.reason)
-    path, tangent = (
-        linkage_path(linkage, point, branch=branch),
-        float(np.angle(middle.complex_point(point, order=1)[0])),
-    )
+    path = linkage_path(linkage, point, branch=branch)
+    tangent = float(np.angle(middle.complex_point(point, order=1)[0]))
     width = 2 * np.pi
     for _ in range(2):  # first the range of the windows, then that range finely
         curve = ratio_curve(path, Window(centre - width / 2, centre, centre + width / 2, tangent))

@@ -29,6 +29,8 @@ _BLOCK = (14.0, 8.5)  # half sides of a block
 _BARREL = 9.0  # half the width of a cylinder
 _BEYOND = 5.0  # pixels by which a guide extends beyond the block
 _SLOT_END = 9.0  # pixels by which a slot extends beyond the pin
+_SLOT_HALF = 8.5  # half the width of a slot between rails
+_RAIL = 2.5  # pixels between a block and its rail
 _FOOT = Point(13.0, 21.0)  # of a pedestal
 _FLAT = 1e-6  # sizes: points nearer to a line lie on it
 _LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
@@ -219,11 +221,6 @@ def corners_of(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) 
     return tuple(Point(z.real, z.imag) for z in hull)
 
 
-def _height(a: Point, b: Point, c: Point) -> float:
-    """The distance of c from the line from a to b, positive on the side of x turned to y."""
-    return b.minus(a).unit.across.dot(c.minus(a))
-
-
 def _body(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> list[Shape]:
     """A bar or polygon through the joints, and bars for its guides; outlines first, so that they merge."""
     corners = corners_of(posed, link, joint_slides)
@@ -329,7 +326,7 @@ def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]
         if slide.guide == frame:
             long, wide = _outline_extent(posed, slide) or _BLOCK
             a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else long + _BEYOND)
-            half = 8.5 if slide.sign == "slot" else wide + 2.5
+            half = _SLOT_HALF if slide.sign == "slot" else wide + _RAIL
             for side in (b.minus(a).unit.across, a.minus(b).unit.across):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
@@ -347,8 +344,11 @@ def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]
 def _in_frame(posed: PosedLinkage, pin: complex) -> bool:
     """Whether a pin of the frame lies in an outline of the frame, which supports it in the place of a pedestal."""
     outlines = (o.places for o in posed.linkage.outlines.get(posed.lower.mechanism.frame, ()) if len(o.places) > 2)
-    corners = (np.array([complex(*place) for place in places]) for places in outlines)
-    return any(bool(is_inside(np.array([pin]), polygon)[0]) for polygon in corners)
+    return any(_inside(pin, [complex(*place) for place in places]) for places in outlines)
+
+
+def _inside(place: complex, corners: Sequence[complex]) -> bool:
+    return bool(is_inside(np.array([place]), np.array(corners))[0])
 
 
 def _pedestal(posed: PosedLinkage, pin: complex) -> list[Shape]:
@@ -371,24 +371,18 @@ def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[compl
         element = lower.elements.get((number, frame))
         if element is None or not element.is_pin:
             continue
-        foot = Point(*posed.place(LinkPoint(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
+        foot = complex(*posed.place(LinkPoint(frame, element.x, element.y))) + 0.5j * _FOOT.y
         for link in lower.mechanism.chain.links:
             if link == frame or joint in joints[link]:
                 continue
             corners = [
-                posed.place(LinkPoint(link, p.x / posed.scale, -p.y / posed.scale))
+                complex(*posed.place(LinkPoint(link, p.x / posed.scale, -p.y / posed.scale)))
                 for p in corners_of(posed, link, joint_slides)
             ]
             if len(corners) > 2 and _inside(foot, corners):
                 covered.append(complex(element.x, element.y))
                 break
     return covered
-
-
-def _inside(point: Point, corners: Sequence[Point]) -> bool:
-    """Whether a point lies in a convex polygon."""
-    sides = [_height(a, b, point) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
-    return min(sides) > 0 or max(sides) < 0
 
 
 def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
