@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from gruebler.design.synthesis import Demands, PathTask, synthesise_path
 from gruebler.design.synthesis.curves import Fit, linkages_of
-from gruebler.design.synthesis.four_bar_curves import FOUR_BAR
+from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.ordered_matching import Places, SmoothCurve, TargetDistances
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets
