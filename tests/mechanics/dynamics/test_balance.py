@@ -1,5 +1,7 @@
 """Balance: laws over motions that the method never solves, closed forms by hand, another way to each answer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,12 +16,13 @@ from gruebler.mechanics.dynamics import (
     balance_partly,
     balance_weights,
     equilibria,
+    fit_springs,
     flywheel,
     inverse_dynamics,
     reduced_equations,
     shaking_harmonics,
 )
-from gruebler.mechanics.forces import Loads, RigidBody, Spring
+from gruebler.mechanics.forces import Loads, RigidBody, Spring, statics
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
@@ -252,3 +255,44 @@ def test_springs_hold_the_weights_everywhere(name):
     assert all(isinstance(each, Spring) and each.free_length == 0 for each in springs)
     if name == "four-bar":
         assert str(equilibria(linkage, held)) == "Every position is an equilibrium."
+
+
+def test_fitted_springs_of_free_length_zero_are_those_that_hold_exactly():
+    linkage, loads = FourBar(25, 70, 40, 70).linkage(), Loads(bodies={"crank": RigidBody(2.0, (15, 0))})
+    exact = balance_weights(linkage, loads, height=20, radius=10)
+    fit = fit_springs(move(linkage, np.linspace(0, 6, 40)), loads, [replace(s, stiffness=0.0) for s in exact])
+    assert [s.stiffness for s in fit.springs] == pytest.approx([s.stiffness for s in exact], rel=1e-12)
+    assert np.abs(fit.after).max() < 1e-12 * np.abs(fit.before).max()
+
+
+@pytest.mark.parametrize("minimax", [False, True])
+def test_fitted_real_springs_against_a_general_optimiser(minimax):
+    """Free lengths and a preload; the effort with springs is that of equilibrium, by another road."""
+    linkage = FourBar(25, 70, 40, 70).linkage()
+    loads = Loads(bodies={"crank": RigidBody(2.0, (15, 3)), "coupler": RigidBody(1.5, (30, 5))})
+    motion = move(linkage, np.linspace(0.3, 2.0, 35))
+    springs = [
+        Spring(("frame:0,40", "crank:12,0"), free_length=15.0, preload=2.0),
+        Spring(("frame:60,90", "coupler:40,0"), free_length=25.0),
+        Spring(("frame:0,-60", "crank:10,0"), free_length=5.0),  # it pulls down: of no use
+    ]
+    fit = fit_springs(motion, loads, springs, minimax=minimax)
+
+    def size(stiffness):
+        pulling = tuple(replace(s, stiffness=float(k)) for s, k in zip(springs, stiffness, strict=True))
+        effort = statics(motion, replace(loads, springs=pulling)).drive[:, 0]
+        return np.abs(effort).max() if minimax else np.sqrt((effort**2).mean())
+
+    found = [s.stiffness for s in fit.springs]
+    assert size(found) == pytest.approx(fit.bound, rel=1e-10)
+    assert size(found) == pytest.approx(np.abs(fit.after).max() if minimax else np.sqrt((fit.after**2).mean()))
+    assert fit.springs[2].stiffness == 0
+    other = minimize(size, [1.0, 1.0, 1.0], method="Nelder-Mead", bounds=[(0, None)] * 3, options={"maxiter": 50})
+    assert other.fun >= fit.bound * (1 - 1e-9)
+    assert size(found) < 0.3 * np.abs(fit.before).max()
+
+
+def test_wrong_springs_to_be_fitted():
+    motion = move(FourBar(25, 70, 40, 70), [0.5, 1.0])
+    with pytest.raises(LinkageError, match="there is at least one"):
+        fit_springs(motion, Loads(), [])

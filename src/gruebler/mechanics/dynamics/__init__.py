@@ -24,7 +24,7 @@ from gruebler.mechanics.dynamics.partial_balance import (
 from gruebler.mechanics.dynamics.simulating import simulate
 from gruebler.mechanics.dynamics.simulation import Simulation
 from gruebler.mechanics.dynamics.small_motions import Equilibria, Linearised, equilibria, linearised
-from gruebler.mechanics.dynamics.spring_balance import balance_weights
+from gruebler.mechanics.dynamics.spring_balance import SpringFit, balance_weights, fit_springs
 
 __all__ = [
     "Counterweight",
@@ -39,12 +39,14 @@ __all__ = [
     "PartialBalance",
     "ReducedEquations",
     "Simulation",
+    "SpringFit",
     "Terms",
     "balance_forces",
     "balance_moments",
     "balance_partly",
     "balance_weights",
     "equilibria",
+    "fit_springs",
     "flywheel",
     "influences_of",
     "inverse_dynamics",
