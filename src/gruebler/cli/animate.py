@@ -7,7 +7,7 @@ import argparse
 from gruebler.base.errors import GrueblerError
 from gruebler.cli.draw import entry_of, linkage_and_range, picture_path, picture_suffix
 from gruebler.cli.drive_rows import driven_path, given_rows
-from gruebler.cli.linkage_inputs import SpatialWord, spatial_of_word, with_points
+from gruebler.cli.linkage_inputs import SpatialWord, loads_and_speed, spatial_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.linkages import Linkage
@@ -30,6 +30,7 @@ def add(parser: Parser) -> None:
     parser.add_out(help="the file: .svg, .html, .gif, .webp or .png (APNG)")
     parser.take(
         """
+        --loads  draw masses and springs of the file or entry, and the forces at its usual speed as arrows
         --curve
         --seconds S float =4  duration of a turn, or of back and forth (default: 4)
         --branch
@@ -55,9 +56,12 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError("--view needs a linkage in space or on the sphere with the screws of its joints")
     linkage, between = linkage_and_range(arguments.linkage, arguments.lang)
     linkage = with_points(linkage, arguments.curve)
+    loads, speed = loads_and_speed(arguments.linkage, arguments.lang) if arguments.loads else (None, None)
     options = AnimationOptions(
         branch=arguments.branch,
         between=between,
+        loads=loads,
+        speed=speed,
         drives=driven_path(arguments.range, linkage),
         curves=arguments.curve,
         seconds=arguments.seconds,
@@ -79,8 +83,9 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, suffix: str, 
     from gruebler.pictures.canvas.moving_files import moving_bytes
     from gruebler.pictures.space import animate_spatial
 
-    if arguments.branch is not None:
-        raise GrueblerError("--{option} does not go with a linkage in space", option="branch")
+    for option in ("branch", "loads"):
+        if getattr(arguments, option):
+            raise GrueblerError("--{option} does not go with a linkage in space", option=option)
     drives = spatial.linkage.mechanism.drives
     rows = given_rows(arguments.range, (), [drive.turning for drive in drives])
     shown = animate_spatial(

@@ -20,7 +20,7 @@ from gruebler.base.text import joined, translate
 from gruebler.cli.arguments import take
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
-from gruebler.cli.linkage_inputs import SpatialWord, linkage_of_word, spatial_of_word, with_points
+from gruebler.cli.linkage_inputs import SpatialWord, linkage_of_word, loads_and_speed, spatial_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.files import Entry
@@ -51,7 +51,15 @@ _VIEWS: dict[str, Callable[..., Figure]] = {
 }
 
 
-_OF_MOTION: Mapping[str, Any] = {"at": None, "curve": [], "show": [], "ghosts": None, "branch": None, "output": None}
+_OF_MOTION: Mapping[str, Any] = {
+    "at": None,
+    "loads": False,
+    "curve": [],
+    "show": [],
+    "ghosts": None,
+    "branch": None,
+    "output": None,
+}
 """Options that only linkages have."""
 _OF_A_LINK = ("dead-centres", "transmission", "centrodes", "inflection")
 """What is shown of the link named by --output."""
@@ -73,6 +81,7 @@ def add(parser: Parser) -> None:
             file, or lengths such as four-bar:25,70,40,70
         --at VALUE[,VALUE] ? :  draw to scale, in the pose at these drive values, in degrees or the unit (--at=-30,20
             for two drives; without a value: a typical pose)
+        --loads  draw masses and springs of the file or entry, and the forces at its usual speed as arrows
         --curve
         --show {dead-centres,transmission,velocities,accelerations,poles,centrodes,inflection,planes,dimensions,scale}
             {joints,angles,lengths} ...  also draw this (repeatable)
@@ -260,6 +269,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
             )
     linkage, between = linkage_and_range(arguments.chain, arguments.lang)
     linkage = with_points(linkage, moving["curve"])
+    loads, speed = loads_and_speed(arguments.chain, arguments.lang) if moving["loads"] else (None, None)
     name, names = called(entry_of(arguments.chain, arguments.lang), arguments.lang)
     return draw_linkage(
         linkage,
@@ -267,6 +277,8 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
         at=pose_of(moving["at"], linkage.mechanism) if moving["at"] else None,
         between=between,
         curves=moving["curve"],
+        loads=loads,
+        speed=speed,
         show=moving["show"],
         output=moving["output"],
         ghost=moving["ghosts"],
@@ -281,8 +293,8 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, moving: Mappi
     """The picture of a linkage in space, in isometric or oblique view."""
     from gruebler.pictures.space import draw_spatial
 
-    for option in ("show", "ghosts", "branch", "output"):
-        if moving[option] not in (None, []):
+    for option in ("loads", "show", "ghosts", "branch", "output"):
+        if moving[option] not in (None, [], False):
             raise GrueblerError("--{option} does not go with a linkage in space", option=option)
     name, names = called(entry_of(arguments.chain, arguments.lang), arguments.lang)
     return draw_spatial(

@@ -176,6 +176,12 @@ def loaded_linkage(word: str, lang: str = "en") -> Loaded:
     return Loaded(linkage, loads, speed, None)
 
 
+def loads_and_speed(word: str, lang: str = "en") -> tuple[Loads, float]:
+    """The loads of a file or a catalog entry, and the usual speed of its drive, else 0; errors as `loaded_linkage`."""
+    loaded = loaded_linkage(word, lang)
+    return loaded.loads, loaded.speed or 0.0
+
+
 def value_of_another_program(word: str, lang: str = "en") -> Linkage | Chain | list[Chain] | None:
     """What a file of another program holds; None if the word is no name of one.
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from gruebler.mechanics.dynamics.inverse import InverseDynamics
     from gruebler.mechanics.dynamics.simulation import Simulation
+    from gruebler.mechanics.forces import Loads
     from gruebler.mechanics.kinematics.motion import Motion
     from gruebler.mechanics.linkages import Linkage
     from gruebler.mechanics.linkages.branch import Branch
@@ -140,9 +141,11 @@ _OF_DIAGRAM = message("the diagram {kind!r} has no option {option!r}{suggestion}
 def draw(
     value: object,
     *,
+    loads: Loads | None = None,
     branch: Branch = None,
     at: float | Sequence[float] | None = None,
     between: tuple[float, float] | None = None,
+    speed: float | None = None,
     curves: Sequence[PointLike] | None = None,
     show: Sequence[str] | None = None,
     output: str | None = None,
@@ -165,10 +168,13 @@ def draw(
 
     Args:
         value: what is drawn; also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
+        loads: of a linkage: whose centres of mass and springs are drawn.
         branch: of a linkage: the assembly mode, such as ``"+-"``.
         at: of a linkage: the values of its drives (radians, or lengths); of a cam or Geneva drive: the driver's angle
             in radians. By default a suitable position.
         between: of a linkage: drive values of its range, for curves and the size of the picture.
+        speed: of a linkage with loads: the even speed of its drive at which forces of joints and loads are drawn as
+            arrows.
         curves: of a linkage: points or joints whose paths are drawn.
         show: of a linkage: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``,
             ``centrodes``, ``inflection``, ``planes``, ``dimensions``, ``scale``; as letters ``joints``, ``angles``,
@@ -218,9 +224,11 @@ def draw(
 def animate(
     value: object,
     *,
+    loads: Loads | None = None,
     drives: ArrayLike | Mapping[str, object] | None = None,
     branch: Branch = None,
     between: tuple[float, float] | None = None,
+    speed: float | None = None,
     curves: Sequence[PointLike] | None = None,
     planets: Mapping[str, int] | None = None,
     teeth: bool | None = None,
@@ -235,10 +243,13 @@ def animate(
 
     Args:
         value: what moves; also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`.
+        loads: of a linkage: whose centres of mass and springs are drawn.
         drives: of a linkage: (rows, drives) a piecewise straight path of its drives; of a train: speeds or turns by
             link.
         branch: of a linkage: the assembly mode, such as ``"+-"``.
         between: of a linkage: drive values (radians, or lengths) between which it moves; by default the full range.
+        speed: of a linkage with loads: the even speed of its drive at which forces of joints and loads are drawn as
+            arrows.
         curves: of a linkage: points or joints whose paths are drawn.
         planets: of a train: the numbers of equal planets by name.
         teeth: of a train: whether gears have involute teeth.

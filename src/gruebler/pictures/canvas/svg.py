@@ -36,8 +36,8 @@ def _declarations(style: Style, ground: int) -> str:
 def svg_element(shape: Shape) -> str:
     """A shape as an element of SVG."""
     match shape:
-        case Polylines(parts, style, closed):
-            return f'<path class="gr-{style}" d="{"".join(_line(part, closed) for part in parts)}"/>'
+        case Polylines(style=style):
+            return f'<path class="gr-{style}" d="{svg_path(shape)}"/>'
         case CircleShape(at, radius, style):
             return (
                 f'<circle class="gr-{style}" cx="{svg_number(at.x)}" cy="{svg_number(at.y)}" r="{svg_number(radius)}"/>'
@@ -51,6 +51,11 @@ def svg_element(shape: Shape) -> str:
             position = f'x="{svg_number(at.x)}" y="{svg_number(at.y + 0.35 * STYLES[style].size)}"'
             anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
             return f'<text class="gr-{style}" {position}{anchored}>{svg_text(text, STYLES[style].size)}</text>'
+
+
+def svg_path(lines: Polylines) -> str:
+    """Lines as the data of a path."""
+    return "".join(_line(part, lines.closed) for part in lines.parts)
 
 
 def _line(points: tuple[Point, ...], closed: bool) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import TypedDict, Unpack
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,8 +22,8 @@ from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike, each_point
 from gruebler.pictures.canvas.figure import MARGIN, Figure, svg_document
-from gruebler.pictures.canvas.shapes import Point, Shape, bounds
-from gruebler.pictures.canvas.svg import svg_element, svg_number
+from gruebler.pictures.canvas.shapes import Point, Polylines, Shape, bounds
+from gruebler.pictures.canvas.svg import svg_element, svg_number, svg_path
 from gruebler.pictures.linkage.bodies import (
     PINS,
     BodyPart,
@@ -37,6 +37,9 @@ from gruebler.pictures.linkage.layers import coupler_curve_lines, drive_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.structure.messages import describe, title
 
+if TYPE_CHECKING:
+    from gruebler.mechanics.forces import Loads
+
 _LONGEST = 3600.0  # seconds
 
 
@@ -45,6 +48,8 @@ class AnimationOptions(TypedDict, total=False):
 
     branch: Branch
     between: tuple[float, float] | None
+    loads: Loads | None
+    speed: float | None
     drives: ArrayLike | None
     curves: Sequence[PointLike]
     seconds: float
@@ -61,6 +66,8 @@ class Scene:
     pieces: tuple[BodyPart, ...]
     still: tuple[Shape, ...]
     """Curves."""
+    changing: tuple[tuple[Polylines, ...], ...]
+    """By row of the path: lines that change their length, as many with as many points in each; or no rows."""
     corner: Point
     """The upper left corner of all that is ever seen."""
     page: Figure
@@ -79,8 +86,10 @@ class Scene:
 def scene(
     linkage: LinkageLike,
     *,
+    loads: Loads | None = None,
     branch: Branch = None,
     between: tuple[float, float] | None = None,
+    speed: float | None = None,
     drives: ArrayLike | None = None,
     curves: Sequence[PointLike] = (),
     seconds: float = 4.0,
@@ -92,8 +101,10 @@ def scene(
 
     Args:
         linkage: with one drive, or with several and a path of them.
+        loads: whose centres of mass and springs are drawn.
         branch: the assembly mode, as for `gruebler.mechanics.kinematics.move`.
         between: drive values between which it moves; by default the full range.
+        speed: of the drive, even: forces of joints and loads at it are drawn as arrows.
         drives: (rows, drives) a piecewise straight path of the drives, from its first row to its last.
         curves: points or joints whose paths are drawn.
         seconds: for a turn, or for both directions of a motion to and fro.
@@ -111,11 +122,17 @@ def scene(
     posed = room_for(posed_linkage(linkage, branch=branch, between=between, drives=drives), outlines)
     turns = posed.driven().span.turns
     pieces = (*body_parts(posed), *outline_parts(posed, outlines), *drive_parts(posed))
+    changing: tuple[tuple[Polylines, ...], ...] = ()
+    if loads is not None:
+        from gruebler.pictures.linkage.load_pictures import load_lines, mass_parts  # dynamics, which few pictures need
+
+        pieces = (*pieces, *mass_parts(posed, loads))
+        changing = load_lines(posed, posed.path, loads, speed)
     rows = range(0, len(posed.path), 2)
     poses = [shape for row in rows for part in pieces for shape in shapes_at_pose(posed, part, posed.path, row)]
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
     still = tuple(curve)
-    corner, size = bounds([*poses, *still], MARGIN)
+    corner, size = bounds([*poses, *still, *(line for row in changing for line in row)], MARGIN)
     moves = (
         plural(
             "It moves through {count} turn of its drive.", "It moves through {count} turns of its drive.", turns, lang
@@ -129,6 +146,7 @@ def scene(
         posed=posed,
         pieces=pieces,
         still=still,
+        changing=changing,
         corner=corner,
         page=page,
         seconds=seconds * (turns if posed.repeats else 1),
@@ -156,9 +174,12 @@ def svg_of(shown: Scene, *, styled: bool = True) -> str:
         *motion.groups([part for part in shown.pieces if part.layer < PINS]),
         *map(svg_element, shown.still),
         *motion.groups([part for part in shown.pieces if part.layer >= PINS]),
+        *motion.changing(shown.changing),
         "</g>",
     ]
-    used = [shape.style for shape in shown.still] + [shape.style for part in shown.pieces for shape in part.shapes]
+    used = [shape.style for shape in (*shown.still, *(line for row in shown.changing[:1] for line in row))] + [
+        shape.style for part in shown.pieces for shape in part.shapes
+    ]
     return svg_document(shown.page, used if styled else None, lines)
 
 
@@ -183,6 +204,14 @@ class _Motion:
                 f"{self._animated('translate', shifts)}{self._animated('rotate', turns)}"
                 f"{shapes}</g>"
             )
+
+    def changing(self, rows: Sequence[Sequence[Polylines]]) -> Iterator[str]:
+        """Lines that change their length: the same points at other places."""
+        for lines in zip(*rows, strict=True):
+            paths = [svg_path(line) for line in lines]
+            shown = ";".join(paths[row] for row in self.rows)
+            animated = f'<animate attributeName="d" {self.timing} values="{shown}"/>'
+            yield f'<path class="gr-{lines[0].style}" d="{paths[0]}">{animated}</path>'
 
     def _shifts(self, link: str) -> list[str]:
         k = self.posed.lower.mechanism.chain.index(link)

@@ -48,6 +48,7 @@ def _figure(shown: Scene, row: int) -> Figure:
         ]
         for pins in (False, True)
     )
+    changing = shown.changing[row] if shown.changing else ()
     page = shown.page
-    shapes = tuple(moved_shape(shape, by) for shape in (*below, *shown.still, *above))
+    shapes = tuple(moved_shape(shape, by) for shape in (*below, *shown.still, *above, *changing))
     return Figure(shapes, width=page.width, height=page.height, title=page.title, description=page.description)

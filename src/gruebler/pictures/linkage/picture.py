@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import cos, degrees, pi, sin
+from typing import TYPE_CHECKING
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import GrueblerError, LinkageError
@@ -44,6 +45,9 @@ from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import draw_structure
 
+if TYPE_CHECKING:
+    from gruebler.mechanics.forces import Loads
+
 _MOST_GHOSTS = 60
 _AROUND = 17.0  # pixels from the middle of a block to its name
 _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
@@ -73,9 +77,11 @@ _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 def draw_linkage(
     linkage: LinkageLike,
     *,
+    loads: Loads | None = None,
     branch: Branch = None,
     at: float | Sequence[float] | None = None,
     between: tuple[float, float] | None = None,
+    speed: float | None = None,
     curves: Sequence[PointLike] = (),
     show: Sequence[str] = (),
     output: str | None = None,
@@ -90,9 +96,11 @@ def draw_linkage(
 
     Args:
         linkage: the linkage.
+        loads: whose centres of mass and springs are drawn.
         branch: the assembly mode, as for `gruebler.mechanics.kinematics.move`.
         at: the drive's value (radians, or a length), one for each drive; by default a suitable one.
         between: drive values of its range, for curves and the size of the picture; by default the full range.
+        speed: of the drive, even: forces of joints and loads at it are drawn as arrows.
         curves: points or joints whose paths are drawn.
         show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
             ``inflection``, ``planes``, ``dimensions``, ``scale``, ``joints``, ``angles``, ``lengths`` (letters).
@@ -132,6 +140,7 @@ def draw_linkage(
         *pins,
         *drive_arrows(posed),
         *(shape for shape in below if shape.style in _MARKS),
+        *_of_loads(posed, loads, speed),
     ]
     for key in (key for key in layers if key not in BELOW and key != "dimensions"):
         layer_shapes[key] = layers[key](context._replace(drawn=shapes))
@@ -153,6 +162,15 @@ def draw_linkage(
     sentences, missing = picture_notes(posed, curves, {key: layer_shapes[key] for key in layers}, lang, ghost or 0)
     described = f"{describe(linkage.mechanism, lang)} {' '.join([*sentences, *missing])}"
     return figure_of(shapes, title(linkage.mechanism, lang, name), described, MARGIN, missing)
+
+
+def _of_loads(posed: PosedLinkage, loads: Loads | None, speed: float | None) -> list[Shape]:
+    if loads is None:
+        return []
+    from gruebler.pictures.linkage.load_pictures import load_lines, mass_parts  # dynamics, which few pictures need
+
+    masses = [shape for part in mass_parts(posed, loads) for shape in shapes_at_pose(posed, part)]
+    return [*masses, *load_lines(posed, posed.pose, loads, speed)[0]]
 
 
 def shown_linkage(linkage: Linkage) -> Figure:

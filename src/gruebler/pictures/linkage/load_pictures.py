@@ -1,0 +1,119 @@
+"""Masses, springs and forces in the pictures of linkages: docs/theory/drawing.md."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes
+from gruebler.mechanics.dynamics import inverse_dynamics
+from gruebler.mechanics.forces import Gas, Loads, Spring
+from gruebler.mechanics.forces.acting import ActingLoads, acting_loads, moving_links
+from gruebler.mechanics.forces.motion_rates import with_velocities
+from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.linkages import LinkPoint
+from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines
+from gruebler.pictures.canvas.symbols import arrow
+from gruebler.pictures.linkage.bodies import BodyPart, in_link
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+
+_MASS = 6.5  # pixels of the radius of a centre of mass
+_COILS = 7
+_WIDTH = 6.0  # pixels of half a spring's width
+_STRAIGHT = 0.18  # the part of a spring's length at both ends that is straight
+_BARREL, _FOOT = 0.55, 0.1  # of a gas spring's longest length (a damper's length) its barrel ends, begins there
+_LONGEST = 74.0  # pixels of the longest arrow
+_LEAST = 0.03  # of the longest: shorter ones are points
+
+Lines = tuple[Polylines, ...]
+"""Of one pose; in all poses of a motion they are as many, with as many points."""
+
+
+def mass_parts(posed: PosedLinkage, loads: Loads) -> list[BodyPart]:
+    """Centres of mass and point masses as the usual circle with two filled quarters, each carried by its link."""
+    acting = acting_loads(posed.pose, loads)
+    parts = []
+    for place in dict.fromkeys(acting.spots[acting.heavy]):
+        at = posed.place(place)
+        quarters = tuple(
+            (at, *(at.plus(Point(math.cos(a), math.sin(a)), _MASS) for a in np.linspace(start, start + math.pi / 2, 7)))
+            for start in (0.0, math.pi)
+        )
+        filled = [Polylines((corners,), "dot", closed=True) for corners in quarters]
+        parts.append(in_link(posed, place.link, [CircleShape(at, _MASS, "node"), *filled]))
+    return parts
+
+
+def load_lines(posed: PosedLinkage, motion: Motion, loads: Loads, speed: float | None) -> tuple[Lines, ...]:
+    """Springs, and with a speed of the drive forces of joints and loads as arrows, in each row of a motion."""
+    acting = acting_loads(motion, loads)
+    rows = [[*_springs(posed, motion, row, loads, acting)] for row in range(len(motion))]
+    if speed is not None:
+        places, forces = _forces(motion, loads, acting, speed)
+        longest = float(np.nanmax(np.abs(forces), initial=0.0)) or 1.0
+        for row, lines in enumerate(rows):
+            for at, force in zip(places[row].tolist(), np.nan_to_num(forces[row] / longest).tolist(), strict=True):
+                lines.extend(_arrow(posed.local(at), force))
+    return tuple(map(tuple, rows))
+
+
+def _springs(posed: PosedLinkage, motion: Motion, row: int, loads: Loads, acting: ActingLoads) -> Iterator[Polylines]:
+    for k, spring in enumerate(loads.springs):
+        first = acting.heavy.stop + 2 * k
+        near, far = (_placed(posed, motion, row, place) for place in acting.spots[first : first + 2])
+        yield from _spring(spring, near, far, posed.scale)
+
+
+def _placed(posed: PosedLinkage, motion: Motion, row: int, place: LinkPoint) -> Point:
+    return posed.local(complex(motion.complex_point(place)[row]))
+
+
+def _spring(spring: Spring, near: Point, far: Point, scale: float) -> Iterator[Polylines]:
+    """A zigzag; a gas spring is a barrel with its rod, a damper alone a piston in an open cylinder."""
+    along = far.minus(near)
+    side = along.unit.across
+
+    def at(part: float, across: float = 0.0) -> Point:
+        return near.plus(along, part).plus(side, across)
+
+    gas = spring.law if isinstance(spring.law, Gas) else None
+    if gas is not None or (spring.law is None and not spring.stiffness and not spring.preload):
+        end = _BARREL if gas is None else min(_BARREL * scale * gas.extended / max(along.length, 1.0), 0.95)
+        piston = end if gas is not None else end - 0.15
+        rim = (at(end, _WIDTH), at(_FOOT, _WIDTH), at(_FOOT, -_WIDTH), at(end, -_WIDTH))
+        yield Polylines(((near, at(_FOOT)), rim, (at(piston, _WIDTH), at(piston, -_WIDTH)), (at(piston), far)), "edge")
+        return
+    bends = np.linspace(_STRAIGHT, 1 - _STRAIGHT, 2 * _COILS + 1).tolist()
+    sides = [0.0, *(_WIDTH * (-1) ** k for k in range(2 * _COILS - 1)), 0.0]
+    yield Polylines(((near, *map(at, bends, sides), far),), "edge")
+
+
+def _arrow(at: Point, force: complex) -> list[Polylines]:
+    """From a point in the direction of a force; the longest is 1. A point where there is hardly a force."""
+    if abs(force) < _LEAST:
+        return [Polylines(((at, at),), "velocity"), Polylines(((at, at, at),), "velocity-head", closed=True)]
+    along = Point(force.real, -force.imag)
+    tip = at.plus(along.unit, max(_LONGEST * along.length - 7.0, 1.0))
+    return [shape for shape in arrow(at, tip, "velocity", "velocity-head") if isinstance(shape, Polylines)]
+
+
+def _forces(motion: Motion, loads: Loads, acting: ActingLoads, speed: float) -> tuple[Complexes, Complexes]:
+    """(rows, forces): where forces act, and how large they are, at an even speed of the drive.
+
+    Those of joints act on the link that `Statics.force` takes; then come those of the loads.
+    """
+    chain = motion.linkage.mechanism.chain
+    joints = range(len(chain.joints))
+    shape = len(motion), len(joints) + len(loads.forces)
+    places, forces = np.full(shape, np.nan, np.complex128), np.full(shape, np.nan, np.complex128)
+    for rows, moved in with_velocities(motion, np.array([speed]), order=2):
+        run = inverse_dynamics(moved, loads)
+        for joint in joints:
+            places[rows, joint] = moved.complex_point(chain.joint_names()[joint])
+            forces[rows, joint] = run.statics.force(joint) @ np.array([1, 1j])
+        forces[rows, len(joints) :] = acting.forces_at(moving_links(moved))[:, : len(loads.forces)]
+        for column, spot in enumerate(acting.spots[: len(loads.forces)], len(joints)):
+            places[rows, column] = moved.complex_point(spot)
+    return places, forces
