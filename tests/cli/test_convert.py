@@ -35,6 +35,7 @@ def test_the_formats_are_listed(capsys):
     ("words", "said"),
     [
         (["a.linkage2"], "name the file to read and the file to write"),
+        (["wiper", "b.toml", "-o", "c.toml"], "name the file to read and the file to write"),
         (["a.linkage2", "b.toml"], "cannot be read"),
         (["a.bmp", "b.toml"], "expected .toml"),
         (["a.toml", "b.toml", "--from", "pyslv"], "did you mean 'pyslvs'?"),
@@ -55,8 +56,9 @@ def test_wrong_usage_is_one_sentence(words, said, capsys):
 def test_lengths_and_entries_are_converted_as_files_are(word, lengths, tmp_path, monkeypatch):
     """Every command that takes the file of a linkage takes these."""
     monkeypatch.chdir(tmp_path)
-    assert main(["convert", word, "a.toml"]) == 0
+    assert main(["convert", word, "a.toml"]) == main(["convert", word, "-o", "b.toml"]) == 0
     linkage = read("a.toml")
+    assert read("b.toml") == linkage
     assert linkage.mechanism.code() == linkage_of_word(word)[0].mechanism.code()
     if lengths is not None:
         sides = zip(["crank", "coupler", "rocker", "frame"], [(0, 1), (1, 2), (2, 3), (0, 3)], strict=True)

@@ -41,6 +41,7 @@ def add(parser: Parser) -> None:
         --formats  list the formats, their endings and what they hold
         """
     )
+    parser.add_out(help="the file to write, in place of OUT")
 
 
 def _is_file(word: str) -> bool:
@@ -74,14 +75,16 @@ def run(arguments: argparse.Namespace) -> int:
         ]
         print_table(_HEADERS, rows, lang=lang)
         return 0
-    if arguments.source is None or arguments.target is None:
+    targets = [each for each in (arguments.target, arguments.out) if each is not None]
+    if arguments.source is None or len(targets) != 1:
         raise GrueblerError("name the file to read and the file to write, or --formats for the list of formats")
+    (target,) = targets
     if arguments.source_format is not None or _is_file(arguments.source):
-        notes = convert(arguments.source, arguments.target, arguments.source_format, arguments.target_format)
+        notes = convert(arguments.source, target, arguments.source_format, arguments.target_format)
     else:
         notes = []
         value = _value_of(arguments.source)
-        write(value, arguments.target, format_name=arguments.target_format, left_out=notes)
-    say_written(Path(arguments.target), lang)
+        write(value, target, format_name=arguments.target_format, left_out=notes)
+    say_written(Path(target), lang)
     say_left_out(notes, lang)
     return 0
