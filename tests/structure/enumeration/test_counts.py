@@ -4,6 +4,7 @@ from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from itertools import product
+from math import comb
 from multiprocessing import get_context
 from random import Random
 
@@ -16,7 +17,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.structure.enumeration import ContractedGraph, chains, contracted_graphs, count_simple_chains, edge_blocks
 from gruebler.structure.enumeration.contracted import pack
 from gruebler.structure.enumeration.counting import add_counts
-from gruebler.structure.enumeration.pieces import count_piece, list_piece, pieces
+from gruebler.structure.enumeration.pieces import count_piece, list_piece, pieces, work_of_graphs
 
 # mobility -> {links: chains}, non-fractionated. Sources: unfiltered generation with a test of all subsets of links;
 # for mobility 1 also OEIS A233288.
@@ -160,6 +161,7 @@ def test_chains_of_22_links():
     for graph, chains_ in TEN_LOOPS:
         packed = pack([ContractedGraph(tuple((u, v, 1) for u, v in graph.edges))])
         assert _core.take_census(packed, 10, 1, True)[0, 1] == len(_core.list_chains(packed, 10, 1)) == chains_
+        assert work_of_graphs(packed)[0] - 5000 == comb(27, 4) + 27 * comb(26, 2) + comb(27, 2)  # 2 - c adds up to 4
 
 
 @pytest.mark.slow

@@ -134,10 +134,10 @@ def work_of_graphs(rows: Packed) -> NDArray[np.int64]:
 
 @cache
 def _trinomials() -> NDArray[np.int64]:
-    """The coefficient of x^s in (1 + x + x^2)^b, for b and s up to 48."""
-    table = np.zeros((49, 49), np.int64)
+    """The coefficient of x^s in (1 + x + x^2)^b, for b up to the 27 bundles of ten loops."""
+    table = np.zeros((28, 55), np.int64)
     table[0, 0] = 1
-    for b in range(1, 28):
+    for b in range(1, len(table)):
         table[b] = table[b - 1]
         table[b, 1:] += table[b - 1, :-1]
         table[b, 2:] += table[b - 1, :-2]
