@@ -74,6 +74,7 @@ export class StructureView implements View {
     const number = ++this.asked;
     if (this.field.value !== text) this.field.value = text;
     if (!this.structure) renew(this.shown, moment());
+    this.detail.classList.add("asking"); // a click would choose among frames of the chain before
     try {
       const found = await this.page.ask<Structure>("structure", {
         text,
@@ -103,6 +104,7 @@ export class StructureView implements View {
         this.error.append(h("span.place", {}, `\n${before}▸${text.slice(at - 1, at + 16)}`));
       }
     }
+    this.detail.classList.remove("asking");
   }
 
   /** The linkage that is shown if it has higher pairs and the text is of its chain; else nothing. */
