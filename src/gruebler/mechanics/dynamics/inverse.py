@@ -176,7 +176,7 @@ def inverse_dynamics(
         LinkageError: a motion without accelerations, loads on points that are not there, an unknown unit of length.
 
     Cost:
-        Some 0.5 us a row of a four-bar, 1.2 us of an eight-bar of dyads, three to five times `move`; where not all
+        Some 0.5 us a row of a four-bar, 1.2 us of an eight-bar of dyads, two to four times `move`; where not all
         links are dyads or driven, some 20 us. Of several drives, or speeds that are 0, the motion once more for each.
 
     Example:

@@ -22,7 +22,7 @@ from gruebler.mechanics.forces.taking_apart import (
     removal_steps,
 )
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.spaces import Space
 
@@ -86,15 +86,18 @@ def joints_left_out(motion: Motion) -> bool:
 def link_loads(motion: Motion, wrenches: Iterable[Wrench]) -> LinkLoads:
     """All loads of each link together, moments about its origin; (links, rows)."""
     shape = motion.turns.shape[::-1]
-    force, moment = np.zeros(shape, np.complex128), np.zeros(shape)
+    total = LinkLoads(np.zeros(shape, np.complex128), np.zeros(shape))
+    forces = dict[LinkPoint, Complexes]()  # weight and inertia act at the same places
     for wrench in wrenches:
-        k = motion.links.index(wrench.place.link)
-        force[k] += wrench.force
-        moment[k] += wrench.moment
-        if wrench.place.x or wrench.place.y:
-            arm = motion.turns[:, k] * complex(wrench.place.x, wrench.place.y)
-            moment[k] += (np.conj(arm) * wrench.force).imag
-    return LinkLoads(force, moment)
+        total.moment[motion.links.index(wrench.place.link)] += wrench.moment
+        known = forces.get(wrench.place)
+        forces[wrench.place] = wrench.force if known is None else known + wrench.force
+    for place, force in forces.items():
+        k = motion.links.index(place.link)
+        total.force[k] += force
+        if place.x or place.y:
+            total.moment[k] += (np.conj(motion.turns[:, k] * complex(place.x, place.y)) * force).imag
+    return total
 
 
 def reactions(motion: Motion, cases: Sequence[LinkLoads]) -> tuple[Reactions, ...]:

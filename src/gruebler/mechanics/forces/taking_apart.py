@@ -189,4 +189,6 @@ class JointForces:
             normal = 1j * self.joints.lines[joint]
             force = normal * (np.conj(normal) * force).real
             self.couples[joint, link] = sign * self.moment_at(joint, load)
-        self.forces[joint, link] = self.forces.get((joint, link), 0) + sign * force
+        force = force if sign > 0 else -force
+        known = self.forces.get((joint, link))
+        self.forces[joint, link] = force if known is None else known + force
