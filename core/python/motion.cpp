@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "base/processor.hpp"
 #include "doors.hpp"
@@ -99,7 +100,10 @@ struct OwnProgram {
         windings = fields.next<Indices>("windings");
         pieces = fields.next<Table>("pieces");
         const std::int64_t elements = length(links.shape(0)), count = length(kinds.shape(0));
-        if (link_count == counted) link_count = 1 + std::max(largest(links), largest(roots));
+        if (link_count == counted) {
+            const std::int64_t last = std::max(largest(links), largest(roots));
+            link_count = last < std::numeric_limits<std::int64_t>::max() ? last + 1 : last;  // then it is refused
+        }
         expect_length(points.shape(0), elements, "program.points");
         expect_length(lines.shape(0), elements, "program.lines");
         expect_length(sides.shape(0), 2 * count, "program.sides");
@@ -371,7 +375,7 @@ std::int64_t evaluate_pose(const nb::tuple& conditions, const nb::tuple& curve, 
     expect(poses.shape(0) == count && poses.shape(1) == n && tangents.shape(0) == count && tangents.shape(1) == n,
            "poses and tangents have a row for each place");
     for (std::size_t i = 0; i < count; ++i)
-        expect(segments.data()[i] >= 0 && segments.data()[i] + 1 < samples.room, "a segment lies between two samples");
+        expect(segments.data()[i] >= 0 && segments.data()[i] < samples.room - 1, "a segment lies between two samples");
     Tracing tracing(own.view, static_cast<int>(n));
     return run([&](Watch& watch) {
         return tracing.evaluate(samples, at.data(), segments.data(), length(count), poses.data(), tangents.data(),

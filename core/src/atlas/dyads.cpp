@@ -10,7 +10,7 @@ DyadEnd Dyads::take_away(const Chain& chain, int loops, int mobility, Watch& wat
     const bool one_order = mobility <= 1;
     const auto joints = static_cast<std::int64_t>(chain.joints.size());
     after_.assign(1, ones(chain.links));
-    for (int dyads = 0; dyads < loops - 1; ++dyads) {
+    for (int dyads = 1; dyads < loops; ++dyads) {
         before_.swap(after_);
         after_.clear();
         for (const Word alive : before_) {
