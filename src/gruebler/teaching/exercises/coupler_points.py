@@ -9,15 +9,15 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import Message, in_every_language, message
+from gruebler.base.text import Message, message
 from gruebler.mechanics.analysis import measures
-from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank
+from gruebler.mechanics.fourbar import InvertedSliderCrank
 from gruebler.mechanics.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.mechanics.geometry.sizing import longest_in_band
 from gruebler.mechanics.kinematics import from_degrees
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
-from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, as_step, figure
+from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, as_step, figure, with_turning_crank
 
 STRIP = 1e-6
 """Tolerance of the width of a strip: its direction comes from samples."""
@@ -52,16 +52,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     >>> [round(x, 6) for x in solution.tables[0].rows[0]]
     [0.0, 10.267581, 56.882613]
     """
-    size = FourBar(a, b, c, d)
-    if "a" not in size.turning:
-        raise LinkageError(
-            "the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {type}",
-            a=a,
-            b=b,
-            c=c,
-            d=d,
-            type=in_every_language(size.type.name),
-        )
+    size = with_turning_crank(a, b, c, d)
     chosen = read_points(points)
     as_step(step)
     builder = SolutionBuilder(unit=unit)

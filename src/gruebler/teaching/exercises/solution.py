@@ -13,7 +13,8 @@ from types import MappingProxyType
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
-from gruebler.base.text import Message, Readable, message
+from gruebler.base.text import Message, Readable, in_every_language, message
+from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.linkages.quantities import as_finite
 
 Value = float | bool | str | Readable
@@ -165,6 +166,27 @@ def as_step(step: object) -> float:
     if not 0.1 <= number <= 360:
         raise LinkageError("the step of the table must lie from 0.1 to 360 degrees, not {step!r}", step=step)
     return number
+
+
+def with_turning_crank(a: float, b: float, c: float, d: float) -> FourBar:
+    """The four-bar of these lengths.
+
+    Raises `LinkageError` if its crank does not turn fully.
+
+    >>> with_turning_crank(25, 70, 40, 70).turning
+    ('a',)
+    """
+    size = FourBar(a, b, c, d)
+    if "a" not in size.turning:
+        raise LinkageError(
+            "the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {type}",
+            a=a,
+            b=b,
+            c=c,
+            d=d,
+            type=in_every_language(size.type.name),
+        )
+    return size
 
 
 def fill_template(formula: str, values: Mapping[str, float | str]) -> str:

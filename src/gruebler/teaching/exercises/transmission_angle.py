@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import acos, asin, degrees, isclose, pi
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import in_every_language, message
+from gruebler.base.text import message
 from gruebler.mechanics.analysis import measures
-from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.fourbar import SliderCrank
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
-from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, formula_number
+from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, formula_number, with_turning_crank
 
 _SMALLEST = message("smallest transmission angle")
 _LARGEST = message("largest transmission angle")
@@ -26,16 +26,7 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     >>> round(four_bar(2, 5, 4, 5).number("μ_min"), 6)
     36.869898
     """
-    size = FourBar(a, b, c, d)
-    if "a" not in size.turning:
-        raise LinkageError(
-            "the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {type}",
-            a=a,
-            b=b,
-            c=c,
-            d=d,
-            type=in_every_language(size.type.name),
-        )
+    size = with_turning_crank(a, b, c, d)
     builder = SolutionBuilder(unit=unit)
     builder.say(
         message(
