@@ -19,7 +19,7 @@ FIGURE = re.compile(r"\[draw (\w+)((?: \w+=\d+)*)\]")
 def rows_of(table: str, conditions: str) -> list[dict[str, object]]:
     """The rows of a table of docs/tables that have these values."""
     wanted = [condition.split("=") for condition in conditions.split()]
-    rows = count_table(table).as_dict()["rows"]
+    rows = count_table(table).to_json()["rows"]
     found = [row for row in rows if all(row[column] == int(value) for column, value in wanted)]
     if not found:
         raise ValueError(f"no row of {table} has{conditions}")

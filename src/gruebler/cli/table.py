@@ -71,7 +71,7 @@ def _counts(arguments: argparse.Namespace) -> None:
         if is_table(path):
             raise GrueblerError("a file takes one table of counts; there are {names}", names=", ".join(count_tables()))
         if arguments.json:
-            print_json([table.as_dict(lang) for table in tables])
+            print_json([table.to_json(lang) for table in tables])
         else:
             headers = [translate("table", lang), translate("rows", lang), translate("content", lang)]
             rows = [(t.name, str(len(t.rows)), t.title.in_language(lang)) for t in tables]
@@ -82,7 +82,7 @@ def _counts(arguments: argparse.Namespace) -> None:
         parquet = path.suffix.lower() == ".parquet"
         write_file(path, table.parquet() if parquet else _csv(table, arguments.decimal_comma).encode(), lang)
     elif arguments.json:
-        print_json(table.as_dict(lang))
+        print_json(table.to_json(lang))
     else:
         _print(table, lang)
 

@@ -85,7 +85,7 @@ class CountTable(msgspec.Struct, frozen=True, kw_only=True):
         """The file, with the names of the columns in its first line."""
         return (_folder() / f"{self.name}.csv").read_text(encoding="utf-8")
 
-    def as_dict(self, lang: str = "en") -> dict[str, Any]:
+    def to_json(self, lang: str = "en") -> dict[str, Any]:
         """Plain data, with the rows as objects and the texts in one language."""
         columns = {n: {"type": c.type, "meaning": c.meaning.in_language(lang)} for n, c in self.columns.items()}
         return {

@@ -40,8 +40,8 @@ class TriedType:
         """Why there is no design: what is said against the rejected one with the fewest faults."""
         if self.result.designs:
             return None
-        worst = min(self.result.rejected, key=lambda design: len(design.verdict.reasons), default=None)
-        return worst.verdict.reasons[0] if worst else next(iter(self.result.notes), None)
+        closest = min(self.result.rejected, key=lambda design: len(design.verdict.reasons), default=None)
+        return closest.verdict.reasons[0] if closest else next(iter(self.result.notes), None)
 
 
 @brief
