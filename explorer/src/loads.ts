@@ -22,24 +22,23 @@ export class LoadForm {
   /** In rad/s or lengths a second; the usual one if there is none. */
   speed: number | null = null;
   private weight = true;
-  private load: Load | null = null;
+  private loads: Load[] = [];
 
   constructor(private readonly changed: () => void) {}
 
   /** Nothing is typed yet. */
   clear(): void {
-    Object.assign(this, { masses: [], speed: null, load: null });
+    Object.assign(this, { masses: [], speed: null, loads: [] });
     renew(this.element);
   }
 
   /** As the library is told of it. */
   get record(): Record<string, unknown> {
-    const { load, masses, weight } = this;
-    return { masses, gravity: weight, ...(load && { load }) };
+    const { loads, masses, weight } = this;
+    return { masses, gravity: weight, loads };
   }
 
   show(linkage: Linkage, masses: number[], speed: number): void {
-    const { load } = this;
     const { drive, model, sizes } = linkage;
     const links = [...Array(model.own).keys()].filter((link) => link !== model.frame);
     const factor = drive?.turning ? RPM : 1;
@@ -64,22 +63,26 @@ export class LoadForm {
       ...model.joints.map(({ name }, k) => [`joint ${k}`, name]),
       ...links.map((link) => [`link ${link}`, linkage.linkName(link)]),
     ];
-    const chosen = load ? `${load.on} ${load.number}` : "";
-    const onchange = () => {
-      const [on, k] = where.value.split(" ");
-      this.load = on ? { x: 0, y: 0, ...load, on, number: Number(k) } : null;
-      this.changed();
-      this.show(linkage, masses, speed);
-    };
-    const options = places.map(([value, text]) => h("option", { value, selected: value === chosen }, text));
-    const where = h("select", { id: "force-load", onchange }, ...options);
-    rows.push(h("label", { for: "force-load" }, t("Load on")), where, h("span", {}));
-    const part = (key: "x" | "y", label: string, unit: string) =>
-      rows.push(...this.row(key, label, unit, load![key], (v) => (load![key] = v)));
-    if (load?.on === "link") part("x", t("Moment"), `N·${model.unit}`);
-    else if (load) {
-      part("x", "Fx", "N");
-      part("y", "Fy", "N");
+    // one row for each, and an empty one
+    for (const [k, load] of [...this.loads, null].entries()) {
+      const chosen = load ? `${load.on} ${load.number}` : "";
+      const onchange = () => {
+        const [on, which] = where.value.split(" ");
+        this.loads.splice(k, 1, ...(on ? [{ x: 0, y: 0, ...load, on, number: Number(which) }] : []));
+        this.changed();
+        this.show(linkage, masses, speed);
+      };
+      const options = places.map(([value, text]) => h("option", { value, selected: value === chosen }, text));
+      const id = `force-load-${k}`;
+      const where = h("select", { id, onchange }, ...options);
+      rows.push(h("label", { for: id }, t("Load on")), where, h("span", {}));
+      const part = (key: "x" | "y", label: string, unit: string) =>
+        rows.push(...this.row(`${key}-${k}`, label, unit, load![key], (v) => (load![key] = v)));
+      if (load?.on === "link") part("x", t("Moment"), `N·${model.unit}`);
+      else if (load) {
+        part("x", "Fx", "N");
+        part("y", "Fy", "N");
+      }
     }
     const weigh = () => {
       this.weight = weight.checked;

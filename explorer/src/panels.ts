@@ -23,6 +23,7 @@ export interface Editor {
   readonly linkage: Linkage;
   readonly dragging: Dragging;
   readonly shown: Shown;
+  readonly stage: { fit(): void };
   /** Change sizes; where that is impossible, say why. It can be undone. */
   attempt(change: () => void): void;
   /** Change the points; it can be undone. */
@@ -141,6 +142,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     const mine = linkage.sizes.elementsOn(shown.link).map((k) => linkage.elementAt(k));
     const mean = (axis: 0 | 1) => mine.reduce((sum, p) => sum + p[axis], 0) / (mine.length || 1);
     editor.addPoint(shown.link, mean(0), mean(1) + 0.3 * linkage.size);
+    editor.stage.fit();
   };
   return h(
     "div",

@@ -35,7 +35,7 @@ export class Plot {
   private readonly zero = svg("path.axis", {});
   private readonly cursor = svg("path.cursor", {});
   private readonly here = svg("circle.here", { r: 3 });
-  private readonly title = svg("text.title", { x: LEFT, y: 13 });
+  private readonly title = svg("text.title", { x: 2, y: 13 });
   private readonly value = svg("text.read", { y: TOP + 10 });
   private readonly ticks = svg("g");
   private ticked = "";

@@ -51,7 +51,7 @@ def test_a_pendulum_swings_in_its_own_time():
 def test_a_load_that_is_nowhere_is_refused():
     load = {"on": "point", "number": 3, "x": 1.0}
     with pytest.raises(GrueblerError, match="there is no point 3"):
-        answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), load=load), "en", print)
+        answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), loads=[load]), "en", print)
 
 
 @pytest.mark.parametrize("locale", ["en-US", "de-DE"])
@@ -59,10 +59,12 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page = tab(locale=locale).open(server.address)
     page.page.evaluate("gruebler.motion.transport.pick(1)")
     page.page.locator(f"{PANEL} summary").click()
-    page.page.locator("#force-load").select_option("link 3")
+    page.page.locator("#force-load-0").select_option("link 3")
     assert page.page.evaluate(ARROWS) == ""
-    page.page.locator("#force-x").fill("1000")
-    page.page.locator("#force-x").press("Tab")
+    for number, moment in enumerate(("600", "400")):  # of which the sum acts
+        page.page.locator(f"#force-load-{number}").select_option("link 3")
+        page.page.locator(f"#force-x-{number}").fill(moment)
+        page.page.locator(f"#force-x-{number}").press("Tab")
     page.until(f"![undefined, '0'].includes({READ})", 60)
     # virtual work: the torque of the drive times its speed and that of the load cancel
     for drive in (1.0, 2.5):
@@ -71,7 +73,8 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
         read = float(page.page.evaluate(READ).replace(",", "."))
         assert read == pytest.approx(-1000 * speed, rel=2e-3)
         assert page.page.evaluate(ARROWS).count("L") == 12  # three strokes a joint
-    page.page.locator("#force-load").select_option("")
+    for _ in range(2):
+        page.page.locator("#force-load-0").select_option("")
     page.page.locator('[data-act="assume"]').click()
     page.until(f"!{ROOT}.querySelector('[data-act=\"assume\"]') && {ROOT}.querySelector('[data-act=\"fall\"]')")
     before = page.page.evaluate(POSE)

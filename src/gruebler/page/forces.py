@@ -17,7 +17,7 @@ from gruebler.mechanics.forces import Loads, RigidBody
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import link_names
-from gruebler.page.params import LoadedLinkage
+from gruebler.page.params import LoadedLinkage, OuterLoad
 from gruebler.teaching.catalog import entries
 
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
@@ -108,13 +108,17 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
         elif mass:
             bodies[link] = _spread(mass, linkage, link)
     forces, moments = dict(loads.forces), dict(loads.moments)
-    if (own := asked.load) is not None and own.on == "link" and own.number < len(links):
-        moments[links[own.number]] = own.x
-    elif own is not None and own.on != "link":
-        names = [*linkage.points] if own.on == "point" else linkage.mechanism.chain.joint_names()
-        if own.number >= len(names):
+    names = {"point": [*linkage.points], "joint": linkage.mechanism.chain.joint_names(), "link": links}
+    placed: dict[str, list[OuterLoad]] = {}
+    for own in asked.loads:
+        if own.number >= len(names[own.on]):
             raise GrueblerError("load: there is no {what} {number}", what=own.on, number=own.number)
-        forces[names[own.number]] = (own.x, own.y)
+        placed.setdefault(names[own.on][own.number], []).append(own)
+    for name, mine in placed.items():
+        if mine[0].on == "link":
+            moments[name] = sum(own.x for own in mine)
+        else:
+            forces[name] = (sum(own.x for own in mine), sum(own.y for own in mine))
     gravity = loads.gravity if asked.gravity else (0.0, 0.0)
     return _Laden(linkage, replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies), speed)
 

@@ -116,7 +116,8 @@ class LoadedLinkage(Params):
     masses: Annotated[list[Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None], msgspec.Meta(max_length=200)] = []
     """Of each link, in kilograms; without one those of the catalog entry."""
     gravity: bool = True
-    load: OuterLoad | None = None
+    loads: Annotated[list[OuterLoad], msgspec.Meta(max_length=20)] = []
+    """Forces on one place add up, as do moments on one link."""
     active: Number = 0
     """The drive that runs at constant speed."""
     range: tuple[float, float] = (0.0, 2 * pi)
