@@ -199,7 +199,7 @@ def tried(door, arguments):
 
 
 def main(pairs, behind=0):
-    """Every change of one argument, and so many changes of two, at all doors; of the first `behind` calls only the sound ones."""
+    """Every change of one argument, and so many of two, at all doors; of the first `behind` only sound calls."""
     random = np.random.default_rng(27)
     signal.signal(signal.SIGPROF, hear)
     taken = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
