@@ -47,6 +47,9 @@ public:
             for (const int each : lacks) lack += each;
             add(lacks, lack, found[lack]++);
         } while (next(lacks));
+        for (int lack = 1; lack < block_lacks; ++lack)
+            for (int subset = 0; subset < block_subsets; ++subset)
+                for (int part = lack - 1; part > 0; --part) join(lack, subset, part, part + 1);
     }
 
     // Those of a lack in which the subset lacks `part` at least, 1 <= part <= lack.
@@ -80,11 +83,19 @@ private:
         }
         empty[lack][zeros][word] |= mark;
         pattern[lack][i] = unary;
-        for (int subset = 0; subset < block_subsets; ++subset) {
-            int inside = 0;
-            for (int j = 0; j < block_width; ++j) inside += (subset >> j & 1) * lacks[j];
-            for (int part = 1; part <= inside; ++part) with_[at(lack, subset, part) + word] |= mark;
+        std::array<int, block_subsets> inside;  // what a subset lacks
+        inside[0] = 0;
+        for (int subset = 1; subset < block_subsets; ++subset) {
+            const int rest = subset & (subset - 1);
+            inside[subset] = inside[rest] + lacks[lowest(static_cast<Word>(subset))];
+            if (inside[subset] > 0) with_[at(lack, subset, inside[subset]) + word] |= mark;
         }
+    }
+
+    // What lacks more in a subset lacks less, too.
+    void join(int lack, int subset, int less, int more) {
+        for (int w = 0; w < words_of(block_width, lack); ++w)
+            with_[at(lack, subset, less) + w] |= with_[at(lack, subset, more) + w];
     }
 
     static bool next(Lacks& lacks) {
