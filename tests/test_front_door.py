@@ -196,7 +196,10 @@ MISTAKES = [
     (lambda: gr.measures(CRANK_ROCKER, speed="10"), "speed: expected a number, but found '10'"),
     (lambda: gr.draw(7), "values of type int have no picture"),
     (lambda: gr.draw(CRANK_ROCKER, poses=3), "draw has no option 'poses'"),
-    (lambda: gr.draw(CRANK_ROCKER, teeth=True), "the picture of a FourBar has no option 'teeth'; it has loads, branch, at, "),
+    (
+        lambda: gr.draw(CRANK_ROCKER, teeth=True),
+        "the picture of a FourBar has no option 'teeth'; it has loads, branch, ",
+    ),
     (lambda: gr.animate(gr.Geneva(4), curves=["K"]), "the moving picture of a Geneva has no option 'curves'"),
     (lambda: gr.plot(CRANK_ROCKER, points=["K"]), "the diagram 'transfer' has no option 'points'; it has output"),
     (
