@@ -75,7 +75,8 @@ class Charts:
         self._branching = plan.branching
         self.known: list[Chart] = []
         """Side by side along the drive."""
-        self._now: Chart | None = None
+        self.current: Chart | None = None
+        """The one that was asked for last."""
         self.closed: float | None = None
         """The low end of a whole turn, once it is known that it comes back."""
         self._blocked = set[int]()  # the sides, 1 and -1, on which the branch ends
@@ -89,9 +90,9 @@ class Charts:
 
     def chart(self, q: float) -> tuple[Chart, float]:
         """The chart on which the drive lies, and where in [-1, 1]. Raises `Blocked` where the branch does not lead."""
-        at, chart = self._reduced(q), self._now
+        at, chart = self._reduced(q), self.current
         if chart is None or not chart.low <= at <= chart.high:
-            chart = self._now = self._found(q)
+            chart = self.current = self._found(q)
             at = self._reduced(q)
         return chart, min(max((at - chart.middle) / chart.half, -1.0), 1.0)
 

@@ -16,7 +16,7 @@ from scipy.linalg import qr
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.jets import turn_derivative, turned_derivative
-from gruebler.mechanics.dynamics.charts import Blocked, Charts, Jets
+from gruebler.mechanics.dynamics.charts import Blocked, Chart, Charts, Jets
 from gruebler.mechanics.kinematics.kernel_calls import run_rows
 from gruebler.mechanics.kinematics.plan import Plan, plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose, pose_at_reference
@@ -25,6 +25,7 @@ from gruebler.structure.mechanism import Drive, Mechanism
 
 _SOUND = 1e-2  # a pose with a smaller root is not walked on from
 _SLOW = 0.4  # coordinates whose volume is less than this part of that of other joints are exchanged for those
+_LOOKS, _CALM = 9, 0.8  # places of a chart, and the part of that volume: below it no place is looked at again
 _HERE = 1e-6  # in sizes: a branch that was known before is taken if it lies so near to the pose
 
 
@@ -98,12 +99,15 @@ class JointFreedom:
         if not self.line:
             return rates[order - 1][..., self.second] - rates[order - 1][..., self.first]
         ends = [
-            [places[k][..., link] + turn_derivative(rates[..., link], k) * turns[link] * arm for k in range(order + 1)]
+            [
+                places[k][..., link] + turn_derivative(rates[..., link], k) * turns[..., link] * arm
+                for k in range(order + 1)
+            ]
             for link, arm in ((self.first, self.near), (self.second, self.far))
         ]
         gaps = [far - near for near, far in zip(*ends, strict=True)]
         seen = turned_derivative(-rates[..., self.first], gaps, order)
-        return (np.conj(self.line * turns[self.first]) * seen).real
+        return (np.conj(self.line * turns[..., self.first]) * seen).real
 
 
 def freedom_of(linkage: Linkage, drive: Drive, links: tuple[str, ...]) -> JointFreedom:
@@ -123,17 +127,19 @@ class CoordinateSets:
 
     def __init__(self, first: Coordinates) -> None:
         self._linkage = first.plan.linkage
-        self._links = first.links
+        self._links, self._size = first.links, first.plan.lower.size
         drives = self._linkage.mechanism.drives
         self._freedoms = tuple(freedom_of(self._linkage, drive, first.links) for drive in _freedoms(self._linkage))
         self.drives = tuple(freedom_of(self._linkage, drive, first.links) for drive in drives)
         self._known: dict[tuple[Drive, ...], list[Coordinates]] = {drives: [first]}
         self._refused = set[tuple[Drive, ...]]()
+        self._calm = dict[Chart, bool]()
 
     def exchanged(self, now: Coordinates, jets: Jets, v: Reals) -> tuple[Coordinates, Reals, Reals] | None:
         """Other coordinates for the same motion if the present ones move little beside other joints, else None."""
-        size = now.plan.lower.size
-        ways = np.array([f.speeds(jets)[: now.count] / (size if f.line else 1.0) for f in self._freedoms])
+        if now.charts is not None and self._is_calm(now.charts):
+            return None
+        ways = self._ways(jets)[:, : now.count]
         alone = now.count == 1  # then the pivot is the largest
         chosen = np.abs(ways).argmax(axis=0) if alone else np.sort(qr(ways.T, pivoting=True, mode="r")[1][: now.count])
         if not abs(np.linalg.det(ways[chosen])) * np.prod(now.scale) * _SLOW > 1.0:
@@ -143,6 +149,20 @@ class CoordinateSets:
         values = np.array([freedom.value(jets) for freedom in freedoms])
         speeds = np.array([freedom.speeds(jets)[: now.count] @ v for freedom in freedoms])
         return self._again(drives, values, speeds, jets) or self._other(drives, values, speeds, jets)
+
+    def _ways(self, jets: Jets) -> Reals:
+        """(freedoms, rows): how fast each moves, slides in sizes."""
+        return np.array([f.speeds(jets) / (self._size if f.line else 1.0) for f in self._freedoms])
+
+    def _is_calm(self, charts: Charts) -> bool:
+        """Whether no joint moves so fast beside the drive on the chart asked for last that drives are exchanged."""
+        chart = charts.current
+        if chart is None:
+            return False
+        if chart not in self._calm:
+            fastest = np.abs(self._ways(charts.jets_on(chart, np.linspace(-1, 1, _LOOKS)))).max()
+            self._calm[chart] = bool(fastest * charts.scale * _SLOW < _CALM)
+        return self._calm[chart]
 
     def _again(
         self, drives: tuple[Drive, ...], values: Reals, speeds: Reals, jets: Jets

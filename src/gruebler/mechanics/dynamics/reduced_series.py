@@ -80,8 +80,12 @@ class ReducedSeries:
         mass, bias = self._equations.inertia(influences, unit)
         forces = list[Reals]()
         for equations in (self._equations, self._lossy):
-            held = equations.generalised(influences, still)
-            forces += [held[:, 0], (equations.generalised(influences, unit) - held)[:, 0]]
+            held, damped = np.zeros((2, _NODES))
+            if equations is self._equations or not self._equations.acting.conservative:
+                held = equations.generalised(influences, still)[:, 0]
+            if any(spring.damping for spring in equations.loads.springs):
+                damped = equations.generalised(influences, unit)[:, 0] - held
+            forces += [held, damped]
         values = np.stack([mass[:, 0, 0], bias[:, 0], *forces], axis=1)
         series = np.asarray(chebyshev.chebvander(x, _NODES - 1).T @ values * (2 / _NODES), np.float64)
         series[0] /= 2
