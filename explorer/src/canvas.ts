@@ -62,6 +62,7 @@ export class Painter {
 
   /** What the linkage was designed for: rings with numbers, positions with their direction. */
   private paintTargets(targets: readonly Target[]): void {
+    if (!targets.length) return; // to choose a font took a third of a frame
     const { pen, viewport } = this;
     pen.strokeStyle = pen.fillStyle = this.colour("--purple");
     pen.lineWidth = 2;
