@@ -125,7 +125,7 @@ def work_of_graphs(rows: Packed) -> NDArray[np.int64]:
     """For each graph the number of assignments of c = 0, 1, 2 to its bundles with the sum 3V - 4, and a fixed cost.
 
     That is the number of assignments if no set of nodes could be rigid, one to five times too many. For the
-    graphs that take most of the time counting costs 0.7 to 1.7 ns for each (seven and eight loops, F = 1).
+    graphs that take most of the time counting costs 0.5 to 1 ns for each (seven and eight loops, F = 1).
     """
     bundles = np.count_nonzero(strings_of_graphs(rows), axis=(1, 2)) // 2
     assignments: NDArray[np.int64] = _trinomials()[bundles, 3 * np.count_nonzero(rows, axis=1) - 4] + 5000

@@ -25,8 +25,8 @@ from gruebler.structure.enumeration.worker_pool import Progress, ProgressCounter
 
 FORMATS = ("text", "graph6", "json")
 
-# Work of a piece, see `pieces.WorkPiece`: milliseconds to count up to 7 loops, half a second beyond; some megabytes to
-# list. Pieces of 0.15 s cost 6 % more processor time by Dask: docs/cluster.md.
+# Work of a piece, see `pieces.WorkPiece`: milliseconds to count up to 7 loops, a quarter of a second beyond; some
+# megabytes to list. Pieces of 0.15 s cost 6 % more processor time by Dask: docs/cluster.md.
 _COUNTED, _COUNTED_LONG = 5_000_000, 400_000_000
 _LISTED = {"graph6": 1_000_000, "text": 200_000, "json": 100_000}
 
