@@ -116,7 +116,7 @@ def print_summary(checked_entries: Sequence[CheckedEntry], lang: str) -> None:
         named = joined([_shortened(name) for name in failing[:_MOST_NAMED]] + ["..."] * (len(failing) > _MOST_NAMED))
         print(translate("The count is not right of {count:,}: {names}.", lang, count=len(failing), names=named))
     else:
-        print(translate("The count is right of all of them.", lang))
+        print(translate("The count is right for all of them.", lang))
     _print_claims([None if each.claims == Claims() else each.holds for each in checked_entries], lang)
     print(translate("Chains: {count:,}; --all lists them, --json has them.", lang, count=len(checked_entries)))
 
