@@ -294,6 +294,18 @@ def test_motors_that_do_not_start_and_ends_that_are_reached():
     assert swing.explain().splitlines()[0].startswith("From R(frame-crank) = 17.19° at 0 s")
 
 
+def test_a_joint_between_moving_links_reaches_its_end_where_the_free_motion_passes_it():
+    weights = Loads(bodies={"coupler": RigidBody(1.0, (35, 0), 400.0)})
+    free = simulate(FourBar(25, 70, 40, 70), weights, at=1.0, branch="+", until=0.1)
+    bend = free.angle("coupler") - free.angle("crank")
+    ends = {"R(crank-coupler)": (bend[0] - 0.3, bend[0] + 0.4)}
+    held = simulate(FourBar(25, 70, 40, 70), weights, at=1.0, branch="+", until=0.1, ends=ends)
+    inside = bend < bend[0] + 0.4
+    assert 1 < len(held) == np.count_nonzero(inside) < len(free)
+    assert inside[: len(held)].all()
+    assert held.angle("crank") == pytest.approx(free.angle("crank")[: len(held)], abs=1e-7)
+
+
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
