@@ -143,7 +143,10 @@ private:
     static constexpr Word idle = 0x40;     // a byte without a test
     static constexpr int pairs = 16;       // patterns of c of two lanes
 
-    // The words of one block: its upper tests, then its lower ones. With at most 31 lanes no byte leaves 0 .. 255.
+    // Lanes use 62 at most, needs lie between -50 and 64, lacks between 0 and 16: so no byte leaves 0 .. 255.
+    static_assert(2 * most_lanes <= 62 && block_lacks <= 17);
+
+    // The words of one block: its upper tests, then its lower ones.
     struct Range {
         int begin = 0, middle = 0, end = 0;
     };
