@@ -32,7 +32,7 @@ export class StructureView implements View {
   private atFrame = true;
   private readonly chains: ChainList;
   private readonly shown = h("div", {});
-  private readonly detail = h("div", {});
+  private readonly detail = h("div.contents", {});
   private readonly error = h("p.error", { role: "alert" });
   private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
   private typing = 0;

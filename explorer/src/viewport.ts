@@ -35,7 +35,7 @@ export class Viewport {
   fit({ left, right, bottom, top }: Box, least: number): void {
     const narrow = this.width < 500;
     const margin = narrow ? 34 : 60;
-    const keys = narrow ? 36 : 0; // the buttons on the right
+    const keys = narrow ? 56 : 0; // the buttons on the right
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
     this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin) / high);
