@@ -37,7 +37,7 @@ struct Matrix {
 // matrix. Both are spent. Rows keep their lanes; those that have been pivots are taken no more.
 template <int sides>
 bool solve(Matrix& matrix, Lanes (&right)[sides], Complex (&x)[sides][lanes]) {
-    constexpr double too_large = 1e300;
+    constexpr double too_large = 1e300;  // up to it the reciprocal has all digits
     alignas(64) double scale[lanes] = {};
     for (const Lanes& column : matrix.column)
         for (int i = 0; i < lanes; ++i) {

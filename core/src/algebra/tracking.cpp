@@ -12,17 +12,18 @@ constexpr double quite_far = 1e4;   // a path that is lost out there goes there
 constexpr double large = 30;        // sizes: beyond it terms of degree seven cancel, residuals need twice the digits
 constexpr double fine = 1e-4;       // paths with finer steps have them throughout: near singular solutions need them
 constexpr double shortest = 1e-10;  // a step
-constexpr std::int64_t most_steps = 20000;
-constexpr double first_step = 0.02;
+constexpr std::int64_t most_steps = 20000;  // a path takes some two hundred: one of so many goes nowhere
+constexpr double first_step = 0.02;  // of the way: one that is too long is taken again, shorter
 constexpr double shorter = 0.4;  // a step that was not taken
-constexpr int corrections = 3;
+constexpr int corrections = 3;  // each squares the error: more would say that the step is too long
 constexpr int most_known = 4;  // places from which the next one is predicted
 constexpr int most_known_far_out = 2;  // rounding spoils slopes there, and more places multiply what it does
-constexpr double converged = 1e-9;
+constexpr double converged = 1e-9;  // relative: the next correction, which is left out, would be smaller
 constexpr double converged_far_out = 1e-7;  // a third correction of that size is as good as rounding lets it get
 constexpr double converging = 0.1;          // each correction at most this part of the last one
-constexpr int newton_steps = 8;
-constexpr double last_digit = 1e-15, nearly = 1e-12, halting = 0.5;
+constexpr int newton_steps = 8;  // twice as many as lead from 0.1 to the last digit
+constexpr double last_digit = 1e-15;  // relative: a step below it changes nothing
+constexpr double nearly = 1e-12, halting = 0.5;  // from here on a step that does not halve the last one is rounding
 
 constexpr std::int64_t work_of_a_step = 1024;  // in the steps of the watch, of some nanoseconds
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -60,7 +61,8 @@ double norm(const Point& point) {
 
 // The largest change of an unknown, relative to it; small ones count against the largest of all.
 double relative(const Point& change, const Point& point) {
-    constexpr double share = 1e-3, least = 1e-300;
+    constexpr double share = 1e-3;    // of the largest: what is smaller counts as large as that
+    constexpr double least = 1e-300;  // so that no zero is divided by
     const double floor = share * norm(point) + least;
     double largest = 0;
     for (int i = 0; i < unknowns; ++i) {

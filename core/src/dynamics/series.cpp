@@ -8,9 +8,10 @@ namespace gruebler::dynamics {
 namespace {
 
 constexpr double turn = 6.283185307179586;
-constexpr double safety = 0.9, least_factor = 0.2, largest_factor = 10;
+// Those of scipy, for equal steps.
+constexpr double safety = 0.9, least_factor = 0.2, largest_factor = 10;  // of the next step
 constexpr double shortest = 10;  // in distances between times that can be told apart
-constexpr double weight_of_third = 0.01;
+constexpr double weight_of_third = 0.01;  // the estimate of order 3 beside that of order 5
 
 bool rate_of(const Series& series, const State& state, State& rate) {
     Reduced reduced;

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double least_square = 1e-24;  // of a distance, so that energies are numbers
 constexpr double three = 3;             // points share a distance: none passes its segment
-constexpr double first_length = 0.05, longer = 1.3, shorter = 0.4, shortest = 1e-14;
+constexpr double first_length = 0.05, longer = 1.3, shorter = 0.4;  // a step; after success, after failure
+constexpr double shortest = 1e-14;      // a step of rounding: the energy falls no more
 constexpr double momentum = 0.8;        // the part of the last step that is kept
 constexpr double settled = 1e-7;        // a step that lowers the energy by less, relative, is the last one
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -9,13 +9,16 @@
 namespace gruebler::space {
 namespace {
 
-constexpr double first_step = 0.05, shortest = 1e-10;
-constexpr double shorter = 0.4, longer = 1.8;  // a step that failed; after two in a row that did not
-constexpr int most_steps = 5000, most_turns = 3, polishing_turns = 4;
-constexpr double settled = 1e-9;         // relative: the corrector has arrived
-constexpr double gain = 0.1;             // what a turn of the corrector must leave at most of the change before
-constexpr double far = 0.7;              // radians: turns of balls are counted anew
-constexpr double infinite = 1e8;         // an entry of a frame
+constexpr double first_step = 0.05;             // of the way: one that is too long is taken again, shorter
+constexpr double shortest = 1e-10;              // a path that needs such a step is lost
+constexpr double shorter = 0.4, longer = 1.8;   // a step that failed; after two in a row that did not
+constexpr int most_steps = 5000;                // of a path: one of so many goes nowhere
+constexpr int most_turns = 3;  // of the corrector, each squares the error; more say that the step is too long
+constexpr int polishing_turns = 4;              // at the end, up to the last digit
+constexpr double settled = 1e-9;                // relative: the corrector has arrived
+constexpr double gain = 0.1;                    // what a turn of the corrector must leave at most of the change before
+constexpr double far = 0.7;                     // radians: turns of balls are counted anew
+constexpr double infinite = 1e8;                // an entry of a frame
 constexpr std::int64_t work_of_a_step = 10000;  // nanoseconds
 
 using Point = std::vector<Complex>;

@@ -5,7 +5,7 @@
 namespace gruebler::structure {
 namespace {
 
-constexpr std::size_t first_room = 1 << 10;
+constexpr std::size_t first_room = 1 << 10;  // minors that are known; it grows
 
 }  // namespace
 
