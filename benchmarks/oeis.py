@@ -30,7 +30,10 @@ _PLANE = (
     "To 11 links every truss was counted by the program lnumber, too (Laman number over 2^(sum of k-2), k joints on "
     "a link); 13 links rest on one kernel but for a sample."
 )
-_SPHERE = "To 9 links every truss was counted by the program lnumber, too; 11 and 13 links rest on one kernel."
+_SPHERE = (
+    "To 9 links every truss was counted by the program lnumber, too, to 11 links by a second program (cross-ratio "
+    "degrees); 13 links rest on one kernel but for a sample."
+)
 _TRAINS = "Links turn about axes, gear pairs have a carrier; docs/theory/epicyclic-trains.md has the definition. "
 _TWICE = "Every term was confirmed by a second method."
 _PRINT = (

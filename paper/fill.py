@@ -41,7 +41,9 @@ def _numbers(table: str, conditions: str, columns: str) -> str:
 
 
 def _cell(value: object) -> str:
-    return f"{value:,}" if isinstance(value, int) else f"{value:,g}" if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return f"{value:,g}" if value < 1e6 else f"{value:,.0f}"
+    return f"{value:,}" if isinstance(value, int) else str(value)
 
 
 def main(folder: Path) -> None:

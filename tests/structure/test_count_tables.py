@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 from collections import Counter
 from hashlib import sha256
 from itertools import combinations
@@ -161,6 +162,27 @@ def test_the_b_file():
 
 def test_the_entries_for_the_oeis_are_those_of_the_tables():
     assert {path.name: path.read_text(encoding="utf-8") for path in oeis.OEIS.iterdir()} == oeis.files()
+
+
+def test_the_b_files_are_as_the_oeis_wants_them():
+    """Each line an index and a term, indices one by one from the OFFSET of the draft, terms those of its DATA; no claim
+    that a sequence is new, but for what the head of the drafts says was searched."""
+    head, *drafts = (oeis.OEIS / "drafts.txt").read_text(encoding="utf-8").split("\n\n")
+    assert "None is sent" in " ".join(head.split())
+    files = []
+    for draft in drafts:
+        fields = dict(line.split(": ", 1) for line in draft.replace("\n  ", " ").strip().splitlines())
+        assert list(fields) == ["NAME", "DATA", "OFFSET", "COMMENTS", "LINKS", "KEYWORD"]
+        name = fields["LINKS"].split(",")[0]
+        content = (oeis.OEIS / name).read_bytes()
+        assert re.fullmatch(rb"(\d+ \d+\n)+", content)
+        indices, terms = zip(*(line.split() for line in content.decode("ascii").splitlines()), strict=True)
+        first = int(fields["OFFSET"])
+        assert list(map(int, indices)) == list(range(first, first + len(terms)))
+        assert ", ".join(terms) == fields["DATA"]
+        assert not re.search(r"not in the OEIS|new sequence|unknown", draft)
+        files.append(name)
+    assert sorted([*files, "drafts.txt"]) == sorted(path.name for path in oeis.OEIS.iterdir())
 
 
 def test_terms_that_stand_in_print():

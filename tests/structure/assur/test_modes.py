@@ -10,6 +10,7 @@ from gruebler.structure.assur import AssurError, assur_groups, count_modes, grou
 from gruebler.structure.assur.listing import group_rows
 from gruebler.structure.assur.modes import modes_of_rows, modes_of_trusses, sets_of_ends
 from gruebler.structure.enumeration import chains, edge_blocks
+from tests.structure.assur.cross_ratio_oracle import count_by_cross_ratios
 from tests.structure.assur.monodromy_oracle import count_by_monodromy
 from tests.structure.assur.spherical_monodromy_oracle import count_by_spherical_monodromy
 
@@ -93,6 +94,14 @@ def test_spherical_monodromy(links):
     for joints, modes in zip(sets.tolist(), modes_of_trusses(links, sets, spherical=True).tolist(), strict=True):
         ends = [tuple(k for k in range(links) if joint >> k & 1) for joint in joints]
         assert count_by_spherical_monodromy(ends) == modes
+
+
+@pytest.mark.parametrize("links", [3, 5, 7, *(pytest.param(n, marks=pytest.mark.slow) for n in (9, 11))])
+def test_cross_ratios(links):
+    """Every truss; 11 links take some three minutes."""
+    sets = truss_sets(links)
+    for joints, modes in zip(sets.tolist(), modes_of_trusses(links, sets, spherical=True).tolist(), strict=True):
+        assert count_by_cross_ratios([tuple(k for k in range(links) if joint >> k & 1) for joint in joints]) == modes
 
 
 @pytest.mark.parametrize("spherical", [False, True])

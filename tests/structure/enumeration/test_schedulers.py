@@ -134,7 +134,7 @@ sys.stdin.read()
 def test_a_killed_scheduler_ends_the_run_with_one_error(monkeypatch, tmp_path, capfd):
     """What is finished is kept: a run without a scheduler does only what is left."""
     monkeypatch.setattr("gruebler.structure.enumeration.schedulers._PATIENCE", 0.5)
-    monkeypatch.setattr("gruebler.structure.enumeration.run_request._COUNTED", 100_000)
+    monkeypatch.setattr("gruebler.structure.enumeration.run_request._COUNTED", {10: 100_000})
     command = [sys.executable, "-c", CLUSTER]
     finished = []
 

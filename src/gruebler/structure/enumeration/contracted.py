@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
 MOST_LOOPS = 10
-"""Contracted graphs of more loops have more nodes than the kernels' 18; there are a thousand million of them."""
+"""Contracted graphs of more loops have more nodes than the kernels' 18; there are some thousand million of them."""
 
 _NODES = 18
 _BLOCK = 8192  # graphs in a block

@@ -25,9 +25,9 @@ from gruebler.structure.enumeration.worker_pool import Progress, ProgressCounter
 
 FORMATS = ("text", "graph6", "json")
 
-# Work of a piece, see `pieces.WorkPiece`: milliseconds to count up to 7 loops, a quarter of a second beyond; some
-# megabytes to list. Pieces of 0.15 s cost 6 % more processor time by Dask: docs/cluster.md.
-_COUNTED, _COUNTED_LONG = 5_000_000, 400_000_000
+# Work of a piece, see `pieces.WorkPiece`: milliseconds to count up to 7 loops, a quarter of a second to 9, a second
+# beyond; some megabytes to list. Pieces of 0.15 s cost 6 % more processor time by Dask: docs/cluster.md.
+_COUNTED = {7: 5_000_000, 9: 400_000_000, 10: 4_000_000_000}  # by the most loops
 _LISTED = {"graph6": 1_000_000, "text": 200_000, "json": 100_000}
 
 
@@ -82,7 +82,8 @@ def run_count(
             store.save(number, {"tallies": [astuple(tally) for tally in tallies]})
         watch.add(sum(tally.chains for tally in tallies), fresh=True)
 
-    size = _COUNTED_LONG if (loop_count(request.links, request.mobility) or 0) > 7 else _COUNTED
+    loops = loop_count(request.links, request.mobility) or 0
+    size = next((size for most, size in _COUNTED.items() if loops <= most), 0)  # of more loops there are no pieces
     results = run_work(
         PieceCounter(request, orbits, listed), work_units(request, size=size), executor, known=known, finished=finished
     )
