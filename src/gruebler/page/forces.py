@@ -114,11 +114,11 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
         if own.number >= len(names[own.on]):
             raise GrueblerError("load: there is no {what} {number}", what=own.on, number=own.number)
         placed.setdefault(names[own.on][own.number], []).append(own)
-    for name, mine in placed.items():
-        if mine[0].on == "link":
-            moments[name] = sum(own.x for own in mine)
+    for name, together in placed.items():
+        if together[0].on == "link":
+            moments[name] = sum(own.x for own in together)
         else:
-            forces[name] = (sum(own.x for own in mine), sum(own.y for own in mine))
+            forces[name] = (sum(own.x for own in together), sum(own.y for own in together))
     gravity = loads.gravity if asked.gravity else (0.0, 0.0)
     return _Laden(linkage, replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies), speed)
 
