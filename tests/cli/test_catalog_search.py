@@ -1,6 +1,8 @@
 """`gruebler catalog search` and `catalog show --full` as a user meets them."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 
@@ -139,3 +141,15 @@ def test_conditions_on_the_atlas(capsys):
     assert "cannot be answered" in err
     status, _, err = run(capsys, "search", "--where", "planar")
     assert (status, err) == (2, "--where needs --enumerate")
+
+
+def test_the_catalog_is_listed_without_the_solver():
+    """Entries have loads, which are values; what computes with them is loaded when it is asked for."""
+    script = (
+        "import sys; from gruebler.cli import main; status = main(['catalog', 'list']); "
+        "heavy = {'gruebler.mechanics.kinematics', 'gruebler.mechanics.forces.solution'} & set(sys.modules); "
+        "sys.exit(', '.join(heavy) or status)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "lambda" in done.stdout

@@ -6,33 +6,6 @@ drive's effort against the one that virtual work gives; `statics_table` has them
 closed form of a slider-crank. docs/theory/statics.md.
 """
 
-from gruebler.mechanics.forces.bodies import RigidBody
-from gruebler.mechanics.forces.friction import Friction, FrictionForces, RubbingContact
-from gruebler.mechanics.forces.laws import Curve, Law, LoadFormula, Motor, State
-from gruebler.mechanics.forces.loads import Loads
-from gruebler.mechanics.forces.slider_crank import SliderFriction, slider_friction
-from gruebler.mechanics.forces.solution import Statics, statics
-from gruebler.mechanics.forces.springs import Gas, Spring, TorsionSpring
-from gruebler.mechanics.forces.tables import component_table, statics_table
+from lazy_loader import attach_stub
 
-__all__ = [
-    "Curve",
-    "Friction",
-    "FrictionForces",
-    "Gas",
-    "Law",
-    "LoadFormula",
-    "Loads",
-    "Motor",
-    "RigidBody",
-    "RubbingContact",
-    "SliderFriction",
-    "Spring",
-    "State",
-    "Statics",
-    "TorsionSpring",
-    "component_table",
-    "slider_friction",
-    "statics",
-    "statics_table",
-]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -1,0 +1,30 @@
+from .bodies import RigidBody
+from .friction import Friction, FrictionForces, RubbingContact
+from .laws import Curve, Law, LoadFormula, Motor, State
+from .loads import Loads
+from .slider_crank import SliderFriction, slider_friction
+from .solution import Statics, statics
+from .springs import Gas, Spring, TorsionSpring
+from .tables import component_table, statics_table
+
+__all__ = [
+    "Curve",
+    "Friction",
+    "FrictionForces",
+    "Gas",
+    "Law",
+    "LoadFormula",
+    "Loads",
+    "Motor",
+    "RigidBody",
+    "RubbingContact",
+    "SliderFriction",
+    "Spring",
+    "State",
+    "Statics",
+    "TorsionSpring",
+    "component_table",
+    "slider_friction",
+    "statics",
+    "statics_table",
+]
