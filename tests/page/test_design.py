@@ -72,6 +72,7 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     }"""
     assert all(view.evaluate(purple, target[:2]) > 4 for target in targets)
     # a link has them, and undoing and doing again
+    view.evaluate("gruebler.write()")  # it is not written at once
     assert read_link(view.evaluate("gruebler.hash")).document["page"] == {"targets": targets}
     view.keyboard.press("Control+z")
     assert view.evaluate("gruebler.motion.linkage.beside") == {}
