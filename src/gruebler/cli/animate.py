@@ -30,7 +30,7 @@ def add(parser: Parser) -> None:
     parser.add_out(help="the file: .svg, .html, .gif, .webp or .png (APNG)")
     parser.take(
         """
-        --loads  draw masses and springs of the file or entry, and the forces at its usual speed as arrows
+        --loads
         --curve
         --seconds S float =4  duration of a turn, or of back and forth (default: 4)
         --branch

@@ -108,6 +108,7 @@ _SHARED = {
         --range FROM:TO:STEP ...  drive values in degrees or the unit; repeat it for each drive, with the same number of
             steps; a single number keeps a drive at rest (default: the whole motion of one drive)
         --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
+        --loads  draw masses and springs of the file or entry, and the forces at its usual speed as arrows
         --curve POINT ...  the path of a named point, a joint, or LINK:X,Y (repeatable)
         --view {isometric,oblique}  of a linkage in space: the view (default: isometric)
         --jobs N int =1  number of processes (default: 1)

@@ -81,7 +81,7 @@ def add(parser: Parser) -> None:
             file, or lengths such as four-bar:25,70,40,70
         --at VALUE[,VALUE] ? :  draw to scale, in the pose at these drive values, in degrees or the unit (--at=-30,20
             for two drives; without a value: a typical pose)
-        --loads  draw masses and springs of the file or entry, and the forces at its usual speed as arrows
+        --loads
         --curve
         --show {dead-centres,transmission,velocities,accelerations,poles,centrodes,inflection,planes,dimensions,scale}
             {joints,angles,lengths} ...  also draw this (repeatable)
