@@ -101,7 +101,7 @@ def test_a_file_appears_whole_or_not_at_all(capfd, tmp_path):
     [
         (["--links", "20"], "32 TB of output"),
         (["--links", "18", "--format", "graph6"], "1,535,380,884 chains, 43 GB of output"),
-        (["--links", "20", "--count"], "use --yes"),
+        (["--links", "22", "--count"], "about 15,000,000,000,000 chains, about 13 h; use --yes"),
         (["--links", "20", "--lang", "de"], "mit --yes wird trotzdem begonnen"),
         (["--links", "2"], "at least three links"),
         (["--links", "8", "--assortment", "4;4"], "such as 4,4"),

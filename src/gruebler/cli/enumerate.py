@@ -159,7 +159,7 @@ def _check_size(size: Estimate, arguments: argparse.Namespace) -> None:
     extent = [
         message("{chains:,} chains", chains=size.chains)
         if size.exact
-        else message("about {chains:,} chains", chains=size.chains)
+        else message("about {chains:,} chains", chains=round(size.chains, 2 - len(str(size.chains))))
     ]
     if size.bytes:
         extent.append(message("{size} of output", size=_bytes(size.bytes)))
