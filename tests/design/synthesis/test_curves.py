@@ -11,7 +11,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis import Demands, PathTask, pareto, synthesise_path, synthesise_structures
 from gruebler.design.synthesis.closure import DesignClosure
-from gruebler.design.synthesis.curve_starts import atlas
+from gruebler.design.synthesis.curve_starts import atlas, mirror_image, transformed
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
 from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
@@ -52,6 +52,19 @@ def test_coupler_points_against_the_solver_of_motion():
     motion = move(SliderCrank(1, 3, 0.4).linkage({"P": (1.2, 0.8)}), phi)
     mine = curve_points(SLIDER_CRANK, np.array([0, 0, 0, 0.4, 1, 3, 1.2, 0.8])[:, None], phi, 1).z
     assert mine == pytest.approx(motion.complex_point("P"), abs=1e-12)
+
+
+@pytest.mark.parametrize("branch", [1, -1])
+@pytest.mark.parametrize("kind", ROWS, ids=lambda kind: kind.name)
+def test_images_of_a_linkage_draw_images_of_its_curve(kind, branch):
+    """A mirror image, and one that is turned, scaled and shifted; only the four-bar's branch changes with the first."""
+    z = curve_points(kind, ROWS[kind][:, None], TURN, branch).z
+    row, side = mirror_image(kind, ROWS[kind], branch)
+    np.testing.assert_allclose(curve_points(kind, row[:, None], -TURN, side).z, np.conj(z), rtol=0, atol=1e-12)
+    turn, shift = 2 * np.exp(0.7j), 0.3 - 1.1j
+    row = transformed(kind, ROWS[kind], turn, shift)
+    image = curve_points(kind, row[:, None], TURN + 0.7, branch).z
+    np.testing.assert_allclose(image, turn * z + shift, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("kind", ROWS, ids=lambda kind: kind.name)

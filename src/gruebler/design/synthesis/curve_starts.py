@@ -123,7 +123,8 @@ def _placed(book: CurveAtlas, match: CurveMatch) -> CurveStart:
     start = CurveStart(match.gap, book.rows[:, n], float(book.side[n]), drive_angles(book.phi[n], match.at))
     start = _moved(book.kind, start, match.turn, match.shift)
     if match.mirrored:
-        return CurveStart(match.gap, _mirrored(book.kind, start.row), book.kind.mirrored_side * start.side, -start.phi)
+        row, side = mirror_image(book.kind, start.row, start.side)
+        return CurveStart(match.gap, row, side, -start.phi)
     return start
 
 
@@ -142,13 +143,13 @@ def transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) ->
     return np.array([r[name] for name in kind.unknowns])
 
 
-def _mirrored(kind: FourBarKind, row: Reals) -> Reals:
-    """In the x axis."""
+def mirror_image(kind: FourBarKind, row: Reals, side: float) -> tuple[Reals, float]:
+    """The numbers and the branch of the mirror image in the x axis, whose crank turns to the other side."""
     r = kind.named(row)
     for name in ("a0y", "b0y", "v", "h", "angle"):
         if name in r:
             r[name] = -r[name]
-    return np.array([r[name] for name in kind.unknowns])
+    return np.array([r[name] for name in kind.unknowns]), kind.mirrored_side * side
 
 
 def timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: int) -> list[CurveStart]:
@@ -172,7 +173,8 @@ def timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: int
                 row = transformed(kind, book.rows[:, n], turn, complex(middle - turn * mean[n]))
                 phi, side = angles + float(np.angle(turn)), float(book.side[n])
                 if mirrored:
-                    row, phi, side = _mirrored(kind, row), -phi, kind.mirrored_side * side
+                    row, side = mirror_image(kind, row, side)
+                    phi = -phi
                 starts.append(CurveStart(1 - float(likeness[n]), row, side, phi))
     starts.sort(key=lambda start: start.gap)
     return starts[:number]
