@@ -173,6 +173,21 @@ def test_a_double_ring_gear_reduces_much():
     assert ratio(train, "sun", "out") == (1 + Q(z3, z1)) / (1 - Q(z3 * z5, z2 * z4))
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        PLANETARY,
+        "bevel left:16 star:10 right:-16 on case; pinion:11 case:43",
+        "winch drum:60 load falls=2; drum:80 spindle:20; screw spindle guide lead=-5",
+        "rack pinion:18 slide pitch=6; belt pinion:12.5 out:25; chain out:17 far:31; crossed far:10 end:15",
+    ],
+)
+def test_a_printed_train_is_read_again(text):
+    train = read_train(text).train
+    assert read_train(str(train)).train == train
+    assert "\n" not in str(train)
+
+
 def test_rack_screw_and_winch_move_in_lines():
     train = read_train("winch drum:60 load falls=2; drum:80 spindle:20; screw spindle guide lead=-5").train
     found = influence(train, ["drum"])

@@ -141,6 +141,8 @@ class Train:
     (('sun', 'planet', 'arm', 'ring'), 2)
     >>> train.relation("sun", "ring", "arm")
     {'sun': 2, 'ring': 5, 'arm': -7}
+    >>> print(train)
+    gear sun:24 planet:18 on arm; gear planet:18 ring:-60 on arm
 
     See Also:
         `Cam`, `Geneva`, `draw`, `animate`
@@ -156,6 +158,10 @@ class Train:
         if not self.meshes:
             raise GearError("a gear train has at least one mesh")
         self.units()
+
+    def __str__(self) -> str:
+        """The text of the train, as `read_train` takes it back."""
+        return "; ".join(map(str, self.meshes))
 
     @property
     def links(self) -> tuple[str, ...]:
