@@ -7,9 +7,12 @@ import pytest
 
 from gruebler.cli import main
 from gruebler.cli.linkage_inputs import linkage_of_word
+from gruebler.files.linkages import read_loaded
+from gruebler.files.load_writing import loads_to_json
 from gruebler.files.values import FORMATS, read, write
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.structure.isomorphism import code
+from gruebler.teaching.catalog import entry
 
 FILES = Path(__file__).parents[1] / "files" / "samples"
 
@@ -29,6 +32,22 @@ def test_the_formats_are_listed(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == len(FORMATS) + 1
     assert [line.split()[0] for line in lines[1:]] == [form.name for form in FORMATS]
+
+
+@pytest.mark.parametrize("word", ["compressor", "hood", "wiper"])
+def test_loads_go_with_the_linkage(word, tmp_path, monkeypatch, capsys):
+    """Curves and a speed, gas springs, bars: from the catalog and from file to file; other programs lack them."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["convert", word, "a.toml"]) == main(["convert", "a.toml", "b.json"]) == 0
+    assert "Left out" not in capsys.readouterr().err
+    expected = entry(word).loaded()
+    for name in ("a.toml", "b.json"):
+        found = read_loaded(name)
+        assert [found[0], found[2]] == [expected[0], expected[2]]
+        assert loads_to_json(found[1], found[0]) == loads_to_json(expected[1], expected[0])
+    for source in (word, "a.toml"):
+        assert main(["convert", source, "c.mjcf"]) == 0
+        assert "Left out: loads and masses" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.left_out import say_left_out
 from gruebler.cli.linkage_inputs import linkage_of_word
@@ -15,10 +14,6 @@ from gruebler.cli.output import say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.mechanics.fourbar.length_texts import is_lengths
-
-if TYPE_CHECKING:
-    from gruebler.mechanics.linkages import Linkage
-    from gruebler.structure.chain import Chain
 
 _HEADERS = (message("format"), message("endings"), message("program"), message("what it holds"), message("lengths in"))
 
@@ -52,21 +47,25 @@ def _is_file(word: str) -> bool:
     return not is_lengths(word) and (path.suffix != "" or len(path.parts) > 1)
 
 
-def _value_of(word: str) -> Linkage | Chain:
-    """The linkage of lengths or of a catalog entry with dimensions, else the chain of a text or an entry."""
+def _write_value(word: str, target: str, form: str | None, notes: list[Message]) -> None:
+    """The linkage of lengths or of a catalog entry with dimensions and loads, else the chain of a text or an entry."""
     from gruebler.files.structures import is_structure_text
+    from gruebler.files.values import write, write_loaded
     from gruebler.teaching.catalog import entry
 
     lengths = is_lengths(word) or (":" in word and "(" not in word)
     if is_structure_text(word) or not (lengths or entry(word).dimensions is not None):
-        return chain_from_word(word)
-    return linkage_of_word(word)[0]
+        write(chain_from_word(word), target, format_name=form, left_out=notes)
+    elif lengths or entry(word).loads is None:
+        write(linkage_of_word(word)[0], target, format_name=form, left_out=notes)
+    else:
+        write_loaded(*entry(word).loaded(), Path(target), form, notes)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """The file written, and what was left out; or the table of formats."""
     from gruebler.files.formats import FORMATS
-    from gruebler.files.values import convert, write
+    from gruebler.files.values import convert
 
     lang = arguments.lang
     if arguments.formats:
@@ -83,8 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
         notes = convert(arguments.source, target, arguments.source_format, arguments.target_format)
     else:
         notes = []
-        value = _value_of(arguments.source)
-        write(value, target, format_name=arguments.target_format, left_out=notes)
+        _write_value(arguments.source, target, arguments.target_format, notes)
     say_written(Path(target), lang)
     say_left_out(notes, lang)
     return 0

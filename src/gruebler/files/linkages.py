@@ -132,8 +132,8 @@ def _driven(chain: Chain, frame: str, drives: tuple[str, ...]) -> Mechanism:
         raise LinkageError("drives: {error}", error=error) from None
 
 
-def linkage_to_json(linkage: Linkage, loads: Loads | None = None) -> dict[str, Any]:
-    """Plain data for `json.dumps`; `linkage_from_json` takes it back exactly, `read_loads` the loads of a file."""
+def linkage_to_json(linkage: Linkage, loads: Loads | None = None, speed: float | None = None) -> dict[str, Any]:
+    """Plain data for `json.dumps`; `linkage_from_json` takes it back exactly, `read_loaded` loads and speed."""
     mechanism = linkage.mechanism
     chain, names = mechanism.chain, mechanism.chain.joint_names()
     document: dict[str, Any] = {"unit": linkage.unit, "joints": chain.text()}
@@ -162,7 +162,7 @@ def linkage_to_json(linkage: Linkage, loads: Loads | None = None) -> dict[str, A
     if loads is not None:
         from gruebler.files.load_writing import loads_to_json
 
-        document["loads"] = loads_to_json(loads, linkage)
+        document["loads"] = loads_to_json(loads, linkage, speed)
     return document
 
 
@@ -171,8 +171,8 @@ def _outline(outline: Outline) -> dict[str, Any]:
     return {"at": places[0], "radius": outline.radius} if outline.radius else {"through": places}
 
 
-def linkage_to_toml(linkage: Linkage, loads: Loads | None = None) -> str:
-    """The text of a TOML file; `read_linkage` takes it back exactly.
+def linkage_to_toml(linkage: Linkage, loads: Loads | None = None, speed: float | None = None) -> str:
+    """The text of a TOML file; `read_linkage` takes it back exactly, `read_loaded` with loads and speed.
 
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> print(linkage_to_toml(FourBar(a=25, b=70, c=40, d=70).linkage()).partition("[elements.frame]")[2])
@@ -193,7 +193,7 @@ def linkage_to_toml(linkage: Linkage, loads: Loads | None = None) -> str:
     "R(frame-rocker)" = [0.0, 0.0]
     <BLANKLINE>
     """
-    document = linkage_to_json(linkage, loads)
+    document = linkage_to_json(linkage, loads, speed)
     acting = document.pop("loads", {})
     inner = {f"loads.{key}": acting.pop(key) for key in tuple(acting) if isinstance(acting[key], dict)}
     tables = {
@@ -233,14 +233,16 @@ def check_linkage_path(path: Path) -> None:
         raise LinkageError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
-def write_linkage(path: Path | str, linkage: LinkageLike, loads: Loads | None = None) -> None:
-    """Write a ``.toml`` or ``.json`` file, with loads if given; it appears whole or not at all."""
+def write_linkage(
+    path: Path | str, linkage: LinkageLike, loads: Loads | None = None, speed: float | None = None
+) -> None:
+    """Write a ``.toml`` or ``.json`` file, with loads and usual speed if given; it appears whole or not at all."""
     path = Path(path)
     check_linkage_path(path)
     linkage = as_linkage(linkage)
     if path.suffix.lower() == ".toml":
-        text = linkage_to_toml(linkage, loads)
+        text = linkage_to_toml(linkage, loads, speed)
     else:
-        text = json.dumps(linkage_to_json(linkage, loads), ensure_ascii=False, indent=2) + "\n"
+        text = json.dumps(linkage_to_json(linkage, loads, speed), ensure_ascii=False, indent=2) + "\n"
     with atomic_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))

@@ -18,8 +18,8 @@ from gruebler.mechanics.linkages.elements import LinkPoint
 from gruebler.mechanics.linkages.model import Linkage
 
 
-def loads_to_json(loads: Loads, linkage: Linkage) -> dict[str, Any]:
-    """Plain data for ``[loads]``; `loads_from_json` takes it back exactly.
+def loads_to_json(loads: Loads, linkage: Linkage, speed: float | None = None) -> dict[str, Any]:
+    """Plain data for ``[loads]``, with the usual speed of the only drive; `loads_from_json` takes it back exactly.
 
     Raises `LinkageError` for what a file cannot hold: one value for each row, functions of Python.
 
@@ -36,6 +36,7 @@ def loads_to_json(loads: Loads, linkage: Linkage) -> dict[str, Any]:
 
     turning = {name: drive.turning for name, drive in _drives(linkage).items()}
     tables: dict[str, Any] = {
+        "speed": None if speed is None else text(speed, "speed" if all(turning.values()) else "velocity"),
         "gravity": [text(each, "acceleration") for each in loads.gravity],
         "bodies": {link: _body(body, text) for link, body in loads.bodies.items()},
         "masses": {_point(point): text(_number(f"masses.{point}", m), "mass") for point, m in loads.masses.items()},

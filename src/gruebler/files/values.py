@@ -15,8 +15,11 @@ from gruebler.files.formats import FORMATS, Format, json_of_another_program
 
 if TYPE_CHECKING:
     from gruebler.files.formats import Value
+    from gruebler.mechanics.forces.loads import Loads
+    from gruebler.mechanics.linkages import Linkage
 
 _OWN = frozenset({"toml", "csv", "text", "graph6"})  # names of formats that the other readers of this library know, too
+_DOCUMENTS = frozenset({"toml", "json"})  # the formats that hold loads
 
 
 class FormatWarning(UserWarning):
@@ -177,7 +180,8 @@ def convert(
 ) -> list[Message]:
     """Read a file in one format and write it in another; returns what was left out, as messages.
 
-    Files of chains one a line are converted line by line, however many there are. Raises `GrueblerError` as `read` and
+    A linkage keeps its loads where the other format is one of this library. Files of chains one a line are converted
+    line by line, however many there are. Raises `GrueblerError` as `read` and
     `write`.
 
     >>> import tempfile
@@ -198,10 +202,40 @@ def convert(
     if from_form.name in LINES and to_form.name in LINES:
         write_lines(read_lines(source, from_form.name), target, to_form.name)
     else:
-        write(
-            read(source, format_name=source_format, left_out=left_out),
-            target,
-            format_name=target_format,
-            left_out=left_out,
-        )
+        value = read(source, format_name=source_format, left_out=left_out)
+        loaded = _loaded(source, from_form, value)
+        if loaded is not None:
+            write_loaded(*loaded, target, target_format, left_out)
+        else:
+            write(value, target, format_name=target_format, left_out=left_out)
     return left_out
+
+
+def _loaded(path: Path, form: Format, value: Value) -> tuple[Linkage, Loads, float | None] | None:
+    """The linkage of a file with its loads and speed; None where it has no loads."""
+    from gruebler.base.documents import load_document
+    from gruebler.files.linkages import read_loaded
+    from gruebler.mechanics.linkages import Linkage
+
+    if form.name not in _DOCUMENTS or not isinstance(value, Linkage):
+        return None
+    document = load_document(path, lambda problem: GrueblerError("{path}: {problem}", path=path, problem=problem))
+    return read_loaded(path) if "loads" in document else None
+
+
+def write_loaded(
+    linkage: Linkage,
+    loads: Loads,
+    speed: float | None,
+    path: Path,
+    format_name: str | None,
+    left_out: list[Message],
+) -> None:
+    """Write a linkage with its loads, which are left out where the format is not one of this library."""
+    if format_of(path, format_name).name in _DOCUMENTS:
+        from gruebler.files.linkages import write_linkage
+
+        write_linkage(path, linkage, loads, speed)
+    else:
+        write(linkage, path, format_name=format_name, left_out=left_out)
+        left_out.append(message("loads and masses"))
