@@ -15,7 +15,7 @@ from gruebler.base.columns import Column, Table, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.base.plain_data import plain
 from gruebler.base.text import message, number, translate
-from gruebler.cli.drive_rows import given_rows, turning_drives
+from gruebler.cli.drive_rows import driven_motion, turning_drives
 from gruebler.cli.friction_options import add_friction, friction_of, option_numbers
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word
@@ -24,14 +24,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table
-from gruebler.mechanics.analysis.drive_cycles import drive_cycle
-from gruebler.mechanics.analysis.table import default_rows
 from gruebler.mechanics.forces import Loads, Statics, component_table, statics, statics_table
-from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.kinematics.solve import move_quietly
-from gruebler.mechanics.linkages import Linkage
-
-_FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
 
 
 def add(parser: Parser) -> None:
@@ -71,12 +64,13 @@ def add(parser: Parser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """A table over the rows, or all forces of one row; 1 if it stops or is not held somewhere."""
     linkage, shown_range = linkage_of_word(arguments.linkage, language_of_names(arguments))
-    turning, lang = turning_drives(linkage), arguments.lang
+    turning_drives(linkage)  # it has some
+    lang = arguments.lang
     loads = _loads(arguments)
     if not (loads.forces or loads.moments or loads.masses):
         raise GrueblerError("no load is given: use --load, --moment or --mass")
     friction = friction_of(arguments)
-    motion = _motion(linkage, shown_range, turning, arguments)
+    motion = driven_motion(linkage, shown_range, arguments)
     if not len(motion):
         print(motion.message(lang))
         return 1
@@ -133,22 +127,6 @@ def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float
         )
     numbers = option_numbers(option, values, count)
     return name.strip(), numbers if count > 1 else numbers[0]
-
-
-def _motion(
-    linkage: Linkage, shown_range: tuple[float, float] | None, turning: Sequence[bool], arguments: argparse.Namespace
-) -> Motion:
-    rows = given_rows(arguments.range, arguments.at, turning)
-    if rows is None and len(turning) > 1:
-        raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
-    if rows is not None:
-        return move_quietly(linkage, rows, branch=arguments.branch, order=1)
-    cycle = drive_cycle(linkage, branch=arguments.branch)
-    values = default_rows(cycle.span, shown_range, turning[0])[:, 0]
-    if not cycle.span.full:
-        margin = _FROM_LIMITS * cycle.span.width
-        values = np.clip(values, cycle.span.low + margin, cycle.span.high - margin)
-    return cycle.at(values, 1)
 
 
 # --- output ----------------------------------------------------------------------------------------
