@@ -93,6 +93,7 @@ def test_no_product_is_fused_with_a_sum(level):
 
 
 SWEEP = ROOT / "core" / "src" / "motion" / "sweep.cpp"
+TRACKER = ROOT / "core" / "src" / "algebra" / "tracking.cpp"
 
 
 def lane_loops():
@@ -106,22 +107,21 @@ def lane_loops():
     return found
 
 
-def compilation(level):
-    """The command that compiles the sweep for a level, with the folder in which it is called; skips without it."""
+def compilation(source, level):
+    """The command that compiles a source for a level, with the folder in which it is called; skips without it."""
     try:
         commands = json.loads((ROOT / "build" / "core" / "compile_commands.json").read_text(encoding="utf-8"))
     except FileNotFoundError:
         pytest.skip("not built here")
     for each in commands:
-        if Path(each["file"]) == SWEEP and f"/kernels{level}.dir/" in each["command"]:
+        if Path(each["file"]) == source and f"/kernels{level}.dir/" in each["command"]:
             return shlex.split(each["command"]), each["directory"]
     pytest.skip("no such level here, or built from another folder")
 
 
-@pytest.mark.parametrize(("level", "width"), [("", 16), ("_v3", 32), ("_v4", 64)])
-def test_loops_of_the_sweep_are_vectorised(level, width):
-    """By the report of the compiler itself; a branch or a call too many in a lane, and they go one by one."""
-    command, folder = compilation(level)
+def vectorised(source, level, file, width):
+    """How often each line of a file is a loop over vectors of so many bytes, by GCC's own report."""
+    command, folder = compilation(source, level)
     version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=False).stdout
     if "Free Software Foundation" not in version or "-O3" not in command:
         pytest.skip("asks GCC, and what it optimises")
@@ -129,7 +129,27 @@ def test_loops_of_the_sweep_are_vectorised(level, width):
     report = subprocess.run(
         [*command, "-S", "-fopt-info-vec-optimized"], cwd=folder, capture_output=True, text=True, check=True
     ).stderr
-    seen = Counter(re.findall(rf"sweep\.cpp:(\d+):\d+: optimized: +loop vectorized using {width} byte vectors", report))
+    where = rf"{re.escape(file.name)}:(\d+):\d+: optimized: +loop vectorized using {width} byte vectors"
+    return Counter(map(int, re.findall(where, report)))
+
+
+@pytest.mark.parametrize(("level", "width"), [("", 16), ("_v3", 32), ("_v4", 64)])
+def test_loops_of_the_sweep_are_vectorised(level, width):
+    """A branch or a call too many in a lane, and they go one by one."""
+    seen = vectorised(SWEEP, level, SWEEP, width)
     loops = lane_loops()
     assert loops
-    assert {line: copies for line, copies in loops.items() if seen[str(line)] < copies} == {}
+    assert {line: copies for line, copies in loops.items() if seen[line] < copies} == {}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("level", "width"), [("", 16), ("_v3", 32), ("_v4", 64)])
+def test_the_elimination_of_the_tracker_is_vectorised(level, width):
+    """Rows are taken from all columns behind a pivot: the innermost loop of paths, for one right side and for two."""
+    lanes = TRACKER.with_name("lanes.hpp")
+    (line,) = [
+        number
+        for number, text in enumerate(lanes.read_text(encoding="utf-8").splitlines(), 1)
+        if "matrix.column[c].subtract(" in text
+    ]
+    assert vectorised(TRACKER, level, lanes, width)[line] == 2
