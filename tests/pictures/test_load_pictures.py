@@ -32,12 +32,14 @@ def test_a_spring_joins_its_points_in_every_pose(kind):
     for row, lines in enumerate(rows):
         ends = places([lines[0].parts[0][0], lines[0].parts[-1][-1]]) / posed.scale
         assert ends == pytest.approx([20 + 90j, posed.path.complex_point("K")[row]], abs=1e-9)
+        dots = np.array([places(dot.parts[0]) / posed.scale for dot in lines[1:]])
+        assert dots.mean(1) == pytest.approx(ends, abs=1e-9)  # a dot where the spring is fastened
         assert [len(part) for part in lines[0].parts] == [len(part) for part in rows[0][0].parts]
 
 
 def test_a_zigzag_is_seven_coils_wide_as_said():
     posed = posed_linkage(LINKAGE)
-    (line,) = load_lines(posed, posed.pose, Loads(springs=(PULLS["zigzag"],)), None)[0]
+    line, *_ = load_lines(posed, posed.pose, Loads(springs=(PULLS["zigzag"],)), None)[0]
     z = places(line.parts[0])
     across = (np.conj(z[-1] - z[0]) * (z - z[0])).imag / abs(z[-1] - z[0])
     assert np.abs(across).max() == pytest.approx(6)
@@ -70,9 +72,9 @@ def test_an_animation_moves_them():
     loads = Loads(springs=(PULLS["zigzag"],), bodies={"coupler": RigidBody(1.0, (35, 8))})
     shown = scene(LINKAGE, loads=loads, speed=10.0)
     text = animated_svg(LINKAGE, loads=loads, speed=10.0)
-    assert text.count('attributeName="d"') == len(shown.changing[0]) == 1 + 2 * 4  # a spring, arrows at four joints
+    assert text.count('attributeName="d"') == len(shown.changing[0]) == 3 + 2 * 4  # spring and ends, arrows at joints
     assert all(values.count(";") == len(shown.rows) - 1 for values in text.split('attributeName="d"')[1:2])
-    assert len(draw_linkage(LINKAGE, loads=loads).shapes) == len(draw_linkage(LINKAGE).shapes) + 3 + 1
+    assert len(draw_linkage(LINKAGE, loads=loads).shapes) == len(draw_linkage(LINKAGE).shapes) + 3 + 3
 
 
 def test_commands(capsys):

@@ -20,6 +20,7 @@ from gruebler.pictures.linkage.bodies import BodyPart, in_link
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
 _MASS = 6.5  # pixels of the radius of a centre of mass
+_END = 3.0  # pixels of the radius of an end of a spring
 _COILS = 7
 _WIDTH = 6.0  # pixels of half a spring's width
 _STRAIGHT = 0.18  # the part of a spring's length at both ends that is straight
@@ -64,10 +65,17 @@ def _springs(posed: PosedLinkage, motion: Motion, row: int, loads: Loads, acting
         first = acting.heavy.stop + 2 * k
         near, far = (_placed(posed, motion, row, place) for place in acting.spots[first : first + 2])
         yield from _spring(spring, near, far, posed.scale)
+        yield from (_end(at) for at in (near, far))
 
 
 def _placed(posed: PosedLinkage, motion: Motion, row: int, place: LinkPoint) -> Point:
     return posed.local(complex(motion.complex_point(place)[row]))
+
+
+def _end(at: Point) -> Polylines:
+    """A dot where a spring is fastened, in the frame and in links alike."""
+    turn = np.linspace(0, 2 * math.pi, 12, endpoint=False).tolist()
+    return Polylines((tuple(at.plus(Point(math.cos(a), math.sin(a)), _END) for a in turn),), "dot", closed=True)
 
 
 def _spring(spring: Spring, near: Point, far: Point, scale: float) -> Iterator[Polylines]:
