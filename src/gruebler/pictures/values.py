@@ -13,6 +13,7 @@ from gruebler.base.atomic_files import atomic_file
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, nearest, to_be_read
 from gruebler.base.text import Message, message
+from gruebler.mechanics.forces.loads import Loads
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.files import picture_bytes, suffix_of
 from gruebler.pictures.canvas.textbook import textbook
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
     from gruebler.mechanics.dynamics.inverse import InverseDynamics
     from gruebler.mechanics.dynamics.simulation import Simulation
-    from gruebler.mechanics.forces import Loads
     from gruebler.mechanics.kinematics.motion import Motion
     from gruebler.mechanics.linkages import Linkage
     from gruebler.mechanics.linkages.branch import Branch
