@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gruebler.mechanics.forces import Gas, Loads, RigidBody, Spring
+from gruebler.mechanics.forces import Gas, Loads, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.linkage.animation import animated_svg, scene
@@ -44,6 +44,22 @@ def test_a_zigzag_is_seven_coils_wide_as_said():
     across = (np.conj(z[-1] - z[0]) * (z - z[0])).imag / abs(z[-1] - z[0])
     assert np.abs(across).max() == pytest.approx(6)
     assert np.isclose(np.abs(across), 6).sum() == 2 * 7 - 1
+
+
+def test_a_spiral_is_wound_by_the_angle_of_its_links():
+    """The angle of the crank is the drive's; the turns are counted along the drawn line."""
+    posed = posed_linkage(LINKAGE)
+    pinned, loose = (TorsionSpring(("frame", link), stiffness=1.0, free_angle=0.5) for link in ("crank", "coupler"))
+    drives = posed.path.drives[:, 0]
+    rows = load_lines(posed, posed.path, Loads(torsion_springs=(pinned, loose)), None)
+    for row, lines in enumerate(rows):
+        assert len(lines) == 1  # coupler and frame have no pin
+        z = places(lines[0].parts[0])  # about the origin, where the crank is pinned
+        assert len(z) == len(rows[0][0].parts[0])
+        assert np.angle(z[1:] / z[:-1]).sum() == pytest.approx(4 * np.pi + drives[row] - 0.5)
+        assert np.exp(1j * np.angle(z[-2:])) == pytest.approx(
+            np.exp(1j * drives[row] * np.ones(2))
+        )  # the leg lies on it
 
 
 def test_centres_of_mass_lie_where_the_loads_say():

@@ -9,7 +9,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.mechanics.dynamics import inverse_dynamics
-from gruebler.mechanics.forces import Gas, Loads, Spring
+from gruebler.mechanics.forces import Gas, Loads, Spring, TorsionSpring
 from gruebler.mechanics.forces.acting import ActingLoads, acting_loads, moving_links
 from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
@@ -17,7 +17,7 @@ from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines
 from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.linkage.bodies import BodyPart, in_link
-from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage, link_nodes
 
 _MASS = 6.5  # pixels of the radius of a centre of mass
 _END = 3.0  # pixels of the radius of an end of a spring
@@ -25,6 +25,8 @@ _COILS = 7
 _WIDTH = 6.0  # pixels of half a spring's width
 _STRAIGHT = 0.18  # the part of a spring's length at both ends that is straight
 _BARREL, _FOOT = 0.55, 0.1  # of a gas spring's longest length (a damper's length) its barrel ends, begins there
+_INNER, _OUTER, _LEG = 9.0, 24.0, 12.0  # pixels: radii of a spiral, and the leg along its second link
+_TURNS = 2.0  # of a spiral at the free angle
 _LONGEST = 74.0  # pixels of the longest arrow
 _LEAST = 0.03  # of the longest: shorter ones are points
 
@@ -66,6 +68,28 @@ def _springs(posed: PosedLinkage, motion: Motion, row: int, loads: Loads, acting
         near, far = (_placed(posed, motion, row, place) for place in acting.spots[first : first + 2])
         yield from _spring(spring, near, far, posed.scale)
         yield from (_end(at) for at in (near, far))
+
+    for turning in loads.torsion_springs:
+        yield from _spiral(posed, motion, row, turning)
+
+
+def _spiral(posed: PosedLinkage, motion: Motion, row: int, spring: TorsionSpring) -> Iterator[Polylines]:
+    """About the pin of its links, held by the first, with a leg along the second; nothing where they have no pin."""
+    linkage, between = motion.linkage, spring.between
+    chain = linkage.mechanism.chain
+    pins = [k for k, joint in enumerate(chain.joints) if joint.pair.is_turning and set(joint.links) == set(between)]
+    if not pins:
+        return
+    at = posed.local(complex(motion.complex_point(chain.joint_names()[pins[0]])[row]))
+    element = linkage.elements[pins[0], between[1]]
+    along = np.mean(link_nodes(linkage, between[1])) - complex(element.x, element.y)
+    start, end = (float(motion.angle(link)[row]) for link in between)
+    drawn = math.remainder(end - start - spring.free_angle, 4 * math.pi)
+    outer = end + float(np.angle(along))
+    part = np.linspace(0, 1, 61)
+    z = (_INNER + (_OUTER - _INNER) * part) * np.exp(1j * (outer - (1 - part) * (2 * math.pi * _TURNS + drawn)))
+    z = np.concatenate([[z[0] / 2], z, [z[-1] * (1 + _LEG / _OUTER)]])
+    yield Polylines((tuple(at.plus(Point(w.real, -w.imag)) for w in z.tolist()),), "edge")
 
 
 def _placed(posed: PosedLinkage, motion: Motion, row: int, place: LinkPoint) -> Point:
