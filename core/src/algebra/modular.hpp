@@ -12,6 +12,7 @@
 
 namespace gruebler::algebra {
 
+// The largest prime of 31 bits: a product of two residues fits a word.
 inline constexpr std::int64_t prime = (std::int64_t{1} << 31) - 1;
 
 // Rows of whole numbers of any size: row i has the entries start[i] to start[i + 1] - 1, each column at most once.

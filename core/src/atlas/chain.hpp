@@ -13,7 +13,7 @@ namespace gruebler::atlas {
 
 using bits::Word;
 
-inline constexpr int most_links = 40;
+inline constexpr int most_links = 40;      // twice as many as a list of all chains can have; tables of pairs stay small
 inline constexpr int most_members = 9;     // links of a joint: their canonical numbers are digits of a word
 inline constexpr int most_vertices = 62;   // links and multiple joints: sets of them are bits of a word
 inline constexpr int most_joints = most_vertices * (most_vertices - 1) / 2;

@@ -11,7 +11,7 @@
 
 namespace gruebler::atlas {
 
-inline constexpr int most_mechanism_links = 40;
+inline constexpr int most_mechanism_links = 40;   // as many as a chain of the atlas, see chain.hpp
 inline constexpr int most_mechanism_joints = 62;  // sets of them are bits of a word
 
 // Codes such as gr1:R(0-1)R(0-2) one after another, each of so many links and joints; `end`: where each of them ends.

@@ -12,8 +12,8 @@
 
 namespace gruebler::counting {
 
-inline constexpr int most_loops = 10;
-inline constexpr int most_mobility = 24;
+inline constexpr int most_loops = 10;     // graphs of 18 nodes: packed_graph.hpp
+inline constexpr int most_mobility = 24;  // 64 bits hold what is counted: values.hpp
 
 // Packed graphs one after another, `width` rows each.
 struct GraphRows {

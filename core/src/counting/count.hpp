@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t steps_of_arranging = 1 << 10;
+    static constexpr std::int64_t steps_of_arranging = 1 << 10;  // of the watch, of some nanoseconds
 
     // What the first variables have been given.
     struct Partial {

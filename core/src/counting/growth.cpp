@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t steps_of_a_place = 1 << 12;
+    static constexpr std::int64_t steps_of_a_place = 1 << 12;  // of the watch, of some nanoseconds
 
     enum class Fate { dropped, kept, no_room };
 

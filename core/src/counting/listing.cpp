@@ -121,7 +121,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t steps_of_a_graph = 1 << 10;
+    static constexpr std::int64_t steps_of_a_graph = 1 << 10;  // of the watch, of some nanoseconds
 
     int loops_, mobility_;
     AllValues values_, pair_values_;

@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t steps_of_a_level = 8;
+    static constexpr std::int64_t steps_of_a_level = 8;  // of the watch, of some nanoseconds
     static constexpr int still_open = 6;                         // bundles, when the question is asked: measured
     static constexpr int bytes = 8;                              // budgets of a word
     static constexpr int most_words = 2 * most_sets / bytes;

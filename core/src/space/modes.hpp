@@ -20,7 +20,7 @@ enum class Kind : std::int64_t { still, turns, shifts };
 enum class RowKind : std::int64_t { offset, across, length };
 
 inline constexpr int node_fields = 6, row_fields = 5, frame_size = 16, twist_size = 6, turn_size = 9;
-inline constexpr int most_nodes = 512, most_unknowns = 64;
+inline constexpr int most_nodes = 512, most_unknowns = 64;  // more than linkages need; the dense Jacobian stays small
 
 struct Structure {
     int nodes, rows, unknowns, balls;

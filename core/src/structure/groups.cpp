@@ -10,7 +10,7 @@ namespace gruebler::structure {
 namespace {
 
 constexpr int link_colour = 1, turning_colour = 1;  // as gruebler.structure.isomorphism has them
-constexpr std::int64_t steps_of_a_group = 1 << 8;
+constexpr std::int64_t steps_of_a_group = 1 << 8;  // of the watch, of some nanoseconds
 
 class Groups {
 public:

@@ -12,7 +12,7 @@ namespace gruebler::structure {
 
 using Residue = std::uint64_t;
 
-inline constexpr Residue prime = (Residue{1} << 31) - 1;
+inline constexpr Residue prime = (Residue{1} << 31) - 1;  // a product of two residues fits a word
 inline constexpr int most_columns = 62;  // sets of them are bits of a word
 
 // The closure equations of a chain modulo the prime.
