@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from gruebler.base.errors import LinkageError
 from gruebler.mechanics.forces import Gas, Loads, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.linkages import LinkPoint
@@ -35,6 +36,11 @@ def test_a_spring_joins_its_points_in_every_pose(kind):
         dots = np.array([places(dot.parts[0]) / posed.scale for dot in lines[1:]])
         assert dots.mean(1) == pytest.approx(ends, abs=1e-9)  # a dot where the spring is fastened
         assert [len(part) for part in lines[0].parts] == [len(part) for part in rows[0][0].parts]
+
+
+def test_what_is_no_loads_is_refused():
+    with pytest.raises(LinkageError, match="loads: expected Loads, but found 5"):
+        draw_linkage(LINKAGE, loads=5)
 
 
 def test_a_zigzag_is_seven_coils_wide_as_said():

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from gruebler.base.arrays import Complexes
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import LinkageError
 from gruebler.mechanics.dynamics import inverse_dynamics
 from gruebler.mechanics.forces import Gas, Loads, Spring, TorsionSpring
 from gruebler.mechanics.forces.acting import ActingLoads, acting_loads, moving_links
@@ -34,6 +36,7 @@ Lines = tuple[Polylines, ...]
 """Of one pose; in all poses of a motion they are as many, with as many points."""
 
 
+@door_that_raises(LinkageError)
 def mass_parts(posed: PosedLinkage, loads: Loads) -> list[BodyPart]:
     """Centres of mass and point masses as the usual circle with two filled quarters, each carried by its link."""
     acting = acting_loads(posed.pose, loads)
