@@ -87,6 +87,20 @@ def test_springs_of_the_loads_are_fitted(capsys, tmp_path):
     assert (status, err) == (2, "the drive does not reach all values of --range")
 
 
+def test_springs_that_cannot_help_are_called_so(capsys, tmp_path):
+    """A spring below the weight pulls it down; its preload stays when its stiffness is 0."""
+    path = tmp_path / "pulled.toml"
+    path.write_text(
+        'unit = "mm"\nfour_bar = { a = 25, b = 70, c = 40, d = 70 }\n[loads]\n'
+        'springs = [{ between = ["frame:0,-60", "crank:20,0"], stiffness = "1 N/mm", preload = "5 N" }]\n'
+        'bodies = { crank = { mass = "1 kg", centre = [20, 0] } }\n'
+    )
+    status, out, _ = run_command(capsys, "balance", str(path), "--fit-springs", "--range", "0:60:10")
+    assert status == 0
+    assert "crank:20,0: 0 N/mm" in out
+    assert "They are no help at any stiffness" in out
+
+
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [

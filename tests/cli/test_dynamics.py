@@ -90,6 +90,8 @@ def test_it_says_how_well_energy_is_kept(capsys):
         (["simulate", ENGINE, "--until", "-1"], "--until: expected a time in seconds after 0"),
         (["simulate", ENGINE, "--until", "1", "--rows", "1"], "--rows: expected a number from 2 to 100000"),
         (["dynamics", "lambda", "--speed", "60"], "the catalog entry 'lambda' has no masses and no loads; these have"),
+        (["dynamics", "25,70,40,70", "--speed", "60"], "25,70,40,70: lengths have no masses and no loads"),
+        (["simulate", ENGINE, "--until", "1"], "engine.toml has no position to start from"),
         (["dynamics", "lambada", "--speed", "60"], "a linkage is in a .toml or .json file"),
     ],
 )

@@ -196,6 +196,10 @@ def _print(document: dict[str, Any], linkage: Linkage, lang: str) -> None:
         _print_springs(document["fitted"]["springs"], unit, lang)
         effort = f"N·{unit}" if turning_drives(linkage)[0] else "N"
         print(_EFFORT.filled(**document["fitted"], effort=effort).in_language(lang))
+        if all(
+            document["fitted"][f"{size}_after"] > document["fitted"][f"{size}_before"] for size in ("mean", "largest")
+        ):
+            print(translate("They are no help at any stiffness: their preloads alone load the drive more.", lang))
     if "flywheel" in document:
         print()
         print(_FLYWHEEL.filled(**document["flywheel"], unit=unit).in_language(lang))

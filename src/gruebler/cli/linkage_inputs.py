@@ -166,6 +166,10 @@ def loaded_linkage(word: str, lang: str = "en") -> Loaded:
             )
         shown = record.dimensions.range if record.dimensions is not None else None
         return Loaded(*record.in_language(lang).loaded(), shown)
+    if size_of(word) is not None:
+        raise GrueblerError(
+            "{word}: lengths have no masses and no loads; files and catalog entries have some", word=word
+        )
     linkage, loads, speed = read_loaded(word)
     if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
         raise GrueblerError(

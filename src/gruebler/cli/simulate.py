@@ -58,6 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError("--rows: expected a number from 2 to 100000, but found {count}", count=arguments.rows)
     if not 0 < arguments.until < math.inf:
         raise GrueblerError("--until: expected a time in seconds after 0, but found {until:g}", until=arguments.until)
+    if arguments.at is None and linkage.reference_pose is None:
+        raise GrueblerError("--at is missing: {word} has no position to start from", word=arguments.linkage)
     result = simulate(
         linkage,
         loads,
