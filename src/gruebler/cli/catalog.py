@@ -124,11 +124,7 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
     drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
     lines += [
         translate("Chain: {chain}", lang, chain=chain.text(alphabet)),
-        translate(
-            "Links: {links}",
-            lang,
-            links=links,
-        ),
+        translate("Links: {links}", lang, links=links),
     ]
     if record.frame:
         lines.append(translate("Frame: {frame}", lang, frame=record.frame))

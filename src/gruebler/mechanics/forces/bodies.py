@@ -11,6 +11,7 @@ import numpy as np
 from gruebler.base.arrays import cross_product
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
+from gruebler.base.immutable import settle
 from gruebler.base.text import message
 from gruebler.base.units import metres_of
 
@@ -52,10 +53,10 @@ class RigidBody:
                 raise LinkageError(
                     "{name} must be a finite number that is not negative, not {value!r}", name=_NAMES[name], value=value
                 )
-            object.__setattr__(self, name, float(value))
+            settle(self, **{name: float(value)})
         if not all(map(isfinite, self.centre)):
             raise LinkageError("the centre of mass has finite coordinates, not {value!r}", value=self.centre)
-        object.__setattr__(self, "centre", (float(self.centre[0]), float(self.centre[1])))
+        settle(self, centre=(float(self.centre[0]), float(self.centre[1])))
 
     @classmethod
     @door_that_raises(LinkageError)

@@ -15,6 +15,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.formulas import Formula
+from gruebler.base.immutable import settle
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -121,7 +122,7 @@ class Curve:
             raise LinkageError(
                 "the period of a curve is at least as long as its table, not {period:g}", period=self.period
             )
-        object.__setattr__(self, "points", points)
+        settle(self, points=points)
 
     def __call__(self, state: State, /) -> Reals:
         """Its value in each row."""

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
+from gruebler.base.immutable import settle
 from gruebler.mechanics.forces.bodies import RigidBody
 from gruebler.mechanics.forces.laws import Law, LoadFormula
 from gruebler.mechanics.forces.springs import Spring, TorsionSpring
@@ -63,5 +64,4 @@ class Loads:
         for text in (*pairs, *self.moments.values(), *self.motors.values()):
             if isinstance(text, str):
                 LoadFormula(text)
-        for name in ("springs", "torsion_springs"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        settle(self, springs=tuple(self.springs), torsion_springs=tuple(self.torsion_springs))

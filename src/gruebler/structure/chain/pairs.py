@@ -25,6 +25,7 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from gruebler.base.errors import PairError, nearest
+from gruebler.base.immutable import settle
 from gruebler.base.text import LANGUAGES, Text, joined, message
 from gruebler.structure.chain.spaces import Freedom, Space
 
@@ -128,7 +129,7 @@ class Pair:
 
     def __post_init__(self) -> None:
         freedoms = {space: tuple(map(space.seen, self.motion)) for space in self.axes}
-        object.__setattr__(self, "freedoms", MappingProxyType(freedoms))
+        settle(self, freedoms=MappingProxyType(freedoms))
 
     # --- what a pair does; each follows from its motion and its contact ------------------------------------------
 
