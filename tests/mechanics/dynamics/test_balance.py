@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize
 
 from gruebler.base.errors import LinkageError
+from gruebler.files.linkages import linkage_from_json
 from gruebler.mechanics.dynamics import (
     balance_forces,
     balance_moments,
@@ -58,6 +59,23 @@ MACHINES = {
     "six-bar": entry("wiper").linkage(),
     "pin in a slot": entry("filmclaw_slot").linkage(),
     "two pistons": entry("vcomp").linkage(),
+    "pins whose sums are rounded": linkage_from_json(
+        {
+            "unit": "mm",
+            "joints": "R(frame-crank) R(crank-rod) R(rod-lever) R(frame-lever) R(lever-link) R(link-ram) P(frame-ram)",
+            "frame": "frame",
+            "drives": ["R(frame-crank)"],
+            "places": {
+                "R(frame-crank)": [0, 0],
+                "R(crank-rod)": [15, 20],
+                "R(rod-lever)": [80, 45],
+                "R(frame-lever)": [70, 0],
+                "R(lever-link)": [85, 60],
+                "R(link-ram)": [160, 60],
+                "P(frame-ram)": [160, 60, 0],
+            },
+        }
+    ),
 }
 
 

@@ -148,6 +148,8 @@ def _walked(
                 used.add(number)
                 at = origins[link] + _place(lower, number, link) * _unit(links, link)
                 for other in ends:
+                    if other == link:  # rounding alone would be a relation
+                        continue
                     arm = _place(lower, number, other)
                     if other in regions:
                         relations.append(at - origins[other] - arm * _unit(links, other))
