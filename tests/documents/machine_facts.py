@@ -82,6 +82,7 @@ STRUCTURES = (
     Structure("kneader", "figure 3.8", 4, {1: 4}),
     Structure("kurbelschleife", "section 2.6", 4, {1: 4}, printed="1"),
     Structure("lambda", "section 3.5.4", 4, {1: 4}),
+    Structure("lamp", "not in the documents", 7, {1: 8}),
     Structure("loader", "figure 1.7", 6, {1: 7}),
     Structure("loader_full", "figure 1.7", 9, {1: 11}),
     Structure("loco2", "section 3.4", 4, {1: 4}),

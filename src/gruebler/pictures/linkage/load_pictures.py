@@ -71,7 +71,6 @@ def _springs(posed: PosedLinkage, motion: Motion, row: int, loads: Loads, acting
         near, far = (_placed(posed, motion, row, place) for place in acting.spots[first : first + 2])
         yield from _spring(spring, near, far, posed.scale)
         yield from (_end(at) for at in (near, far))
-
     for turning in loads.torsion_springs:
         yield from _spiral(posed, motion, row, turning)
 
