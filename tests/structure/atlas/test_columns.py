@@ -1,7 +1,8 @@
 """Every column of the atlas against another hand: igraph, networkx, and the library's own rooms for single chains."""
 
 import random
-from itertools import combinations
+from itertools import combinations, product
+from math import prod
 
 import igraph
 import networkx as nx
@@ -234,6 +235,9 @@ def test_mechanisms_and_driven_mechanisms(tmp_path):
         assert row["dyads_only"] == (row["highest_class"] == 2)
         assert row["at_frame"]
         assert row["family"] == family(mechanism)
+        # Printed numbers: two intersections of circles; 6 for the triads (class III and IV); 14, 16, 18 for six links.
+        printed = [{2: (2,), 4: (6,), 6: (14, 16, 18)}[len(group.bodies)] for group in groups]
+        assert row["assembly_modes"] in map(prod, product(*printed))
 
 
 @pytest.mark.parametrize("links", [8, pytest.param(10, marks=pytest.mark.slow)])

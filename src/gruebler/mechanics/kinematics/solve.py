@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
-from math import prod
 from operator import attrgetter
 
 import numpy as np
@@ -32,7 +31,8 @@ from gruebler.mechanics.kinematics.reference_pose import ReferencePose, check_re
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch, branch_text
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
-from gruebler.structure.assur import AssurError, count_modes, decompose
+from gruebler.structure.assur import decompose
+from gruebler.structure.assur.modes import modes_of_groups
 
 _OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
 _DOUBTFUL = 1e-6  # a root below it may be wrong by as much as 1e-16 over it, and so may the pose
@@ -317,13 +317,7 @@ def possible_modes(linkage: Linkage) -> int | None:
     (2, None)
     """
     decomposition = decompose(linkage.mechanism)
-    turning = all(joint.pair.is_turning for group in decomposition.groups for joint in group.shape.chain.joints)
-    if not (turning and decomposition.complete):
-        return None
-    try:
-        return prod(count_modes(group.shape) for group in decomposition.groups)
-    except AssurError:
-        return None
+    return modes_of_groups(group.shape for group in decomposition.groups) if decomposition.complete else None
 
 
 def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:

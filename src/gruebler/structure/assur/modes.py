@@ -5,7 +5,8 @@ Theorems and recursions: docs/theory/counting-modes.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,6 +78,21 @@ def count_modes(group: AssurGroup | Chain, *, spherical: bool = False) -> int:
             found=len(sets),
         )
     return int(modes_of_trusses(links, np.array([sets], np.int64), spherical=spherical)[0])
+
+
+def modes_of_groups(groups: Iterable[AssurGroup]) -> int | None:
+    """The modes of a mechanism of these groups, None if a joint does not turn or a group is larger than is counted.
+
+    >>> modes_of_groups([AssurGroup.parse("R(a-1) R(1-2) R(b-2)")] * 2)
+    4
+    """
+    shapes = list(groups)
+    if not all(joint.pair.is_turning for shape in shapes for joint in shape.chain.joints):
+        return None
+    try:
+        return prod(map(count_modes, shapes))
+    except AssurError:
+        return None
 
 
 def modes_of_trusses(links: int, joints: NDArray[np.int64], *, spherical: bool = False) -> NDArray[np.int64]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gruebler import _core
 from gruebler.structure.assur import AssurGroup, decompose
+from gruebler.structure.assur.modes import modes_of_groups, modes_of_trusses, sets_of_ends
 from gruebler.structure.atlas.schema import arrow_library, arrow_schema
 from gruebler.structure.chain import Chain
 from gruebler.structure.isomorphism import decode, symmetry
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 _BULK_LINKS = 7  # from here on: smaller chains have names of families, and their rows are few
 _NAMED = 4  # Assur groups of more links have no names
 _GROUP_HEAD = 4  # columns of a kind of group before its joints
+_JOINTS = 3  # the column with their number
 
 
 def mechanism_table(codes: Iterable[str], mobility: int) -> pa.Table:
@@ -78,6 +80,7 @@ def _driven_row(code: str, chain: Chain, mobility: int, mechanism: Mechanism) ->
         "orders": [group.order for group in groups],
         "highest_class": max(classes, default=0),
         "dyads_only": all(len(group.bodies) == 2 for group in groups),
+        "assembly_modes": modes_of_groups(group.shape for group in groups),
         "family": _family(mechanism),
     }
 
@@ -171,12 +174,28 @@ def _driven_columns(drives: NDArray[np.int32], kinds: NDArray[np.int16]) -> dict
         "orders": lists(pa.array(orders[flat]), "orders"),
         "highest_class": highest,
         "dyads_only": (np.where(present, links[numbers], 2) == 2).all(axis=1),
+        "assembly_modes": np.where(present, _modes(kinds)[numbers], 1).prod(axis=1),
     }
+
+
+def _modes(kinds: NDArray[np.int16]) -> NDArray[np.int64]:
+    """The assembly modes of each kind of group."""
+    modes = np.ones(len(kinds), np.int64)
+    for links in np.unique(kinds[:, 0]).tolist():
+        alike = kinds[:, 0] == links
+        joints = kinds[alike][0, _JOINTS]
+        ends = kinds[alike][:, _GROUP_HEAD : _GROUP_HEAD + 2 * joints].astype(np.int64)
+        degrees = (ends[:, :, None] == np.arange(ends.max() + 1)).sum(axis=1)
+        # A place outside has one joint; they are link 0 of the truss.
+        number = np.where(degrees > 1, np.cumsum(degrees > 1, axis=1), 0)
+        own = np.take_along_axis(number, ends, axis=1).reshape(len(ends), joints, 2)
+        modes[alike] = modes_of_trusses(links + 1, sets_of_ends(own.astype(np.uint8)))
+    return modes
 
 
 def _form(row: list[int]) -> str:
     """The form of a kind of group, a row of links, class, order, number of joints, joints: its name, else its code."""
-    links, joints = row[0], row[3]
+    links, joints = row[0], row[_JOINTS]
     pairs = row[_GROUP_HEAD : _GROUP_HEAD + 2 * joints]
     code = "gr1:" + "".join(f"R({a}-{b})" for a, b in zip(pairs[::2], pairs[1::2], strict=True))
     return AssurGroup.known(decode(code).chain).form if links <= _NAMED else code

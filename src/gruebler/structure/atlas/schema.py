@@ -13,7 +13,7 @@ from gruebler.base.errors import GrueblerError
 if TYPE_CHECKING:
     import pyarrow as pa
 
-SCHEMA = 1
+SCHEMA = 2
 """The version of the columns; a change of a column or of its meaning raises it."""
 
 
@@ -122,6 +122,14 @@ COLUMNS: tuple[SchemaColumn, ...] = tuple(
         ("driven", "orders", "list<int16>", "", "their orders: numbers of outer joints", "assur.decompose"),
         ("driven", "highest_class", "int16", "", "the highest of the classes", "assur.decompose"),
         ("driven", "dyads_only", "bool", "", "whether all groups are dyads", "assur.decompose"),
+        (
+            "driven",
+            "assembly_modes",
+            "int64?",
+            "",
+            "assembly modes at almost all dimensions, complex ones included: product over the groups; turning joints",
+            "assur.count_modes",
+        ),
         ("driven", "family", "string?", "", "name of the family", "mechanism.family"),
     )
 )
