@@ -82,9 +82,9 @@ def test_springs_of_the_loads_are_fitted(capsys, tmp_path):
     status, out, _ = run_command(capsys, *arguments, "--lang", "de")
     assert status == 0
     assert "von frame:0,60 nach crank:20,0: " in out
-    assert "Antriebs in N·mm: ohne Federn" in out
+    assert "Antriebe in N·mm: ohne Federn" in out
     status, _, err = run_command(capsys, *arguments[:-1], "0:90:5")
-    assert (status, err) == (2, "the drive does not reach all values of --range")
+    assert (status, err) == (2, "the drives do not reach all values of --range")
 
 
 def test_springs_that_cannot_help_are_called_so(capsys, tmp_path):
@@ -111,6 +111,7 @@ def test_springs_that_cannot_help_are_called_so(capsys, tmp_path):
         ([ENGINE, "--on", "frame"], "a counterweight needs a link that moves"),
         ([ENGINE, "--irregularity", "2", "--speed", "60"], "the irregularity is a number between 0 and 2"),
         (["hood", "--partly", "link1", "--speed", "60"], "the drive does not turn fully"),
+        (["lamp", "--fit-springs"], "2 drives: give --range FROM:TO:STEP once for each"),
         (["wiper", "--fit-springs"], "the loads have no spring"),
         (["garage_rail", "--range", "0:10:1"], "--range needs --fit-springs"),
         (["lambda"], "has no masses and no loads"),

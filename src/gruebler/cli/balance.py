@@ -33,7 +33,7 @@ _PRODUCT = message("{link}: mass times radius {product:n} kg·{unit} at {angle:n
 _LARGEST = message("Largest shaking force: {before:n} N without, {after:n} N with them.")
 _SPRING = message("from {first} to {second}: {stiffness:n} N/{unit}")
 _EFFORT = message(
-    "Effort of the drive in {effort}: without springs root mean square {mean_before:n}, largest {largest_before:n}; "
+    "Effort of the drives in {effort}: without springs root mean square {mean_before:n}, largest {largest_before:n}; "
     "with them {mean_after:n} and {largest_after:n}."
 )
 _FLYWHEEL = message(
@@ -64,7 +64,7 @@ def add(parser: Parser) -> None:
         --partly LINK ...  only the best counterweights on this link, which is pinned to the frame; repeatable
         --minimax  with --partly or --fit-springs the least largest force or effort, in place of the least mean square
         --springs HEIGHT float  also springs of free length 0 that hold the weights, hung HEIGHT above the pins
-        --fit-springs  also the stiffnesses with which the springs of the loads leave the drive the least effort; their
+        --fit-springs  also the stiffnesses with which the springs of the loads leave the drives the least effort; their
             places, free lengths and preloads stay
         --range FROM:TO:STEP ...  with --fit-springs drive values that count, in degrees or the unit (default: a full
             turn, or the whole range)
@@ -99,7 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
             _spring(each, linkage) for each in balance_weights(linkage, loads, height=arguments.springs)
         ]
     if arguments.fit_springs:
-        arguments.at = ()
+        arguments.at = ()  # balance takes --range alone
         fit = _fit(driven_motion(linkage, shown, arguments), loads, minimax=arguments.minimax)
         document["fitted"] = _fit_document(fit, linkage)
     if arguments.irregularity is not None:
@@ -133,7 +133,7 @@ def _turn(linkage: Linkage, speed: float, branch: str | None, *, closed: bool = 
 def _fit(motion: Motion, loads: Loads, *, minimax: bool) -> SpringFit:
     """The springs of the loads, but for gas springs and dampers, fitted to hold what else acts."""
     if not motion.complete:
-        raise GrueblerError("the drive does not reach all values of --range")
+        raise GrueblerError("the drives do not reach all values of --range")
     fitted = tuple(s for s in loads.springs if s.law is None and (s.stiffness or s.preload or not s.damping))
     if not fitted:
         raise GrueblerError(
@@ -192,7 +192,7 @@ def _print(document: dict[str, Any], linkage: Linkage, lang: str) -> None:
         _print_springs(document["springs"], unit, lang)
     if "fitted" in document:
         print()
-        print(translate("Stiffnesses with which the springs of the loads leave the drive the least effort:", lang))
+        print(translate("Stiffnesses with which the springs of the loads leave the drives the least effort:", lang))
         _print_springs(document["fitted"]["springs"], unit, lang)
         effort = f"N·{unit}" if turning_drives(linkage)[0] else "N"
         print(_EFFORT.filled(**document["fitted"], effort=effort).in_language(lang))

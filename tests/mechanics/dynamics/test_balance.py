@@ -310,7 +310,19 @@ def test_fitted_real_springs_against_a_general_optimiser(minimax):
     assert size(found) < 0.3 * np.abs(fit.before).max()
 
 
+def test_fitted_springs_of_two_drives():
+    """The arms of the lamp by hand, with springs of free length 0: g C / (h p) each."""
+    linkage, loads, _ = entry("lamp").loaded()
+    motion = move(linkage, np.radians([(q, q + s) for q in range(60, 151, 10) for s in (-20, 0, 10)]))
+    exact = [replace(spring, free_length=0.0, preload=0.0) for spring in loads.springs]
+    fit = fit_springs(motion, replace(loads, springs=()), exact)
+    by_hand = [9.80665 * 0.670 * 250 / (50 * 100), 9.80665 * 0.430 * 250 / (40 * 100)]
+    assert [s.stiffness for s in fit.springs] == pytest.approx(by_hand, rel=1e-12)
+    assert fit.before.shape == fit.after.shape == (30, 2)
+    assert np.abs(fit.after).max() < 1e-11 * np.abs(fit.before).max()
+
+
 def test_wrong_springs_to_be_fitted():
     motion = move(FourBar(25, 70, 40, 70), [0.5, 1.0])
-    with pytest.raises(LinkageError, match="there is at least one"):
+    with pytest.raises(LinkageError, match="springs, one at least, are fitted"):
         fit_springs(motion, Loads(), [])

@@ -104,31 +104,31 @@ class SpringFit:
     springs: tuple[Spring, ...]
     """With their stiffnesses, in newtons by the linkage's unit; what does not help has 0."""
     before: Reals
-    """The effort that holds the linkage in each row without them, in newtons times the unit, of a slide newtons."""
+    """(rows, drives): the efforts that hold the linkage without them, in newtons times the unit, of slides newtons."""
     after: Reals
-    """With them."""
+    """(rows, drives): with them."""
     bound: float
     """No stiffnesses come below this: largest effort of `minimax`, else root mean square."""
 
 
 @door_that_raises(LinkageError)
 def fit_springs(motion: Motion, loads: Loads, springs: Sequence[Spring], *, minimax: bool = False) -> SpringFit:
-    """The stiffnesses, not negative, with which springs at given places leave the least effort of the drive.
+    """The stiffnesses, not negative, with which springs at given places leave the drives the least effort.
 
     Places, free lengths and preloads are those given, so springs may be real ones. The problem is convex, and its dual
     bounds what can be reached: the bound differs from what is found by rounding alone.
 
     Args:
-        motion: The poses that count, each alike, of a linkage with one drive; speeds do not matter.
+        motion: The poses that count, each alike; drives all turn or all slide, and their speeds do not matter.
         loads: Weights and loads to be held.
         springs: Their places, free lengths, preloads; stiffnesses are looked for.
         minimax: Least largest effort, in place of least mean square.
 
     Returns:
-        `SpringFit`: the springs, efforts (rows,) before and after, the bound.
+        `SpringFit`: the springs, efforts (rows, drives) before and after, the bound.
 
     Raises:
-        LinkageError: several drives, no springs, poses in which the effort is not determined.
+        LinkageError: drives that turn and others that slide, no springs, poses in which the effort is not determined.
 
     Cost:
         The motion once for each spring; 10 ms for 100 rows.
@@ -150,20 +150,22 @@ def fit_springs(motion: Motion, loads: Loads, springs: Sequence[Spring], *, mini
     Theory:
         docs/theory/balancing.md
     """
-    if motion.drives.shape[1] != 1 or not springs:
-        raise LinkageError("springs are fitted to the effort of one drive, and there is at least one")
+    if len({drive.turning for drive in motion.linkage.mechanism.drives}) != 1 or not springs:
+        raise LinkageError("springs, one at least, are fitted to the efforts of drives that all turn or all slide")
     none = tuple(replace(spring, stiffness=0.0) for spring in springs)
     alone = [replace(spring, stiffness=1.0, preload=0.0, law=None) for spring in springs]
     held = replace(loads, springs=(*loads.springs, *none))
-    before, start = (-reduced_equations(motion, each).force[:, 0] for each in (loads, held))
+    before, start = (-reduced_equations(motion, each).force for each in (loads, held))
     columns = -np.stack(
-        [reduced_equations(motion, Loads(springs=(spring,), gravity=(0, 0))).force[:, 0] for spring in alone], axis=1
+        [reduced_equations(motion, Loads(springs=(spring,), gravity=(0, 0))).force.ravel() for spring in alone], axis=1
     )
     if not (len(before) and np.isfinite(start).all() and np.isfinite(columns).all()):
-        raise LinkageError("springs are fitted over poses in which the drive's effort is determined")
-    stiffness, bound = (_least_largest if minimax else _least_squares)(columns, start)
+        raise LinkageError("springs are fitted over poses in which the drives' efforts are determined")
+    stiffness, bound = (_least_largest if minimax else _least_squares)(columns, start.ravel())
     fitted = tuple(replace(spring, stiffness=float(k)) for spring, k in zip(springs, stiffness, strict=True))
-    return SpringFit(springs=fitted, before=before, after=start + columns @ stiffness, bound=bound)
+    return SpringFit(
+        springs=fitted, before=before, after=start + (columns @ stiffness).reshape(start.shape), bound=bound
+    )
 
 
 def _least_squares(columns: Reals, start: Reals) -> tuple[Reals, float]:
