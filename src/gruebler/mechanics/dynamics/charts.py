@@ -33,6 +33,12 @@ _FORETOLD = 0.6  # so far it is
 _PERIOD = 2 * np.pi
 _SAME = 1e-9  # in sizes: poses that differ by less are one
 
+_ORDERS = np.arange(_DEGREE + 1)
+_ZEROS = np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)  # where poses of an ordinary chart are taken
+_AT_ZEROS: Reals = np.asarray(chebyshev.chebvander(_ZEROS, _DEGREE), np.float64)
+_SIGNS = np.where(_ORDERS % 2, -1.0, 1.0)  # T_k(-x) by T_k(x)
+_WEIGHTS = np.where(_ORDERS, 2.0, 1.0) / _NODES  # the T_k are orthogonal there, so that least squares are sums
+
 
 class Blocked(Exception):
     """The drives cannot get there."""
@@ -98,7 +104,7 @@ class Charts:
 
     def jets_on(self, chart: Chart, x: Reals) -> Jets:
         """Poses and derivatives by the drive at places of a chart, a row each; turns are (rows, links)."""
-        basis = np.cos(np.arccos(x)[:, None] * np.arange(_DEGREE + 1))
+        basis = np.cos(np.arccos(x)[:, None] * _ORDERS)
         numbers = np.einsum("rk,kn->rn", basis, chart.series.view(np.float64))  # BLAS would start threads for this
         six = numbers.view(np.complex128).reshape(len(x), 6, self.links).swapaxes(0, 1)
         return Jets(six[:3] * self.plan.lower.size, six[3] / np.abs(six[3]), six[4:].real)
@@ -189,16 +195,17 @@ class Charts:
     def _ordinary(self, low: float, high: float, start: ReferencePose) -> Chart | None:
         """A chart of poses that the kernel walks to without passing a change point."""
         middle, half = (low + high) / 2, (high - low) / 2
-        nodes = np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)  # from the high end to the low one
         down = bool(start.drives[0] > middle)
-        nodes = nodes if down else -nodes
+        nodes = _ZEROS if down else -_ZEROS  # the near end first
         rows = self._rows(middle + half * nodes, start)
         if rows is None or (self._least(rows) < _SOUND).any():
             return None
         signs = np.sign(rows.roots[:, self._branching])
         if (signs != signs[0]).any():
             return None
-        series = _fitted(nodes, self._numbers(rows), _FIT)
+        values = self._numbers(rows)
+        basis: Reals = _AT_ZEROS if down else _AT_ZEROS * _SIGNS
+        series = _that_fits(basis, (basis * _WEIGHTS).T @ values, values, _FIT)
         if series is None:
             return None
         ends = [self._state(rows, row, middle + half * nodes[row - 1]) for row in (1, len(nodes))]
@@ -284,9 +291,12 @@ def _fitted(nodes: Reals, values: Complexes, within: float) -> Complexes | None:
 
     What each order of derivatives misses is compared with the largest of that order.
     """
-    basis = chebyshev.chebvander(nodes, _DEGREE)
-    series = np.linalg.lstsq(basis, values)[0].astype(np.complex128)
+    basis = np.asarray(chebyshev.chebvander(nodes, _DEGREE), np.float64)
+    return _that_fits(basis, np.linalg.lstsq(basis, values)[0].astype(np.complex128), values, within)
+
+
+def _that_fits(basis: Reals, series: Complexes, values: Complexes, within: float) -> Complexes | None:
     gaps, sizes = (
-        np.abs(array).reshape(len(nodes), 2, 3, -1).max(axis=(0, 1, 3)) for array in (basis @ series - values, values)
+        np.abs(array).reshape(len(basis), 2, 3, -1).max(axis=(0, 1, 3)) for array in (basis @ series - values, values)
     )
     return series if (gaps < within * sizes).all() else None

@@ -16,7 +16,9 @@ from gruebler.mechanics.dynamics.charts import Chart, Charts
 from gruebler.mechanics.dynamics.equations import EquationsOfMotion, Influences
 
 _NODES = 40  # products of two series of a chart have degree 34
-_ORDERS = np.arange(_NODES)
+_ZEROS = np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
+_TO_SERIES = chebyshev.chebvander(_ZEROS, _NODES - 1).T * (2 / _NODES)
+_TO_SERIES[0] /= 2
 _TAIL = 4  # the last coefficients, which tell whether a series has ended
 _ENDED = 1e-13  # of the largest mass or force
 
@@ -64,8 +66,7 @@ class ReducedSeries:
 
     def _found(self, chart: Chart) -> Reals | None:
         """(nodes, 6): Chebyshev coefficients; forces are linear in the speed, since dampers are."""
-        x = np.cos(np.pi * (_ORDERS + 0.5) / _NODES)
-        jets = self.charts.jets_on(chart, x)
+        jets = self.charts.jets_on(chart, _ZEROS)
         influences = Influences(
             places=jets.places[0],
             turns=jets.turns,
@@ -75,7 +76,7 @@ class ReducedSeries:
             drift_places=jets.places[2],
             drift_rates=jets.rates[1],
         )
-        drives = (chart.middle + chart.half * x)[:, None]
+        drives = (chart.middle + chart.half * _ZEROS)[:, None]
         still, unit = (influences.moving(0.0, drives, np.full_like(drives, speed)) for speed in (0.0, 1.0))
         mass, bias = self._equations.inertia(influences, unit)
         forces = list[Reals]()
@@ -87,8 +88,7 @@ class ReducedSeries:
                 damped = equations.generalised(influences, unit)[:, 0] - held
             forces += [held, damped]
         values = np.stack([mass[:, 0, 0], bias[:, 0], *forces], axis=1)
-        series = np.asarray(chebyshev.chebvander(x, _NODES - 1).T @ values * (2 / _NODES), np.float64)
-        series[0] /= 2
+        series = np.asarray(_TO_SERIES @ values, np.float64)
         sizes = np.abs(values).max(axis=0)
         sizes[:2], sizes[2:] = sizes[0], sizes[2:].max()  # what is small beside its like is rounding
         return series if (np.abs(series[-_TAIL:]) <= _ENDED * sizes).all() else None
