@@ -176,6 +176,8 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     angle = view.locator('[aria-label="Picture 1 φ [°]"]')
     angle.fill("30")
     angle.press("Enter")
+    ends = view.locator("td input").evaluate_all("all => all.map(field => field.getBoundingClientRect().right)")
+    assert max(ends) < view.viewport_size["width"]  # the fields stay within the panel
     assert "rotate(-30)" in view.locator(".drawing .backdrop").get_attribute("transform")
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.drives[0]?.name === 'P(2-3)'")
