@@ -150,6 +150,7 @@ MECHANISM = gr.Mechanism(CHAIN, "0", [0])
 
 def test_what_a_user_guesses_first_works(tmp_path):
     assert gr.read("wiper").mechanism == entry("wiper").linkage().mechanism
+    assert gr.read("bennett").mechanism == entry("bennett").placed().mechanism  # in space, by its screws
     assert gr.read("four-bar:25,70,40,70") == gr.read("25,70,40,70") == CRANK_ROCKER.linkage()
     assert gr.read(str(CHAIN)) == CHAIN
     assert gr.read("sun:24 planet:18 ring:-60 on arm").train.mobility == 2

@@ -95,5 +95,7 @@ def _of_word(word: str) -> Value | Mechanism:
     record = known[word]
     if record.dimensions is not None:
         return record.linkage()
+    if (linkage := record.placed()) is not None:
+        return linkage
     chain = record.chain()
     return chain if record.frame is None else Mechanism(chain, record.frame, record.drives)
