@@ -103,6 +103,13 @@ def test_a_point_is_named_as_on_the_command_line():
         motion.point("couple:45,40")
 
 
+def test_assembly_modes_are_those_of_one_pose():
+    with pytest.raises(gr.GrueblerError, match="expected a value for each drive, but found 2 rows of values"):
+        gr.assembly_modes(CRANK_ROCKER, [1, 5])
+    with pytest.raises(gr.GrueblerError, match="expected a value for each drive, but found 2 rows of values"):
+        gr.assembly_modes(gr.read("cardan_shaft"), [1, 5])
+
+
 def test_assembly_modes_are_branches():
     modes = gr.assembly_modes(entry("wiper").linkage(), 0.4)
     assert len(modes) == len(set(modes)) > 1

@@ -172,6 +172,8 @@ def test_each_mode_is_a_reference_pose_from_which_the_linkage_moves():
         other = modes.linkage_in(k)
         assert move(other, [0.0, 0.01]).complete
         assert len(assembly_modes(other, 0.0)) == len(modes)
+    with pytest.raises(LinkageError, match=f"there is no mode {len(modes)}: counted from 0, {len(modes)} are real"):
+        modes.linkage_in(len(modes))
 
 
 def test_the_count_on_the_sphere_is_that_of_the_recursion():

@@ -129,6 +129,14 @@ def path_of_values(drives: ArrayLike, wanted: int) -> Reals:
     return np.ascontiguousarray(path)
 
 
+def row_of_values(drives: ArrayLike, wanted: int) -> Reals:
+    """(1, wanted) values, checked: those of one pose."""
+    path = path_of_values(drives, wanted)
+    if len(path) > 1:
+        raise LinkageError("expected a value for each drive, but found {count} rows of values", count=len(path))
+    return path
+
+
 def warn_of_path(plan: Plan, path: Reals) -> None:
     """`UnitWarning` if the values of a turning drive, (rows, drives), look like degrees."""
     warn_of_angles(plan.linkage.mechanism, path)

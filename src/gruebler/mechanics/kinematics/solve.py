@@ -22,7 +22,7 @@ from gruebler.mechanics.kinematics.branches import (
     starting_state,
 )
 from gruebler.mechanics.kinematics.change_point_rows import set_change_point_rows
-from gruebler.mechanics.kinematics.drive_rows import drive_path, drive_speeds, warn_of_path
+from gruebler.mechanics.kinematics.drive_rows import drive_path, drive_speeds, row_of_values, warn_of_path
 from gruebler.mechanics.kinematics.kernel_calls import SolvedRows, follow_path, run_rows, without_first
 from gruebler.mechanics.kinematics.motion import Motion, Stop
 from gruebler.mechanics.kinematics.openings import joint_openings
@@ -281,7 +281,7 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
         be.
 
     Raises:
-        LinkageError: drives that do not fix the motion, values that are no numbers.
+        LinkageError: drives that do not fix the motion, values that are no numbers, more than one for a drive.
 
     Cost:
         One solution for each mode.
@@ -298,7 +298,7 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
         docs/theory/assembly-modes.md
     """
     plan = cached_plan(as_linkage(linkage))
-    row = drive_path(plan, drives)[:1]
+    row = row_of_values(drives, len(plan.linkage.mechanism.drives))
     warn_of_path(plan, row)
     modes = all_branches(plan, row[0])
     return [branch_text(labels) for labels in modes]

@@ -15,7 +15,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief, explained
 from gruebler.base.text import message
 from gruebler.mechanics.kinematics import solve
-from gruebler.mechanics.kinematics.drive_rows import path_of_values, warn_of_angles
+from gruebler.mechanics.kinematics.drive_rows import row_of_values, warn_of_angles
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.screws.joint_places import Vector
@@ -89,7 +89,9 @@ class SpatialModes:
         return np.asarray(self.poses[:, self.linkage.mechanism.chain.index(link)])
 
     def linkage_in(self, mode: int) -> SpatialLinkage:
-        """The linkage with this mode as its reference pose: its drives are 0 there."""
+        """The linkage with this mode as its reference pose: its drives are 0 there; `LinkageError` for no such mode."""
+        if not -len(self) <= mode < len(self):
+            raise LinkageError("there is no mode {mode}: counted from 0, {count} are real", mode=mode, count=len(self))
         chain, poses = self.linkage.mechanism.chain, self.poses[mode]
 
         def moved(vector: Vector | None, link: str, whole: bool = False) -> Vector | None:
@@ -171,7 +173,7 @@ def assembly_modes(linkage: LinkageLike | SpatialLinkage, drives: float | ArrayL
     if not isinstance(linkage, SpatialLinkage):
         return solve.assembly_modes(linkage, drives)
     mechanism = linkage.mechanism
-    row = path_of_values(drives, len(mechanism.drives))[:1]
+    row = row_of_values(drives, len(mechanism.drives))
     warn_of_angles(mechanism, row)
     _check(linkage)
     tree, held, values = _held(linkage, row[0])
