@@ -91,7 +91,7 @@ everything = st.builds(
     springs=st.lists(
         st.builds(
             Spring,
-            st.tuples(point, point),
+            st.sampled_from([("frame:0,40", "R(crank-coupler)"), ("coupler:3.5,-1", "frame:0,40")]),
             stiffness=size,
             free_length=size,
             preload=number,
@@ -167,15 +167,27 @@ def test_a_driven_slide_has_forces_and_velocities():
         ({"forces": {"R(crank-coupler)": ["1e200 N", "0 N"]}}, "expected numbers below 1e100"),
         ({"moments": {"crank": {"formula": "2*spped", "unit": "N m"}}}, "unknown name 'spped' (did you mean 'speed'?)"),
         ({"moments": {"crank": {"unit": "N m"}}}, "loads.moments.crank: expected either formula or curve"),
-        ({"springs": [{"between": ["frame:0,0", "crank:1,0"], "free_length": -3}]}, "loads.springs.1: the free length"),
+        (
+            {"springs": [{"between": ["frame:0,0", "crank:1,0"], "free_length": -3}]},
+            "loads.springs[0]: the free length",
+        ),
         ({"springs": [{"between": ["frame:0,0", "crank:1,0"], "stifness": "1 N/m"}]}, "did you mean 'stiffness'?"),
         (
             {"springs": [{"between": ["frame:0,0", "crank:1,0"], "stiffness": "1"}]},
-            "loads.springs.1.stiffness: ",
+            "loads.springs[0].stiffness: ",
+        ),
+        (
+            {"springs": [{"between": ["R(crank-coupler)", "coupler:9,0"], "damping": "1 N s/m"}]},
+            "loads.springs[0]: 'R(crank-coupler)' and 'coupler:9,0' are points of one link, 'coupler'; a spring or "
+            "damper is between two links",
+        ),
+        (
+            {"springs": [{"between": [DRIVE, DRIVE], "stiffness": "1 N/mm"}]},
+            f"loads.springs[0]: {DRIVE!r} and {DRIVE!r} are points of one link",
         ),
         (
             {"torsion_springs": [{"between": ["frame", "x"]}]},
-            "torsion_springs.1.between: the chain has no link 'x'",
+            "torsion_springs[0].between: the chain has no link 'x'",
         ),
         ({"motors": {"R(crank-coupler)": {"stall": "1 N m", "idle_speed": "1 rpm"}}}, "R(crank-coupler) is not driven"),
         ({"motors": {DRIVE: {"stall": "0 N m", "idle_speed": "1 rpm"}}}, "a motor has a positive torque at standstill"),

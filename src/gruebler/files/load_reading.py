@@ -27,7 +27,7 @@ from gruebler.files.load_records import (
 from gruebler.mechanics.forces.bodies import RigidBody
 from gruebler.mechanics.forces.laws import Curve, Law, LoadFormula, Motor
 from gruebler.mechanics.forces.loads import STANDARD_GRAVITY, Loads
-from gruebler.mechanics.forces.springs import Gas, Spring, TorsionSpring
+from gruebler.mechanics.forces.springs import Gas, Spring, TorsionSpring, check_between_links
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.points import points_of
 
@@ -153,7 +153,7 @@ class _Reader:
         return (self.amount(where, raw[0], "force"), self.amount(where, raw[1], "force"))
 
     def spring(self, number: int, record: SpringRecord) -> Spring:
-        where = f"loads.springs.{number}"
+        where = f"loads.springs[{number}]"
         between = tuple(self.point(f"{where}.between", point) for point in record.between)
         if record.gas is not None and record.law is not None:
             raise LinkageError("{where}: {one} and {other} exclude each other", where=where, one="gas", other="law")
@@ -168,7 +168,7 @@ class _Reader:
         stiffness = self.quantity(f"{where}.stiffness", record.stiffness, "stiffness", 0.0)
         damping = self.quantity(f"{where}.damping", record.damping, "damping", 0.0)
         preload = self.quantity(f"{where}.preload", record.preload, "force", 0.0)
-        return _told(
+        spring = _told(
             where,
             lambda: Spring(
                 (between[0], between[1]),
@@ -179,9 +179,11 @@ class _Reader:
                 law=law,
             ),
         )
+        check_between_links(self.linkage, spring, where)
+        return spring
 
     def torsion_spring(self, number: int, record: TorsionSpringRecord) -> TorsionSpring:
-        where = f"loads.torsion_springs.{number}"
+        where = f"loads.torsion_springs[{number}]"
         between = tuple(self.link(f"{where}.between", link) for link in record.between)
         law = None if record.law is None else self.characteristic(f"{where}.law", record.law, "moment")
         stiffness = self.quantity(f"{where}.stiffness", record.stiffness, "torsional stiffness", 0.0)
@@ -287,9 +289,9 @@ def loads_from_json(data: Any, linkage: Linkage) -> Loads:
         },
         gravity=gravity,
         bodies={link: reader.body(link, raw) for link, raw in record.bodies.items()},
-        springs=tuple(reader.spring(number, each) for number, each in enumerate(record.springs, 1)),
+        springs=tuple(reader.spring(number, each) for number, each in enumerate(record.springs)),
         torsion_springs=tuple(
-            reader.torsion_spring(number, each) for number, each in enumerate(record.torsion_springs, 1)
+            reader.torsion_spring(number, each) for number, each in enumerate(record.torsion_springs)
         ),
         motors={joint: reader.motor(joint, raw) for joint, raw in record.motors.items()},
     )

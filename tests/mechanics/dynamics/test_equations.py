@@ -128,6 +128,10 @@ def test_a_load_is_a_number_a_text_a_curve_or_a_function():
         (lambda: statics(move(FOUR_BAR, [1.0]), Loads(bodies={"crnk": RigidBody(1)})), "there is no link 'crnk'"),
         (lambda: statics(move(FOUR_BAR, [1.0]), Loads(springs=(Spring(("Q", "K")),))), "there is no point 'Q'"),
         (
+            lambda: statics(move(FOUR_BAR, [1.0]), Loads(springs=(Spring(("K", "R(crank-coupler)"), damping=2.0),))),
+            r"springs\[0\]: 'K' and 'R\(crank-coupler\)' are points of one link, 'coupler'",
+        ),
+        (
             lambda: reduced_equations(move(FOUR_BAR._changed(unit="LE"), [1.0]), Loads(bodies=BODIES)),
             "needs to know how long the linkage's unit 'LE' is",
         ),

@@ -15,7 +15,7 @@ from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.text import Message, message
 from gruebler.mechanics.forces.laws import Law, LoadFormula, State
 from gruebler.mechanics.forces.loads import Loads
-from gruebler.mechanics.forces.springs import Spring, TorsionSpring
+from gruebler.mechanics.forces.springs import Spring, TorsionSpring, check_between_links
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.points import PointLike, place_of, point_name
@@ -108,6 +108,8 @@ class ActingLoads:
     def spots(self) -> tuple[LinkPoint, ...]:
         """Where forces act: at forces, masses, the centres of bodies, the two ends of each spring, in this order."""
         loads = self.loads
+        for number, spring in enumerate(loads.springs):
+            check_between_links(self.linkage, spring, f"springs[{number}]")
         named = [*(self._place(name) for name in loads.forces), *(self._place(name) for name in loads.masses)]
         return (*named, *self._centres, *(self._place(end) for spring in loads.springs for end in spring.between))
 

@@ -11,7 +11,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
-from gruebler.mechanics.linkages.points import PointLike
+from gruebler.mechanics.linkages.points import Dimensioned, PointLike, place_of, point_name
 
 
 class Characteristic(Protocol):
@@ -87,7 +87,7 @@ class Spring:
     """
 
     between: tuple[PointLike, PointLike]
-    """Points of two links, as `Linkage.points_named` takes them."""
+    """Points of two different links, as `Linkage.points_named` takes them."""
     _: KW_ONLY
     stiffness: float = 0.0
     """Force by the linkage's unit."""
@@ -164,6 +164,29 @@ class TorsionSpring:
         drawn = np.asarray(angle) - self.free_angle
         stored = self.preload * drawn + self.stiffness * drawn**2 / 2
         return np.asarray(stored if self.law is None else stored + self.law.area(angle))
+
+
+def check_between_links(linkage: Dimensioned, spring: Spring, where: str) -> None:
+    """Refuse a spring whose ends are points of one link: it does nothing. `LinkageError` begins with ``where``."""
+    first, second = (_links_at(linkage, end) for end in spring.between)
+    shared = next((link for link in first if link in second), None)
+    if shared is not None:
+        raise LinkageError(
+            "{where}: {one!r} and {other!r} are points of one link, {link!r}; a spring or damper is between two links",
+            where=where,
+            one=point_name(spring.between[0]),
+            other=point_name(spring.between[1]),
+            link=shared,
+        )
+
+
+def _links_at(linkage: Dimensioned, end: PointLike) -> tuple[str, ...]:
+    """The links that a point belongs to: both of a turning joint."""
+    chain = linkage.mechanism.chain
+    number = chain.find_joint(end) if isinstance(end, str) and end not in linkage.points else None
+    if number is not None and chain.joints[number].pair.is_turning:
+        return chain.joints[number].links
+    return (place_of(linkage, end).link,)
 
 
 _NAMES = {"stiffness": message("stiffness"), "free_length": message("free length"), "damping": message("damping")}
