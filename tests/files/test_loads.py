@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
 from gruebler.files import loads_from_json, loads_to_json, read_loads
-from gruebler.files.linkages import linkage_to_toml, read_linkage, write_linkage
+from gruebler.files.linkages import linkage_to_toml, read_linkage, read_loaded, write_linkage
 from gruebler.mechanics.forces import Curve, Gas, LoadFormula, Loads, Motor, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.linkages import LinkPoint
@@ -66,6 +66,39 @@ def test_a_file_means_what_its_units_say(tmp_path):
     )
     assert loads.motors[DRIVE].stall == 12000.0
     assert loads.motors[DRIVE].idle_speed == pytest.approx(20 * math.pi, rel=1e-14)
+
+
+def test_bodies_of_a_drawing_lie_in_it(tmp_path):
+    drawing = """
+unit = "mm"
+joints = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker)"
+frame = "frame"
+drives = ["R(frame-crank)"]
+places."R(frame-crank)" = [10, 5]
+places."R(crank-coupler)" = [10, 35]
+places."R(coupler-rocker)" = [90, 65]
+places."R(frame-rocker)" = [90, 5]
+points.C = { link = "coupler", at = [40, 60] }
+
+[loads.bodies]
+frame = { mass = "9 kg", centre = [50, 0] }
+crank = { mass = "3 kg", bar = [[10, 5], [10, 35]] }
+coupler = { mass = "2 kg", centre = [40, 60], about = [10, 35], inertia = "40 kg cm2" }
+rocker = { mass = "1 kg" }
+"""
+    drawn, written = tmp_path / "drawn.toml", tmp_path / "written.toml"
+    drawn.write_text(drawing)
+    linkage, loads, _ = read_loaded(drawn)
+    poses = linkage.reference_pose
+    where = {link: poses[link].put(*body.centre) for link, body in loads.bodies.items()}
+    assert where["frame"] == (50, 0)
+    assert where["crank"] == pytest.approx((10, 20))
+    assert loads.bodies["crank"].inertia == pytest.approx(3 * 30**2 / 12)
+    assert loads.bodies["coupler"].centre == pytest.approx((linkage.points["C"].x, linkage.points["C"].y))
+    assert loads.bodies["coupler"].inertia == pytest.approx(4000 - 2 * (30**2 + 25**2))
+    assert loads.bodies["rocker"].centre == pytest.approx((0, 0))  # without a centre: where the link's axes begin
+    write_linkage(written, linkage, loads)
+    assert read_loaded(written)[:2] == (linkage, loads)
 
 
 number = st.floats(-1e6, 1e6)

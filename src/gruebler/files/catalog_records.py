@@ -231,7 +231,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         from gruebler.files.load_reading import loads_from_json, usual_speed
 
         linkage, table = self.linkage(), msgspec.to_builtins(self.loads)
-        return linkage, loads_from_json(table, linkage), usual_speed(table, linkage)
+        drawn = self.dimensions is not None and self.dimensions.places is not None
+        return linkage, loads_from_json(table, linkage, drawn=drawn), usual_speed(table, linkage)
 
     def in_language(self, lang: str) -> Entry:
         """The same entry, its links by their names in a language; the German ones are cut short where that is clear.

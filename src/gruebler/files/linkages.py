@@ -76,9 +76,9 @@ def read_loaded(path: Path | str) -> tuple[Linkage, Loads, float | None]:
 
     linkage, path = read_linkage(path), Path(path)
     data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
-    table = data.get("loads", {})
+    table, drawn = data.get("loads", {}), "places" in data
     try:
-        return linkage, loads_from_json(table, linkage), usual_speed(table, linkage)
+        return linkage, loads_from_json(table, linkage, drawn=drawn), usual_speed(table, linkage)
     except LinkageError as error:
         raise LinkageError("{path}: {error}", path=path, error=error) from None
 

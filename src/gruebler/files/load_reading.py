@@ -7,7 +7,7 @@ are those of the library. docs/theory/linkage-files.md has every key.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import msgspec
@@ -39,6 +39,8 @@ class _Reader:
     """Reads the tables of a linkage's loads."""
 
     linkage: Linkage
+    drawn: bool = False
+    """Whether bodies lie in the coordinates of the drawing."""
 
     def quantity(self, where: str, raw: Any, quantity: str, default: float | None = None) -> float:
         if raw is None and default is not None:
@@ -65,8 +67,17 @@ class _Reader:
         return point
 
     def body(self, link: str, raw: Any) -> RigidBody:
-        where = f"loads.bodies.{link}"
+        """The body of a link, in the link's coordinates."""
         self.link("loads.bodies", link)
+        pose = (self.linkage.reference_pose or {}).get(link) if self.drawn else None
+        if pose is None:
+            return self.body_there(link, raw, (0.0, 0.0))
+        body = self.body_there(link, raw, (pose.x, pose.y))
+        return replace(body, centre=pose.to_local(*body.centre))
+
+    def body_there(self, link: str, raw: Any, origin: tuple[float, float]) -> RigidBody:
+        """The body in the coordinates of the file, where the link's origin lies so."""
+        where = f"loads.bodies.{link}"
         record = convert_document(raw, BodyRecord, LinkageError, where)
         shapes = [shape for shape in ("bar", "disc", "plate") if getattr(record, shape) is not None]
         if len(shapes) > 1:
@@ -84,7 +95,7 @@ class _Reader:
         )
         if wrong is not None:
             raise LinkageError("{where}.{wrong}: does not go with {kind}", where=where, wrong=wrong, kind=shape)
-        centre = _place(record.centre, f"{where}.centre", (0.0, 0.0))
+        centre = _place(record.centre, f"{where}.centre", origin)
         if shape == "plate":
             assert record.plate is not None
             outline = [_place(corner, f"{where}.plate") for corner in record.plate]
@@ -260,8 +271,8 @@ def _place(raw: Any, where: str, default: tuple[float, float] | None = None) -> 
     return x, y
 
 
-def loads_from_json(data: Any, linkage: Linkage) -> Loads:
-    """The loads of plain data: the content of ``[loads]``.
+def loads_from_json(data: Any, linkage: Linkage, *, drawn: bool = False) -> Loads:
+    """The loads of plain data: the content of ``[loads]``; of a file with ``[places]`` bodies lie in the drawing.
 
     Raises `LinkageError` with the key of the first thing that does not fit.
 
@@ -270,7 +281,7 @@ def loads_from_json(data: Any, linkage: Linkage) -> Loads:
     >>> loads_from_json(crank, FourBar(25, 70, 40, 70).linkage()).bodies["crank"]
     RigidBody(mass=0.25, centre=(12.5, 0.0), inertia=13.020833333333334)
     """
-    record, reader = convert_document(data, LoadsRecord, LinkageError, "loads"), _Reader(linkage)
+    record, reader = convert_document(data, LoadsRecord, LinkageError, "loads"), _Reader(linkage, drawn)
     gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
     if record.gravity is not None:
         if len(record.gravity) != 2:
