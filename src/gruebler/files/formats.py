@@ -86,7 +86,10 @@ def _own_document(path: Path, left_out: list[Message]) -> Value:
         return _chain(path, data)
     from gruebler.files.screws import read_any_linkage
 
-    return read_any_linkage(path)
+    value = read_any_linkage(path)
+    if data.get("loads"):
+        left_out.append(message("loads and masses"))
+    return value
 
 
 def _chain(path: Path, document: Any) -> Chain:

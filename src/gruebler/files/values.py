@@ -202,11 +202,13 @@ def convert(
     if from_form.name in LINES and to_form.name in LINES:
         write_lines(read_lines(source, from_form.name), target, to_form.name)
     else:
-        value = read(source, format_name=source_format, left_out=left_out)
+        not_read: list[Message] = []
+        value = read(source, format_name=source_format, left_out=not_read)
         loaded = _loaded(source, from_form, value)
         if loaded is not None:
             write_loaded(*loaded, target, target_format, left_out)
         else:
+            left_out += not_read
             write(value, target, format_name=target_format, left_out=left_out)
     return left_out
 
