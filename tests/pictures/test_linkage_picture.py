@@ -374,6 +374,11 @@ def test_a_file_is_drawn_to_scale(capsys, tmp_path):
         ("four-baar:25,70,40,70", {}, "did you mean 'four-bar'"),
         ("four-bar:25,70,40,70", {"frame": "crank"}, "leave out --frame"),
         ("vcomp", {"at": "3", "graph": True}, "--at needs a drawing to scale"),
+        (
+            "vcomp",
+            {"loads": True, "structure": True},
+            "--loads needs a drawing to scale and does not go with --structure",
+        ),
         ("R(0-1) R(1-2) R(2-0)", {"at": "3"}, "no dimensions"),
         ("nowhere/x.toml", {}, "cannot be read"),
         ("mzc", {"at": "", "output": "nix"}, "--output needs --show dead-centres"),

@@ -178,9 +178,10 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
     if view is draw_block:
         asked = [option for option in asked if option != "--output"]
-    if view is not None and asked:
+    if (view is not None or arguments.structure) and asked:
         raise GrueblerError(
-            "{option} needs a drawing to scale and does not go with --graph, --contracted, --loops, --side and --block",
+            "{option} needs a drawing to scale and does not go with --structure, --graph, --contracted, --loops, "
+            "--side and --block",
             option=asked[0],
         )
     if view is not None and arguments.labels:
