@@ -113,6 +113,23 @@ def sampled_chains(most: int | None = None) -> Rows:
             yield links, round(found.chains), round(found.deviation, 2 if links < 12 else None), found.samples
 
 
+_MOST_LOOPS = {2: 8, 3: 7, 4: 7, 5: 7, 6: 7, 7: 7}  # of the table chains, by F
+_LOOP_SAMPLES = dict.fromkeys((2, 3, 4), 200_000) | dict.fromkeys((5, 6), 2 * 10**6) | {7: 10**7, 8: 10**7}
+
+
+def sampled_by_mobility(most: int | None = None) -> Rows:
+    """Chains with F = 2 to 7 that are not fractionated, estimated from random pairings by a pebble game."""
+    from tests.structure.enumeration.sampling_oracle import sampled_chains as sampled
+
+    yield "mobility", "links", "estimate", "standard_deviation", "samples"
+    for mobility, last in _MOST_LOOPS.items():
+        for loops in range(2, last + 1):
+            links = 2 * loops + 1 + mobility
+            if links <= (most or links):
+                found = sampled(links, _LOOP_SAMPLES[loops], mobility=mobility)
+                yield mobility, links, round(found.chains), round(found.deviation, 2), found.samples
+
+
 def assur_groups(most: int | None = None) -> Rows:
     """Assur groups of simple turning joints."""
     yield "links", "groups"
@@ -189,6 +206,7 @@ TABLES: dict[str, Callable[[int | None], Rows]] = {
         epicyclic_trains,
         second_method,
         sampled_chains,
+        sampled_by_mobility,
     )
 }
 

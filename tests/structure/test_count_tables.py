@@ -85,6 +85,7 @@ def test_a_table_as_json_and_parquet():
         ("driven_by_class", 10),
         ("epicyclic_trains", 6),
         pytest.param("sampled_chains", 8, marks=pytest.mark.slow),
+        pytest.param("sampled_by_mobility", 10, marks=pytest.mark.slow),
         pytest.param("second_method", 12, marks=pytest.mark.slow),
     ],
 )
@@ -148,6 +149,17 @@ def test_the_estimates_are_near_what_was_counted():
         if links in counted:
             assert abs(found - counted[links]) <= 3 * deviation
     assert counted[20] == 141_954_670_341
+
+
+def test_the_estimates_of_other_mobilities_are_near_what_was_counted():
+    """All of F = 2 to 7 with two loops or more: none is farther off than four standard deviations, and their squares
+    are as large on the mean as chance has it."""
+    counted = {row[:2]: row[2] for row in count_table("chains").rows}
+    rows = count_table("sampled_by_mobility").rows
+    assert {row[:2] for row in rows} == {(f, n) for f, n in counted if f > 1 and n > f + 3}
+    off = np.array([(found - counted[f, n]) / deviation for f, n, found, deviation, _ in rows if n > f + 7])
+    assert np.abs(off).max() < 4
+    assert 0.4 < np.mean(off**2) < 1.8
 
 
 def test_the_b_file():

@@ -1,4 +1,4 @@
-"""The number of chains with F = 1, estimated without a list: random pairings, a pebble game, orders of groups by bliss.
+"""The number of chains that are not fractionated, estimated: random pairings, a pebble game, orders of groups by bliss.
 
 Theory: docs/theory/enumeration.md, "An estimate without a list".
 """
@@ -6,7 +6,7 @@ Theory: docs/theory/enumeration.md, "An estimate without a list".
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import comb, factorial, fsum, prod
+from math import factorial, fsum, prod
 from typing import NamedTuple
 
 import igraph
@@ -34,12 +34,13 @@ class Sampled(NamedTuple):
 class _Stratum:
     """Weighted pairings of one sequence of degrees: how many there are, and what was drawn of them."""
 
-    def __init__(self, degrees: tuple[int, ...], links: int) -> None:
+    def __init__(self, degrees: tuple[int, ...], links: int, mobility: int) -> None:
         self.degrees = np.array(degrees, np.int64)
-        self.links, self.strings, binary = links, sum(degrees) // 2, links - len(degrees)
-        kinds = [comb(self.strings, t) * comb(self.strings - t, binary - 2 * t) for t in range(binary // 2 + 1)]
-        # t strings of two binary links, binary - 2 t of one; no string has more
-        self.ways = np.cumsum([k / max(sum(kinds), 1) for k in kinds])
+        self.links, self.mobility, self.strings = links, mobility, sum(degrees) // 2
+        found = sorted(set(_weights(links - len(degrees), self.strings, mobility - 1, mobility + 1)))
+        kinds = [_arrangements(weights, self.strings) for weights in found]
+        self.ways = np.cumsum([k / sum(kinds) for k in kinds])
+        self.weights = np.array([row + (0,) * (self.strings - len(row)) for row in found], np.int64)
         group = prod(map(factorial, degrees)) * prod(factorial(degrees.count(d)) for d in set(degrees))
         self.scale = prod(range(1, 2 * self.strings, 2)) * sum(kinds) / group
         self.drawn, self.sum, self.squares = 0, 0.0, 0.0
@@ -47,8 +48,11 @@ class _Stratum:
     def draw(self, samples: int, seed: int) -> None:
         while samples > 0 and self.scale:
             some = min(samples, _BLOCK)
-            found = _draw(self.degrees, self.links, self.ways, some, seed + self.drawn)
-            orders = np.array([igraph.Graph(joints.tolist()).count_automorphisms() for joints in found], float)
+            found = _draw(self.degrees, self.links, self.ways, self.weights, some, seed + self.drawn)
+            graphs = [igraph.Graph(joints.tolist()) for joints in found]
+            if self.mobility > 1:  # others are never fractionated
+                graphs = [graph for graph in graphs if graph.is_biconnected()]
+            orders = np.array([graph.count_automorphisms() for graph in graphs], float)
             self.sum += orders.sum()
             self.squares += (orders**2).sum()
             self.drawn += some
@@ -62,9 +66,10 @@ class _Stratum:
         return self.scale * float(np.sqrt(max(hit - mean**2, 0.0)))
 
 
-def sampled_chains(links: int, samples: int, *, seed: int = 1) -> Sampled:
-    """Estimate the chains with F = 1 and so many links, 6 or more, from about so many weighted pairings."""
-    strata = [_Stratum(d, links) for d in _degree_sequences(links - 4, links // 2)]
+def sampled_chains(links: int, samples: int, *, mobility: int = 1, seed: int = 1) -> Sampled:
+    """Estimate the chains with F > 0 and two loops or more, not fractionated, from about so many weighted pairings."""
+    loops = (links - 1 - mobility) // 2
+    strata = [_Stratum(d, links, mobility) for d in _degree_sequences(2 * loops - 2, loops + 1)]
     strata = [s for s in strata if s.scale]
     for k, stratum in enumerate(strata):
         stratum.draw(min(_PILOT, 1 + samples // (2 * len(strata))), _seed(seed, k))
@@ -73,7 +78,9 @@ def sampled_chains(links: int, samples: int, *, seed: int = 1) -> Sampled:
     left = max(samples - sum(s.drawn for s in strata), 0)
     estimates = []
     for k, (stratum, spread) in enumerate(zip(strata, spreads, strict=True)):
-        fresh = _Stratum(tuple(stratum.degrees.tolist()), links)  # the pilot is left out: its share depends on it
+        fresh = _Stratum(
+            tuple(stratum.degrees.tolist()), links, mobility
+        )  # the pilot is left out: its share depends on it
         fresh.draw(max(int(left * spread / total), _PILOT // 10), _seed(seed + 1, k))
         estimates.append(fresh)
     chains = sum(s.scale * s.sum / s.drawn for s in estimates)
@@ -97,8 +104,25 @@ def _degree_sequences(excess: int, most: int) -> Iterator[tuple[int, ...]]:
     return (degrees for degrees in parts(excess, most - 2) if len(degrees) > 1)
 
 
+def _weights(binary: int, strings: int, excess: int, most: int) -> Iterator[tuple[int, ...]]:
+    """Descending weights of strings that add up to so many binary links; beyond 2 they add up to the excess at most."""
+    if not binary:
+        yield ()
+    elif strings:
+        for weight in range(min(binary, most), 0, -1):
+            over = max(weight - 2, 0)
+            if over <= excess:
+                yield from ((weight, *more) for more in _weights(binary - weight, strings - 1, excess - over, weight))
+
+
+def _arrangements(weights: tuple[int, ...], strings: int) -> int:
+    """In how many ways strings have these weights."""
+    alike = [weights.count(w) for w in set(weights)]
+    return factorial(strings) // prod(map(factorial, [*alike, strings - len(weights)]))
+
+
 @numba.njit
-def _draw(degrees: Int64, links: int, ways: NDArray[np.float64], samples: int, seed: int) -> Int64:
+def _draw(degrees: Int64, links: int, ways: NDArray[np.float64], weights: Int64, samples: int, seed: int) -> Int64:
     """The chains among so many random weighted pairings: int64[k, joints, 2]."""
     np.random.seed(seed)
     nodes, halves = degrees.size, degrees.sum()
@@ -126,13 +150,14 @@ def _draw(degrees: Int64, links: int, ways: NDArray[np.float64], samples: int, s
             good = good and owner[2 * s] != owner[2 * s + 1]
         if not good:
             continue
-        twos = min(np.searchsorted(ways, np.random.random(), side="right"), ways.size - 1)
-        ones = links - nodes - 2 * twos
+        kind = min(np.searchsorted(ways, np.random.random(), side="right"), ways.size - 1)
         weight[:] = 0
-        for i in range(twos + ones):
+        for i in range(strings):
+            if weights[kind, i] == 0:
+                break
             j = np.random.randint(i, strings)
             place[i], place[j] = place[j], place[i]
-            weight[place[i]] = 2 if i < twos else 1
+            weight[place[i]] = weights[kind, i]
         out[:] = 0
         free[:] = 3
         fresh, joint = nodes, 0
