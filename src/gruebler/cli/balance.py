@@ -13,7 +13,8 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import GrueblerError
 from gruebler.base.plain_data import Shown, plain
 from gruebler.base.text import message, number, translate
-from gruebler.cli.drive_rows import driven_motion, given_speeds, turning_drives
+from gruebler.cli.drive_rows import given_speeds, turning_drives
+from gruebler.cli.driven_motion import driven_motion
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_loaded, loaded_linkage
 from gruebler.cli.output import print_json

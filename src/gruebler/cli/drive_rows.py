@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Sequence
 
@@ -11,16 +10,12 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
-from gruebler.mechanics.analysis.drive_cycles import drive_cycle
-from gruebler.mechanics.analysis.table import default_rows
-from gruebler.mechanics.kinematics import Motion, from_degrees
-from gruebler.mechanics.kinematics.solve import move_quietly
+from gruebler.mechanics.kinematics import from_degrees
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
 _MOST_ROWS = 1_000_000
 _LARGEST = 1e9
-_FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
 
 
 def turning_drives(linkage: Linkage) -> list[bool]:
@@ -90,22 +85,6 @@ def driven_path(spans: Sequence[str], linkage: Linkage) -> Reals | None:
             drives=_drives(len(turning)),
         )
     return given_rows(spans, (), turning)
-
-
-def driven_motion(linkage: Linkage, shown_range: tuple[float, float] | None, arguments: argparse.Namespace) -> Motion:
-    """The motion, with first derivatives, through --range or --at, else through the range in which it is shown."""
-    turning = turning_drives(linkage)
-    rows = given_rows(arguments.range, arguments.at, turning)
-    if rows is None and len(turning) > 1:
-        raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
-    if rows is not None:
-        return move_quietly(linkage, rows, branch=arguments.branch, order=1)
-    cycle = drive_cycle(linkage, branch=arguments.branch)
-    values = default_rows(cycle.span, shown_range, turning[0])[:, 0]
-    if not cycle.span.full:
-        margin = _FROM_LIMITS * cycle.span.width
-        values = np.clip(values, cycle.span.low + margin, cycle.span.high - margin)
-    return cycle.at(values, 1)
 
 
 def pose_of(text: str, mechanism: Mechanism) -> list[float]:

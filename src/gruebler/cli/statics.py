@@ -15,7 +15,8 @@ from gruebler.base.columns import Column, Table, shown
 from gruebler.base.errors import GrueblerError
 from gruebler.base.plain_data import plain
 from gruebler.base.text import message, number, translate
-from gruebler.cli.drive_rows import driven_motion, turning_drives
+from gruebler.cli.drive_rows import turning_drives
+from gruebler.cli.driven_motion import driven_motion
 from gruebler.cli.friction_options import add_friction, friction_of, option_numbers
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word
