@@ -100,8 +100,8 @@ def run(arguments: argparse.Namespace) -> int:
             _spring(each, linkage) for each in balance_weights(linkage, loads, height=arguments.springs)
         ]
     if arguments.fit_springs:
-        arguments.at = ()  # balance takes --range alone
-        fit = _fit(driven_motion(linkage, shown, arguments), loads, minimax=arguments.minimax)
+        motion = driven_motion(linkage, shown, spans=arguments.range, branch=arguments.branch)
+        fit = _fit(motion, loads, minimax=arguments.minimax)
         document["fitted"] = _fit_document(fit, linkage)
     if arguments.irregularity is not None:
         motion = _turn(linkage, _speed(arguments, linkage, usual), arguments.branch, closed=True)

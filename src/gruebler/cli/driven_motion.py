@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -17,15 +17,22 @@ from gruebler.mechanics.linkages import Linkage
 _FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
 
 
-def driven_motion(linkage: Linkage, shown_range: tuple[float, float] | None, arguments: argparse.Namespace) -> Motion:
+def driven_motion(
+    linkage: Linkage,
+    shown_range: tuple[float, float] | None,
+    *,
+    spans: Sequence[str],
+    at: Sequence[str] = (),
+    branch: str | None = None,
+) -> Motion:
     """The motion, with first derivatives, through --range or --at, else through the range in which it is shown."""
     turning = turning_drives(linkage)
-    rows = given_rows(arguments.range, arguments.at, turning)
+    rows = given_rows(spans, at, turning)
     if rows is None and len(turning) > 1:
         raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
     if rows is not None:
-        return move_quietly(linkage, rows, branch=arguments.branch, order=1)
-    cycle = drive_cycle(linkage, branch=arguments.branch)
+        return move_quietly(linkage, rows, branch=branch, order=1)
+    cycle = drive_cycle(linkage, branch=branch)
     values = default_rows(cycle.span, shown_range, turning[0])[:, 0]
     if not cycle.span.full:
         margin = _FROM_LIMITS * cycle.span.width

@@ -71,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not (loads.forces or loads.moments or loads.masses):
         raise GrueblerError("no load is given: use --load, --moment or --mass")
     friction = friction_of(arguments)
-    motion = driven_motion(linkage, shown_range, arguments)
+    motion = driven_motion(linkage, shown_range, spans=arguments.range, at=arguments.at, branch=arguments.branch)
     if not len(motion):
         print(motion.message(lang))
         return 1

@@ -147,9 +147,8 @@ class ChartedSteps(DOP853):  # type: ignore[misc]  # scipy has no types
         taken = self._by_kernel()
         if taken is None and (series := self._free.series) is not None:
             with suppress(Blocked):
-                series.at(
-                    self.y[0] + self.h_abs * self.y[1], self.y[1]
-                )  # the chart there is perhaps the one that lacks
+                # The chart at the end of the step is perhaps the one that lacks.
+                series.at(self.y[0] + self.h_abs * self.y[1], self.y[1])
                 taken = self._by_kernel()
         if taken is None:
             outcome: tuple[bool, str | None] = super()._step_impl()
