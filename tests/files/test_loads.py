@@ -135,7 +135,12 @@ everything = st.builds(
     ),
     torsion_springs=st.lists(
         st.builds(
-            TorsionSpring, st.tuples(links, links), stiffness=size, free_angle=number, preload=number, damping=size
+            TorsionSpring,
+            st.lists(links, min_size=2, max_size=2, unique=True).map(tuple),
+            stiffness=size,
+            free_angle=number,
+            preload=number,
+            damping=size,
         ),
         max_size=2,
     ),
@@ -221,6 +226,10 @@ def test_a_driven_slide_has_forces_and_velocities():
         (
             {"torsion_springs": [{"between": ["frame", "x"]}]},
             "torsion_springs[0].between: the chain has no link 'x'",
+        ),
+        (
+            {"torsion_springs": [{"between": ["crank", "crank"], "stiffness": "1 N m/rad"}]},
+            "loads.torsion_springs[0]: a torsion spring is between two links, not from 'crank' to itself",
         ),
         ({"motors": {"R(crank-coupler)": {"stall": "1 N m", "idle_speed": "1 rpm"}}}, "R(crank-coupler) is not driven"),
         ({"motors": {DRIVE: {"stall": "0 N m", "idle_speed": "1 rpm"}}}, "a motor has a positive torque at standstill"),

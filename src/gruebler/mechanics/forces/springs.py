@@ -148,6 +148,10 @@ class TorsionSpring:
 
     def __post_init__(self) -> None:
         _check(message("a torsion spring"), stiffness=self.stiffness, damping=self.damping)
+        if self.between[0] == self.between[1]:
+            raise LinkageError(
+                "a torsion spring is between two links, not from {link!r} to itself", link=self.between[0]
+            )
         for value in (self.free_angle, self.preload):
             if not abs(value) < 1e100:
                 raise LinkageError(
