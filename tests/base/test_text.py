@@ -2,10 +2,12 @@
 
 import ast
 import re
+from io import BytesIO
 from string import Formatter
 
 import numpy as np
 import pytest
+from babel.messages.mofile import read_mo
 
 from gruebler.base import errors
 from gruebler.base.errors import ChainError, GrueblerError, nearest
@@ -58,7 +60,13 @@ def test_translations_have_the_gaps_of_the_text(lang):
 
 @pytest.mark.parametrize("lang", OTHERS)
 def test_the_compiled_catalog_is_that_of_the_text(lang):
-    assert catalog_path(lang).with_suffix(".mo").read_bytes() == compiled(updated(read(lang), lang)), "make messages"
+    """But for the header, which names the version of Babel that wrote it."""
+
+    def texts(file):
+        return sorted((entry.context or "", str(entry.id), entry.string) for entry in read_mo(file) if entry.id)
+
+    with catalog_path(lang).with_suffix(".mo").open("rb") as file:
+        assert texts(file) == texts(BytesIO(compiled(updated(read(lang), lang)))), "make messages"
 
 
 def test_errors_are_raised_with_plain_texts():
