@@ -49,7 +49,8 @@ def _names(words: Iterable[Any], lang: str) -> dict[str, str]:
         if not isinstance(word, str):
             continue
         if word in entries():
-            known = {each: list(entries()[word].in_language(each).links) for each in LANGUAGES}
+            spoken = {each: entries()[word].in_language(each) for each in LANGUAGES}
+            known = {each: [*record.links, *record.points] for each, record in spoken.items()}
         elif (size := size_of(word)) is not None:
             known = {each: list(linkage_of_lengths(size, each).mechanism.chain.links) for each in LANGUAGES}
         else:

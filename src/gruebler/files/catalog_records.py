@@ -187,6 +187,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     joints: str
     links: dict[str, str]
     """Every link, the frame first, with its German name."""
+    points: dict[str, str] = {}
+    """Named points whose name is a word, with the German one; a letter is the same in both languages."""
     space: Literal["planar", "spherical", "spatial"] = "planar"
     figure_lost: bool = False
     """Whether the seeds' figure is lost, so that the structure is an assumption."""
@@ -235,13 +237,15 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         return linkage, loads_from_json(table, linkage, drawn=drawn), usual_speed(table, linkage)
 
     def in_language(self, lang: str) -> Entry:
-        """The same entry, its links by their names in a language; the German ones are cut short where that is clear.
+        """The same entry, links and points by their names in a language; German links are short where that is clear.
 
         >>> from gruebler.teaching.catalog import entry
         >>> entry("lambda").in_language("de").drives
         ('R(Gestell-Kurbel)',)
         """
-        return self if lang == LANGUAGES[0] else _with_link_names(self, _short_names(self.link_names(lang), lang))
+        if lang == LANGUAGES[0]:
+            return self
+        return _with_names(self, _short_names(self.link_names(lang), lang) | self.points)
 
     def link_names(self, lang: str) -> dict[str, str]:
         """What each link is called in a language, in full.
@@ -282,8 +286,8 @@ _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
 }
 
 
-def _with_link_names(entry: Entry, names: Mapping[str, str]) -> Entry:
-    """The record with these names of its links wherever they stand in it."""
+def _with_names(entry: Entry, names: Mapping[str, str]) -> Entry:
+    """The record with these names of its links and points wherever they stand in it."""
 
     def renamed(value: Any) -> Any:
         if isinstance(value, str):
@@ -302,7 +306,8 @@ def _with_link_names(entry: Entry, names: Mapping[str, str]) -> Entry:
             plain[part] |= {key: renamed(plain[part][key]) for key in keys if key in plain[part]}
     for claim in plain["quantities"]:
         claim |= {key: renamed(claim[key]) for key in ("of", "drive")}
-    plain["links"] = {names[link]: name for link, name in entry.links.items()}
+    for key in ("links", "points"):
+        plain[key] = {names[each]: name for each, name in plain[key].items()}
     return msgspec.convert(plain, Entry)
 
 
@@ -404,6 +409,10 @@ def _check(entry: Entry, path: Path | str) -> None:
             entry.placed()
         except GrueblerError as error:
             raise CatalogError("{path}: {error}", path=path, error=error) from None
+    known = {point for sizes in (entry.dimensions, entry.screws) if sizes is not None for point in sizes.points}
+    for point in entry.points:
+        if point not in known or point in entry.links:
+            raise CatalogError("{path}: points: there is no point {point!r}", path=path, point=point)
     _check_loads(entry, path)
     if entry.dimensions is not None:
         _check_dimensions(entry, entry.dimensions, chain, path)

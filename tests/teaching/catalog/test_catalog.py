@@ -79,6 +79,15 @@ def test_both_languages_everywhere():
             assert not any(wrong in text.de for wrong in ("ae ", "fuer", "ueber", "Getriebegrad")), record.id
 
 
+def test_points_named_by_a_word_have_a_german_name():
+    for record in entries().values():
+        sizes = [each for each in (record.dimensions, record.screws) if each is not None]
+        words = {point for each in sizes for point in each.points if len(point) > 1}
+        assert words == set(record.points), record.id
+    german = entry("loader_full").in_language("de")
+    assert list(german.linkage().points) == list(german.points) == ["Schneide"]
+
+
 @pytest.mark.parametrize(
     ("query", "ids"),
     [
@@ -142,6 +151,7 @@ TEN_MISTAKES = [
     ("a strange drive", "R(crank-frame)", "P(crank-frame)", "drives: 'P(crank-frame)' is not one of the joints"),
     ("a strange space", 'source = "test"', 'source = "test"\nspace = "flat"', "space: "),
     ("one language only", 'name.de = "Viergelenk"', "", "de"),
+    ("a strange point", "[claims]", '[points]\ntip = "Spitze"\n\n[claims]', "points: there is no point 'tip'"),
     ("a link without joint", 'rocker = "Schwinge"', 'rocker = "Schwinge"\nextra = "Zusatz"', "'extra' has no joint"),
 ]
 
