@@ -4,28 +4,33 @@ import numpy as np
 import pytest
 
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, misfit
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
-from gruebler.design.synthesis.positions import _targets, guiding_dyads, linkage_of_dyads
+from gruebler.design.synthesis.positions import _slides, _targets, guiding_dyads, linkage_of_dyads
 
 FOUR = [(2.071235, -0.032527, 19.8126), (2.036152, 1.429641, 44.4843), (0.706012, 1.606846, 68.1715)]
 FOUR += [(0.329970, 2.223983, 92.2134)]
 TASK = PositionTask([(x, y, np.radians(a)) for x, y, a in FOUR])
 
 
-def _against_motion(seed, count, samples):
+def _against_motion(seed, count, samples, kind=CRANK):
     """How often the closed form says yes, where `move` and the circuit of the linkage say the same."""
     rng = np.random.default_rng(seed)
     angles = np.cumsum(rng.uniform(0.1, 0.5, count))
     z = np.cumsum(rng.uniform(0.2, 1, count) * np.exp(1j * rng.uniform(0, 2, count)))
     task = PositionTask(list(zip(z.real, z.imag, angles, strict=True)))
-    dyads = [dyad for dyad in guiding_dyads(task, 60) if not dyad.slides]
-    facts = pair_facts(task, dyads, dyads, Demands())
+    family = guiding_dyads(task, 60)
+    dyads = [dyad for dyad in family if not dyad.slides]
+    second = dyads
+    if kind != CRANK:
+        second = [dyad for dyad in family if dyad.kind == kind] if count == 4 else _slides(task, kind, Demands())
+    facts = pair_facts(task, dyads, second, Demands())
     moving = np.argwhere(facts.moves & (facts.size_ratio < 50))
     others = np.argwhere(~facts.moves & (facts.size_ratio < 50))
     for pairs in (moving, others):
         for i, j in rng.permutation(pairs)[:samples]:
-            linkage = linkage_of_dyads(dyads[i], dyads[j], complex(task.origins[0]), "mm")
+            linkage = linkage_of_dyads(dyads[i], second[j], complex(task.origins[0]), "mm")
             verdict = judge_design(linkage, _targets(task, linkage), Demands(), "RR-RR").verdict
             assert verdict.accepted == facts.moves[i, j], (seed, i, j, verdict.reasons)
             if verdict.accepted:
@@ -35,15 +40,35 @@ def _against_motion(seed, count, samples):
     return len(moving)
 
 
-@pytest.mark.parametrize("count", [3, 4])
-def test_closed_forms_of_pairs_against_the_verdict_by_motion(count):
-    assert sum(_against_motion(seed, count, 3) for seed in range(6)) > 100
+@pytest.mark.parametrize(("count", "kind"), [(3, CRANK), (4, CRANK), (2, SLIDER), (3, SLIDER), (2, BLOCK), (3, BLOCK)])
+def test_closed_forms_of_pairs_against_the_verdict_by_motion(count, kind):
+    assert sum(_against_motion(seed, count, 2, kind) for seed in range(5)) > 100
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [3, 4])
-def test_closed_forms_of_a_thousand_pairs_against_the_verdict_by_motion(count):
-    assert sum(_against_motion(seed, count, 5) for seed in range(100, 200)) > 1000
+@pytest.mark.parametrize("kind", [CRANK, SLIDER, BLOCK])
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_closed_forms_of_a_thousand_pairs_against_the_verdict_by_motion(count, kind):
+    assert sum(_against_motion(seed, count, 5, kind) for seed in range(100, 200)) > 300
+
+
+@pytest.mark.parametrize("count", [2, 3])
+@pytest.mark.parametrize("kind", [SLIDER, BLOCK])
+def test_families_of_sliding_dyads_guide_the_body(count, kind):
+    task = PositionTask([(0, 0, 0), (2, 1, 0.4), (3, 1, 0.9)][:count])
+    given, origin, size = Displacements.of(task.origins, task.turns)
+    dyads = _slides(task, kind, Demands())
+    assert len(dyads) > 50
+    assert max(misfit(given, dyad.moved(1 / size, -origin / size)) for dyad in dyads) < 1e-11 * 1000
+
+
+def test_sliding_dyads_are_found_by_the_demands():
+    """Three positions have a slider-crank that turns fully at 40 degrees or more: a family of cranks by slides."""
+    task = PositionTask([(0, 0, 0), (2, 1, 0.4), (3, 1, 0.9)])
+    found = synthesise_positions(task, Demands(crank=True, transmission=np.radians(40)), number=8)
+    forms = {design.form for design in found.designs}
+    assert "RR-PR" in forms
+    assert not [design for design in found.rejected if design.form == "RR-PR"]
 
 
 def test_a_crank_is_found_where_a_grid_of_dyads_had_none():

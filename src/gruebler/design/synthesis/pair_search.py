@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
 from gruebler.base.text import Message, message
-from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
 Flags = NDArray[np.bool_]
@@ -36,10 +37,10 @@ USUAL = ("full-turn", "transmission", "size-ratio")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairFacts:
-    """What the four-bars of pairs of RR dyads do: entry (i, j) is driven at dyad i of the first list."""
+    """What the linkages of pairs of dyads do: entry (i, j) is driven at dyad i of the first list, an RR one."""
 
     lengths: Reals
-    """(4, n, m) crank, coupler, rocker, frame."""
+    """(4, n, m) crank, coupler, rocker, frame; NaN where a slide has no such length."""
     moves: Flags
     """All positions lie on one branch, and the crank meets them in order."""
     turns: Flags
@@ -47,11 +48,18 @@ class PairFacts:
     """The least transmission angle on the way through the positions, in radians."""
     inside: Flags
     """Both fixed pivots lie in the region."""
+    most: float
+    """The largest length of a linkage that slides."""
+
+    @property
+    def longest(self) -> Reals:
+        """(n, m) the longest length."""
+        return np.asarray(np.nanmax(self.lengths, axis=0), np.float64)
 
     @property
     def size_ratio(self) -> Reals:
         """(n, m) the longest length by the shortest."""
-        return np.asarray(self.lengths.max(axis=0) / np.maximum(self.lengths.min(axis=0), 1e-300), np.float64)
+        return np.asarray(self.longest / np.maximum(np.nanmin(self.lengths, axis=0), 1e-300), np.float64)
 
     def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
         """The demands by their names, each with the pairs that meet it."""
@@ -66,6 +74,13 @@ class PairFacts:
         met.append((ratio, self.size_ratio <= demands.size_ratio))
         if demands.region is not None:
             met.append((message("the region"), self.inside))
+        if np.isnan(self.lengths).any():  # two lengths say little of a linkage that slides
+            met.append(
+                (
+                    message("a size of at most {ratio:g} times that of the task", ratio=BUILDABLE),
+                    self.longest <= self.most,
+                )
+            )
         return met
 
     def costs(self, orders: Sequence[str]) -> list[Reals]:
@@ -73,7 +88,7 @@ class PairFacts:
         known: Mapping[str, Reals] = {
             "transmission": -self.transmission,
             "range-transmission": -self.transmission,
-            "size": np.asarray(self.lengths.max(axis=0), np.float64),
+            "size": self.longest,
             "size-ratio": self.size_ratio,
             "full-turn": np.asarray(1.0 - self.turns, np.float64),
         }
@@ -88,45 +103,115 @@ def _rounded(values: Reals) -> Reals:
 def pair_facts(
     task: PositionTask, first: Sequence[GuidingDyad], second: Sequence[GuidingDyad], demands: Demands
 ) -> PairFacts:
-    """What all pairs of two lists of RR dyads do, in closed form. Cost: 2 us a pair."""
+    """What all pairs of RR dyads with dyads of one kind do, in closed form. Cost: 2 us a pair."""
     (pins, own), (far_pins, far) = (_places(task, dyads) for dyads in (first, second))
+    directions = np.array([dyad.direction for dyad in second], np.complex128)
     with np.errstate(divide="ignore", invalid="ignore"):
-        frame = far[None, :] - own[:, None]
-        a, c = (np.abs(p[:, 0] - m) for p, m in ((pins, own), (far_pins, far)))
-        b, d = np.abs(far_pins[None, :, 0] - pins[:, None, 0]), np.abs(frame)
-        a, c = np.broadcast_to(a[:, None], b.shape), np.broadcast_to(c[None, :], b.shape)
-        arm = far_pins[None] - pins[:, None]
-        side = np.sign(np.imag(np.conj(arm) * (far[None, :, None] - pins[:, None])))
-        angle = np.angle((pins - own[:, None])[:, None] / frame[..., None])
-        # Crank angles from the frame that can be assembled: cosines from `low` to `high`.
-        low = (a * a + d * d - (b + c) ** 2) / (2 * a * d)
-        high = (a * a + d * d - (b - c) ** 2) / (2 * a * d)
+        slides = directions[None, :, None] * (1 if second[0].kind == SLIDER else task.turns / task.turns[0])
+        pair = _CLOSURES[second[0].kind]((pins, own), (far_pins, far), slides)
+        # Crank angles that can be assembled: cosines from `low` to `high`.
+        low, high, angle = pair.low, pair.high, pair.angle
         turns = (low < -1) & (high > 1)
         split = (low >= -1) & (high <= 1)
         passes_back = (low < -1) & ~turns
         angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
         steps = np.diff(angle, axis=2)
         cyclic = steps % (2 * np.pi)
-        forward = cyclic.sum(axis=2) < 2 * np.pi
-        backward = ((-steps) % (2 * np.pi)).sum(axis=2) < 2 * np.pi
-        ordered = np.where(turns, forward | backward, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
-        travel = np.where(forward, cyclic.sum(axis=2), -((-steps) % (2 * np.pi)).sum(axis=2))
+        onward, back = cyclic.sum(axis=2), ((-steps) % (2 * np.pi)).sum(axis=2)
+        within_lap = np.minimum(onward, back) < 2 * np.pi
+        ordered = np.where(turns, within_lap, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
+        travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
         travel = np.where(turns, travel, angle[..., -1] - angle[..., 0])
         same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
+        side = pair.side
         moves = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & ordered & same_part
-        cosines = [_extreme(angle[..., 0], travel, at) for at in (0.0, np.pi)]
-        mu = [np.abs(b * b + c * c - a * a - d * d + 2 * a * d * cosine) / (2 * b * c) for cosine in cosines]
-        transmission = np.arccos(np.clip(np.maximum(*mu), 0, 1))
-    lengths = np.array([a, b, c, d])
+        cosines = [pair.cosine(_extreme(angle[..., 0], travel, at)) for at in (0.0, np.pi)]
+        transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
     # Two dyads with a common pivot are no linkage.
-    usable = np.isfinite(transmission) & (lengths.min(axis=0) > 1e-9 * lengths.max(axis=0))
+    usable = np.isfinite(transmission) & (np.nanmin(pair.lengths, axis=0) > 1e-9 * np.nanmax(pair.lengths, axis=0))
+    reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else _inside(far, demands)
     return PairFacts(
-        lengths=lengths,
+        lengths=pair.lengths,
         moves=np.asarray(moves & usable),
         turns=np.asarray(turns & usable),
         transmission=np.where(usable, transmission, 0.0),
-        inside=np.asarray(_inside(own, demands)[:, None] & _inside(far, demands)[None, :]),
+        inside=np.asarray(_inside(own, demands)[:, None] & reached[None, :]),
+        most=BUILDABLE * task.size if np.ptp(task.origins) else np.inf,
     )
+
+
+_Places = tuple[NDArray[np.complex128], NDArray[np.complex128]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Closure:
+    """Where the crank can be assembled with the other dyad: its angle from a line of symmetry, with cosines between."""
+
+    lengths: Reals
+    low: Reals
+    high: Reals
+    angle: Reals
+    """(n, m, positions)"""
+    side: Reals
+    """(n, m, positions) the sign of the assembly mode."""
+    cosine: Callable[[Reals], Reals]
+    """Of the transmission angle, from the cosine of the crank angle."""
+
+
+def _by_rocker(driven: _Places, other: _Places, _: NDArray[np.complex128]) -> _Closure:
+    (pins, own), (far_pins, far) = driven, other
+    frame = far[None, :] - own[:, None]
+    a, c = (np.abs(p[:, 0] - m) for p, m in (driven, other))
+    b, d = np.abs(far_pins[None, :, 0] - pins[:, None, 0]), np.abs(frame)
+    a, c = np.broadcast_to(a[:, None], b.shape), np.broadcast_to(c[None, :], b.shape)
+    arm = far_pins[None] - pins[:, None]
+    return _Closure(
+        lengths=np.array([a, b, c, d]),
+        low=(a * a + d * d - (b + c) ** 2) / (2 * a * d),
+        high=(a * a + d * d - (b - c) ** 2) / (2 * a * d),
+        angle=np.angle((pins - own[:, None])[:, None] / frame[..., None]),
+        side=np.sign(np.imag(np.conj(arm) * (far[None, :, None] - pins[:, None]))),
+        cosine=lambda x: (b * b + c * c - a * a - d * d + 2 * a * d * x) / (2 * b * c),
+    )
+
+
+def _by_slider(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> _Closure:
+    """The pin on a line at e from the crank's pivot: |a sin(phi) - e| <= b, phi from the line."""
+    (pins, own), (far_pins, far) = driven, other
+    b = np.abs(far_pins[None, :, 0] - pins[:, None, 0])
+    a = np.broadcast_to(np.abs(pins[:, 0] - own)[:, None], b.shape)
+    e = np.imag(np.conj(slides[..., 0]) * (far[None, :] - own[:, None]))
+    none = np.full(b.shape, np.nan)
+    return _Closure(
+        lengths=np.array([a, b, none, none]),
+        low=(e - b) / a,
+        high=(e + b) / a,
+        angle=np.angle((pins - own[:, None])[:, None] / (1j * slides)),
+        side=np.sign(np.real(np.conj(slides) * (far_pins[None] - pins[:, None]))),
+        cosine=lambda x: (a * x - e) / b,
+    )
+
+
+def _by_block(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> _Closure:
+    """A line of the coupler, at e from the crank's pin, through the other pivot: their distance is at least |e|."""
+    (pins, own), (_, far) = driven, other
+    frame = far[None, :] - own[:, None]
+    d = np.abs(frame)
+    a = np.broadcast_to(np.abs(pins[:, 0] - own)[:, None], d.shape)
+    seen = np.conj(slides) * (far[None, :, None] - pins[:, None])
+    along, e = np.real(seen), np.imag(seen[..., 0])
+    none = np.full(d.shape, np.nan)
+    return _Closure(
+        lengths=np.array([a, none, none, d]),
+        low=np.full(d.shape, -np.inf),
+        high=(a * a + d * d - e * e) / (2 * a * d),
+        angle=np.angle((pins - own[:, None])[:, None] / frame[..., None]),
+        side=np.where(np.abs(along) > 1e-9 * (a + d)[..., None], np.sign(along), 0.0),
+        cosine=lambda x: e / np.sqrt(np.maximum(a * a + d * d - 2 * a * d * x, 0)),
+    )
+
+
+_CLOSURES = {CRANK: _by_rocker, SLIDER: _by_slider, BLOCK: _by_block}
 
 
 def _places(task: PositionTask, dyads: Sequence[GuidingDyad]) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
@@ -166,6 +251,7 @@ def best_pairs(
     demands: Demands,
     near: Nearby,
     *,
+    second: Sequence[GuidingDyad] = (),
     orders: Sequence[str] = (),
     number: int = 16,
 ) -> FoundPairs:
@@ -173,9 +259,10 @@ def best_pairs(
 
     Args:
         task: two to four positions.
-        dyads: a sample of the family in the order of the family, RR ones.
+        dyads: a sample of the family in the order of the family, RR ones: those that are driven.
         demands: what counts besides.
         near: dyads of the family near one of them.
+        second: a sample of sliding dyads of one kind, in the order of their family, instead of the first ones again.
         orders: what is best, by the names of `results.ORDERS`.
         number: of pairs, at most.
 
@@ -183,16 +270,17 @@ def best_pairs(
     """
     if demands.size_ratio == Demands().size_ratio:
         demands = replace(demands, size_ratio=BUILDABLE)
-    facts = pair_facts(task, dyads, dyads, demands)
+    others = second or dyads
+    facts = pair_facts(task, dyads, others, demands)
     met = facts.met(demands)
     fails = np.sum([~flags for _, flags in met], axis=0)
     good = fails == 0
     notes = [
-        message(
-            "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands. "
-            "The best are improved within the family to {step:.1g} of it.",
+        _SEARCHED[bool(second)].filled(
             dyads=len(dyads),
-            pairs=len(dyads) * (len(dyads) - 1),
+            others=len(others),
+            form=form_symbols(others[0].kind.form),
+            pairs=len(dyads) * (len(others) - (not second)),
             count=int(np.count_nonzero(good)),
             step=_WIDTHS[-1],
         )
@@ -202,15 +290,16 @@ def best_pairs(
     ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
     chosen: list[tuple[int, int]] = []
     for rank in ranks[: _LOOKED_AT * number]:
-        i, j = divmod(int(rank), len(dyads))
-        apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in ((i, j), (j, i)))
-        if apart and i != j and (good[i, j] or not good.any()):
+        i, j = divmod(int(rank), len(others))
+        same = [(i, j)] if second else [(i, j), (j, i)]
+        apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in same)
+        if apart and (second or i != j) and (good[i, j] or not good.any()):
             chosen.append((i, j))
         if len(chosen) == 2 * number:
             break
     pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
     for i, j in chosen:
-        pair = dyads[i], dyads[j]
+        pair = dyads[i], others[j]
         if good.any():
             pair = _improved(task, pair, demands, near, orders)
         if all(_gap(pair, other) > _ALIKE * task.size for other in pairs):
@@ -218,6 +307,19 @@ def best_pairs(
         if len(pairs) == number:
             break
     return FoundPairs(pairs=tuple(pairs), notes=tuple(notes))
+
+
+_SEARCHED = {
+    False: message(
+        "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands. "
+        "The best are improved within the family to {step:.1g} of it."
+    ),
+    True: message(
+        "{dyads} cranks, each with {others} dyads {form}: of {pairs:,} linkages {count:,} meet all demands. "
+        "The best are improved within the family to {step:.1g} of it."
+    ),
+}
+"""By whether the other dyad slides."""
 
 
 def _gap(first: tuple[GuidingDyad, GuidingDyad], second: tuple[GuidingDyad, GuidingDyad]) -> float:

@@ -20,8 +20,11 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.burmester import burmester_curves
 from gruebler.design.synthesis.dyads import (
+    BLOCK,
     CRANK,
+    SLIDER,
     Displacements,
+    DyadKind,
     GuidingDyad,
     all_dyads,
     dyad_of_fixed_pivot,
@@ -30,10 +33,10 @@ from gruebler.design.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design
-from gruebler.design.synthesis.pair_search import Nearby, best_pairs
+from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.targets import Targets, position_targets
-from gruebler.design.synthesis.tasks import PositionTask
+from gruebler.design.synthesis.tasks import SAME, PositionTask
 from gruebler.mechanics.fourbar import grashof
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
@@ -46,6 +49,8 @@ stops anywhere, while the sliding dyad that is meant is fitted as such."""
 
 _SAMPLE = {2: 256, 3: 256, 4: 300}
 """Dyads of a family that are taken, by the number of positions: each is tried with each."""
+_SLIDES = 64
+"""Sliding dyads of each kind that are taken of two or three positions."""
 _PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
 DYADS = message("dyads")
@@ -100,14 +105,8 @@ def guiding_dyads(
     chosen = [(dyad_of_moving_pivot, complex(*p)) for p in task.moving_pivots]
     chosen += [(dyad_of_fixed_pivot, complex(*p)) for p in task.fixed_pivots]
     if not chosen:
-        side = max(2, round(number**0.5))
-        if region is None:
-            centre, reach = task.origins.mean(), 1.5 * size
-            steps = np.linspace(-1, 1, side)
-            chosen = [(dyad_of_moving_pivot, complex(centre + reach * complex(a, b))) for a in steps for b in steps]
-        else:  # the middles of its fields: a pivot on the edge could fall outside by the last bit
-            x, y = (low + (high - low) * (np.arange(side) + 0.5) / side for low, high in (region[::2], region[1::2]))
-            chosen = [(dyad_of_fixed_pivot, complex(a, b)) for a in x for b in y]
+        construct = dyad_of_moving_pivot if region is None else dyad_of_fixed_pivot
+        chosen = [(construct, pivot) for pivot in _grid(task, number, region)]
     dyads = []
     if count == 2:
         displacements = Displacements(
@@ -120,6 +119,45 @@ def guiding_dyads(
             if task.moving_pivots or task.fixed_pivots:
                 raise
     return tuple(dyads)
+
+
+def _grid(task: PositionTask, number: int, region: tuple[float, float, float, float] | None) -> list[complex]:
+    """So many places about the positions, or in the region."""
+    side = max(2, round(number**0.5))
+    if region is None:
+        centre, reach = task.origins.mean(), 1.5 * task.size
+        steps = np.linspace(-1, 1, side)
+        return [complex(centre + reach * complex(a, b)) for a in steps for b in steps]
+    # The middles of its fields: a pivot on the edge could fall outside by the last bit.
+    x, y = (low + (high - low) * (np.arange(side) + 0.5) / side for low, high in (region[::2], region[1::2]))
+    return [complex(a, b) for a in x for b in y]
+
+
+def sliding_family(task: PositionTask, kind: DyadKind, places: Iterable[complex]) -> list[GuidingDyad]:
+    """Sliding dyads of two or three positions: for two a pivot at each place, for three a slide in each direction.
+
+    >>> task = PositionTask([(0, 0, 0), (2, 1, 0.4), (3, 1, 0.9)])
+    >>> [dyad.moving for dyad in sliding_family(task, SLIDER, [1])]
+    [(-3.50...-4.60...j)]
+    """
+    displacements, origin, size = Displacements.of(task.origins, task.turns)
+    assert kind.seen is not None
+    seen = kind.seen(displacements)
+    dyads = []
+    for place in places:
+        if len(task) == 2:
+            point = (place - origin) / size
+            along = complex(seen.q[0] * point + seen.t[0] - point)
+        else:  # Re(n* (q - 1) x) = -Re(n* t) with the normal n: linear in x
+            along = place
+            rows = np.conj(1j * along) * (seen.q - 1)
+            matrix = np.stack([rows.real, -rows.imag], axis=1)
+            if abs(np.linalg.det(matrix)) < SAME * np.abs(matrix).max() ** 2:
+                continue
+            point = complex(*np.linalg.solve(matrix, -np.real(np.conj(1j * along) * seen.t)))
+        if abs(along) > SAME and abs(point) < _FARTHEST:
+            dyads.append(GuidingDyad(kind, point, point, along / abs(along)).moved(size, origin))
+    return dyads
 
 
 def _halfway(q: complex) -> complex:
@@ -228,21 +266,38 @@ def _judged_best(
 ) -> list[Design]:
     """The designs of the best pairs of a family, and of its sliding dyads with some of it; notes on the search."""
     turning = [dyad for dyad in dyads if not dyad.slides]
-    sliding = [dyad for dyad in dyads if dyad.slides]
-    designs: list[Design] = []
+    sliding: list[GuidingDyad] = []
+    near = _near_on_curve(task) if len(task) == 4 and turning else partial(_near_in_plane, task)
+    searches: list[FoundPairs] = []
     if len(turning) > 1:
-        near = _near_on_curve(task) if len(task) == 4 else partial(_near_in_plane, task)
-        best = best_pairs(task, turning, demands, near, orders=sort, number=number)
-        notes += best.notes
-        for done, (first, second) in enumerate(best.pairs, 1):
-            linkage = linkage_of_dyads(first, second, complex(task.origins[0]), task.unit)
-            form = f"{first.kind.form}-{second.kind.form}"
+        searches.append(best_pairs(task, turning, demands, near, orders=sort, number=number))
+    for kind in (SLIDER, BLOCK):
+        second = [dyad for dyad in dyads if dyad.kind == kind] if len(task) == 4 else _slides(task, kind, demands)
+        sliding += second[:: max(1, len(second) // 2)]
+        if turning and second:
+            searches.append(
+                best_pairs(task, turning, demands, near, second=second, orders=sort, number=max(1, number // 4))
+            )
+    notes += [note for search in searches for note in search.notes]
+    pairs = [pair for search in searches for pair in search.pairs]
+    designs: list[Design] = []
+    for done, (first, second_dyad) in enumerate(pairs, 1):
+        with suppress(LinkageError):  # two dyads with a common pivot are no linkage
+            linkage = linkage_of_dyads(first, second_dyad, complex(task.origins[0]), task.unit)
+            form = f"{first.kind.form}-{second_dyad.kind.form}"
             designs.append(judge_design(linkage, _targets(task, linkage), demands, form))
-            if progress is not None:
-                progress(done, len(best.pairs))
-    some = turning[:: max(1, len(turning) // number)]
-    pairs = [(dyad, slide) for dyad in some for slide in sliding] + list(combinations(sliding, 2))
-    return designs + _judged_pairs(task, demands, pairs, progress)
+        if progress is not None:
+            progress(done, len(pairs))
+    return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
+
+
+def _slides(task: PositionTask, kind: DyadKind, demands: Demands) -> list[GuidingDyad]:
+    """A sample of the sliding dyads of two or three positions, in the order of their family."""
+    if len(task) == 2:
+        places = _grid(task, _SLIDES, demands.region if kind == BLOCK else None)
+    else:
+        places = [complex(np.exp(1j * np.pi * k / _SLIDES)) for k in range(_SLIDES)]
+    return sliding_family(task, kind, places)
 
 
 def _near_on_curve(task: PositionTask) -> Nearby:
@@ -253,6 +308,8 @@ def _near_on_curve(task: PositionTask) -> Nearby:
     places: dict[GuidingDyad, float] = {}
 
     def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+        if dyad.slides:
+            return []  # the only one of its kind
         at = places.get(dyad)
         if at is None:
             at = float(along[np.abs(moving - dyad.moving).argmin()])
@@ -268,9 +325,14 @@ def _near_on_curve(task: PositionTask) -> Nearby:
 
 
 def _near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
-    """Dyads of two or three positions whose pivots on the body are near that of one."""
+    """Dyads of two or three positions near one: their pivots on the body, or the directions of their slides."""
     reach = _PLANE * width * task.size
+    if dyad.slides and len(task) == 3:
+        turns = (dyad.direction * np.exp(1j * np.pi * width * share) for share in (-1.0, -0.5, 0.5, 1.0))
+        return sliding_family(task, dyad.kind, map(complex, turns))
     pivots = [dyad.moving + reach * turn for turn in (1, 1j, -1, -1j, 0.5, 0.5j, -0.5, -0.5j)]
+    if dyad.slides:
+        return sliding_family(task, dyad.kind, pivots)
     others: list[GuidingDyad] = []
     for pivot in pivots:
         with suppress(SynthesisError):  # it serves any dyad

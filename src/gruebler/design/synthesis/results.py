@@ -21,7 +21,7 @@ from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import measure_transmission
 from gruebler.mechanics.linkages import Linkage
-from gruebler.structure.chain.pairs import PAIRS, Alphabet, in_alphabets
+from gruebler.structure.chain.pairs import PAIRS, Alphabet, SymbolText, in_alphabets
 
 
 @compared_by_value
@@ -94,6 +94,11 @@ _PAIRS = {p.symbol(): p for p in PAIRS if p.is_basic}
 def _symbol(letter: str, alphabet: Alphabet) -> str:
     """A letter of a form such as ``RR-PR`` in an alphabet."""
     return _PAIRS[letter].symbol(alphabet) if letter in _PAIRS else letter
+
+
+def form_symbols(form: str) -> SymbolText:
+    """A form such as ``RR-PR`` in the letters of the reader's language."""
+    return in_alphabets(lambda alphabet: "".join(_symbol(letter, alphabet) for letter in form))
 
 
 @brief
@@ -171,8 +176,7 @@ class Design:
             return plural("{count} link", "{count} links", self.links, lang)
         if self.form in _FORMS:
             return _FORMS[self.form].in_language(lang)
-        symbols = in_alphabets(lambda alphabet: "".join(_symbol(letter, alphabet) for letter in self.form))
-        return symbols.in_language(lang)
+        return form_symbols(self.form).in_language(lang)
 
 
 EXACT = 1e-9
