@@ -116,13 +116,15 @@ class MotionQuantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw
 
     kind: Literal["straight", "swing", "stroke", "dwell", "ratio", "turns"]
     of: str
-    """A point or joint that runs straight; a link, or the joint of a slide, otherwise. In space a joint."""
+    """A point or joint that runs straight; a link, or the joint of a slide, otherwise. In space a joint; of a link the
+    ``swing`` is its largest turn away from the reference pose."""
     range: tuple[float, float] | None = None
     """Drive values in degrees or the unit; without them those of the dimensions, else a full turn."""
     drive: str | None = None
-    """The drive that moves, where there are several; the others stand still in the reference pose."""
-    direction: float | None = None
-    """``straight``: of the line, ``stroke`` of a point: of the way, in degrees; 0 is level."""
+    """The drive that moves, where there are several; the others stand still in the reference pose. In space all move
+    alike without it."""
+    direction: float | tuple[float, float, float] | None = None
+    """``straight``: of the line, ``stroke`` of a point: of the way, in degrees; 0 is level. In space a vector."""
     length: float | None = None
     """The way along the line, or along the slide."""
     band: float | None = None
@@ -440,8 +442,6 @@ _ALL_NUMBERS = tuple(dict.fromkeys(key for keys in MOTION_NUMBERS.values() for k
 def _check_quantity(entry: Entry, claim: MotionQuantity, where: str) -> None:
     if entry.dimensions is None and entry.screws is None:
         raise CatalogError("{where}: an entry without dimensions has no motion to state", where=where)
-    if entry.dimensions is None and (claim.range, claim.drive, claim.direction) != (None, None, None):
-        raise CatalogError("{where}: in space without range, drive and direction", where=where)
     given = tuple(key for key in _ALL_NUMBERS if getattr(claim, key) is not None)
     if given != tuple(claim.numbers):
         raise CatalogError(

@@ -93,7 +93,7 @@ def test_points_named_by_a_word_have_a_german_name():
     [
         (Query(words=("Kompressor",), pairs=("P",)), {"compressor", "vcomp"}),
         (Query(words=("scissor",), links=4), {"hubpodium"}),
-        (Query(mobility=3), {"drafting3", "excavator"}),
+        (Query(mobility=3), {"drafting3", "excavator", "susp_rack"}),
         (Query(pairs=("helical",)), {"winch_screw"}),
         (Query(pairs=("Wälzgelenk",), joints=4), {"friction_forced"}),
         (Query(words=("no such thing",)), set()),

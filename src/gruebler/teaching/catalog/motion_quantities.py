@@ -25,6 +25,7 @@ from gruebler.teaching.catalog.claims import WrongClaim
 
 if TYPE_CHECKING:
     from gruebler.mechanics.space.measuring import SpatialMeasures
+    from gruebler.mechanics.space.motion import SpatialMotion
 
 _ROWS = 361
 _ROUNDED = 5e-3  # of the printed number
@@ -102,7 +103,7 @@ def _moving(entry: Entry) -> Linkage | SpatialLinkage:
 def derived_numbers(
     entry: Entry, claim: MotionQuantity, linkage: Linkage | SpatialLinkage | None = None
 ) -> dict[str, float]:
-    """The numbers of a claim as the entry's dimensions give them; in space over all that the drive can reach.
+    """The numbers of a claim as the entry's dimensions give them.
 
     `LinkageError` where the linkage cannot be moved so far, or has no such point, link or joint.
 
@@ -113,7 +114,7 @@ def derived_numbers(
     """
     linkage = _moving(entry) if linkage is None else linkage
     if isinstance(linkage, SpatialLinkage):
-        return _derived_in_space(linkage, claim)
+        return _derived_in_space(entry, linkage, claim)
     mechanism = linkage.mechanism
     drive = 0
     if claim.drive is not None:
@@ -136,9 +137,15 @@ def _straight(run: _Run) -> dict[str, float]:
         motion = run.moved(float(rows[0]), float(rows[-1]), len(rows))
         return motion.complex_point(run.claim.of).reshape(np.shape(values))
 
-    direction = None if run.claim.direction is None else radians(run.claim.direction)
+    direction = None if run.claim.direction is None else radians(_angle(run.claim))
     piece = path_piece(path, run.low, run.high, direction, samples=_ROWS)
     return {"length": piece.length, "band": piece.band}
+
+
+def _angle(claim: MotionQuantity) -> float:
+    if not isinstance(claim.direction, float | int):
+        raise LinkageError("{of}: in the plane a direction is an angle in degrees", of=claim.of)
+    return claim.direction
 
 
 def _swing(run: _Run) -> dict[str, float]:
@@ -149,7 +156,7 @@ def _stroke(run: _Run) -> dict[str, float]:
     motion = run.motion
     if run.claim.direction is None:
         return {"length": float(np.ptp(motion.displacement(run.claim.of)))}
-    along = np.exp(-1j * radians(run.claim.direction))
+    along = np.exp(-1j * radians(_angle(run.claim)))
     return {"length": float(np.ptp((motion.complex_point(run.claim.of) * along).real))}
 
 
@@ -184,17 +191,73 @@ _DERIVED: Mapping[str, Callable[[_Run], dict[str, float]]] = {
 }
 
 
-def _derived_in_space(linkage: SpatialLinkage, claim: MotionQuantity) -> dict[str, float]:
+def _derived_in_space(entry: Entry, linkage: SpatialLinkage, claim: MotionQuantity) -> dict[str, float]:
+    """Of a joint over all that the one drive can reach by root finding, else along the range of the claim."""
     from gruebler.mechanics.space.measuring import measures
 
-    if claim.kind not in _IN_SPACE:
+    joint = linkage.mechanism.chain.find_joint(claim.of) is not None
+    ranged = claim.range is not None or (entry.screws is not None and entry.screws.range is not None)
+    if joint and claim.kind in _MEASURED and not ranged and len(linkage.mechanism.drives) == 1:
+        return _MEASURED[claim.kind](measures(linkage, output=claim.of))
+    known = _OF_JOINT if joint else _OF_LINK_OR_POINT
+    if claim.kind not in known:
         raise LinkageError("{kind} is not derived in space", kind=claim.kind)
-    return _IN_SPACE[claim.kind](measures(linkage, output=claim.of))
+    return known[claim.kind](_course_in_space(entry, linkage, claim), claim)
 
 
-_IN_SPACE: Mapping[str, Callable[[SpatialMeasures], dict[str, float]]] = {
+def _course_in_space(entry: Entry, linkage: SpatialLinkage, claim: MotionQuantity) -> SpatialMotion:
+    """The motion over the range of the claim, of the entry, or all there is; several drives move alike."""
+    from gruebler.mechanics.space.drive_range import followed, spatial_range
+
+    drives = linkage.mechanism.drives
+    moving = [claim.drive in (None, name) for name in linkage.mechanism.drive_names()]
+    if not any(moving):
+        raise LinkageError("{joint} is not driven", joint=claim.drive)
+    span = claim.range or (None if entry.screws is None else entry.screws.range)
+    if span is None:
+        values = spatial_range(linkage).inside(_ROWS)
+    else:
+        low, high = (radians(v) if drives[moving.index(True)].turning else v for v in span)
+        values = np.linspace(low, high, _ROWS)
+    return followed(linkage, values[:, None] * np.array(moving, float), order=1)
+
+
+_MEASURED: Mapping[str, Callable[[SpatialMeasures], dict[str, float]]] = {
     "swing": lambda measured: {"degrees": degrees(measured.travel)},
     "stroke": lambda measured: {"length": measured.travel},
     "ratio": lambda measured: {"least": measured.least_ratio.value, "greatest": measured.greatest_ratio.value},
     "turns": lambda measured: {"turns": float(measured.turns)},
+}
+
+
+def _turned(course: SpatialMotion, claim: MotionQuantity) -> dict[str, float]:
+    """The largest turn of a link away from the reference pose; its half has the sine of the quaternion's vector."""
+    vector = np.linalg.norm(course.quaternion(claim.of)[:, 1:], axis=1)
+    return {"degrees": 2 * degrees(float(np.arcsin(np.minimum(vector, 1.0)).max()))}
+
+
+def _path(course: SpatialMotion, claim: MotionQuantity) -> tuple[Reals, Reals]:
+    """The path of a point along a direction, and its places across it, (rows, 3)."""
+    if not isinstance(claim.direction, tuple):
+        raise LinkageError("{of}: the path of a point in space needs a direction of three numbers", of=claim.of)
+    unit = np.array(claim.direction) / np.linalg.norm(claim.direction)
+    places = course.point(claim.of)
+    along = places @ unit
+    return along, places - along[:, None] * unit
+
+
+def _straight_in_space(course: SpatialMotion, claim: MotionQuantity) -> dict[str, float]:
+    along, across = _path(course, claim)
+    apart = np.linalg.norm(across[:, None] - across[None], axis=2)
+    return {"length": float(np.ptp(along)), "band": float(apart.max())}
+
+
+_OF_LINK_OR_POINT: Mapping[str, Callable[[SpatialMotion, MotionQuantity], dict[str, float]]] = {
+    "swing": _turned,
+    "stroke": lambda course, claim: {"length": float(np.ptp(_path(course, claim)[0]))},
+    "straight": _straight_in_space,
+}
+_OF_JOINT: Mapping[str, Callable[[SpatialMotion, MotionQuantity], dict[str, float]]] = {
+    "swing": lambda course, claim: {"degrees": degrees(float(np.ptp(course.joint(claim.of))))},
+    "stroke": lambda course, claim: {"length": float(np.ptp(course.joint(claim.of)))},
 }
