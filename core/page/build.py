@@ -28,11 +28,11 @@ UNITS = (
     ),
 )
 EXPORTS = ("reserve", "run", "unwound")
+HOT = "src/motion/sweep.cpp"
+"""Rows of dyads abreast, nearly all of the time of a motion; the other units are compiled for their size."""
 OPTIONS = (
     "--target=wasm32-wasi",  # nothing of the system remains in it, see door.cpp
-    "-mexec-model=reactor",
     "-std=c++20",
-    "-O3",
     "-msimd128",
     "-mbulk-memory",
     "-ffp-contract=off",
@@ -45,8 +45,18 @@ OPTIONS = (
     "-Wall",
     "-Wextra",
     "-Wno-inline-namespace-reopened-noninline",
-    "-Werror=pass-failed",  # a hot loop that is not vectorised
     "-g0",
+)
+QUICK = (
+    "-O3",
+    "-DGRUEBLER_NO_JERK",  # the page asks for accelerations at most
+    "-mllvm",
+    "-unroll-runtime=false",
+    "-Werror=pass-failed",  # a hot loop that is not vectorised
+)
+SMALL = ("-Os",)
+LINKING = (
+    "-mexec-model=reactor",
     "-Wl,--strip-all",
     "-Wl,--gc-sections",
     *(f"-Wl,--export={name}" for name in EXPORTS),
@@ -98,8 +108,12 @@ def compiled() -> bytes:
     """The module of the linker, made smaller."""
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / "motion.wasm"
-        command = [sys.executable, "-m", "ziglang", "c++", *OPTIONS, f"-I{CORE / 'src'}", "-o", str(made)]
-        subprocess.run([*command, *(str(CORE / unit) for unit in UNITS)], check=True)
+        command = [sys.executable, "-m", "ziglang", "c++", *OPTIONS, f"-I{CORE / 'src'}"]
+        parts = [str(Path(folder) / f"{Path(unit).stem}.o") for unit in UNITS]
+        for unit, part in zip(UNITS, parts, strict=True):
+            speed = QUICK if unit == HOT else SMALL
+            subprocess.run([*command, *speed, "-c", str(CORE / unit), "-o", part], check=True)
+        subprocess.run([*command, *SMALL, *LINKING, *parts, "-o", str(made)], check=True)
         subprocess.run([*OPTIMISER, str(made), "-o", str(made)], check=True)
         return made.read_bytes()
 

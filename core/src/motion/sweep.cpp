@@ -417,8 +417,13 @@ std::int64_t sweep(const Plan& plan, const Path& path, const double* signs, std:
         case 2:
             good = sweep_rows<2>(plan, path, signs, row, end, poses, bodies);
             break;
+#ifdef GRUEBLER_NO_JERK
+        default:
+            return row;
+#else
         default:
             good = sweep_rows<3>(plan, path, signs, row, end, poses, bodies);
+#endif
     }
     const int count = static_cast<int>(good - row);
     for (int link = 0; link < poses.links; ++link) {
