@@ -6,7 +6,7 @@ A pin is ``[x, y]``, a line ``[x, y, degrees]``; the others are tables with the 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import msgspec
@@ -16,6 +16,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, joined, joined_by_or, message
 from gruebler.files.angles import in_degrees, in_radians
 from gruebler.mechanics.linkages.elements import (
+    PRESSURE_ANGLE,
     CamDisc,
     Circle,
     Element,
@@ -36,6 +37,8 @@ class ElementRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_
     teeth: int = 0
     module: float | None = None
     belt: str = ""
+    pressure_angle: Any = None
+    """Degrees, of teeth."""
     circle: float | None = None
     angle: Any = 0
     """Degrees, of a cam, pins or slots."""
@@ -77,7 +80,10 @@ def _wheel(record: ElementRecord, where: str) -> Wheel:
         radius = record.module * record.teeth / 2
     if radius is None and not record.teeth:
         raise LinkageError("{where}: expected a radius, teeth or a circle", where=where)
-    return Wheel(x, y, radius or 0.0, teeth=record.teeth, belt=record.belt)
+    pressure = PRESSURE_ANGLE
+    if record.pressure_angle is not None:
+        pressure = read_numbers([0.0, 0.0, record.pressure_angle], f"{where}.pressure_angle", (3,))[2]
+    return Wheel(x, y, radius or 0.0, teeth=record.teeth, belt=record.belt, pressure_angle=pressure)
 
 
 def _circle(record: ElementRecord, where: str) -> Circle:
@@ -127,7 +133,11 @@ def _line(line: Line) -> list[Any]:
 
 
 def _wheel_table(wheel: Wheel) -> dict[str, Any]:
-    more = {"teeth": wheel.teeth, "belt": wheel.belt}
+    more: dict[str, Any] = {"teeth": wheel.teeth, "belt": wheel.belt}
+    if wheel.pressure_angle != PRESSURE_ANGLE:
+        return _wheel_table(replace(wheel, pressure_angle=PRESSURE_ANGLE)) | {
+            "pressure_angle": in_degrees(wheel.pressure_angle)
+        }
     return {"at": _at(wheel), "radius": wheel.radius} | {key: value for key, value in more.items() if value}
 
 
@@ -155,7 +165,7 @@ FORMS: dict[type[Element], ElementForm] = {
     GenevaDriver: ElementForm(_table, ("pins", "angle"), _pins),
     GenevaWheel: ElementForm(_table, ("slots", "angle", "internal"), _slots),
     NonCircular: ElementForm(_table, ("transfer", "angle", "teeth"), _transfer),
-    Wheel: ElementForm(_wheel_table, ("radius", "teeth", "module", "belt"), _wheel),
+    Wheel: ElementForm(_wheel_table, ("radius", "teeth", "module", "belt", "pressure_angle"), _wheel),
 }
 """Every kind of element; a table without a key that comes first in its row is a wheel."""
 

@@ -1,9 +1,10 @@
-"""The equations of equilibrium of all links of a linkage with turning and sliding joints, solved at every row."""
+"""The equations of equilibrium of all links of a linkage, solved at every row."""
 
 from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -11,7 +12,8 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.forces.acting import Wrench
+from gruebler.mechanics.forces.acting import Rows, Wrench
+from gruebler.mechanics.forces.contact_forces import contact_forces
 from gruebler.mechanics.forces.taking_apart import (
     GROWTH,
     HeldDyad,
@@ -23,10 +25,12 @@ from gruebler.mechanics.forces.taking_apart import (
 )
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.mechanics.linkages.lower_pairs import joints_before
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.spaces import Space
 
 _BLOCK = 2048  # rows solved at once
+_LOOKS = 7  # rows in which it is looked whether wheels that press each other apart would do work
+_WORKLESS = 1e-7  # of a force of one, lengths in sizes
 
 
 class JointConnection(NamedTuple):
@@ -44,7 +48,7 @@ class Reactions(NamedTuple):
     forces: Complexes
     """(rows, contacts): on the other link, at its point of the joint."""
     couples: Reals
-    """(rows, contacts): on the other link, of slides about its point; of pins by friction."""
+    """(rows, contacts): on the other link, of slides and contacts about its point; of pins by friction."""
     drives: Reals
     """(rows, drives): torques, or forces along slides, on the link that is moved."""
     singular: Flags
@@ -52,35 +56,40 @@ class Reactions(NamedTuple):
 
 
 def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
-    """Those of the linkage with lower pairs. `LinkageError` for other joints than turning and sliding ones."""
+    """Those of the linkage as it was solved."""
     return _connections(motion.lower_linkage.mechanism.chain)
 
 
 @lru_cache(maxsize=64)
 def _connections(chain: Chain) -> tuple[JointConnection, ...]:
-    connections = []
-    for number, joint in enumerate(chain.joints):
-        if not joint.pair.is_basic:
-            raise LinkageError(
-                "joint forces are known for turning and sliding joints; {joint} is neither",
-                joint=chain.joint_title(number),
-            )
-        for second in joint.links[1:]:
-            first = chain.links.index(joint.links[0])
-            connections.append(JointConnection(number, first, chain.links.index(second), joint.pair.is_sliding))
-    return tuple(connections)
+    return tuple(
+        JointConnection(number, chain.links.index(joint.links[0]), chain.links.index(second), joint.pair.is_sliding)
+        for number, joint in enumerate(chain.joints)
+        for second in joint.links[1:]
+    )
+
+
+@lru_cache(maxsize=64)
+def _before(linkage: Linkage) -> tuple[int, ...]:
+    return joints_before(linkage)
 
 
 def joint_of_connection(motion: Motion) -> tuple[int, ...]:
     """For each joint as it was solved the joint of the linkage: one of two freedoms stands for two in a row."""
-    joints = motion.linkage.mechanism.chain.joints
-    return tuple(number for number, joint in enumerate(joints) for _ in range(joint.pair.f(Space.PLANAR)))
+    return _before(motion.linkage)
 
 
-def joints_left_out(motion: Motion) -> bool:
-    """Whether contacts of wheels were left out that say nothing new: what they carry, and others less, is not known."""
-    connections = {connection.joint for connection in joint_connections(motion)}
-    return len(connections) < len(joint_of_connection(motion))
+def pressed_apart(motion: Motion) -> tuple[set[int], set[int]]:
+    """The joints of the linkage whose teeth or belts press wheels apart or together, and those whose distance varies.
+
+    The latter are taken as pitch circles, whose force goes along their common tangent.
+    """
+    if removal_steps(motion.lower_linkage) is not None:
+        return set(), set()
+    held, before, units = joint_connections(motion), joint_of_connection(motion), _unit_forces(motion)
+    pressing = [(own, left) for own, left in zip(units, _held_apart(motion, units), strict=True) if own.apart.any()]
+    joints = [(before[held[own.number].joint], bool(left.apart.any())) for own, left in pressing]
+    return {joint for joint, apart in joints if apart}, {joint for joint, apart in joints if not apart}
 
 
 def link_loads(motion: Motion, wrenches: Iterable[Wrench]) -> LinkLoads:
@@ -103,17 +112,22 @@ def link_loads(motion: Motion, wrenches: Iterable[Wrench]) -> LinkLoads:
 def reactions(motion: Motion, cases: Sequence[LinkLoads]) -> tuple[Reactions, ...]:
     """The forces of all joints and drives that hold each case of loads, from three equations for each link.
 
+    Teeth and belts press their wheels apart or together by what the first of the cases makes them carry.
+
     Cost: 0.1 us for each dyad at each row; where links are not all dyads and driven ones, a linear system of three rows
     for each moving link, at each row, once for all cases.
     """
-    joint_connections(motion)  # that all joints turn or slide
     steps = removal_steps(motion.lower_linkage)
+    units = [] if steps is not None else _held_apart(motion, _unit_forces(motion))
     force, moment = (np.stack(parts) for parts in zip(*cases, strict=True))
     blocks = []
     for first in range(0, max(len(motion), 1), _BLOCK):
         rows = slice(first, first + _BLOCK)
         loads = LinkLoads(force[..., rows], moment[..., rows] / motion.size)
-        blocks.append(_at_once(motion, loads, rows) if steps is None else _link_by_link(motion, steps, loads, rows))
+        own = [unit.of_rows(rows) for unit in units]
+        blocks.append(
+            _at_once(motion, own, loads, rows) if steps is None else _link_by_link(motion, steps, loads, rows)
+        )
     if len(blocks) == 1:
         return tuple(blocks[0])
     return tuple(
@@ -159,9 +173,89 @@ def _link_by_link(
     return [Reactions(*parts, nowhere) for parts in zip(forces, couples, efforts, strict=True)]
 
 
-def _at_once(motion: Motion, given: LinkLoads, rows: slice) -> list[Reactions]:
-    lower, held = motion.lower_linkage, joint_connections(motion)
-    columns, directions = _columns(motion, held, rows)
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _UnitForce:
+    """What an unknown of one is: a force at the second link's point of a joint, and a couple; (rows,) each."""
+
+    number: int
+    """Of the connection."""
+    at: Complexes
+    """The point, in sizes."""
+    force: Complexes
+    couple: Reals
+    apart: Complexes
+    """What acts there besides for each unit of the unknown's size: teeth and belts press wheels apart or together."""
+    apart_couple: Reals
+
+    def of_rows(self, rows: slice | Rows) -> _UnitForce:
+        arrays = ("at", "force", "couple", "apart", "apart_couple")
+        return replace(self, **{name: getattr(self, name)[rows] for name in arrays})
+
+    @property
+    def without_apart(self) -> _UnitForce:
+        return replace(self, apart=0 * self.apart, apart_couple=0 * self.apart_couple)
+
+
+def _unit_forces(motion: Motion) -> list[_UnitForce]:
+    """The unknowns of all joints, in the order of the connections."""
+    lower, links = motion.lower_linkage, motion.links
+    places, turns = _pose(motion, slice(None))
+    zero, along = np.zeros(len(motion), np.complex128), np.ones(len(motion), np.complex128)
+    none, units = zero.real, list[_UnitForce]()
+    for k, connection in enumerate(joint_connections(motion)):
+        at, line = _meeting(lower, places, turns, connection)
+        if lower.mechanism.chain.joints[connection.joint].pair.is_basic:
+            both = ((1j * line, none), (zero, along.real)) if connection.slides else ((along, none), (1j * along, none))
+            units += [
+                _UnitForce(number=k, at=at, force=force, couple=couple, apart=zero, apart_couple=none)
+                for force, couple in both
+            ]
+            continue
+        (_, second), pressing = contact_forces(motion, joint_of_connection(motion)[connection.joint])
+        sign = 1 if second == links[connection.second] else -1
+        for its in pressing:
+            arm = np.conj(its.at / lower.size - at)
+            units.append(
+                _UnitForce(
+                    number=k,
+                    at=at,
+                    force=sign * its.force,
+                    couple=sign * ((arm * its.force).imag + its.couple / lower.size),
+                    apart=sign * its.apart,
+                    apart_couple=sign * (arm * its.apart).imag,
+                )
+            )
+    return units
+
+
+def _at_once(motion: Motion, units: Sequence[_UnitForce], given: LinkLoads, rows: slice) -> list[Reactions]:
+    lower, count, cases = motion.lower_linkage, len(units), len(given.force)
+    each = np.stack([given.force.real, given.force.imag, given.moment], axis=2)  # cases, links, parts, rows
+    loads = each.reshape(cases, -1, each.shape[-1]).transpose(2, 1, 0)
+    answer, singular = _responses(motion, units, loads, rows)
+    turning = np.array([drive.turning for drive in lower.mechanism.drives], bool)
+    pressing = [k for k, unit in enumerate(units) if unit.apart.any()]
+    senses, parts = np.sign(answer[:, :count, 0]), []
+    for case in range(cases):
+        unknowns = answer[..., case].copy()
+        sizes = senses * answer[:, :count, case]
+        for k, column in zip(pressing, range(cases, answer.shape[2]), strict=True):
+            unknowns += sizes[:, k, None] * answer[..., column]
+        forces = np.zeros((len(unknowns), len(joint_connections(motion))), np.complex128)
+        couples = np.zeros(forces.shape)
+        for k, unit in enumerate(units):
+            forces[:, unit.number] += unknowns[:, k] * unit.force + sizes[:, k] * unit.apart
+            couples[:, unit.number] += unknowns[:, k] * unit.couple + sizes[:, k] * unit.apart_couple
+        drives = unknowns[:, count:] * np.where(turning, lower.size, 1.0)
+        driven = len(motion.linkage.mechanism.drives)
+        parts.append(Reactions(forces, couples * lower.size, drives[:, :driven], singular))
+    return parts
+
+
+def _responses(motion: Motion, units: Sequence[_UnitForce], loads: Reals, rows: slice | Rows) -> tuple[Reals, Flags]:
+    """The unknowns for each case of loads, (rows, 3 links, cases), then for what presses apart; where none are."""
+    lower = motion.lower_linkage
+    columns, sideways = _columns(motion, units, rows)
     frame = lower.mechanism.chain.links.index(lower.mechanism.frame)
     bodies = [3 * k + part for k in range(len(lower.mechanism.chain.links)) if k != frame for part in range(3)]
     matrix = columns[:, bodies]
@@ -171,51 +265,49 @@ def _at_once(motion: Motion, given: LinkLoads, rows: slice) -> list[Reactions]:
             unknowns=matrix.shape[2],
             equations=matrix.shape[1],
         )
-    each = np.stack([given.force.real, given.force.imag, given.moment], axis=2)  # cases, links, parts, rows
-    loads = each.reshape(len(each), -1, len(matrix))[:, bodies].transpose(2, 1, 0)
     probe = np.random.default_rng(0).uniform(0.5, 1.0, (len(matrix), len(bodies), 1))
-    answer = _solved(matrix, np.concatenate([probe, -loads], axis=2))
+    answer = _solved(matrix, np.concatenate([probe, -loads[:, bodies], -sideways[:, bodies]], axis=2))
     with np.errstate(invalid="ignore"):
         singular = ~(np.abs(answer[..., 0]).max(axis=1, initial=0.0) < GROWTH)
-    slides = np.array([contact.slides for contact in held], bool)
-    turning = np.array([drive.turning for drive in lower.mechanism.drives], bool)
-    parts = []
-    for case in range(1, answer.shape[2]):
-        unknown_forces = np.where(singular[:, None], np.nan, answer[..., case])
-        first, second = unknown_forces[:, 0 : 2 * len(held) : 2], unknown_forces[:, 1 : 2 * len(held) : 2]
-        forces = np.where(slides, directions * first, first + 1j * second)
-        drives = unknown_forces[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
-        parts.append(Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular))
-    return parts
+    answer[singular] = np.nan
+    return answer[..., 1:], singular
 
 
-def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> tuple[Reals, Complexes]:
+def _held_apart(motion: Motion, units: Sequence[_UnitForce]) -> list[_UnitForce]:
+    """The unknowns, without what presses apart where the distance is not held: pitch circles, which do no work so."""
+    if not any(unit.apart.any() for unit in units):
+        return list(units)
+    rows = np.unique(np.linspace(0, len(motion) - 1, _LOOKS).astype(int))
+    nothing = np.zeros((len(rows), 3 * len(motion.links), 0))
+    answer, _ = _responses(motion, [unit.of_rows(rows) for unit in units], nothing, rows)
+    pressing = [k for k, unit in enumerate(units) if unit.apart.any()]
+    working = np.abs(answer[:, [*pressing, *range(len(units), answer.shape[1])]]).max(axis=1, initial=0.0)
+    freed = {k for k, size in zip(pressing, np.nan_to_num(working).max(axis=0), strict=True) if size > _WORKLESS}
+    return [unit.without_apart if k in freed else unit for k, unit in enumerate(units)]
+
+
+def _columns(motion: Motion, units: Sequence[_UnitForce], rows: slice | Rows) -> tuple[Reals, Reals]:
     """What each unknown does to each link (x, y, moment about its origin): (rows, 3 links, unknowns).
 
-    Unknowns: x, y of a pin's force, normal force and couple of a slide, then the drives. Second come the directions of
-    the slides' normal forces, (rows, contacts).
+    Unknowns: those of the joints, then the drives. Second comes what acts besides where something presses apart.
     """
     lower, (places, turns) = motion.lower_linkage, _pose(motion, rows)
     links, count = places.shape
-    drives = [_drive(lower, k) for k in range(len(lower.mechanism.drives))]
-    acts = _Actions(places, np.zeros((count, 3 * links, 2 * len(held) + len(drives))))
-    directions = np.ones((count, len(held)), np.complex128)
-    for k, contact in enumerate(held):
-        at, line = _meeting(lower, places, turns, contact)
-        if contact.slides:
-            directions[:, k] = 1j * line
-            acts.force(contact, 2 * k, 1j * line, at)
-            acts.couple(contact, 2 * k + 1)
-        else:
-            acts.force(contact, 2 * k, np.ones_like(line), at)
-            acts.force(contact, 2 * k + 1, 1j * np.ones_like(line), at)
-    for column, drive in enumerate(drives, 2 * len(held)):
+    held, drives = joint_connections(motion), range(len(lower.mechanism.drives))
+    pressing = [unit for unit in units if unit.apart.any()]
+    acts = _Actions(places, np.zeros((count, 3 * links, len(units) + len(drives))))
+    sideways = _Actions(places, np.zeros((count, 3 * links, len(pressing))))
+    for column, unit in enumerate(units):
+        acts.act(held[unit.number], column, unit.at, unit.force, unit.couple)
+    for column, unit in enumerate(pressing):
+        sideways.act(held[unit.number], column, unit.at, unit.apart, unit.apart_couple)
+    for column, drive in enumerate((_drive(lower, k) for k in drives), len(units)):
+        at, line = _meeting(lower, places, turns, drive)
         if drive.slides:
-            at, line = _meeting(lower, places, turns, drive)
-            acts.force(drive, column, line, at)
+            acts.act(drive, column, at, line, 0.0)
         else:
-            acts.couple(drive, column)
-    return acts.columns, directions
+            acts.act(drive, column, at, 0 * line, 1.0)
+    return acts.columns, sideways.columns
 
 
 class _Actions(NamedTuple):
@@ -224,19 +316,15 @@ class _Actions(NamedTuple):
     places: Complexes
     columns: Reals
 
-    def force(self, pair: JointConnection, column: int, direction: Complexes, at: Complexes) -> None:
+    def act(self, pair: JointConnection, column: int, at: Complexes, force: Complexes, couple: Reals | float) -> None:
         for link, sign in ((pair.second, 1), (pair.first, -1)):
-            self.columns[:, 3 * link, column] += sign * direction.real
-            self.columns[:, 3 * link + 1, column] += sign * direction.imag
-            arm = at - self.places[link]
-            self.columns[:, 3 * link + 2, column] += sign * (np.conj(arm) * direction).imag
-
-    def couple(self, pair: JointConnection, column: int) -> None:
-        self.columns[:, 3 * pair.second + 2, column] += 1
-        self.columns[:, 3 * pair.first + 2, column] -= 1
+            self.columns[:, 3 * link, column] += sign * force.real
+            self.columns[:, 3 * link + 1, column] += sign * force.imag
+            arm = np.conj(at - self.places[link])
+            self.columns[:, 3 * link + 2, column] += sign * ((arm * force).imag + couple)
 
 
-def _pose(motion: Motion, rows: slice) -> tuple[Complexes, Complexes]:
+def _pose(motion: Motion, rows: slice | Rows) -> tuple[Complexes, Complexes]:
     """Origins in sizes and turns of the links; (links, rows) each."""
     places = motion.places[0, rows].T / motion.lower_linkage.size
     return places, np.ascontiguousarray(motion.turns[rows].T)

@@ -20,12 +20,14 @@ from gruebler.mechanics.forces.equilibrium import (
     joint_connections,
     joint_of_connection,
     link_loads,
+    pressed_apart,
     reactions,
 )
 from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.quantities import as_finite
+from gruebler.mechanics.linkages.wheels import round_joints
 from gruebler.structure.chain.spaces import Freedom
 
 PerJoint = float | Mapping[str, float]
@@ -193,6 +195,10 @@ def with_friction(
     Raises `LinkageError` for joints that are not there or have no such size, and for drives without a direction.
     """
     expect(friction, Friction)
+    if any(pressed_apart(motion)):
+        raise LinkageError(
+            "friction beside teeth or belts is not solved: on which flank or strand they press would depend on it"
+        )
     contacts = _contacts(motion, friction)
     rates = _rates(motion, contacts)
     directions = _directions(motion, contacts, rates, friction.backward)
@@ -230,7 +236,11 @@ def _contacts(motion: Motion, friction: Friction) -> tuple[RubbingContact, ...]:
     for k, connection in enumerate(joint_connections(motion)):
         number = number_of[connection.joint]
         coefficient, radius, length, height = (values[number] for values in sizes.values())
-        if not coefficient or not (connection.slides or radius):
+        if (
+            not coefficient
+            or not (connection.slides or radius)
+            or not lower.chain.joints[connection.joint].pair.is_basic
+        ):
             continue
         first, second = links[connection.first], links[connection.second]
         mover, other = (first, second) if _moves(first, second, motion) else (second, first)
@@ -265,15 +275,16 @@ def _moves(first: str, second: str, motion: Motion) -> bool:
 
 def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, rubbing: Freedom | None) -> list[float]:
     """One number for each joint of the linkage; a size only for joints that rub in this freedom."""
-    chain = motion.linkage.mechanism.chain
+    mechanism = motion.linkage.mechanism
+    chain = mechanism.chain
     named = given if isinstance(given, Mapping) else {"*": given}
     values = [float(named.get("*", default))] * len(chain.joints)
     for joint, value in named.items():
         if joint == "*":
             continue
         number = chain.joint_number(joint, error=LinkageError)
-        pair = chain.joints[number].pair
-        if rubbing and (pair.rolls or rubbing not in pair.freedoms[chain.space]):
+        pair, touching = chain.joints[number].pair, number in round_joints(mechanism, motion.linkage.elements)
+        if rubbing and (touching or pair.rolls or rubbing not in pair.freedoms[chain.space]):
             raise LinkageError(
                 "{name}: {joint} does not turn on a pin" if rubbing.turns else "{name}: {joint} does not slide",
                 name=name,
@@ -297,7 +308,7 @@ def _by_joint(motion: Motion, name: str, given: PerJoint, default: float, rubbin
 
 def _rates(motion: Motion, contacts: Sequence[RubbingContact]) -> Reals:
     """(rows, contacts, drives): how fast the second link slides or turns against the first, for each drive alone."""
-    drives = len(motion.lower_linkage.mechanism.drives)
+    drives = len(motion.linkage.mechanism.drives)
     rates = np.full((len(motion), len(contacts), drives), np.nan)
     for k in range(drives):
         for rows, moved in with_velocities(motion, np.eye(drives)[k]):
@@ -338,7 +349,7 @@ def _velocity(motion: Motion, link: int, arm: complex) -> Complexes:
 
 def _directions(motion: Motion, contacts: Sequence[RubbingContact], rates: Reals, backward: bool) -> Reals:
     """(rows, contacts): the sense of each contact's motion; 0 where it rests, NaN where velocities are unknown."""
-    mechanism = motion.lower_linkage.mechanism
+    mechanism = motion.linkage.mechanism
     speeds = motion.speeds[0] if motion.speeds is not None and motion.order else None
     if speeds is None:
         if len(mechanism.drives) > 1:

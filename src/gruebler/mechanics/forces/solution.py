@@ -13,15 +13,15 @@ from gruebler.base.columns import Tabled
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
-from gruebler.base.text import Message, joined, message
+from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.mechanics.forces.acting import Wrench, loads_over_rows
 from gruebler.mechanics.forces.equilibrium import (
     JointConnection,
     Reactions,
     joint_connections,
     joint_of_connection,
-    joints_left_out,
     link_loads,
+    pressed_apart,
     reactions,
 )
 from gruebler.mechanics.forces.friction import Friction, FrictionForces, PerJoint, as_friction, with_friction
@@ -29,6 +29,8 @@ from gruebler.mechanics.forces.loads import Loads
 from gruebler.mechanics.forces.motion_rates import drive_speed, with_velocities
 from gruebler.mechanics.forces.taking_apart import LinkLoads
 from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.lower_pairs import joints_left_out
 
 _SINGULAR = message(
     "At the drive values {values} the joint forces are not determined: the links are not held there (a limit of the "
@@ -55,8 +57,16 @@ _RESTS = message(
     "At the drive values {values} {joint} is at rest and turns back: no friction there, but just before and behind it."
 )
 _EFFORT = message("Effort of the drive {drive}: {low:n} to {high:n} {unit}.")
+_PRESSED = message(
+    "In {joints} teeth press under their pressure angle, and belts pull in one strand; what a preload of a belt adds "
+    "is left out."
+)
+_PITCH_CIRCLES = message(
+    "In {joints} no link holds the distance of the wheels: the force is that of pitch circles, without pressure angle."
+)
 _RUBS_NOT = message("Nothing rubs: there are no slides with a coefficient of friction, and no pins with a radius.")
 _MOST_VALUES = 6
+_SPINS = 1e-9  # of the loads on a roller, times the linkage's size: a moment that is more than rounding
 _NONE = 1e-13  # of the loads: a smaller effort is none
 
 
@@ -207,7 +217,17 @@ class Statics(Tabled):
         unknown = np.asarray(np.isnan(without).any(axis=1))
         parts = ((_SINGULAR, self.singular), (_UNKNOWN, unknown))
         sentences = [text.filled(values=self._values(rows)) for text, rows in parts if rows.any()]
-        return joined([*sentences, *self._of_friction()], " ").in_language(lang)
+        return joined([*sentences, *self._of_contacts(), *self._of_friction()], " ").in_language(lang)
+
+    def _of_contacts(self) -> list[Message]:
+        """What is to be said of teeth and belts."""
+        title = self.motion.linkage.mechanism.chain.joint_title
+        said = zip((_PRESSED, _PITCH_CIRCLES), self._pressed, strict=True)
+        return [text.filled(joints=joined_by_and([*map(title, sorted(joints))])) for text, joints in said if joints]
+
+    @cached_property
+    def _pressed(self) -> tuple[set[int], set[int]]:
+        return pressed_apart(self.motion)
 
     def _of_friction(self) -> list[Message]:
         """What is to be said of friction."""
@@ -347,17 +367,35 @@ def equilibrium(
         raise LinkageError("no joint is driven: nothing holds the loads")
     if not _are_times(times, len(motion)):
         raise LinkageError("times: expected seconds, one number or one a row, but found {times!r}", times=times)
-    if motion.plan.released or joints_left_out(motion):
+    if motion.plan.released or joints_left_out(motion.linkage):
         raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on their stiffness")
-    wrenches = (*loads_over_rows(motion, loads, times), *besides)
+    given = loads_over_rows(motion, loads, times)
     if not len(motion):
         raise LinkageError("the motion has no rows. {reason}", reason=motion.reason)
+    _check_rollers(motion, given)
+    wrenches = (*given, *besides)
     loads_of_links = link_loads(motion, wrenches)
     work = _virtual_work(motion, loads_of_links)
     if friction is None:
         return Statics(motion=motion, wrenches=wrenches, reactions=reactions(motion, [loads_of_links])[0], work=work)
     forces, rubbing = with_friction(motion, wrenches, as_friction(friction), work)
     return Statics(motion=motion, wrenches=wrenches, reactions=forces, work=work + rubbing.effort, friction=rubbing)
+
+
+def _check_rollers(motion: Motion, wrenches: tuple[Wrench, ...]) -> None:
+    """`LinkageError` for loads that would spin a roller, whose spin nothing holds; docs/theory/wheels.md."""
+    lower = motion.lower_linkage
+    for drive in lower.mechanism.drives[len(motion.linkage.mechanism.drives) :]:
+        name = next(link for link in lower.mechanism.chain.joints[drive.joint].links if _carries_circle(lower, link))
+        its, pin = [wrench for wrench in wrenches if wrench.place.link == name], lower.elements[drive.joint, name]
+        loads, k = link_loads(motion, its), motion.link_index(name)
+        moment = loads.moment[k] - (np.conj(motion.turns[:, k] * complex(pin.x, pin.y)) * loads.force[k]).imag
+        if np.abs(moment).max() > _SPINS * (motion.size * np.abs(loads.force[k]).max() + np.abs(loads.moment[k]).max()):
+            raise LinkageError("{link!r} is free to spin: nothing holds a moment about its pin", link=name)
+
+
+def _carries_circle(lower: Linkage, link: str) -> bool:
+    return any(element.is_smooth for (_, owner), element in lower.elements.items() if owner == link)
 
 
 def _are_times(times: ArrayLike, rows: int) -> bool:
@@ -367,7 +405,7 @@ def _are_times(times: ArrayLike, rows: int) -> bool:
 
 def _virtual_work(motion: Motion, loads: LinkLoads) -> Reals:
     """The efforts whose work on a small motion of each drive is that of the loads with the other sign."""
-    drives = len(motion.lower_linkage.mechanism.drives)
+    drives = len(motion.linkage.mechanism.drives)
     work = np.full((len(motion), drives), np.nan)
     if drives == 1 and motion.order and (speed := drive_speed(motion)).all():
         work[:, 0] = -_power(loads, motion) / speed

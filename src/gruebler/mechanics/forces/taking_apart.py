@@ -65,7 +65,8 @@ def removal_steps(linkage: Linkage) -> tuple[HeldLink | HeldDyad, ...] | None:
     mechanism = linkage.mechanism
     number = {link: k for k, link in enumerate(mechanism.chain.links)}
     left = [{number[link] for link in joint.links} for joint in mechanism.chain.joints]
-    if any(joint.pair.is_sliding and len(joint.links) > 2 for joint in mechanism.chain.joints):
+    joints = mechanism.chain.joints
+    if any(not joint.pair.is_basic or (joint.pair.is_sliding and len(joint.links) > 2) for joint in joints):
         return None
     drives = [(drive.joint, {number[link] for link in drive.between}) for drive in mechanism.drives]
     moving = set(number.values()) - {number[mechanism.frame]}

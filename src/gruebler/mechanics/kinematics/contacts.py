@@ -131,8 +131,12 @@ class MovingTouch(Generic[First_co, Second_co]):
     @property
     def gap(self) -> Complexes:
         """From the first element's point to the other's; (rows,)."""
-        (a, b), first, second = self.links, self.first, self.second
-        return point_at(self.poses, b, second.x, second.y) - point_at(self.poses, a, first.x, first.y)
+        return self.turned.centre - self.centre
+
+    @property
+    def centre(self) -> Complexes:
+        """The first element's point; (rows,)."""
+        return point_at(self.poses, self.links[0], self.first.x, self.first.y)
 
     @property
     def directions(self) -> Complexes:
@@ -305,13 +309,18 @@ def contact_conditions(
     return CONTACT_MOTIONS[contact.kinds].conditions(touch if in_order(contact, touch.first) else touch.turned)
 
 
-def contact_opening(poses: LinkPoses, joint: int) -> float:
-    """How far round elements leave each other, or turn against each other since the first row; a length."""
+def moving_touch(poses: LinkPoses, joint: int) -> MovingTouch[Element, Element]:
+    """A joint of the linkage whose elements touch, in the order of their row."""
     chain = poses.linkage.mechanism.chain
     a, b = chain.joints[joint].links
     touch: MovingTouch[Element, Element] = MovingTouch(poses, joint, (a, b), chain.joints[joint].pair.rolls)
-    contact = contact_of(touch.first, touch.second)
-    return CONTACT_MOTIONS[contact.kinds].opening(touch if in_order(contact, touch.first) else touch.turned)
+    return touch if in_order(contact_of(touch.first, touch.second), touch.first) else touch.turned
+
+
+def contact_opening(poses: LinkPoses, joint: int) -> float:
+    """How far round elements leave each other, or turn against each other since the first row; a length."""
+    touch = moving_touch(poses, joint)
+    return CONTACT_MOTIONS[contact_of(touch.first, touch.second).kinds].opening(touch)
 
 
 def _check_phase(touch: Touch[NonCircular, NonCircular], condition: Condition) -> None:
@@ -339,15 +348,17 @@ def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
     return replace(raw, values=(a, b, a * first + b * second))
 
 
-def law_at(law: PiecewiseLaw, angle: float) -> float:
-    """The value of a law."""
+def law_at(law: PiecewiseLaw, angle: float, order: int = 0) -> float:
+    """The value of a law, or a derivative by the angle."""
     turns = floor((angle - law.pieces[0][0] + law.pieces[0][1]) / (2 * pi))
     place = angle - 2 * pi * turns
     middle, half, *coefficients = next(p for p in reversed(law.pieces) if place >= p[0] - p[1] or p is law.pieces[0])
+    for _ in range(order):
+        coefficients = [k * c / half for k, c in enumerate(coefficients)][1:]
     value = 0.0
     for c in reversed(coefficients):
         value = value * (place - middle) / half + c
-    return value + turns * law.advance
+    return value if order else value + turns * law.advance
 
 
 def reference_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:

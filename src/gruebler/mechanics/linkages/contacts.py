@@ -103,6 +103,8 @@ def _check_wheels(joined: JoinedElements[Wheel, Wheel]) -> None:
         raise LinkageError("{name}: a belt is not a rolling contact; write it as a roll-slide joint G", name=name)
     if bool(first.teeth) != bool(second.teeth):
         raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
+    if first.pressure_angle != second.pressure_angle:
+        raise LinkageError("{name}: teeth that mesh have one pressure angle", name=name)
     if first.teeth and abs(first.radius / first.teeth - second.radius / second.teeth) > _SAME * abs(
         first.radius / first.teeth
     ):

@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import KW_ONLY, dataclass, replace
-from math import cos, hypot, isfinite, sin
+from math import cos, hypot, isfinite, radians, sin
 from typing import ClassVar, Literal, NamedTuple, Self, TypeVar, final
 
 from gruebler.base.angles import warn_of_degrees
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 
+PRESSURE_ANGLE = radians(20)
+"""Of teeth for which none is given, as in ISO 53."""
+_STEEPEST = radians(60)
 Where = str | Message
 """The place of an element in what was given, for messages."""
 
@@ -140,6 +143,8 @@ class Wheel(Element):
     _: KW_ONLY
     teeth: int = 0
     belt: str = ""
+    pressure_angle: float = PRESSURE_ANGLE
+    """Of its teeth, in radians: between the common normal and the common tangent of the pitch circles."""
 
     title = message("a wheel (at, radius or teeth)")
     form = "round"
@@ -166,7 +171,14 @@ class Wheel(Element):
             raise LinkageError(
                 "{where}: a wheel of a belt has a positive radius, not {radius:g}", where=where, radius=radius
             )
-        return Wheel(x, y, radius, teeth=teeth, belt=self.belt)
+        pressure = _number(self.pressure_angle, where)
+        if not 0 <= pressure < _STEEPEST:
+            raise LinkageError(
+                "{where}: the pressure angle of teeth lies from 0° to below 60°, not {pressure!r} rad",
+                where=where,
+                pressure=self.pressure_angle,
+            )
+        return Wheel(x, y, radius, teeth=teeth, belt=self.belt, pressure_angle=pressure)
 
 
 @final

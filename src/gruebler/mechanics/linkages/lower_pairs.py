@@ -86,6 +86,18 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
     )
 
 
+def joints_before(linkage: Linkage) -> tuple[int, ...]:
+    """For each joint of `with_lower_pairs` that of the linkage: one that a block splits stands for two in a row."""
+    split, idle, _ = _to_do(linkage)
+    kept = [number for number in range(len(linkage.mechanism.chain.joints)) if number not in idle]
+    return tuple(number for number in kept for _ in range(1 + (number in split)))
+
+
+def joints_left_out(linkage: Linkage) -> bool:
+    """Whether `with_lower_pairs` leaves contacts out that say nothing new."""
+    return bool(_to_do(linkage)[1])
+
+
 def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
     """The joints to split, to leave out, and to take for a roll-slide pair."""
     mechanism, elements = linkage.mechanism, linkage.elements
