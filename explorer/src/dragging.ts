@@ -3,6 +3,7 @@
 import { type Distance, kept } from "./keeping";
 import type { Rows } from "./kernel";
 import { type Linkage, Refused } from "./linkage";
+import { Locks } from "./locks";
 import { placeBlocks, readState } from "./reading";
 import { direction, move, oneRow, type Pair, place, putOrigin, putTurn, turn } from "./rows";
 import type { Cylinder } from "./sizes";
@@ -28,11 +29,11 @@ export class Dragging {
   private readonly meshes: readonly Mesh[];
   /** Of each joint that is the centre of a wheel which can be moved around another one. */
   private readonly pivots: readonly (Pivot | null)[];
-  /** Joints that stay where they are while others are dragged, and lengths that do, by their elements. */
-  readonly held = new Set<number>();
-  private readonly lengthsKept = new Map<string, Pair>();
+  /** What stays as it is while joints are dragged. */
+  readonly locks: Locks;
 
   constructor(private readonly linkage: Linkage) {
+    this.locks = new Locks(linkage);
     const { model, sizes } = linkage;
     const held = model.joints.map((_, joint) => this.touches(joint));
     // an axis goes with those of wheels at the same place of its link
@@ -68,23 +69,7 @@ export class Dragging {
   }
 
   draggable(joint: number): boolean {
-    return !this.held.has(joint) && (!this.locked[joint] || this.pivots[joint] !== null);
-  }
-
-  /** Let a joint stay, or not. */
-  hold(joint: number): void {
-    if (!this.held.delete(joint)) this.held.add(joint);
-  }
-
-  /** Whether a length stays as it is; between lines none does. */
-  keeps(first: number, second: number): boolean {
-    return this.lengthsKept.has(`${first} ${second}`);
-  }
-
-  /** Let a length between two pins stay, or not. */
-  keep(first: number, second: number): void {
-    const key = `${first} ${second}`;
-    if (!this.lengthsKept.delete(key)) this.lengthsKept.set(key, [first, second]);
+    return !this.locks.held.has(joint) && (!this.locked[joint] || this.pivots[joint] !== null);
   }
 
   /** Where a joint comes to when it is dragged to a place. */
@@ -126,15 +111,24 @@ export class Dragging {
     });
   }
 
-  /** Where joints come to when one is dragged: others follow where lengths are kept, and move as little as they can. */
+  /** Where joints come to when one is dragged: others follow where lengths and directions are kept, and move as little
+   * as they can. */
   private placesWith(joint: number, x: number, y: number): Map<number, Pair> {
-    const { linkage, lengthsKept } = this;
+    const { linkage, locks } = this;
     const { model, sizes } = linkage;
-    if (!lengthsKept.size) return new Map([[joint, [x, y]]]);
+    const directions = locks.pairs("direction");
+    if (!locks.pairs("length").length && !directions.length) return new Map([[joint, [x, y]]]);
     const before = model.joints.map((_, k) => linkage.jointAt(k));
     const joints = ([one, two]: Pair) => [sizes.element(one).joint, sizes.element(two).joint] as const;
-    const distances = [...lengthsKept.values()].map((pair): Distance => [...joints(pair), sizes.gap(...pair)]);
-    const ease = before.map((_, k): number => (this.held.has(k) || this.locked[k] ? 0 : 1));
+    const distances = [
+      ...locks.pairs("length").map((pair): Distance => [...joints(pair), sizes.gap(...pair)]),
+      ...directions.map((pair): Distance => {
+        const [[px, py], [qx, qy]] = [linkage.elementAt(pair[0]), linkage.elementAt(pair[1])];
+        const far = Math.hypot(qx - px, qy - py);
+        return [...joints(pair), far, [(qx - px) / far, (qy - py) / far]];
+      }),
+    ];
+    const ease = before.map((_, k): number => (locks.held.has(k) || this.locked[k] ? 0 : 1));
     const moving = distances.filter(([one, two]) => one === joint || two === joint || ease[one]! + ease[two]! > 0);
     const from = before.map((at, k): Pair => (k === joint ? [x, y] : at));
     const eased = (own: number) =>
@@ -153,7 +147,7 @@ export class Dragging {
   private isKept(link: number): boolean {
     const { model, sizes } = this.linkage;
     const mine = sizes.elementsOn(link);
-    const pairs = mine.flatMap((k, j) => mine.slice(0, j).map((m) => this.keeps(m, k)));
+    const pairs = mine.flatMap((k, j) => mine.slice(0, j).map((m) => this.locks.keeps("length", m, k)));
     // a triangle is fixed by its sides; what has more pins by the distances from the first two
     const wanted = mine.length < 2 ? Infinity : 2 * mine.length - 3;
     return link !== model.frame && mine.every((k) => sizes.is(k, "pin")) && pairs.filter(Boolean).length >= wanted;
@@ -317,9 +311,9 @@ export class Dragging {
     const { sizes } = this.linkage;
     const mine = sizes.elementsOn(sizes.element(first).link).filter((k) => sizes.is(k, "pin"));
     const number = (k: number) => mine.indexOf(k);
-    const others = [...this.lengthsKept.values()].filter(
-      ([one, two]) => number(one) >= 0 && (one !== first || two !== second),
-    );
+    const others = this.locks
+      .pairs("length")
+      .filter(([one, two]) => number(one) >= 0 && (one !== first || two !== second));
     const distances = others.map(([one, two]): Distance => [number(one), number(two), sizes.gap(one, two)]);
     const places = kept(
       mine.map((k) => (k === second ? at : sizes.xy(k))),

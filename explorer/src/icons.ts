@@ -14,6 +14,7 @@ const PATHS = {
   more: "M10 4v12M4 10h12",
   lock: "M5 9h10v8H5zM7 9V6a3 3 0 0 1 6 0v3",
   less: "M4 10h12",
+  angle: "M17 16H3L13 4M11 16a8 8 0 0 0-2.8-6",
 } as const;
 
 export type Icon = keyof typeof PATHS;

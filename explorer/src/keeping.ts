@@ -2,27 +2,32 @@
 
 import type { Pair } from "./rows";
 
-/** Two places by their numbers, and how far they shall be apart. */
-export type Distance = readonly [one: number, other: number, length: number];
+/** Two places by their numbers, and how far they shall be apart; or in which direction, at whatever distance. */
+export type Distance = readonly [one: number, other: number, length: number, direction?: Pair];
 
 const MOST_STEPS = 60;
 const RIDGE = 1e-13; // of the diagonal: distances that follow from others do no harm
 
 /**
  * The places after Newton's method on the distances, each step the shortest one, in which a place counts the less the
- * easier it moves; null if they cannot be met to a part of 1e-12.
+ * easier it moves; null if they cannot be met to a part of 1e-12, or a direction was turned round.
  */
 export function kept(places: readonly Pair[], distances: readonly Distance[], ease: readonly number[]): Pair[] | null {
   const at = places.map(([x, y]): Pair => [x, y]);
   const size = Math.max(...distances.map(([, , length]) => length));
   for (let step = 0; step < MOST_STEPS; step++) {
     // the direction from one to the other, and how much is missing
-    const rows = distances.map(([one, other, length]) => {
+    const rows = distances.map(([one, other, length, direction]) => {
       const [dx, dy] = [at[other]![0] - at[one]![0], at[other]![1] - at[one]![1]];
+      if (direction) {
+        const [c, s] = direction;
+        return { one, other, x: -s, y: c, missing: s * dx - c * dy, turned: !(c * dx + s * dy > 0) };
+      }
       const far = Math.hypot(dx, dy) || 1e-300;
-      return { one, other, x: dx / far, y: dy / far, missing: length - far };
+      return { one, other, x: dx / far, y: dy / far, missing: length - far, turned: false };
     });
-    if (rows.every(({ missing }) => Math.abs(missing) <= 1e-12 * size)) return at;
+    if (rows.every(({ missing }) => Math.abs(missing) <= 1e-12 * size))
+      return rows.some(({ turned }) => turned) ? null : at;
     const moves = (place: number, row: (typeof rows)[number]) =>
       (place === row.other ? 1 : 0) - (place === row.one ? 1 : 0);
     const matrix = rows.map((a, k) =>

@@ -79,7 +79,7 @@ export class MotionView implements View, Editor, Driven {
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
         addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
         holdJoint: (joint) => {
-          this.dragging.hold(joint);
+          this.attempt(() => this.dragging.locks.hold(joint));
           this.show();
           this.stage.focus(joint);
         },

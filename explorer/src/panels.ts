@@ -6,6 +6,7 @@ import type { Dragging, Length } from "./dragging";
 import { icon } from "./icons";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
+import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
 import { ownColour, type Shown } from "./shown";
 import type { Page } from "./view";
@@ -70,7 +71,7 @@ export class SizeRows {
       return;
     }
     sizes.forEach(({ first, second, value }, k) => {
-      this.locks[k]!.setAttribute("aria-pressed", String(editor.dragging.keeps(first, second)));
+      for (const button of this.locks[k]!.children) showLock(editor, button as HTMLElement, first, second);
       this.fields[k]!.value = number(value, 7);
       this.fields[k]!.setAttribute("aria-invalid", "false");
     });
@@ -104,23 +105,35 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
   const ends = `${others(first)} – ${others(second)}`;
   const label = h("label", { for: id, title: `${name}: ${ends}` }, h("b", {}, name), alone ? "" : ` ${ends}`);
   const pins = [first, second].every((k) => linkage.sizes.is(k, "pin"));
-  return [label, input, h("span.unit", {}, unit), pins ? lockOf(editor, first, second, name) : h("span", {})];
+  return [
+    label,
+    input,
+    h("span.unit", {}, unit),
+    h("span.locks", {}, ...(pins ? locksOf(editor, first, second, name) : [])),
+  ];
 }
 
-/** Keeps a length while joints are dragged. */
-function lockOf(editor: Editor, first: number, second: number, name: string): HTMLElement {
-  const press = () => {
-    editor.dragging.keep(first, second);
-    button.setAttribute("aria-pressed", String(editor.dragging.keeps(first, second)));
+/** Buttons that keep a length, or a direction, while joints are dragged. */
+function locksOf(editor: Editor, first: number, second: number, name: string): HTMLElement[] {
+  const lock = (kind: Kept, title: string) => {
+    const onclick = () => editor.attempt(() => editor.dragging.locks.keep(kind, first, second));
+    const button = h(
+      "button.lock",
+      { title, "aria-label": `${title}: ${name}`, "data-lock": kind, onclick },
+      icon(kind === "length" ? "lock" : "angle"),
+    );
+    showLock(editor, button, first, second);
+    return button;
   };
-  const title = t("Keep this length while joints are dragged");
-  const pressed = String(editor.dragging.keeps(first, second));
-  const button = h(
-    "button.lock",
-    { title, "aria-label": `${title}: ${name}`, "aria-pressed": pressed, onclick: press },
-    icon("lock"),
-  );
-  return button;
+  return [
+    lock("length", t("Keep this length while joints are dragged")),
+    lock("direction", t("Keep this direction while joints are dragged")),
+  ];
+}
+
+function showLock({ dragging }: Editor, button: HTMLElement, first: number, second: number): void {
+  const pressed = dragging.locks.keeps(button.dataset.lock as Kept, first, second);
+  button.setAttribute("aria-pressed", String(pressed));
 }
 
 // --- points ----------------------------------------------------------------------------------------------------------

@@ -114,7 +114,7 @@ export class Pointer {
     let best: number | null = null;
     let least = reach;
     for (const joint of joints) {
-      if (!dragging!.draggable(joint) && !(held && dragging!.held.has(joint))) continue;
+      if (!dragging!.draggable(joint) && !(held && dragging!.locks.held.has(joint))) continue;
       const [px, py] = viewport.screen(...linkage!.jointAt(joint));
       const gap = Math.hypot(px - x, py - y);
       if (gap < least) [best, least] = [joint, gap];

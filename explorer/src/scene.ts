@@ -93,7 +93,7 @@ export class Scene {
 
   private pin({ model }: Linkage, number: number, dragging: Dragging): SVGGElement {
     const joint = model.joints[number]!;
-    const held = dragging.held.has(number);
+    const held = dragging.locks.held.has(number);
     const free = held || dragging.draggable(number);
     const ground = joint.links.includes(model.frame) && joint.pair.turning;
     const element = svg("g", {

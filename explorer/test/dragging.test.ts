@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { applyDocument, documentOf } from "../src/document";
-import { Dragging } from "../src/dragging";
+import { applyDocument, documentOf, savedDocument } from "../src/document";
+import { Dragging, type Length } from "../src/dragging";
 import { type Distance, kept } from "../src/keeping";
 import { Linkage, Refused } from "../src/linkage";
 import { onCircle } from "../src/wheels";
@@ -149,14 +149,14 @@ test("a damaged document is refused, and nothing is changed", () => {
 function keeping(...lengths: number[]): { linkage: Linkage; dragging: Dragging } {
   const { linkage, dragging } = upright();
   const all = dragging.lengths();
-  for (const k of lengths) dragging.keep(all[k]!.first, all[k]!.second);
+  for (const k of lengths) dragging.locks.keep("length", all[k]!.first, all[k]!.second);
   return { linkage, dragging };
 }
 
 test("a length that is kept takes the neighbours of a dragged joint along", () => {
   const { linkage, dragging } = keeping(1, 2); // crank and coupler
-  dragging.hold(A);
-  dragging.hold(D);
+  dragging.locks.hold(A);
+  dragging.locks.hold(D);
   const [, , c] = JOINTS.map((joint) => linkage.jointAt(joint));
   dragging.dragJoint(C, c![0] + 3, c![1] - 2);
   const [a, b, now, d] = JOINTS.map((joint) => linkage.jointAt(joint)) as [number, number][];
@@ -170,16 +170,61 @@ test("a length that is kept takes the neighbours of a dragged joint along", () =
 
 test("all lengths kept, a joint pulled beyond its reach ends on its circle, and the linkage moves", () => {
   const { linkage, dragging } = keeping(0, 1, 2, 3);
-  dragging.hold(A);
-  dragging.hold(D);
+  dragging.locks.hold(A);
+  dragging.locks.hold(D);
   dragging.dragJoint(B, 40, 30);
   near(linkage.jointAt(B), [20, 15], 1e-5); // the nearest place on the circle of 25
   close(linkage.drives[0]!, Math.atan2(15, 20), 1e-6);
   assert.deepEqual(lengthsOf(dragging), [70, 25, 70, 40]);
   near(linkage.jointAt(D), [70, 0]);
   assert.ok(!dragging.draggable(A)); // it is held
-  dragging.hold(A);
+  dragging.locks.hold(A);
   assert.ok(dragging.draggable(A));
+});
+
+test("a direction that is kept is that of the drag, at any length; joints of files that are not there do no harm", () => {
+  const { linkage, dragging } = upright();
+  const [frame, , coupler] = dragging.lengths() as [Length, Length, Length];
+  dragging.locks.keep("direction", coupler.first, coupler.second);
+  for (const joint of [A, D]) dragging.locks.hold(joint);
+  const before = JOINTS.map((joint) => linkage.jointAt(joint)) as [number, number][];
+  dragging.dragJoint(C, before[2]![0] + 3, before[2]![1] - 2);
+  const [a, b, c, d] = JOINTS.map((joint) => linkage.jointAt(joint)) as [number, number][];
+  near([...a!, ...d!, ...c!], [0, 0, 70, 0, before[2]![0] + 3, before[2]![1] - 2]);
+  // B goes by what of (3, -2) lies across the coupler, from (0, 25) to C
+  const [u, v] = [before[2]![0] / 70, (before[2]![1] - 25) / 70];
+  const across = -v * 3 - u * 2;
+  near(b!, [-v * across, 25 + u * across]);
+  const { locks } = savedDocument(linkage).page as { locks: string[][] };
+  assert.deepEqual(locks[0], ["direction", "coupler", "R(crank-coupler)", "R(coupler-rocker)"]);
+  assert.deepEqual(locks.slice(1), [
+    ["joint", "R(frame-crank)"],
+    ["joint", "R(frame-rocker)"],
+  ]);
+  const other = new Linkage(fourBar(CRANK_ROCKER, Math.PI / 2));
+  applyDocument(other, {
+    ...documentOf(other),
+    page: { locks: [...locks, ["joint", "X"], ["length", "crank", "X", "Y"], ["joint"], [7]] },
+  });
+  assert.deepEqual(other.beside.locks?.length, 5);
+  const { locks: read } = new Dragging(other);
+  assert.ok(read.keeps("direction", coupler.first, coupler.second) && !read.keeps("length", frame.first, frame.second));
+  assert.deepEqual(
+    [...read.held].filter((joint) => joint >= 0),
+    [A, D],
+  );
+  // turned round it would be another direction
+  assert.equal(
+    kept(
+      [
+        [0, 0],
+        [-1, 0],
+      ],
+      [[0, 1, 1, [1, 0]]],
+      [0, 0],
+    ),
+    null,
+  );
 });
 
 test("distances are met with the least moves, also those that follow from others; what is impossible is not", () => {

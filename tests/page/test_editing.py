@@ -100,7 +100,7 @@ def test_a_drag_is_given_up(tab, crank_rocker):
 def test_lengths_and_joints_are_kept_while_others_are_dragged(tab, crank_rocker):
     page = tab().open(crank_rocker)
     for number in (1, 2):  # crank and coupler
-        page.page.locator(".lock").nth(number).click()
+        page.page.locator('[data-lock="length"]').nth(number).click()
     page.page.mouse.dblclick(*page.middle('[data-joint="R(frame-crank)"] .joint'))
     page.page.locator('[data-joint="R(frame-rocker)"]').press("Enter")
     held = page.page.locator('[aria-pressed="true"][data-joint]')
@@ -115,6 +115,25 @@ def test_lengths_and_joints_are_kept_while_others_are_dragged(tab, crank_rocker)
     page.page.keyboard.press("Control+z")
     assert page.page.evaluate(SIZES) == [70, 25, 70, 40]
     assert held.count() == 2
+
+
+def test_a_direction_that_is_kept_stays_in_the_link_and_is_undone(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    page.page.locator('[data-lock="direction"]').first.click()
+    page.page.locator('[data-joint="R(frame-crank)"]').press("Enter")
+    locks = [["direction", "frame", "R(frame-crank)", "R(frame-rocker)"], ["joint", "R(frame-crank)"]]
+    assert page.page.evaluate("gruebler.motion.document().page.locks") == locks
+    page.page.keyboard.press("Control+z")
+    assert page.page.evaluate("gruebler.motion.document().page.locks") == locks[:1]
+    page.page.keyboard.press("Control+y")
+    page.page.evaluate("gruebler.write()")
+    page.page.reload()
+    page.until(f"{ROOT}.querySelector('[data-lock=direction][aria-pressed=true]')")
+    page.drag(page.middle('[data-joint="R(frame-rocker)"] .joint'), (40, -60))
+    ends = page.page.evaluate("[0, 3].map((joint) => gruebler.motion.linkage.jointAt(joint))")
+    assert ends[0] == [0, 0]
+    scale = page.page.evaluate("gruebler.motion.stage.viewport.scale")
+    assert ends[1] == pytest.approx([70 + 40 / scale, 0], rel=0.1, abs=1e-9)
 
 
 def test_the_focus_stays_and_the_panel_does_not_jump(tab, server):
