@@ -63,6 +63,19 @@ def test_rssr_as_its_closed_form():
     assert abs(rod @ np.array([3, 1, 2.5, 1]) - np.append(motion.point("S(2-3)"), np.ones((73, 1)), 1)).max() < 1e-12
 
 
+def test_a_rod_that_points_back_has_a_pose_and_rates():
+    """A rod between the crank's ball and one in its axis: the length holds in every position, and it turns about z."""
+    mechanism = Mechanism.parse("spatial: R(0-1) S(1-2) S(2-0); drive=R(0-1)")
+    linkage = SpatialLinkage(mechanism, {0: {"z": Z}, 1: (1, 0, 0), 2: (0, 0, 0)})
+    turns = np.array([0, pi / 2, pi - 1e-5, pi, pi + 1e-2, 4.0])
+    motion = move(linkage, turns, order=3)
+    c, s = np.cos(turns), np.sin(turns)
+    wanted = np.moveaxis(np.array([[c, -s, 0 * c], [s, c, 0 * c], [0 * c, 0 * c, 1 + 0 * c]]), 2, 0)
+    assert motion.pose("2")[:, :3, :3] == pytest.approx(wanted, abs=1e-12)
+    assert motion.angular("2") == pytest.approx(np.tile(np.array(Z, float), (6, 1)), abs=1e-12)
+    assert abs(motion.angular("2", order=3)).max() < 1e-9
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_random_rssr_as_its_closed_form(seed):
     random = np.random.default_rng(seed)

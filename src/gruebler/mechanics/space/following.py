@@ -144,7 +144,8 @@ def _not_fixed(
     chain = tree.linkage.mechanism.chain
     motions = np.linalg.svd(by_unknown[:, passive])[2][-free:]
     moving = {int(k) for k in passive[np.abs(motions).max(axis=0) > RANK]}
-    names = [chain.joint_title(joint) for (joint, _), k in tree.unknown.items() if k in moving]
+    joints = dict.fromkeys(joint for (joint, _), k in tree.unknown.items() if k in moving)
+    names = [chain.joint_title(joint) for joint in joints]
     return LinkageError(
         "the drives do not fix the motion in the reference pose, F = {count} is left: {joints} still move; drive more "
         "joints, or take another reference pose if this one is singular"

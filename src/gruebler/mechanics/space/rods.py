@@ -1,7 +1,8 @@
 """Rods between two balls: their spin is idle, and is fixed by a rule, the shortest turn from the reference pose.
 
-With the directions u of the rod in the reference pose and v now, w = u × v and c = u · v, that turn is
-1 + [w] + [w]² / (1 + c). It depends on v alone, not on the way there, and is not defined where v = -u.
+With the directions u of the rod in the reference pose and v now, s = u + v, that turn is two half turns, about u and
+then about s. It depends on v alone, not on the way there. Where the rod points back, s is nearly 0, and the way leads by
+a direction across u.
 """
 
 from __future__ import annotations
@@ -9,10 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.mechanics.space.power_series import product, reciprocal, vector_product
+from gruebler.mechanics.screws.joint_places import JointPlace, joint_axes
+from gruebler.mechanics.space.power_series import product, reciprocal
 from gruebler.mechanics.space.tree import ClosureTree
+from gruebler.structure.chain.spaces import Space
 
-_OPPOSITE = 1e-12
+_OPPOSITE = 1e-3  # of a half turn: nearer to it the shortest turn spins as fast as it likes
 
 
 def place_rods(tree: ClosureTree, poses: Reals) -> None:
@@ -41,18 +44,25 @@ def _turned(a: Reals, b: Reals, first: Reals, second: Reals) -> Reals:
     """The series of poses that takes a and b to these points, (orders, ..., 3) each."""
     length = float(np.linalg.norm(b - a))
     u, v = (b - a) / length, (second - first) / length
-    c = v @ u
-    w = vector_product(np.broadcast_to(u, v.shape), v)
-    below = c.copy()
-    below[0] += 1
-    below[0] = np.where(below[0] < _OPPOSITE, np.nan, below[0])
-    k = np.zeros((*w.shape, 3))
-    k[..., 2, 1], k[..., 0, 2], k[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
-    k = k - np.swapaxes(k, -1, -2)
-    turn = k + product(product(k, k, np.matmul), reciprocal(below)[..., None, None], np.multiply)
-    turn[0] += np.eye(3)
-    pose = np.zeros((*w.shape[:-1], 4, 4))
+    back = np.linalg.norm(u + v[0], axis=-1) < _OPPOSITE
+    across = joint_axes(JointPlace(x=tuple(u.tolist())), Space.SPATIAL)[:, 1]
+    turn = _shortest(np.where(back[..., None], across, u), v)
+    if back.any():
+        turn = np.where(back[..., None, None], turn @ _shortest(u, across[None])[0], turn)
+    pose = np.zeros((*v.shape[:-1], 4, 4))
     pose[..., :3, :3] = turn
     pose[..., :3, 3] = first - turn @ a
     pose[0, ..., 3, 3] = 1
     return pose
+
+
+def _shortest(u: Reals, v: Reals) -> Reals:
+    """The series of the shortest turn from a direction to a series of directions: half turns about u and u + v."""
+    s = v.copy()
+    s[0] += u
+    square = product(s[..., None, :], s[..., :, None], np.matmul)[..., 0, 0]
+    turn = 2 * product(
+        product(s[..., :, None], s[..., None, :], np.multiply), reciprocal(square)[..., None, None], np.multiply
+    )
+    turn[0] -= np.eye(3)
+    return np.asarray(turn @ (2 * u[..., :, None] * u[..., None, :] - np.eye(3)))
