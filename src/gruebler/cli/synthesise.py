@@ -358,7 +358,7 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
         case FunctionTask():
             return synthesise_function(task, demands, minimax=arguments.minimax, **more)
         case DeadCentreTask():
-            return synthesise_dead_centres(task, demands, **more)
+            return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
         case PathTask():
             return synthesise_path(task, demands, progress=progress, **more)
     raise AssertionError(task)

@@ -6,7 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis import DeadCentreTask, synthesise_dead_centres
+from gruebler.design.synthesis import DeadCentreTask, Demands, synthesise_dead_centres
 from gruebler.design.synthesis.dead_centres import _member, dead_centre_family
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
@@ -93,3 +93,53 @@ def test_so_many_members_stand_for_the_family(number):
     assert len(angles) == number
     assert np.degrees(angles[0]) == pytest.approx(38.04, abs=0.01)
     assert min(angles) > np.radians(1)
+
+
+def test_the_best_is_sought_within_the_demands():
+    """By hand: of crank-rockers with 60 and 200 degrees the best has 38.04 degrees, at some size ratio above 3.
+
+    With a smaller ratio demanded the best lies where the ratio is reached; a grid of all crank lengths agrees.
+    """
+    task = DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(200))
+    free = synthesise_dead_centres(task).designs[0].verdict
+    limit = 0.9 * free.size_ratio
+    best = synthesise_dead_centres(task, Demands(size_ratio=limit)).designs[0].verdict
+    assert best.size_ratio == pytest.approx(limit, rel=1e-6)
+    grid = [m for p in np.linspace(0.01, 0.6, 5000) if (m := _member(task, float(p))) is not None]
+    lengths = np.array([(m.linkage.a, m.linkage.b, 1, m.linkage.d) for m in grid])
+    within = lengths.max(axis=1) <= limit * lengths.min(axis=1)
+    angles = np.array([m.transmission for m in grid])
+    assert best.transmission == pytest.approx(angles[within].max(), abs=2e-3)
+    assert best.transmission >= angles[within].max() - 1e-9
+
+
+def test_dead_centres_without_a_member_name_the_tightest_demand():
+    task = DeadCentreTask(swing=np.radians(60), crank_angle=np.radians(200))
+    found = synthesise_dead_centres(task, Demands(transmission=np.radians(39)))
+    assert not found.designs
+    tried = len(dead_centre_family(task).members) + 1  # and the best
+    assert f"Without the demand of a transmission angle of 39° there are {tried}." in map(str, found.notes)
+    assert synthesise_dead_centres(task, Demands(transmission=np.radians(38.03))).designs
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(0.1, 0.6), st.floats(0.5, 3), st.floats(0.5, 3))
+def test_given_lengths_fix_scale_and_member(a, b, d):
+    """Any crank-rocker comes back from its dead centres, its coupler and its crank."""
+    linkage = FourBar(a, b, 1.0, d)
+    assume(str(linkage.type) == "crank-rocker")
+    centres = linkage.dead_centres
+    task = DeadCentreTask(swing=centres.travel, crank_angle=centres.phi_back)
+    assume(abs(task.angle - np.pi) > 1e-2)
+    found = synthesise_dead_centres(task, Demands(lengths={"coupler": 70 * b, "crank": 70 * a}))
+    rows = [[design.linkage.length("crank", 0, 1), design.linkage.length("rocker", 2, 3)] for design in found.designs]
+    assert any(row == pytest.approx([70 * a, 70], rel=1e-6) for row in rows)
+
+
+def test_the_smallest_is_found_where_it_is_asked_for():
+    task = DeadCentreTask(stroke=50, time_ratio=1.2)
+    demands = Demands(transmission=np.radians(40))
+    small = synthesise_dead_centres(task, demands, sort=["size"]).designs[0]
+    other = synthesise_dead_centres(task, demands, number=60).designs
+    assert small.linkage.size <= min(design.linkage.size for design in other)
+    assert np.degrees(small.verdict.transmission) == pytest.approx(40, abs=1e-6)  # as far as the demand lets it

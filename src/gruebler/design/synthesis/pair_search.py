@@ -286,7 +286,7 @@ def best_pairs(
         )
     ]
     if not good.any():
-        notes += _tightest(met)
+        notes += tightest(met)
     ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
     chosen: list[tuple[int, int]] = []
     for rank in ranks[: _LOOKED_AT * number]:
@@ -330,8 +330,8 @@ def _gap(first: tuple[GuidingDyad, GuidingDyad], second: tuple[GuidingDyad, Guid
     )
 
 
-def _tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
-    """The demand without which the most pairs remain; branch and order are the task itself, and not given up."""
+def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
+    """The demand without which the most remain; the first, such as branch and order, is the task itself and stays."""
     counts = [
         int(np.count_nonzero(np.logical_and.reduce([flags for k, (_, flags) in enumerate(met) if k != left])))
         for left in range(1, len(met))
