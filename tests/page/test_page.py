@@ -273,7 +273,7 @@ def test_the_catalog_and_the_exercises(tab, server):
     view.locator('[data-list="catalog"] .card svg').first.wait_for()
     view.locator('[data-field="words"]').fill("wiper")
     view.locator('[data-id="wiper"]').wait_for()
-    page.until("gruebler.views.catalog.element.querySelectorAll('.card').length === 1")
+    page.until("gruebler.views.catalog.element.querySelectorAll('.card').length === 2")
     card = view.locator('[data-id="wiper"]')
     card.locator("svg").wait_for()
     for begin, end in ((card.hover, lambda: view.mouse.move(5, 400)), (card.focus, card.blur)):

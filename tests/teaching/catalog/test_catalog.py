@@ -250,11 +250,14 @@ def test_dimensions_say_where_they_come_from():
         "crane",
         "crane_cyl",
         "crankrocker",
+        "hoecken",
         "jansen",
+        "klann",
         "kurbelschleife",
         "lambda",
         "mzc",
         "slidercrank",
+        "strider",
         "watt_axle",
     }
 

@@ -62,6 +62,9 @@ SAID_OTHERWISE = {
     ("kurbelschleife", "turns fully"): "what it would do with a longer crank",
     ("diff_lever", "straight"): "the slides have straight guides",
     ("diff_lever", "tilt"): "the links let it, by as much as the slides ask",
+    ("stephenson_gear", "straight"): "the shape of its link",
+    ("stephenson_gear", "swing"): "how far depends on the reverser",
+    ("walschaerts_gear", "straight"): "the shape of its link",
     ("pumpjack_link", "straight"): "of the point of the entry pumpjack",
     ("winch_screw", "parallel to"): "of axes",
 }
