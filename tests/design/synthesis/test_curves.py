@@ -16,7 +16,8 @@ from gruebler.design.synthesis.curves import fit_curve, linkages_of
 from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
-from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
+from gruebler.design.synthesis.structure_atlas import assembled_sides, dyad_structure, link_motions, structure_atlas
+from gruebler.design.synthesis.structure_curves import _CurveFit
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.mechanics.linkages import Linkage
@@ -210,7 +211,7 @@ def test_the_atlas_of_a_structure_against_the_solver_of_motion(text):
     """Closed form for all drawings at once; `move` for single ones."""
     structure = dyad_structure(Mechanism.parse(text))
     book = structure_atlas(structure)
-    assert len(book.z) == 12_000
+    assert len(book.z) == 24_000
     assert np.isfinite(book.z).all()
     assert set(structure.coupler_links) == ({"2", "4"} if text is SIX_BARS[0] else {"2", "4", "5"})
     names = structure.mechanism.chain.joint_names()
@@ -263,6 +264,53 @@ def test_a_six_bar_curve_comes_back_wherever_it_lies(number, angle, scale, mirro
     found = synthesise_structures(task, [structure.mechanism], starts=2, link="4")
     best = min(design.verdict.error for design in (*found.designs, *found.rejected))
     assert best < 5e-3
+
+
+DRAWN = (  # joints as the chain writes them, then the point; its link
+    (
+        "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0; drive=R(0-1)",
+        "5",
+        (0j, -0.9 + 0.5j, -2.3 - 1.9j, 0.8 - 2.4j, -1.6 - 3.7j, -1.4 + 3.7j, 1.2 - 0.6j, -4 + 5.3j),
+    ),
+    (
+        "R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2); frame=0; drive=R(0-1)",
+        "5",
+        (0j, 0.2 + 1j, -1.4 - 1.3j, 1.4 - 0.9j, 0.5 + 2.4j, -1.8 + 4.5j, 0.1 + 4j, -0.9 + 4.2j),
+    ),
+)
+
+
+def drawn_curve(text, link, places, count):
+    structure = dyad_structure(Mechanism.parse(text))
+    turned = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    rotation, shift = link_motions(structure, np.array(places[:-1]), turned)[link]
+    return structure, rotation * places[-1] + shift
+
+
+def test_a_curve_that_a_six_bar_drew_is_met_exactly():
+    """A random six-bar, none of the atlas; the error is that of the verdict, whose motion is another solver's."""
+    structure, z = drawn_curve(*DRAWN[0], 40)
+    task = PathTask([(w.real, w.imag) for w in z], closed=True)
+    found = synthesise_structures(task, [structure.mechanism], starts=4, link="5")
+    assert found.designs[0].verdict.error < 1e-6
+
+
+@pytest.mark.parametrize("drawing", DRAWN)
+def test_the_derivatives_of_a_point_against_differences(drawing):
+    structure, z = drawn_curve(*drawing, 7)
+    places, turned = np.array([drawing[2]]), np.linspace(0, 2 * np.pi, 7, endpoint=False)[None]
+    fit, sides, step = _CurveFit(structure, drawing[1], z), assembled_sides(structure, places[:, :-1].T), 1e-6
+    points, motions = fit.points(places, turned, sides)
+    assert np.abs(points - z).max() < 1e-12
+    exact = fit.slopes(places, motions, by_places=True)
+    for k, each in enumerate(exact[:-1]):
+        change = np.zeros(places.shape, complex)
+        change[0, k // 2] = step * (1, 1j)[k % 2]
+        far, near = (fit.points(places + sign * change, turned, sides)[0] for sign in (1, -1))
+        assert np.abs((far - near) / (2 * step) - each).max() < 1e-7 * (1 + np.abs(each).max())
+    far, near = (fit.points(places, turned + sign * step, sides)[0] for sign in (1, -1))
+    assert np.abs((far - near) / (2 * step) - exact[-1]).max() < 1e-7 * (1 + np.abs(exact[-1]).max())
+    assert np.array_equal(fit.slopes(places, motions, by_places=False)[0], exact[-1])
 
 
 @pytest.mark.slow

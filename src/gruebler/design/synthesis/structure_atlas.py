@@ -18,10 +18,10 @@ from gruebler.design.synthesis.curve_matching import PLACES, evenly_along
 from gruebler.structure.assur import AssurError, decompose
 from gruebler.structure.mechanism import Mechanism
 
-_TRIALS = 60_000
+_TRIALS = 120_000
 _LARGEST = 6.0  # places of joints, in crank lengths
 _SAFE = 0.15  # the least sine of an angle between two links of a dyad, so that small changes do not stop the motion
-_CURVES = 12_000
+_CURVES = 24_000
 
 
 class _Dyad(NamedTuple):
@@ -88,13 +88,29 @@ def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
     )
 
 
-def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> dict[str, tuple[Complexes, Complexes]]:
+LinkMotions = dict[str, tuple[Complexes, Complexes]]
+"""Of each link how its plane has moved: rotation and shift."""
+
+
+def assembled_sides(structure: DyadStructure, drawn: Complexes) -> Reals:
+    """(dyads, ...) on which side of the line between its outer joints each dyad is drawn: 1 left, -1 right."""
+    return np.array(
+        [
+            np.sign(np.imag(np.conj(drawn[far] - drawn[own]) * (drawn[dyad.inner] - drawn[own])))
+            for dyad in structure.dyads
+            for own, far in (dyad.outer,)
+        ]
+    )
+
+
+def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals, sides: Reals | None = None) -> LinkMotions:
     """How each link moves away from the drawing: a point w of it goes to rotation w + shift.
 
     Args:
         structure: the solving order.
         drawn: (joints, ...) places of the joints in the drawing.
         turned: (..., angles) how far the crank has turned from the drawing.
+        sides: (dyads, ...) on which each dyad is assembled: as drawn by default.
 
     Returns (..., angles) each; NaN where a dyad cannot be assembled. Cost: 0.1 us for each dyad and angle.
     """
@@ -105,13 +121,13 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals) -> d
         structure.mechanism.frame: (ones, 0 * ones),
         structure.crank: (spin, places[structure.pivot] * (1 - spin)),
     }
-    for dyad in structure.dyads:
+    sides = assembled_sides(structure, drawn) if sides is None else sides
+    for dyad, side in zip(structure.dyads, sides[..., None], strict=True):
         ends = [
             rotation * places[joint] + shift
             for joint, (rotation, shift) in zip(dyad.outer, (motions[base] for base in dyad.base), strict=True)
         ]
         arms = [places[dyad.inner] - places[joint] for joint in dyad.outer]
-        side = np.sign(np.imag(np.conj(places[dyad.outer[1]] - places[dyad.outer[0]]) * arms[0]))
         gap = ends[1] - ends[0]
         with np.errstate(invalid="ignore", divide="ignore"):
             distance = np.abs(gap)
@@ -143,7 +159,7 @@ class StructureAtlas:
 
 @cache
 def structure_atlas(structure: DyadStructure) -> StructureAtlas:
-    """The atlas of a structure, made at its first use from evenly spread drawings. Cost: 1 s for six links."""
+    """The atlas of a structure, made at its first use from evenly spread drawings. Cost: 2 s for six links."""
     joints = structure.joints
     unit = _evenly_spread(_TRIALS, 2 * joints + 3)
     drawn = np.exp(np.log(_LARGEST) * unit[0::2][:joints]) * np.exp(2j * np.pi * unit[1::2][:joints])
@@ -158,19 +174,16 @@ def structure_atlas(structure: DyadStructure) -> StructureAtlas:
     safe = _safe(structure, drawn, phi[:-1])
     drawn, unit = drawn[:, safe], unit[:, safe]
     links = structure.coupler_links
-    each = max(1, _CURVES // max(1, len(links) * drawn.shape[1]))
-    rows, owners, points = [], [], []
-    for k in range(each):
-        reach, angle = (unit[-3] + 0.618034 * k) % 1.0, (unit[-2] + 0.754878 * k) % 1.0
-        for number, link in enumerate(links):
-            near = [n for n, joint in enumerate(chain.joints) if link in joint.links]
-            spread = np.abs(drawn[near[0]] - drawn[near[1]])
-            points.append(drawn[near].mean(axis=0) + 1.5 * spread * np.sqrt(reach) * np.exp(2j * np.pi * angle))
-            rows.append(np.arange(drawn.shape[1]))
-            owners.append(np.full(drawn.shape[1], number))
-    row, owner, point = np.concatenate(rows), np.concatenate(owners), np.concatenate(points)
-    kept = np.arange(len(row))[:_CURVES]
-    row, owner, point = row[kept], owner[kept], point[kept]
+    drawings, each = drawn.shape[1], _CURVES // max(1, len(links))
+    row, lap = np.arange(each) % drawings, np.arange(each) // drawings
+    reach, angle = (unit[-3, row] + 0.618034 * lap) % 1.0, (unit[-2, row] + 0.754878 * lap) % 1.0
+    points = []
+    for link in links:
+        near = [n for n, joint in enumerate(chain.joints) if link in joint.links]
+        spread = np.abs(drawn[near[0], row] - drawn[near[1], row])
+        middle = drawn[near].mean(axis=0)[row]
+        points.append(middle + 1.5 * spread * np.sqrt(reach) * np.exp(2j * np.pi * angle))
+    owner, row, point = np.repeat(np.arange(len(links)), each), np.tile(row, len(links)), np.concatenate(points)
     drawn = drawn[:, row]
     turned = evenly_along(_curves(structure, drawn, owner, point, np.broadcast_to(phi, (len(row), len(phi)))), phi)
     return StructureAtlas(

@@ -14,25 +14,26 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
-from gruebler.design.synthesis.curve_matching import best_matches, drive_angles
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
 from gruebler.design.synthesis.judging import Demands, judge_design, judge_with_drives
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import FITTED, Design, Progress, SolutionCount, SynthesisResult, in_order_of
-from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
-from gruebler.design.synthesis.targets import Probe, Targets
+from gruebler.design.synthesis.structure_atlas import dyad_structure
+from gruebler.design.synthesis.structure_curves import fit_drawings
+from gruebler.design.synthesis.targets import Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import PathTask, Task
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.mechanism import Mechanism, check_drives
 
-_NEIGHBOURS, _REALISATIONS = 24, 4  # starts of one mechanism
+_KEPT, _REALISATIONS = 24, 4  # designs of one mechanism
+_NEIGHBOURS = 80  # from the atlas for each design that is kept
 ACCEPTED = 0.05
 
 
@@ -53,13 +54,13 @@ def synthesise_structures(
             which angles are measured.
         structures: driven mechanisms of turning and sliding joints; with several drives for positions and points.
         demands: what a design has to do besides.
-        starts: how many are improved of each mechanism: by default 24 neighbours from the atlas of its structure (a
-            crank and dyads of turning joints, for a path), or 4 realisations of any other.
+        starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
+            atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
         executor: see `enumeration.worker_pool.run_work`; the answer is the same with any.
         progress: called with the starts done and their number.
 
-    Cost: a six-bar with an atlas 1 s for the atlas and 0.4 s a start; others 1 to 3 s a start.
+    Cost: a six-bar with an atlas 2 s for the atlas and 5 s for its neighbours; others 1 to 3 s a start.
     """
     wanted = demands or Demands()
     mechanisms = tuple(structures)
@@ -136,83 +137,45 @@ def _limit(demands: Demands) -> float:
     return demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
 
 
-class _AtlasStart(NamedTuple):
-    """A linkage of the atlas of a structure, placed on the target."""
-
-    drawn: Complexes
-    """(joints,) where the joints lie in the drawing."""
-    turned: Reals
-    """(points,) how far the crank has turned from the drawing at each point."""
-    link: str
-    point: complex
-
-
 class _Job(NamedTuple):
     mechanism: Mechanism
     seed: int
-    start: _AtlasStart | None
-    """From the atlas; without one the mechanism is realised."""
+    """Of its realisation."""
+    drawn_link: str = ""
+    """The link of a structure with an atlas whose curves are fitted; without one the mechanism is realised."""
+    kept: int = 1
+    """How many designs are judged."""
 
 
 def _jobs(task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | None, link: str) -> list[_Job]:
     """The starts of one mechanism: from the atlas of its structure if it has one, else so many realisations."""
-    near: list[_AtlasStart] = []
     if isinstance(task, PathTask) and targets.angles is None and targets.inputs is None:
-        near = _atlas_starts(task, mechanism, starts or _NEIGHBOURS, link)
-    if near:
-        return [_Job(mechanism, 0, start) for start in near]
-    return [_Job(mechanism, seed, None) for seed in range(starts or _REALISATIONS)]
-
-
-def _atlas_starts(task: PathTask, mechanism: Mechanism, number: int, link: str) -> list[_AtlasStart]:
-    """The linkages of the atlas whose curves are most like the target, no drawing twice."""
-    structure = dyad_structure(mechanism)
-    if structure is None or not structure.coupler_links or (link and link not in structure.coupler_links):
-        return []
-    book = structure_atlas(structure)
-    own = np.arange(len(book.z)) if not link else np.flatnonzero(book.link == structure.coupler_links.index(link))
-    starts: list[_AtlasStart] = []
-    seen: set[bytes] = set()
-    for match in best_matches(book.z[own], task.z, 4 * number, closed=task.closed):
-        n = int(own[match.number])
-        places = match.turn * np.append(book.drawn[n], book.point[n]) + match.shift
-        turned = drive_angles(book.turned[n], match.at)
-        if match.mirrored:
-            places, turned = np.conj(places), -turned
-        if (name := book.drawn[n].tobytes()) not in seen and len(starts) < number:
-            seen.add(name)
-            starts.append(_AtlasStart(places[:-1], turned, structure.coupler_links[book.link[n]], complex(places[-1])))
-    return starts
+        structure = dyad_structure(mechanism)
+        links = () if structure is None else structure.coupler_links
+        if links and (not link or link in links):
+            fitted = (link,) if link else links
+            kept = -(-(starts or _KEPT) // len(fitted))
+            return [_Job(mechanism, 0, each, kept) for each in fitted]
+    return [_Job(mechanism, seed) for seed in range(starts or _REALISATIONS)]
 
 
 def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
-    if job.start is None:
+    if not job.drawn_link:
         design = fit_structure(task, job.mechanism, demands, seed=job.seed, link=link)
-    else:
-        assert isinstance(task, PathTask)
-        design = _fitted_drawing(task, job.mechanism, demands, job.start)
-    return [] if design is None else [design]
-
-
-def _fitted_drawing(task: PathTask, mechanism: Mechanism, demands: Demands, start: _AtlasStart) -> Design | None:
-    """A linkage of the atlas improved."""
-    structure = dyad_structure(mechanism)
+        return [] if design is None else [design]
+    assert isinstance(task, PathTask)
+    structure = dyad_structure(job.mechanism)
     assert structure is not None
-    names = mechanism.chain.joint_names()
-    places: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, start.drawn, strict=True)}
-    drawing = Linkage.from_drawing(mechanism, places, points={"P": (start.link, start.point.real, start.point.imag)})
-    closure = DesignClosure(drawing)
-    motions = link_motions(structure, start.drawn, start.turned)
-    q = np.empty((len(task), closure.unknowns))
-    for link, c in closure.column.items():
-        pose = drawing.required_pose[link]
-        rotation, shift = motions[link]
-        z = rotation * complex(pose.x, pose.y) + shift
-        q[:, c], q[:, c + 1], q[:, c + 2] = z.real, z.imag, pose.angle + np.unwrap(np.angle(rotation))
-    point = drawing.points["P"]
-    state = FitState(closure.sizes, q=q, link=start.link, free=np.array([point.x, point.y]))
-    targets = fit_targets(task)
-    return _judged(targets, demands, closure, improved(closure, state, targets), drawing.outputs)
+    fits = fit_drawings(structure, job.drawn_link, task.z, closed=task.closed, number=_NEIGHBOURS * job.kept)
+    names = job.mechanism.chain.joint_names()
+    targets = point_targets("P", task.z, fit_targets(task).size)
+    designs = []
+    for *joints, point in fits.places[: job.kept]:
+        drawing: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, joints, strict=True)}
+        points = {"P": (job.drawn_link, point.real, point.imag)}
+        linkage = Linkage.from_drawing(job.mechanism, drawing, points=points)
+        designs.append(judge_design(linkage, targets, replace(demands, tolerance=_limit(demands)), FITTED))
+    return designs
 
 
 def fit_structure(

@@ -66,7 +66,7 @@ def synthesise(
             not take.
 
     Cost:
-        1 ms to 3 s (nine points) and 10 ms for each verdict; a structure 0.4 to 3 s a start.
+        1 ms to 3 s (nine points) and 10 ms for each verdict; a structure 1 to 3 s a start, by its atlas 5 s.
 
     Example:
         >>> from gruebler.design.synthesis import DeadCentreTask

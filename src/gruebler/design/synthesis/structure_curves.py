@@ -1,0 +1,276 @@
+"""Whole curves fitted by linkages of a crank and dyads, all starts at once, with exact derivatives.
+
+A linkage is its drawing in one position, with the point that traces the curve; docs/theory/synthesis-any.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Complexes, Reals
+from gruebler.design.synthesis.curve_matching import best_matches, drive_angles
+from gruebler.design.synthesis.structure_atlas import (
+    DyadStructure,
+    LinkMotions,
+    assembled_sides,
+    link_motions,
+    structure_atlas,
+)
+
+_STAGES = ((1, 10), (5, 30), (16, 300))
+"""Of the neighbours each so many-th is kept, and improved by so many steps."""
+_THIN = 40  # points of the target that the first stages look at
+_BLOCK = 8_000  # points of curves that are computed at once: their derivatives stay near the processor
+_FARTHEST = 0.2  # radians: how far a crank moves at once
+_PROBE = 0.1  # of a step: where its curvature is measured
+_BENT = 0.375  # of a step: a longer correction for its curvature is not believed
+_LEAST, _MOST = 1e-13, 1e8  # damping, relative
+_MET, _STILL = 1e-28, 1e-10  # of the squared size; of the cost
+_SAME = 1e-4  # of the size: linkages nearer to each other are one
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawnCurves:
+    """Linkages whose point on one link passes targets; all arrays have one row a linkage."""
+
+    places: Complexes
+    """(linkages, joints + 1) of the joints in the drawing, then of the point."""
+    turned: Reals
+    """(linkages, targets) how far the crank has turned from the drawing at each target."""
+    cost: Reals
+    """(linkages,) the sum of squared distances."""
+
+    def __getitem__(self, which: NDArray[np.int64]) -> DrawnCurves:
+        return DrawnCurves(places=self.places[which], turned=self.turned[which], cost=self.cost[which])
+
+
+def fit_drawings(structure: DyadStructure, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
+    """Linkages whose point on a link is as near to all targets as possible, the best first, each once.
+
+    Args:
+        structure: crank and dyads.
+        link: that carries the point.
+        z: (targets,) in the order in which they are passed.
+        closed: whether the last is followed by the first.
+        number: how many neighbours from the atlas are improved.
+
+    Each stands at the first target. Cost: 2 ms a neighbour.
+    """
+    fit = _CurveFit(structure, link, z)
+    curves = _neighbours(structure, link, z, closed=closed, number=number)
+    thin = np.unique(np.linspace(0, len(z) - 1, min(_THIN, len(z))).round().astype(np.int64))
+    sides = assembled_sides(structure, curves.places[:, :-1].T)
+    for share, steps in _STAGES:
+        last = share == _STAGES[-1][0]
+        own = np.argsort(curves.cost, kind="stable")[: max(1, number // share)]
+        curves, sides = curves[own], sides[:, own]
+        turned = curves.turned if last else curves.turned[:, thin]
+        rows = max(1, _BLOCK // turned.shape[1])
+        parts = [slice(k, k + rows) for k in range(0, len(own), rows)]
+        looked = fit if last else _CurveFit(structure, link, z[thin])
+        done = [looked.improved(curves.places[part], turned[part], sides[:, part], steps) for part in parts]
+        places, turned, cost = (np.concatenate(columns) for columns in zip(*done, strict=True))
+        if not last:
+            turned = _spread(turned, thin, curves.turned)
+        curves = DrawnCurves(places=places, turned=turned, cost=cost)
+    return _each_once(_at_first_target(structure, link, curves), fit.size)
+
+
+def _neighbours(structure: DyadStructure, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
+    """The curves of the atlas that are most like the target, placed on it, no drawing twice."""
+    book = structure_atlas(structure)
+    own = np.flatnonzero(book.link == structure.coupler_links.index(link))
+    places, turned, gaps = [], [], []
+    seen: set[tuple[bytes, bool]] = set()
+    for match in best_matches(book.z[own], z, 2 * number, closed=closed):
+        n = int(own[match.number])
+        if (name := (book.drawn[n].tobytes(), match.mirrored)) in seen or len(seen) == number:
+            continue
+        seen.add(name)
+        at = match.turn * np.append(book.drawn[n], book.point[n]) + match.shift
+        angles = drive_angles(book.turned[n], match.at)
+        places.append(np.conj(at) if match.mirrored else at)
+        turned.append(-angles if match.mirrored else angles)
+        gaps.append(match.gap)
+    return DrawnCurves(places=np.array(places), turned=np.array(turned), cost=np.array(gaps))
+
+
+def _spread(turned: Reals, thin: NDArray[np.int64], before: Reals) -> Reals:
+    """Crank angles at all targets from new ones at some: what has changed there, between them in proportion."""
+    every = np.arange(before.shape[1])
+    return np.asarray(before + np.stack([np.interp(every, thin, row) for row in turned - before[:, thin]]))
+
+
+def _at_first_target(structure: DyadStructure, link: str, curves: DrawnCurves) -> DrawnCurves:
+    """The same linkages drawn where they meet the first target."""
+    chain = structure.mechanism.chain
+    drawn = curves.places[:, :-1].T
+    motions = link_motions(structure, drawn, curves.turned[:, :1])
+    owners = [joint.links[0] for joint in chain.joints] + [link]
+    places = [
+        (rotation * place[:, None] + shift)[:, 0]
+        for place, (rotation, shift) in zip(curves.places.T, (motions[owner] for owner in owners), strict=True)
+    ]
+    return DrawnCurves(places=np.stack(places, axis=1), turned=curves.turned - curves.turned[:, :1], cost=curves.cost)
+
+
+def _each_once(curves: DrawnCurves, size: float) -> DrawnCurves:
+    """The best first, without those that cannot be assembled, and without any that is a better one again."""
+    kept: list[int] = []
+    for n in np.argsort(curves.cost, kind="stable"):
+        if not np.isfinite(curves.cost[n]):
+            break
+        if all(np.abs(curves.places[n] - curves.places[k]).max() > _SAME * size for k in kept):
+            kept.append(int(n))
+    return curves[np.array(kept, np.int64)]
+
+
+class _CurveFit:
+    """Linkages improved by least squares: Levenberg and Marquardt's method with geodesic acceleration.
+
+    The crank angle of each target is eliminated: only the distance across the curve counts.
+    """
+
+    def __init__(self, structure: DyadStructure, link: str, z: Complexes) -> None:
+        self.structure, self.link, self.z = structure, link, z
+        self.size = float(max(np.ptp(z.real), np.ptp(z.imag)))
+
+    def points(self, places: Complexes, turned: Reals, sides: Reals) -> tuple[Complexes, LinkMotions]:
+        """(linkages, targets) where the point is, and how all links have moved."""
+        motions = link_motions(self.structure, places[:, :-1].T, turned, sides)
+        rotation, shift = motions[self.link]
+        return rotation * places[:, -1:] + shift, motions
+
+    def slopes(self, places: Complexes, motions: LinkMotions, *, by_places: bool) -> Complexes:
+        """(numbers, linkages, targets) how the point moves with the crank; before that, if wanted, with x, y of places.
+
+        An inner joint of a dyad moves by v with Re(conj(m) v) given for both of its links m; so v follows from two
+        linear equations.
+        """
+        structure, columns = self.structure, places.T[:, :, None]
+        count = 2 * structure.joints if by_places else 0
+
+        def with_place(slopes: Complexes, joint: int, factor: Complexes) -> Complexes:
+            if by_places:
+                slopes[2 * joint] += factor
+                slopes[2 * joint + 1] += 1j * factor
+            return slopes
+
+        spin = motions[structure.crank][0]
+        still = np.zeros((count + 1, *spin.shape), np.complex128)
+        pivot = columns[structure.pivot]
+        turn, shift = still.copy(), still.copy()
+        turn[-1], shift[-1] = 1j * spin, -1j * spin * pivot
+        slopes = {
+            structure.mechanism.frame: (still, still),
+            structure.crank: (turn, with_place(shift, structure.pivot, 1 - spin)),
+        }
+        for dyad in structure.dyads:
+            moved, across, along = [], [], []
+            for joint, base, link in zip(dyad.outer, dyad.base, dyad.links, strict=True):
+                by_turn, by_shift = slopes[base]
+                moved.append(with_place(by_turn * columns[joint] + by_shift, joint, motions[base][0]))
+                arm = columns[dyad.inner] - columns[joint]
+                across.append(motions[link][0] * arm)
+                given = np.real(np.conj(across[-1]) * moved[-1])
+                if by_places:
+                    for other, sign in ((dyad.inner, 1.0), (joint, -1.0)):
+                        given[2 * other] += sign * arm.real
+                        given[2 * other + 1] += sign * arm.imag
+                along.append(given)
+            first, second = across
+            inner = 1j * (along[1] * first - along[0] * second) / np.imag(np.conj(first) * second)
+            for joint, link, by_outer in zip(dyad.outer, dyad.links, moved, strict=True):
+                rotation, arm = motions[link][0], columns[dyad.inner] - columns[joint]
+                by_turn = (inner - by_outer) / arm
+                with_place(by_turn, dyad.inner, -rotation / arm)
+                with_place(by_turn, joint, rotation / arm)
+                slopes[link] = by_turn, with_place(by_outer - by_turn * columns[joint], joint, -rotation)
+        by_turn, by_shift = slopes[self.link]
+        of_point = by_turn * columns[-1] + by_shift
+        if not by_places:
+            return np.asarray(of_point)
+        own = motions[self.link][0]
+        return np.concatenate([of_point[:-1], own[None], 1j * own[None], of_point[-1:]])
+
+    def slid(self, places: Complexes, turned: Reals, sides: Reals, times: int) -> tuple[Reals, Reals]:
+        """Crank angles nearer to where the point is nearest to its targets, and the cost there."""
+        for _ in range(times):
+            points, motions = self.points(places, turned, sides)
+            rate = self.slopes(places, motions, by_places=False)[0]
+            turned = turned + _towards(rate, points - self.z)
+        points, motions = self.points(places, turned, sides)
+        cost = np.sum(np.abs(points - self.z) ** 2, axis=1)
+        # Links that do not carry the point have to be assembled, too.
+        assembled = np.isfinite(sum(rotation for rotation, _ in motions.values())).all(axis=1)
+        return turned, np.where(assembled & np.isfinite(cost), cost, np.inf)
+
+    def improved(self, places: Complexes, turned: Reals, sides: Reals, steps: int) -> tuple[Complexes, Reals, Reals]:
+        """Places, crank angles and costs after so many steps, fewer where nothing is gained any more."""
+        places = places.copy()
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            turned, cost = self.slid(places, turned, sides, 3)
+            damping = np.full(len(places), 1e-3)
+            active = np.isfinite(cost)
+            for _ in range(steps):
+                own = np.flatnonzero(active)
+                if not len(own):
+                    break
+                change, angles = self._step(places[own], turned[own], sides[:, own], damping[own])
+                trial = places[own] + change
+                angles, least = self.slid(trial, angles, sides[:, own], 1)
+                good = least < cost[own]
+                still = good & (cost[own] - least < _STILL * least)
+                damping[own] = np.where(good, np.maximum(0.3 * damping[own], _LEAST), 5 * damping[own])
+                better = own[good]
+                places[better], turned[better], cost[better] = trial[good], angles[good], least[good]
+                met = cost[own] < _MET * self.size**2 * len(self.z)
+                active[own[still | met | (damping[own] > _MOST)]] = False
+        return places, turned, cost
+
+    def _step(self, places: Complexes, turned: Reals, sides: Reals, damping: Reals) -> tuple[Complexes, Reals]:
+        """The change of all places, and the crank angles after it."""
+        points, motions = self.points(places, turned, sides)
+        slopes = self.slopes(places, motions, by_places=True)
+        by_places, rate = slopes[:-1], slopes[-1]
+        normal = 1j * rate / (np.abs(rate) + 1e-300)
+        across = np.real(np.conj(normal) * by_places).transpose(1, 0, 2)
+        gram = across @ across.transpose(0, 2, 1)
+        numbers = gram.shape[1]
+        weight = np.einsum("nkk->n", gram) / numbers + 1e-300
+        gram += (damping * weight)[:, None, None] * np.eye(numbers)
+        gram[~np.isfinite(gram).all(axis=(1, 2))] = np.eye(numbers)
+
+        def solved(errors: Complexes) -> tuple[Reals, Complexes, Reals]:
+            """The change of places that takes errors away, what it leaves of them, how the cranks make up for it."""
+            right = across @ np.real(np.conj(normal) * errors)[:, :, None]
+            change = -np.nan_to_num(np.linalg.solve(gram, right)[:, :, 0])
+            left = errors + np.einsum("kni,nk->ni", by_places, change)
+            return change, left, _towards(rate, left)
+
+        errors = points - self.z
+        change, left, slide = solved(errors)
+        # The curvature along the step, and the correction for it: steps in curved valleys become longer.
+        near, _ = self.points(places + _PROBE * _paired(change), turned + _PROBE * slide, sides)
+        straight = left - errors + rate * slide
+        bend = 2 / _PROBE * ((near - points) / _PROBE - straight)
+        further, _, more = solved(bend)
+        believed = np.linalg.norm(further, axis=1) < 2 * _BENT * np.linalg.norm(change, axis=1)
+        believed &= np.isfinite(bend).all(axis=1)
+        change += np.where(believed[:, None], further / 2, 0.0)
+        slide += np.where(believed[:, None], more / 2, 0.0)
+        return _paired(change), turned + np.clip(slide, -_FARTHEST, _FARTHEST)
+
+
+def _towards(rate: Complexes, errors: Complexes) -> Reals:
+    """How far a crank turns until the point is nearest to its target."""
+    turn = -np.real(np.conj(rate) * errors) / (np.abs(rate) ** 2 + 1e-300)
+    return np.asarray(np.clip(turn, -_FARTHEST, _FARTHEST))
+
+
+def _paired(numbers: Reals) -> Complexes:
+    """x, y of places as complex numbers."""
+    return np.asarray(numbers[:, 0::2] + 1j * numbers[:, 1::2])
