@@ -58,7 +58,7 @@ def test_bash_completes(script, tmp_path, monkeypatch):
     assert completions_of_bash(text, "gruebler check --space s") == ["spherical", "spatial"]
     assert completions_of_bash(text, "gruebler catalog s") == ["show", "search"]
     assert "--full" in completions_of_bash(text, "gruebler catalog show --")
-    assert completions_of_bash(text, "gruebler analyse wip") == ["wiper", "wiper_opposed", "wipe.toml"]
+    assert completions_of_bash(text, "gruebler analyse wip") == ["wiper", "wiper_opposed", "wiper_rssr", "wipe.toml"]
     assert completions_of_bash(text, "gruebler draw wiper -o wip") == ["wipe.toml"]
     assert completions_of_bash(text, "gruebler table gr") == ["grashof"]
     assert completions_of_bash(text, "gruebler check --b ") == []
