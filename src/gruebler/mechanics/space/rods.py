@@ -1,8 +1,8 @@
 """Rods between two balls: their spin is idle, and is fixed by a rule, the shortest turn from the reference pose.
 
 With the directions u of the rod in the reference pose and v now, s = u + v, that turn is two half turns, about u and
-then about s. It depends on v alone, not on the way there. Where the rod points back, s is nearly 0, and the way leads by
-a direction across u.
+then about s. It depends on v alone, not on the way there. Where the rod points back, s is nearly 0, and the way leads
+by a direction across u.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from gruebler.mechanics.space.power_series import product, reciprocal
 from gruebler.mechanics.space.tree import ClosureTree
 from gruebler.structure.chain.spaces import Space
 
-_OPPOSITE = 1e-3  # of a half turn: nearer to it the shortest turn spins as fast as it likes
+_OPPOSITE = 0.03  # radians: the nearer, the faster the shortest turn spins, and the fewer digits its rates have
 
 
 def place_rods(tree: ClosureTree, poses: Reals) -> None:
