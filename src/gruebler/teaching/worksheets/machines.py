@@ -15,7 +15,8 @@ from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.linkage.curve_plots import coupler_plot
 from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.linkage.motion_plots import transfer_plot, transmission_plot
-from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.pictures.linkage.picture import draw_linkage, picture_notes
+from gruebler.pictures.linkage.posed_linkage import posed_linkage
 from gruebler.pictures.structure import draw_structure
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import Mechanism
@@ -25,6 +26,7 @@ from gruebler.teaching.catalog import entries
 from gruebler.teaching.catalog.feature_query import entry_mechanism
 from gruebler.teaching.catalog.features import access_features, purpose
 from gruebler.teaching.worksheets.blocks import Block, Contents, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+from gruebler.teaching.worksheets.places import headers, places
 
 _POINTS = 3  # paths in one diagram
 
@@ -74,7 +76,10 @@ def _machine_blocks(
     between: tuple[float, float] | None,
     outputs: Sequence[str],
 ) -> Iterator[Block]:
-    yield _pictures(mechanism, linkage, lang, outputs)
+    shown = between
+    if between is not None and mechanism.drives and mechanism.drives[0].turning:
+        shown = radians(between[0]), radians(between[1])
+    yield _pictures(mechanism, linkage, lang, outputs, shown)
     yield Heading(translate("Access features", lang))
     yield Rows(
         (translate("feature", lang), translate("value", lang)), access_features(mechanism, outputs).described(lang)
@@ -89,7 +94,8 @@ def _machine_blocks(
     if rows:
         yield Heading(translate("Dimensions in {unit}", lang, unit=linkage.unit))
         yield Rows((translate("link", lang), translate("joints or points", lang), translate("distance", lang)), rows)
-    diagram = _diagram(linkage, mechanism, lang, between)
+    yield from _position(linkage, lang, shown)
+    diagram = _diagram(linkage, mechanism, lang, shown)
     if diagram is not None:
         yield Heading(translate("Main diagram", lang))
         yield Pictures((diagram,), height=420.0)
@@ -99,14 +105,20 @@ def _machine_blocks(
         yield Paragraph(values)
 
 
-def _pictures(mechanism: Mechanism, linkage: Linkage | None, lang: str, outputs: Sequence[str]) -> Pictures:
+def _pictures(
+    mechanism: Mechanism,
+    linkage: Linkage | None,
+    lang: str,
+    outputs: Sequence[str],
+    between: tuple[float, float] | None,
+) -> Pictures:
     """The linkage to scale, if there are dimensions, and the structure with the symbols of the joints."""
     contacts = None if linkage is None else contact_shapes(linkage)
     structure = draw_structure(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
     caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
     if linkage is not None:
         try:
-            scheme = draw_linkage(linkage, curves=[*linkage.points][:_POINTS], labels=True, lang=lang)
+            scheme = draw_linkage(linkage, between=between, curves=[*linkage.points][:_POINTS], labels=True, lang=lang)
         except GrueblerError:
             return Pictures((structure,), (caption,))
         return Pictures((scheme, structure), (translate("To scale", lang), caption), 260.0)
@@ -114,7 +126,7 @@ def _pictures(mechanism: Mechanism, linkage: Linkage | None, lang: str, outputs:
 
 
 def _lengths(linkage: Linkage, lang: str) -> Iterator[tuple[str, str, str]]:
-    """The distances of the pins of every link, and the places of its named points from its first pin."""
+    """The distances of the pins of every link, and of its named points from each of them."""
     chain = linkage.mechanism.chain
     alphabet = Alphabet.of_language(lang)
     names = [f"{joint.pair.symbol(alphabet)} {' / '.join(joint.links)}" for joint in chain.joints]
@@ -122,23 +134,30 @@ def _lengths(linkage: Linkage, lang: str) -> Iterator[tuple[str, str, str]]:
         pins = [(names[k], e) for (k, holder), e in linkage.elements.items() if holder == link and e.is_pin]
         points = [(name, Pin(point.x, point.y)) for name, point in linkage.points.items() if point.link == link]
         for k, (first, pin) in enumerate(pins):
-            others = [*pins[k + 1 :], *(points if k == 0 else [])]
-            for second, other_pin in others:
+            for second, other_pin in [*pins[k + 1 :], *points]:
                 distance = hypot(other_pin.x - pin.x, other_pin.y - pin.y)
                 yield link, f"{first} – {second}", number(distance, lang, ".6g")
 
 
+def _position(linkage: Linkage, lang: str, between: tuple[float, float] | None) -> Iterator[Block]:
+    """The position of the picture, from which the machine can be built again."""
+    try:
+        posed = posed_linkage(linkage, between=between)
+    except GrueblerError:
+        return
+    yield Heading(translate("Places in the position shown, in {unit} and degrees", lang, unit=linkage.unit))
+    yield Paragraph(" ".join(picture_notes(posed, (), {}, lang)[0]))
+    yield Rows(headers(lang), tuple(places(linkage, posed.pose, lang)))
+
+
 def _diagram(linkage: Linkage, mechanism: Mechanism, lang: str, between: tuple[float, float] | None) -> Figure | None:
     """The paths of named points, else the transfer function, else the transmission angle; None if there is none."""
-    shown = between
-    if between is not None and mechanism.drives and mechanism.drives[0].turning:
-        shown = radians(between[0]), radians(between[1])
     ways: list[Callable[[], Figure]] = []
     if linkage.points:
-        ways.append(lambda: coupler_plot(linkage, [*linkage.points][:_POINTS], between=shown, lang=lang))
+        ways.append(lambda: coupler_plot(linkage, [*linkage.points][:_POINTS], between=between, lang=lang))
     if len(mechanism.drives) == 1:
-        ways.append(lambda: transfer_plot(linkage, between=shown, lang=lang))
-        ways.append(lambda: transmission_plot(linkage, between=shown, lang=lang))
+        ways.append(lambda: transfer_plot(linkage, between=between, lang=lang))
+        ways.append(lambda: transmission_plot(linkage, between=between, lang=lang))
     for branch in ways:
         try:
             return branch()
