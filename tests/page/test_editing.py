@@ -128,6 +128,7 @@ def test_a_direction_that_is_kept_stays_in_the_link_and_is_undone(tab, crank_roc
     page.page.keyboard.press("Control+y")
     page.page.evaluate("gruebler.write()")
     page.page.reload()
+    page.until("window.gruebler?.motion?.linkage?.beside.locks")
     page.until(f"{ROOT}.querySelector('[data-lock=direction][aria-pressed=true]')")
     page.drag(page.middle('[data-joint="R(frame-rocker)"] .joint'), (40, -60))
     ends = page.page.evaluate("[0, 3].map((joint) => gruebler.motion.linkage.jointAt(joint))")

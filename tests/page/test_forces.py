@@ -6,8 +6,10 @@ import pytest
 
 from gruebler.base.errors import GrueblerError
 from gruebler.files import linkage_to_json
+from gruebler.mechanics.analysis import drive_cycle
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.page.requests import answer
+from gruebler.teaching.catalog import entries
 
 ROOT = "document.querySelector('.gruebler-explorer').shadowRoot"
 PANEL = '[data-panel="forces"]'
@@ -46,6 +48,46 @@ def test_a_pendulum_swings_in_its_own_time():
     crank = [math.atan2(row[3], row[2]) + math.pi / 2 for row in told["turns"]]
     wanted = [0.02 * math.cos(math.sqrt(9.80665 / 0.04) * k / told["rate"]) for k in range(len(crank))]
     assert crank == pytest.approx(wanted, abs=2e-5)
+
+
+def test_a_spring_pulls_by_its_law_and_a_torsion_spring_turns_by_its_own():
+    """A spring of 2 N/mm from the frame to B, and one of 50 N mm about A: the torque by the way of B."""
+    linkage = FourBar(25, 70, 40, 70).linkage()
+    spring = {"ends": [[0, -20.0, 5.0], [1, 25.0, 0.0]], "stiffness": 2.0, "free": 10.0, "preload": 3.0}
+    turning = {"ends": [[0, 0.0, 0.0], [1, 0.0, 0.0]], "turning": True, "stiffness": 50.0, "free": 0.5}
+    told = answer("forces", asked(linkage, springs=[spring, turning], speed=1e-3), "en", print)
+    assert [one["turning"] for one in told["springs"]] == [False, True]
+    assert told["springs"][0]["ends"][0] == (0, -20, 5)
+    for drive, effort in list(zip(told["drives"], told["effort"], strict=True))[::20]:
+        x, y = 25 * math.cos(drive) + 20, 25 * math.sin(drive) - 5
+        long = math.hypot(x, y)
+        pull = 3 + 2 * (long - 10)
+        own = pull / long * 25 * (x * -math.sin(drive) + y * math.cos(drive))  # the torque that moves B away
+        assert effort == pytest.approx(own + 50 * (drive - 0.5), abs=1e-3)
+
+
+def test_the_springs_of_the_catalog_are_told_and_changed():
+    hood = entries()["hood"]
+    cycle = drive_cycle(hood.linkage())
+    low, high = cycle.span.low, cycle.span.high
+    question = asked(hood.linkage(), source="hood", drives=[(low + high) / 2], range=[low, high], full=False)
+    told = answer("forces", question, "en", print)
+    (gas,) = told["springs"]
+    assert (gas["known"], gas["damping"], [end[1:] for end in gas["ends"]]) == (0, 4.0, [(55, -40), (25, -4)])
+    again = answer("forces", {**question, "springs": [gas]}, "en", print)
+    assert again["effort"] == told["effort"]
+    assert again["springs"] == told["springs"]
+    without = answer("forces", {**question, "springs": []}, "en", print)
+    assert without["effort"] != told["effort"]
+
+
+def test_a_spring_on_one_link_is_refused():
+    spring = {"ends": [[1, 0.0, 0.0], [1, 5.0, 0.0]], "stiffness": 1.0}
+    with pytest.raises(GrueblerError, match=r"springs\[0\]"):
+        answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), springs=[spring]), "en", print)
+    spring["ends"] = [[1, 0.0, 0.0], [9, 5.0, 0.0]]
+    with pytest.raises(GrueblerError, match="there is no link 9"):
+        answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), springs=[spring]), "en", print)
 
 
 def test_a_load_that_is_nowhere_is_refused():

@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import pi
 from typing import Any, NamedTuple
 
+import msgspec
 import numpy as np
 
 from gruebler.base.arrays import Reals
@@ -13,11 +14,12 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.units import metres_of
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.dynamics import inverse_dynamics, simulate
-from gruebler.mechanics.forces import Loads, RigidBody
+from gruebler.mechanics.forces import Loads, RigidBody, Spring, TorsionSpring
+from gruebler.mechanics.forces.springs import check_between_links
 from gruebler.mechanics.kinematics.solve import move_quietly
-from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.page.model import link_names
-from gruebler.page.params import LoadedLinkage, OuterLoad
+from gruebler.page.params import LoadedLinkage, OuterLoad, OwnSpring
 from gruebler.teaching.catalog import entries
 
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
@@ -43,7 +45,10 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     Without anything that acts only masses are there, and those that could be assumed, of bars of steel.
     """
     linkage, loads, usual = _laden(asked, lang)
-    record = {"masses": _masses(linkage, loads), "assumed": _assumed(linkage), "speed": asked.speed or usual}
+    record: dict[str, Any] = {"masses": _masses(linkage, loads), "assumed": _assumed(linkage)}
+    own = asked.springs
+    record["springs"] = _springs(linkage, loads) if own is None else msgspec.to_builtins(own)
+    record["speed"] = asked.speed or usual
     if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
         return record
     active, (low, high) = asked.active, asked.range
@@ -120,7 +125,55 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
         else:
             forces[name] = (sum(own.x for own in together), sum(own.y for own in together))
     gravity = loads.gravity if asked.gravity else (0.0, 0.0)
+    if asked.springs is not None:
+        loads = _own_springs(linkage, loads, asked.springs)
     return _Laden(linkage, replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies), speed)
+
+
+def _all_springs(loads: Loads) -> tuple[Spring | TorsionSpring, ...]:
+    return (*loads.springs, *loads.torsion_springs)
+
+
+def _springs(linkage: Linkage, loads: Loads) -> list[dict[str, Any]]:
+    """The springs, straight ones first, as the page sends them back."""
+    chain = linkage.mechanism.chain
+    told = []
+    for known, spring in enumerate(_all_springs(loads)):
+        turning = isinstance(spring, TorsionSpring)
+        if isinstance(spring, TorsionSpring):
+            free, ends = spring.free_angle, [(chain.index(link), 0.0, 0.0) for link in spring.between]
+        else:
+            free, places = spring.free_length, [linkage.points_named(end) for end in spring.between]
+            pairs = ((one, other) for one in places[0] for other in places[1] if one.link != other.link)
+            ends = [(chain.index(place.link), place.x, place.y) for place in next(pairs)]
+        rates = {"stiffness": spring.stiffness, "free": free, "preload": spring.preload, "damping": spring.damping}
+        told.append({"turning": turning, "ends": ends, "known": None if spring.law is None else known, **rates})
+    return told
+
+
+def _own_springs(linkage: Linkage, loads: Loads, own: list[OwnSpring]) -> Loads:
+    links = linkage.mechanism.chain.links
+    known = _all_springs(loads)
+    springs, torsion_springs = [], []
+    for number, each in enumerate(own):
+        where = f"springs[{number}]"
+        for what, asked, there_are in (
+            ("link", max(end[0] for end in each.ends), links),
+            ("spring", each.known, known),
+        ):
+            if asked is not None and asked >= len(there_are):
+                raise GrueblerError("load: there is no {what} {number}", what=what, number=asked)
+        rates = {"stiffness": each.stiffness, "preload": each.preload, "damping": each.damping}
+        law = None if each.known is None else known[each.known].law
+        (first, *here), (second, *there) = each.ends
+        if each.turning:
+            torsion = TorsionSpring((links[first], links[second]), free_angle=each.free, law=law, **rates)
+            torsion_springs.append(torsion)
+        else:
+            ends = LinkPoint(links[first], *here), LinkPoint(links[second], *there)
+            springs.append(Spring(ends, free_length=each.free, law=law, **rates))
+            check_between_links(linkage, springs[-1], f"springs[{number}]")
+    return replace(loads, springs=tuple(springs), torsion_springs=tuple(torsion_springs))
 
 
 def _masses(linkage: Linkage, loads: Loads) -> list[float]:

@@ -107,6 +107,25 @@ class OuterLoad(Params):
     y: float = 0.0
 
 
+Amount = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+Rate = Annotated[float, msgspec.Meta(ge=0, le=1e9)]
+
+
+class OwnSpring(Params):
+    """A spring, or a damper, between two links; it draws or turns them together."""
+
+    ends: tuple[tuple[Number, float, float], tuple[Number, float, float]]
+    """Link and place there; of a torsion spring the places say nothing."""
+    turning: bool = False
+    stiffness: Rate = 0.0
+    free: Amount = 0.0
+    """The length or the angle, in radians, at which only the preload acts."""
+    preload: Amount = 0.0
+    damping: Rate = 0.0
+    known: Number | None = None
+    """The number of the spring of the catalog entry of which it has the law."""
+
+
 class LoadedLinkage(Params):
     """A linkage at values of its drives, what acts on it, and what of its motion is asked."""
 
@@ -118,6 +137,8 @@ class LoadedLinkage(Params):
     gravity: bool = True
     loads: Annotated[list[OuterLoad], msgspec.Meta(max_length=20)] = []
     """Forces on one place add up, as do moments on one link."""
+    springs: Annotated[list[OwnSpring], msgspec.Meta(max_length=20)] | None = None
+    """Without any those of the catalog entry."""
     active: Number = 0
     """The drive that runs at constant speed."""
     range: tuple[float, float] = (0.0, 2 * pi)
