@@ -34,6 +34,15 @@ def test_json_has_all_digits(capsys, hooke):
     assert document["columns"][1] == {"name": "R(0-out)", "unit": "°"}
 
 
+def test_the_assembly_modes_are_shown_or_why_there_is_no_list(capsys):
+    _, text, _ = run_command(capsys, "analyse", "wiper_rssr", "--range", "0:10:10")
+    assert "At R(body-crank) = 0°: 2 assembly modes, 2 of them real; these are all." in text
+    _, text, _ = run_command(capsys, "analyse", "wiper_rssr", "--range", "0:10:10", "--json")
+    assert json.loads(text)["assembly_modes"] == {"found": 2, "real": 2, "exact": True, "generic": 2}
+    _, text, _ = run_command(capsys, "analyse", "bennett", "--range", "0:10:10", "--lang", "de")
+    assert "Einbaulagen sind nicht bekannt: " in text
+
+
 def test_without_drives_the_freedoms_are_said(capsys):
     status, text, _ = run_command(capsys, "analyse", "susp_5link", "--lang", "de")
     assert status == 0

@@ -8,15 +8,16 @@ from typing import Any
 import numpy as np
 
 from gruebler.base.columns import Table, shown
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.text import error_in_language, translate
 from gruebler.cli.drive_rows import given_rows
 from gruebler.cli.linkage_inputs import SpatialWord
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
 from gruebler.files.screws import screws_to_json
-from gruebler.mechanics.screws import freedoms
-from gruebler.mechanics.space import SpatialMeasures, measures
+from gruebler.mechanics.screws import SpatialLinkage, freedoms
+from gruebler.mechanics.space import SpatialMeasures, SpatialModes, assembly_modes, measures
 from gruebler.mechanics.space.drive_range import followed
 from gruebler.mechanics.space.measuring import spatial_table
 
@@ -43,18 +44,40 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
     if table is not None and is_table(arguments.out):
         write_table(arguments.out, table.columns, arguments.lang, decimal_comma=arguments.decimal_comma)
     freedom = freedoms(linkage)
+    modes = _modes(linkage)
     if arguments.json:
         document: dict[str, Any] = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()}
         if measured is not None:
             document["measures"] = measured.to_json()
+        if isinstance(modes, SpatialModes):
+            document["assembly_modes"] = {"found": modes.number, "real": len(modes), "exact": modes.exact}
+            document["assembly_modes"]["generic"] = modes.generic
         print_json(document | (Table(()) if table is None else table).to_json())
         return 0
     print_text(freedom.summary(arguments.lang))
     if measured is not None:
         print_text(measured.explain(arguments.lang))
+    if modes is not None:
+        print_text(_said(modes, arguments.lang))
     if table is not None and not is_table(arguments.out):
         print()
         print_table(
             [column.header for column in table], shown(table.columns, arguments.lang), numbers=range(len(table.columns))
         )
     return 0
+
+
+def _modes(linkage: SpatialLinkage) -> SpatialModes | LinkageError | None:
+    """The assembly modes in the reference pose, or why there is no list of them; None without drives."""
+    if not linkage.mechanism.drives:
+        return None
+    try:
+        return assembly_modes(linkage, [np.zeros(len(linkage.mechanism.drives))])
+    except LinkageError as error:
+        return error
+
+
+def _said(modes: SpatialModes | LinkageError, lang: str) -> str:
+    if isinstance(modes, SpatialModes):
+        return modes.explain(lang)
+    return translate("Assembly modes are not known: {reason}.", lang, reason=error_in_language(modes, lang))

@@ -47,6 +47,19 @@ def platform(base, body, legs):
     return linkage, np.linalg.norm(ways, axis=1)
 
 
+def platform_on_skew_crosses():
+    """Axes of the crosses that are not at right angles to the legs: each leg has two poses of its own."""
+    rng = np.random.default_rng(0)
+    straight = random_platform(0)
+    chain = Chain.parse(straight.mechanism.chain.text().replace("S(base", "U(base"))
+    x = rng.normal(size=3)
+    places = [
+        replace(place, x=tuple(x), y=tuple(np.cross(x, rng.normal(size=3)))) if k % 3 == 0 else place
+        for k, place in enumerate(straight.places)
+    ]
+    return SpatialLinkage(Mechanism(chain, "base", range(1, 18, 3)), tuple(places))
+
+
 def random_platform(seed):
     rng = np.random.default_rng(seed)
     return platform(rng.normal(size=(6, 3)), rng.normal((0, 0, 2), size=(6, 3)), "SSSSSS")[0]
@@ -83,6 +96,50 @@ def test_almost_all_platforms_have_forty_modes():
     assert (modes.number, modes.exact) == (40, True)
     assert len(modes) % 2 == 0
     assert is_among(modes.pose("platform"), np.eye(4), linkage.size)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_legs_with_crosses_are_rods_and_their_crosses_close(turned):
+    """Each leg has two poses for one of the platform, 2560 modes in all: the platform's are counted."""
+    rng = np.random.default_rng(4)
+    base, body = rng.normal(size=(6, 3)), rng.normal((0, 0, 2), size=(6, 3))
+    joints, places = [], {}
+    for k, way in enumerate(body - base):
+        joints.append(f"U(low{k}-base)" if turned else f"U(base-low{k})")
+        joints += [f"P(low{k}-high{k})", f"S(high{k}-platform)"]
+        y = np.cross(way, rng.normal(size=3))
+        x = np.cross(y, rng.normal(size=3))
+        places[3 * k] = {"at": base[k], "x": y, "y": -x} if turned else {"at": base[k], "x": x, "y": y}
+        places[3 * k + 1], places[3 * k + 2] = {"at": base[k], "x": way}, {"at": body[k]}
+    chain = Chain.parse(f"spatial: {' '.join(joints)}")
+    linkage = SpatialLinkage(Mechanism(chain, "base", range(1, 18, 3)), places)
+    modes = assembly_modes(linkage, [np.zeros(6)])
+    assert (modes.number, modes.exact) == (40, True)
+    balls = assembly_modes(platform(base, body, "SSSSSS")[0], [np.zeros(6)])
+    assert np.sort(modes.pose("platform")[:, 0, 3]) == pytest.approx(np.sort(balls.pose("platform")[:, 0, 3]), abs=1e-9)
+    assert is_among(modes.poses, np.tile(np.eye(4), (chain.n, 1, 1)), linkage.size)
+    for number in range(0, 18, 3):
+        frame = linkage.frames[number]
+        first, second = (modes.pose(link) @ frame for link in chain.joints[number].links)
+        assert abs((first[:, :3, 0] * second[:, :3, 1]).sum(axis=1)).max() < 1e-12
+        assert abs(first[:, :3, 3] - second[:, :3, 3]).max() < 1e-12
+
+
+def test_planar_bases_have_forty_modes_and_pairs_of_balls_sixteen():
+    """P. Nanua, K. J. Waldron, V. Murthy, Direct kinematic solution of a Stewart platform, 1990: 16 of 6-3 platforms.
+    The other paths end at infinity."""
+    rng = np.random.default_rng(4)
+    base, body = rng.normal(size=(6, 3)), rng.normal((0, 0, 2), size=(6, 3))
+    flat = platform(base * (1, 1, 0), body * (1, 1, 0) + (0, 0, 2), "SSSSSS")[0]
+    assert assembly_modes(flat, [0.1 * np.arange(6)]).number == 40
+    modes = assembly_modes(platform(base, body[[2, 0, 0, 1, 1, 2]], "SSSSSS")[0], [np.zeros(6)])
+    assert (modes.number, modes.generic, modes.exact) == (16, 40, False)
+
+
+@pytest.mark.slow
+def test_structures_with_very_many_modes_are_refused():
+    with pytest.raises(LinkageError, match="more than 400 assembly modes"):
+        assembly_modes(platform_on_skew_crosses(), [np.zeros(6)])
 
 
 @pytest.mark.slow

@@ -1,4 +1,8 @@
-"""Links that locked joints make one body of, and bodies that are nothing but a rod between two balls."""
+"""Links that locked joints make one body of, and bodies that are nothing but a rod between two balls.
+
+Where positions are counted a leg between a cross joint and a ball is a rod, too, if the axis of the cross that is fixed
+on it is at right angles to its line: then wherever its ends are at their distance, the cross closes (in two ways).
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,8 @@ from gruebler.mechanics.screws.rigid_motions import exponential, inverse_motion
 from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Freedom, Space
 
+_SQUARE = 1e-9  # the cosine of a right angle
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rod:
@@ -24,6 +30,20 @@ class Rod:
     joints: tuple[int, int]
     balls: tuple[Reals, Reals]
     """Where the balls are in the coordinates of its first link."""
+    cross: Cross | None = None
+    """The cross joint at its first end, if that is no ball."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Cross:
+    """A cross joint between a body and a rod."""
+
+    frame: Reals
+    """Of the joint on the body, in the coordinates of the reference pose."""
+    on_rod: Reals
+    """Of the joint on the rod, in the coordinates of its first link."""
+    is_first: bool
+    """Whether the rod is the joint's first link, so that the axis x of the joint is fixed on it; else y is."""
 
 
 def motions(pair: Pair, space: Space) -> tuple[Freedom, ...]:
@@ -74,34 +94,51 @@ class Bodies:
             if self.of[link] == b:
                 self.of[link], self.poses[link] = a, between @ self.poses[link]
 
-    def rods(self) -> tuple[Rod, ...]:
-        """Bodies with two balls and nothing else, whose neighbours are other bodies than themselves and no rods."""
+    def rods(self, *, crosses: bool) -> tuple[Rod, ...]:
+        """Bodies with two balls and nothing else, whose neighbours are other bodies than themselves and no rods.
+
+        With ``crosses`` a cross joint at right angles to the rod counts as a ball.
+        """
         if self.chain.space is not Space.SPATIAL:
             return ()
         driven = {drive.joint for drive in self.linkage.mechanism.drives} - {*self.held}
         frame = self.of[self.chain.index(self.linkage.mechanism.frame)]
         rods: dict[int, Rod] = {}
         for body in sorted({*self.of} - {frame}):
-            rod = self._rod(body)
+            rod = self._rod(body, crosses)
             if rod and not driven & {*rod.joints} and not {self.of[rod.first], self.of[rod.second]} & {*rods}:
                 rods[body] = rod
         return tuple(rods.values())
 
-    def _rod(self, body: int) -> Rod | None:
+    def _rod(self, body: int, crosses: bool) -> Rod | None:
         joints = [
             (k, [self.chain.index(name) for name in joint.links])
             for k, joint in enumerate(self.chain.joints)
             if k not in self.held and any(self.of[self.chain.index(name)] == body for name in joint.links)
         ]
-        if len(joints) != 2 or not all(self.chain.joints[k].pair.is_ball and len(links) == 2 for k, links in joints):
+        pairs = [self.chain.joints[k].pair for k, links in joints if len(links) == 2]
+        if (
+            len(joints) != 2
+            or len(pairs) != 2
+            or not all(pair.is_ball or (crosses and pair.is_cross) for pair in pairs)
+        ):
             return None
+        if pairs[1].is_cross:
+            joints = joints[::-1]
         own, others = zip(*(sorted(links, key=lambda link: self.of[link] != body) for _, links in joints), strict=True)
         first, second = ((self.poses[link] @ self.frames[k])[:3, 3] for (k, _), link in zip(joints, own, strict=True))
         if self.of[others[0]] == self.of[others[1]] or not (first - second).any():
             return None
-        return Rod(
-            link=body, first=others[0], second=others[1], joints=(joints[0][0], joints[1][0]), balls=(first, second)
-        )
+        numbers = (joints[0][0], joints[1][0])
+        cross = None
+        if self.chain.joints[numbers[0]].pair.is_cross:
+            on_rod = self.poses[own[0]] @ self.frames[numbers[0]]
+            is_first = joints[0][1][0] == own[0]
+            slope = on_rod[:3, 0 if is_first else 1] @ (second - first) / np.linalg.norm(second - first)
+            if self.chain.joints[numbers[1]].pair.is_cross or abs(slope) > _SQUARE:
+                return None
+            cross = Cross(frame=self.frames[numbers[0]], on_rod=on_rod, is_first=is_first)
+        return Rod(link=body, first=others[0], second=others[1], joints=numbers, balls=(first, second), cross=cross)
 
     def links_of_rods(self, rods: Iterable[Rod]) -> set[int]:
         """All links of these bodies."""

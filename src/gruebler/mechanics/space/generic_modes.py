@@ -28,6 +28,7 @@ QUICK, CAREFUL = 1e-3, 1e-6  # how far the corrector may change a prediction
 _SAME = 1e-6  # of the largest entry: poses of all links that differ by less are one mode
 _CLOSED = 1e-8  # residuals, of the square of the largest entry
 QUIET = 15  # loops in vain that end a search
+MOST_MODES = 400  # of a structure: a search for more takes minutes
 
 
 class ComplexDimensions(NamedTuple):
@@ -317,6 +318,12 @@ def generic_modes(structure: ClosureStructure, known: int | None) -> GenericMode
         new = structure.new_among(modes, here)
         quiet = 0 if new else quiet + 1
         modes = modes.joined(here.at(new))
+        if modes.number > MOST_MODES:
+            raise LinkageError(
+                "a linkage of this structure has more than {most} assembly modes, complex ones included; they are not "
+                "listed",
+                most=MOST_MODES,
+            )
     return GenericModes(dimensions=dimensions, positions=modes, loops=loops, lost=lost)
 
 

@@ -115,18 +115,21 @@ def closure_tree(linkage: SpatialLinkage) -> ClosureTree:
 
     Cost O(joints²).
     """
-    return _Builder(linkage, {}).tree()
+    return _Builder(linkage, {}, counted=False).tree()
 
 
 def locked_tree(linkage: SpatialLinkage, locked: Mapping[int, float]) -> ClosureTree:
-    """The tree with joints of one freedom held at values, in radians and sizes: their links are one body each."""
-    return _Builder(linkage, locked).tree()
+    """The tree with joints of one freedom held at values, in radians and sizes: their links are one body each.
+
+    A leg between a cross joint and a ball is a rod there, since its positions are counted once.
+    """
+    return _Builder(linkage, locked, counted=True).tree()
 
 
 class _Builder:
     """Makes a tree; used once."""
 
-    def __init__(self, linkage: SpatialLinkage, locked: Mapping[int, float]) -> None:
+    def __init__(self, linkage: SpatialLinkage, locked: Mapping[int, float], *, counted: bool) -> None:
         mechanism = linkage.mechanism
         self.linkage, self.mechanism, self.chain = linkage, mechanism, mechanism.chain
         self.space = self.chain.space
@@ -135,7 +138,7 @@ class _Builder:
             self.frames[:, :3, 3] = (self.frames[:, :3, 3] - linkage.centre) / linkage.size
         self.gears = gear_rows(linkage)
         self.bodies = Bodies(linkage, self.frames, locked)
-        self.rods = self.bodies.rods()
+        self.rods = self.bodies.rods(crosses=counted)
         root = TreeNode(parent=-1, still=np.eye(4), axis=0, turn=0.0, travel=0.0, sign=1.0, dimension=None)
         self.nodes: list[TreeNode] = [root]
         self.entries: dict[int, int] = {}
