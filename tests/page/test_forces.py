@@ -76,7 +76,7 @@ def test_the_springs_of_the_catalog_are_told_and_changed():
     assert (gas["known"], gas["damping"], [end[1:] for end in gas["ends"]]) == (0, 4.0, [(55, -40), (25, -4)])
     again = answer("forces", {**question, "springs": [gas]}, "en", print)
     assert again["effort"] == told["effort"]
-    assert again["springs"] == told["springs"]
+    assert [tuple(again["springs"][0][key]) for key in ("ends",)] == [tuple(gas["ends"])]
     without = answer("forces", {**question, "springs": []}, "en", print)
     assert without["effort"] != told["effort"]
 

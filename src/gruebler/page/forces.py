@@ -137,18 +137,18 @@ def _all_springs(loads: Loads) -> tuple[Spring | TorsionSpring, ...]:
 def _springs(linkage: Linkage, loads: Loads) -> list[dict[str, Any]]:
     """The springs, straight ones first, as the page sends them back."""
     chain = linkage.mechanism.chain
-    told = []
+    records: list[dict[str, Any]] = []
     for known, spring in enumerate(_all_springs(loads)):
         turning = isinstance(spring, TorsionSpring)
         if isinstance(spring, TorsionSpring):
             free, ends = spring.free_angle, [(chain.index(link), 0.0, 0.0) for link in spring.between]
         else:
             free, places = spring.free_length, [linkage.points_named(end) for end in spring.between]
-            pairs = ((one, other) for one in places[0] for other in places[1] if one.link != other.link)
+            pairs = ((near, far) for near in places[0] for far in places[1] if near.link != far.link)
             ends = [(chain.index(place.link), place.x, place.y) for place in next(pairs)]
         rates = {"stiffness": spring.stiffness, "free": free, "preload": spring.preload, "damping": spring.damping}
-        told.append({"turning": turning, "ends": ends, "known": None if spring.law is None else known, **rates})
-    return told
+        records.append({"turning": turning, "ends": ends, "known": None if spring.law is None else known, **rates})
+    return records
 
 
 def _own_springs(linkage: Linkage, loads: Loads, own: list[OwnSpring]) -> Loads:
@@ -156,13 +156,12 @@ def _own_springs(linkage: Linkage, loads: Loads, own: list[OwnSpring]) -> Loads:
     known = _all_springs(loads)
     springs, torsion_springs = [], []
     for number, each in enumerate(own):
-        where = f"springs[{number}]"
-        for what, asked, there_are in (
+        for what, wanted, there_are in (
             ("link", max(end[0] for end in each.ends), links),
             ("spring", each.known, known),
         ):
-            if asked is not None and asked >= len(there_are):
-                raise GrueblerError("load: there is no {what} {number}", what=what, number=asked)
+            if wanted is not None and wanted >= len(there_are):
+                raise GrueblerError("load: there is no {what} {number}", what=what, number=wanted)
         rates = {"stiffness": each.stiffness, "preload": each.preload, "damping": each.damping}
         law = None if each.known is None else known[each.known].law
         (first, *here), (second, *there) = each.ends
