@@ -13,6 +13,7 @@ from gruebler.design.synthesis.minimax_search import minimax
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
+from gruebler.design.synthesis.spherical import synthesise_orientations, synthesise_spherical_function
 from gruebler.design.synthesis.structural_errors import structural_error
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.synthesising import synthesise
@@ -37,7 +38,9 @@ __all__ = [
     "synthesise",
     "synthesise_dead_centres",
     "synthesise_function",
+    "synthesise_orientations",
     "synthesise_path",
     "synthesise_positions",
+    "synthesise_spherical_function",
     "synthesise_structures",
 ]

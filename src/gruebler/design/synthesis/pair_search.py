@@ -106,32 +106,16 @@ def pair_facts(
     """What all pairs of RR dyads with dyads of one kind do, in closed form. Cost: 2 us a pair."""
     (pins, own), (far_pins, far) = (_places(task, dyads) for dyads in (first, second))
     directions = np.array([dyad.direction for dyad in second], np.complex128)
+    slides = directions[None, :, None] * (1 if second[0].kind == SLIDER else task.turns / task.turns[0])
     with np.errstate(divide="ignore", invalid="ignore"):
-        slides = directions[None, :, None] * (1 if second[0].kind == SLIDER else task.turns / task.turns[0])
-        pair = _CLOSURES[second[0].kind]((pins, own), (far_pins, far), slides)
-        # Crank angles that can be assembled: cosines from `low` to `high`.
-        low, high, angle = pair.low, pair.high, pair.angle
-        turns = (low < -1) & (high > 1)
-        split = (low >= -1) & (high <= 1)
-        passes_back = (low < -1) & ~turns
-        angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
-        steps = np.diff(angle, axis=2)
-        cyclic = steps % (2 * np.pi)
-        onward, back = cyclic.sum(axis=2), ((-steps) % (2 * np.pi)).sum(axis=2)
-        within_lap = np.minimum(onward, back) < 2 * np.pi
-        ordered = np.where(turns, within_lap, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
-        travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
-        travel = np.where(turns, travel, angle[..., -1] - angle[..., 0])
-        same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
-        side = pair.side
-        moves = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & ordered & same_part
-        cosines = [pair.cosine(_extreme(angle[..., 0], travel, at)) for at in (0.0, np.pi)]
-        transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
+        closure = _CLOSURES[second[0].kind]((pins, own), (far_pins, far), slides)
+        moves, turns, transmission = motion_of_pairs(closure)
     # Two dyads with a common pivot are no linkage.
-    usable = np.isfinite(transmission) & (np.nanmin(pair.lengths, axis=0) > 1e-9 * np.nanmax(pair.lengths, axis=0))
+    lengths = closure.lengths
+    usable = np.isfinite(transmission) & (np.nanmin(lengths, axis=0) > 1e-9 * np.nanmax(lengths, axis=0))
     reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else _inside(far, demands)
     return PairFacts(
-        lengths=pair.lengths,
+        lengths=lengths,
         moves=np.asarray(moves & usable),
         turns=np.asarray(turns & usable),
         transmission=np.where(usable, transmission, 0.0),
@@ -140,11 +124,34 @@ def pair_facts(
     )
 
 
+def motion_of_pairs(closure: PairClosure) -> tuple[Flags, Flags, Reals]:
+    """Whether a crank meets the targets in order on one branch, whether it turns, its transmission angle on the way.
+
+    The last is at most a right angle and only meant for linkages that meet the targets.
+    """
+    low, high, angle, side = closure.low, closure.high, closure.angle, closure.side
+    turns = (low < -1) & (high > 1)
+    split = (low >= -1) & (high <= 1)
+    passes_back = (low < -1) & ~turns
+    angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
+    steps = np.diff(angle, axis=2)
+    onward, back = (steps % (2 * np.pi)).sum(axis=2), ((-steps) % (2 * np.pi)).sum(axis=2)
+    within_lap = np.minimum(onward, back) < 2 * np.pi
+    ordered = np.where(turns, within_lap, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
+    travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
+    travel = np.where(turns, travel, angle[..., -1] - angle[..., 0])
+    same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
+    moves = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & ordered & same_part
+    cosines = [closure.cosine(_extreme(angle[..., 0], travel, at)) for at in (0.0, np.pi)]
+    transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
+    return np.asarray(moves), np.asarray(turns), np.asarray(transmission)
+
+
 _Places = tuple[NDArray[np.complex128], NDArray[np.complex128]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Closure:
+class PairClosure:
     """Where the crank can be assembled with the other dyad: its angle from a line of symmetry, with cosines between."""
 
     lengths: Reals
@@ -158,14 +165,14 @@ class _Closure:
     """Of the transmission angle, from the cosine of the crank angle."""
 
 
-def _by_rocker(driven: _Places, other: _Places, _: NDArray[np.complex128]) -> _Closure:
+def _by_rocker(driven: _Places, other: _Places, _: NDArray[np.complex128]) -> PairClosure:
     (pins, own), (far_pins, far) = driven, other
     frame = far[None, :] - own[:, None]
     a, c = (np.abs(p[:, 0] - m) for p, m in (driven, other))
     b, d = np.abs(far_pins[None, :, 0] - pins[:, None, 0]), np.abs(frame)
     a, c = np.broadcast_to(a[:, None], b.shape), np.broadcast_to(c[None, :], b.shape)
     arm = far_pins[None] - pins[:, None]
-    return _Closure(
+    return PairClosure(
         lengths=np.array([a, b, c, d]),
         low=(a * a + d * d - (b + c) ** 2) / (2 * a * d),
         high=(a * a + d * d - (b - c) ** 2) / (2 * a * d),
@@ -175,14 +182,14 @@ def _by_rocker(driven: _Places, other: _Places, _: NDArray[np.complex128]) -> _C
     )
 
 
-def _by_slider(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> _Closure:
+def _by_slider(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> PairClosure:
     """The pin on a line at e from the crank's pivot: |a sin(phi) - e| <= b, phi from the line."""
     (pins, own), (far_pins, far) = driven, other
     b = np.abs(far_pins[None, :, 0] - pins[:, None, 0])
     a = np.broadcast_to(np.abs(pins[:, 0] - own)[:, None], b.shape)
     e = np.imag(np.conj(slides[..., 0]) * (far[None, :] - own[:, None]))
     none = np.full(b.shape, np.nan)
-    return _Closure(
+    return PairClosure(
         lengths=np.array([a, b, none, none]),
         low=(e - b) / a,
         high=(e + b) / a,
@@ -192,7 +199,7 @@ def _by_slider(driven: _Places, other: _Places, slides: NDArray[np.complex128]) 
     )
 
 
-def _by_block(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> _Closure:
+def _by_block(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> PairClosure:
     """A line of the coupler, at e from the crank's pin, through the other pivot: their distance is at least |e|."""
     (pins, own), (_, far) = driven, other
     frame = far[None, :] - own[:, None]
@@ -201,7 +208,7 @@ def _by_block(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -
     seen = np.conj(slides) * (far[None, :, None] - pins[:, None])
     along, e = np.real(seen), np.imag(seen[..., 0])
     none = np.full(d.shape, np.nan)
-    return _Closure(
+    return PairClosure(
         lengths=np.array([a, none, none, d]),
         low=np.full(d.shape, -np.inf),
         high=(a * a + d * d - e * e) / (2 * a * d),

@@ -1,0 +1,169 @@
+"""Four-bars on the sphere: dyads by two methods, designs by `move`, the plane as the limit."""
+
+import numpy as np
+import pytest
+from scipy.optimize import fsolve
+from scipy.spatial.transform import Rotation
+
+import gruebler as gr
+from gruebler.base.errors import SynthesisError
+from gruebler.design.synthesis import Demands
+from gruebler.design.synthesis.dyads import Displacements, all_dyads
+from gruebler.design.synthesis.spherical import (
+    _displacements,
+    five_orientation_dyads,
+    synthesise_orientations,
+    synthesise_spherical_function,
+)
+from gruebler.mechanics.space import SphericalFourBar
+
+
+def _random_task(seed, count=5):
+    rng = np.random.default_rng(seed)
+    steps = rng.normal(0, 0.4, (count, 3))
+    return Rotation.from_rotvec(np.cumsum(steps, axis=0)).as_matrix()
+
+
+def _coupler_task(bar, phi, branch="+"):
+    """Orientations of the coupler of a four-bar, and its four axes in the first of them."""
+    psi = bar.motion(phi, branch=branch).output.value
+    a, c, d = bar.a, bar.c, bar.d
+    pin = np.stack([np.sin(a) * np.cos(phi), np.sin(a) * np.sin(phi), np.full(len(phi), np.cos(a))], axis=1)
+    b0 = np.array([np.sin(d), 0, np.cos(d)])
+    far = np.array([np.cos(d), 0, -np.sin(d)]) * np.cos(psi)[:, None] + np.array([0, 1.0, 0]) * np.sin(psi)[:, None]
+    far = np.cos(c) * b0 + np.sin(c) * far
+    third = np.cross(pin, far)
+    third /= np.linalg.norm(third, axis=1, keepdims=True)
+    frames = np.stack([pin, third, np.cross(pin, third)], axis=2)
+    return frames, np.array([[0, 0, 1], pin[0], far[0], b0])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_all_real_dyads_against_newtons_method_from_many_starts(seed):
+    """Second method: w . (A g - g) = 0 with both axes as points of a chart, from 400 random starts."""
+    turns = _displacements(_random_task(seed))
+    dyads, found = five_orientation_dyads(turns)
+    assert found == 6
+    for dyad in dyads:
+        assert np.abs((turns - np.eye(3)) @ dyad.moving @ dyad.fixed).max() < 1e-13
+    rng = np.random.default_rng(seed)
+    other = []
+    for _ in range(400):
+        w, g = rng.normal(size=(2, 3))
+
+        def gaps(x, w=w, g=g):
+            return [*((turns - np.eye(3)) @ x[3:] @ x[:3]), x[:3] @ w - w @ w, x[3:] @ g - g @ g]
+
+        x, _, ended, _ = fsolve(gaps, [*w, *g], full_output=True, xtol=1e-13)
+        axis = x[3:] / np.linalg.norm(x[3:])
+        clean = ended == 1 and np.abs(gaps(x)).max() < 1e-10 and np.abs(x).max() < 1e4
+        if clean and all(abs(axis @ known) < 1 - 1e-8 for known in other):
+            other.append(axis)
+    assert len(other) == len(dyads)
+    assert len(dyads) % 2 == 0
+    assert all(any(abs(axis @ dyad.moving) > 1 - 1e-10 for axis in other) for dyad in dyads)
+
+
+@pytest.mark.parametrize("arcs", [(30, 80, 60, 70), (40, 100, 95, 60), (75, 60, 80, 30)])
+def test_orientations_of_a_four_bar_give_it_back(arcs):
+    bar = SphericalFourBar(*np.radians(arcs))
+    phi = np.radians([20, 50, 95, 130, 170.0])
+    task, axes = _coupler_task(bar, phi)
+    found = synthesise_orientations(task)
+    lines = [np.abs(np.sum(design.axes * axes, axis=1)) for design in found.designs]
+    lines += [np.abs(np.sum(design.axes[::-1] * axes, axis=1)) for design in found.designs]
+    assert max(line.min() for line in lines) > 1 - 1e-9
+
+
+def _moved_through(design, task):
+    """The largest miss of the orientations by `move`, which knows closing conditions only."""
+    drives = np.array(design.drives) - design.drives[0]
+    steps = np.arange(len(drives) * 8 - 7) / 8
+    motion = gr.move(design.linkage, np.interp(steps, np.arange(len(drives)), drives))
+    assert motion.complete
+    turns = motion.pose("coupler")[::8, :3, :3]
+    return np.abs(turns - task @ task[0].T).max()
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_accepted_designs_take_the_orientations_by_another_solver(count):
+    accepted = 0
+    rng = np.random.default_rng(count)
+    for seed in range(6):
+        task = _random_task(seed, count)
+        if count == 5:  # of random ones hardly any is met on one branch
+            bar = SphericalFourBar(*np.radians([30, 80, 60, 70]) + rng.uniform(-0.1, 0.1, 4))
+            task, _ = _coupler_task(bar, np.sort(rng.uniform(0.3, 5, 5)))
+        for design in synthesise_orientations(task, number=3).designs[:3]:
+            assert _moved_through(design, task) < 1e-7
+            accepted += 1
+    assert accepted >= 3
+
+
+def test_demands_are_met_within_the_family():
+    task = _random_task(1, 3)
+    found = synthesise_orientations(task, Demands(crank=True, transmission=np.radians(30)), number=4)
+    assert len(found.designs) == 4
+    for design in found.designs:
+        assert design.four_bar.limits[0].full
+        assert design.verdict.transmission >= np.radians(30)
+        way = np.linspace(min(design.drives), max(design.drives), 400)
+        least = design.four_bar.motion(way, branch=design.branch).transmission_angle.min()
+        assert least == pytest.approx(design.verdict.transmission, abs=1e-3)
+
+
+def test_small_caps_are_the_plane():
+    """The worked example with four real planar dyads (README) on a sphere of 10,000 times its size: four of six."""
+    rows = [(0, 0, 0), (-2, 3.8, 81), (-0.1, 3.4, -16), (1.5, 0.8, -32), (-1.8, 2.2, 55)]
+    far = 1e-4
+    task = [
+        Rotation.from_rotvec([-far * y, far * x, 0]).as_matrix()
+        @ Rotation.from_euler("z", angle, degrees=True).as_matrix()
+        for x, y, angle in rows
+    ]
+    origins = np.array([complex(x, y) for x, y, _ in rows])
+    displacements, _, size = Displacements.of(origins, np.exp(1j * np.radians([angle for *_, angle in rows])))
+    plane = [dyad for dyad in all_dyads(displacements).real if not dyad.slides]
+    sphere = five_orientation_dyads(_displacements(task)).real
+    places = [complex(*(dyad.moving[:2] / dyad.moving[2])) / far / size for dyad in sphere]
+    assert len(plane) == 4
+    for dyad in plane:
+        assert min(abs(dyad.moving - place) for place in places) < 1e-3 * (1 + abs(dyad.moving))
+
+
+@pytest.mark.parametrize("branch", ["+", "-"])
+@pytest.mark.parametrize("arcs", [(30, 80, 60, 70), (40, 100, 95, 60), (25, 120, 70, 130)])
+def test_pairs_of_a_four_bar_give_it_back(arcs, branch):
+    bar = SphericalFourBar(*np.radians(arcs))
+    phi = np.radians([15, 60, 110, 160.0])
+    psi = bar.motion(phi, branch=branch).output.value
+    (design,) = synthesise_spherical_function(phi, psi).designs
+    assert [getattr(design.four_bar, arc) for arc in "abcd"] == pytest.approx(np.radians(arcs), abs=1e-9)
+    assert design.branch == branch
+    (same,) = synthesise_spherical_function(phi[:3], psi[:3], frame=bar.d).designs
+    assert same.four_bar.b == pytest.approx(bar.b, abs=1e-9)
+
+
+def test_pairs_without_a_real_linkage_say_so():
+    found = synthesise_spherical_function([0.1, 0.5, 0.9, 1.4], [0.1, 2.5, -1.0, 2.0])
+    assert not found.designs + found.rejected or found.rejected
+    assert found.notes or found.rejected[0].verdict.reasons
+
+
+@pytest.mark.parametrize(
+    ("task", "words"),
+    [
+        ([np.eye(3)] * 2, "three to five matrices"),
+        ([np.eye(3), np.eye(3), -np.eye(3)], "orientation 3 is no rotation"),
+        ([np.eye(3), np.eye(3), np.eye(3)], "orientations 1 and 2 are equal"),
+        (Rotation.from_euler("z", [[0], [10], [30], [50], [70]], degrees=True).as_matrix(), "infinitely many dyads"),
+    ],
+)
+def test_tasks_that_cannot_be_solved_say_why(task, words):
+    with pytest.raises(SynthesisError, match=words):
+        synthesise_orientations(task)
+
+
+def test_demands_for_the_plane_are_refused():
+    with pytest.raises(SynthesisError, match="demands for the plane"):
+        synthesise_orientations(_random_task(0), Demands(region=(0, 0, 1, 1)))
