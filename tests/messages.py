@@ -15,7 +15,7 @@ from pathlib import Path
 from string import Formatter
 from typing import NamedTuple
 
-from babel.messages.catalog import Catalog
+from babel.messages.catalog import Catalog, Message
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
@@ -170,6 +170,11 @@ def updated(old: Catalog, lang: str) -> Catalog:
     return new
 
 
+def is_translated(entry: Message) -> bool:
+    """Whether all forms of a message have a translation: a missing plural is a pair of empty texts."""
+    return all([entry.string] if isinstance(entry.string, str) else entry.string)
+
+
 def main() -> None:
     """Update and compile all catalogs."""
     for path in sorted(LOCALE.glob("*/LC_MESSAGES/gruebler.po")):
@@ -178,7 +183,7 @@ def main() -> None:
         with path.open("wb") as file:
             write_po(file, catalog, width=120, include_lineno=False)
         path.with_suffix(".mo").write_bytes(compiled(catalog))
-        missing = [entry.id for entry in catalog if entry.id and not entry.string]
+        missing = [entry.id for entry in catalog if entry.id and not is_translated(entry)]
         print(f"{lang}: {len(catalog)} messages, {len(missing)} to translate")
         for text in missing[:20]:
             print("   ", text if isinstance(text, str) else text[0])
