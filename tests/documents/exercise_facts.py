@@ -391,7 +391,7 @@ EXERCISES = [
     task("exercise-10", "c_max", "greatest", "160", 110.0 + 80 - 30),
     task("exercise-11", "H", "stroke of 20, 50", "40", 40.0),
     task("exercise-11", "φ_H2", "crank in the middle of the stroke, both signs", "78.5", own.middle(20, 50)),
-    task("exercise-11", "φ_i_H2", "crank from the inner dead centre to there", "101.5", 180 - own.middle(20, 50)),
+    task("exercise-11", "φ_iH2", "crank from the inner dead centre to there", "101.5", 180 - own.middle(20, 50)),
     task(
         "exercise-11",
         "μ_H2",

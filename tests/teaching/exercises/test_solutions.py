@@ -190,7 +190,7 @@ FIGURES = [
     ("exercise-8", "E8", {"x_shortest_upper": "shortest_upper"}),
     ("exercise-9", "E9", {"x_shortest_upper": "shortest_upper"}),
     ("exercise-10", "E10", {"x_shortest_upper": "shortest_upper"}),
-    ("exercise-11", "E11", {"H": "H", "phi_H2": "φ_H2", "from_inner": "φ_i_H2", "alpha": "α_H2", "mu": "μ_H2"}),
+    ("exercise-11", "E11", {"H": "H", "phi_H2": "φ_H2", "from_inner": "φ_iH2", "alpha": "α_H2", "mu": "μ_H2"}),
     ("exercise-12", "E12", {"d": "d", "lam": "λ", "swing": "ψ_H"}),
     ("exercise-13", "E13", {"mu1": "μ_min1", "mu2": "μ_min2"}),
     ("exercise-14", "E14", {"mu_min": "μ_min", "alpha_max": "α_max", "mu_max": "μ_max"}),

@@ -22,7 +22,14 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises import KINDS, exercise, grade, solve
 from gruebler.teaching.sheets.page import TextLine
-from gruebler.teaching.worksheets import catalog_book, document_bytes, machine_document, poster, worksheet
+from gruebler.teaching.worksheets import (
+    catalog_book,
+    document_bytes,
+    machine_document,
+    poster,
+    solution_document,
+    worksheet,
+)
 from gruebler.teaching.worksheets.blocks import AnswerLines, Contents, Document, Heading, Paragraph, Pictures, Rows
 from gruebler.teaching.worksheets.joint_pictures import joint_pictures
 from gruebler.teaching.worksheets.paged import document_pages
@@ -348,6 +355,37 @@ def test_commands(tmp_path, capsys):
     assert main(["sheet", "book", "quad", "tri", "-o", str(tmp_path / "book.md")]) == 0
     assert main(["gallery", "--poster", "joints", "-o", str(tmp_path / "joints.html")]) == 0
     assert main(["sheet", "draw", "mzc", "-o", str(tmp_path / "mzc.md")]) == 2
+
+
+def test_solutions_are_set_as_in_print():
+    """Indices and minus signs as a textbook has them, ids of the program only where nothing is printed."""
+    tasks = [exercise(id) for id in ("6", "11", "13", "exercise-5b", "exercise-4")]
+    document = solution_document(tasks, lang="de")
+    assert document.title == "Lösungen von 5 Aufgaben"
+    assert blocks_of(document, Heading)[0].text == "Zwei-Zylinder-V-Kompressor (000/003, Aufgabe 6)"
+    text = document_bytes(document, "md").decode("utf-8")
+    words = re.sub(r"!\[[^\]]*\]\([^)]*\)", "", text)
+    assert "F = 3(n − 1) − 2 g₁ = 3(6 − 1) − 2·7 = 1" in words
+    assert "φ<sub>iH2</sub> = 180° − φ<sub>H2</sub>" in words
+    assert "α<sub>max1</sub>" in words
+    assert "λ₁" in words
+    assert "Das Dreieck A₀, A, B" in words
+    assert "D(Gestell-Kurbel)" in words
+    assert re.findall(r"exercise-| - |_|(?<!\w)-\d|\bg\d", words.replace("|---|", "")) == []
+
+
+def test_a_table_is_divided_between_its_rows_only():
+    """A short one not at all; of a long one the head stands above each part, never alone, and no row is alone."""
+    for before in range(30, 60):
+        filling = tuple(Paragraph(f"line {k}") for k in range(before))
+        for count in (1, 5, 40):
+            rows = Rows(("letter", "number"), tuple((f"row{k}", str(k)) for k in range(count)))
+            pages = document_pages(Document("a table", "", (*filling, rows)))
+            texts = [[item.text for item in page.items if isinstance(item, TextLine)] for page in pages]
+            parts = [sum(text.startswith("row") for text in page) for page in texts]
+            assert sum(parts) == count
+            assert [page.count("letter") for page in texts] == [int(part > 0) for part in parts]
+            assert sum(part > 0 for part in parts) == 1 or (count == 40 and min(part for part in parts if part) >= 2)
 
 
 def test_an_empty_document_has_a_page():

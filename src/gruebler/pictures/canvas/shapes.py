@@ -105,11 +105,11 @@ def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]
     return Point(left, top), Point(right - left, bottom - top)
 
 
-_LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_(\w{1,3})(?!\w)")
+_LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_(\w{1,4})(?!\w)")
 
 
 def split_subscripts(text: str) -> list[tuple[str, bool]]:
-    """A text in pieces, each with whether it is a subscript: up to three signs after a letter and an underscore.
+    """A text in pieces, each with whether it is a subscript: up to four signs after a letter and an underscore.
 
     >>> split_subscripts("μ_min = 3°, left_arm")
     [('μ', False), ('min', True), (' = 3°, left_arm', False)]

@@ -200,7 +200,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     phi = degrees(acos(a / (2 * rod)))
     builder.find("φ_H2", name, "± arccos(a/(2·b))", phi, unit="°", text=text, either_sign=True, a=a, b=rod)
     name = message("crank angle from the inner dead centre to the middle")
-    builder.find("φ_i_H2", name, "180° - φ_H2", 180 - phi, unit="°", φ_H2=angle(phi))
+    builder.find("φ_iH2", name, "180° - φ_H2", 180 - phi, unit="°", φ_H2=angle(phi))
     name = message("deviation angle in the middle of the stroke")
     values = {"a": formula_number(a), "b": formula_number(rod), "φ_H2": angle(phi)}
     alpha = builder.find(
@@ -242,7 +242,7 @@ def _add_middle_mistakes(builder: SolutionBuilder, phi: float, alpha: float) -> 
         message("At 90° half of the time has passed, but not half of the stroke: the slider is already beyond H/2."),
     )
     builder.mistake("φ_H2", 180 - phi, message("Counted from the inner dead centre; the answer counts from the outer."))
-    builder.mistake("φ_i_H2", phi, message("Counted from the outer dead centre; the answer counts from the inner."))
+    builder.mistake("φ_iH2", phi, message("Counted from the outer dead centre; the answer counts from the inner."))
     builder.mistake("μ_H2", alpha, message("That is the deviation angle α; μ = 90° - α."))
 
 

@@ -150,10 +150,13 @@ def plain_name(result: Result) -> str:
 def ascii_key(key: str) -> str:
     """A key in letters that every keyboard has.
 
-    >>> ascii_key("Δφ"), ascii_key("μ_I*"), ascii_key("H")
-    ('Deltaphi', 'mu_I*', 'H')
+    >>> ascii_key("Δφ"), ascii_key("μ_I*"), ascii_key("H"), ascii_key("g₁")
+    ('Deltaphi', 'mu_I*', 'H', 'g1')
     """
-    return "".join(_GREEK.get(letter, letter) for letter in key)
+    return "".join(_GREEK.get(letter, letter) for letter in key).translate(_INDICES)
+
+
+_INDICES = {0x2080 + k: str(k) for k in range(10)}
 
 
 _GREEK = {

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gruebler.pictures.canvas.figure import Figure
 
@@ -104,3 +105,39 @@ class Document:
     subtitle: str
     blocks: tuple[Block, ...]
     lang: str = "en"
+
+    def typeset(self) -> Document:
+        """With indices and minus signs as in print."""
+        return replace(self, title=typeset(self.title), blocks=tuple(map(_typeset_block, self.blocks)))
+
+
+_NUMBERED = re.compile(r"(?<![\w=])([^\W\d_])([0-9])(?:_(\w)(?!\w))?(?![\w])")
+_MINUS = re.compile(r"(?<=\s)-(?=\s)|(?<![\w)\]…-])-(?=[\d(√∞])|(?:(?<=\()|(?<==\s))-(?=[^\W\d_])")
+
+
+def typeset(text: str) -> str:
+    """Numbered letters get an index, and what is a minus becomes one; hyphens of words and joints stay.
+
+    >>> typeset("3n - 4 - 2 g1 = -φ/2 at K1_x of D(1-2), and exercise-1"), typeset("Zug- und Druckkraft (-0,5)")
+    ('3n − 4 − 2 g₁ = −φ/2 at K_1x of D(1-2), and exercise-1', 'Zug- und Druckkraft (−0,5)')
+    """
+
+    def index(match: re.Match[str]) -> str:
+        letter, digit, of = match.groups()
+        return f"{letter}_{digit}{of}" if of else letter + chr(0x2080 + int(digit))
+
+    return _MINUS.sub("−", _NUMBERED.sub(index, text))
+
+
+def _typeset_block(block: Block) -> Block:
+    match block:
+        case Heading(text) | Paragraph(text):
+            return replace(block, text=typeset(text))
+        case Pictures(captions=captions):
+            return replace(block, captions=tuple(map(typeset, captions)))
+        case Rows(headers, rows):
+            return Rows(tuple(map(typeset, headers)), tuple(tuple(map(typeset, row)) for row in rows))
+        case AnswerLines(asked):
+            return replace(block, asked=tuple(map(typeset, asked)))
+        case Contents() | PageBreak():
+            return block

@@ -116,18 +116,23 @@ def _html_block(block: Block) -> Iterator[str]:
 
 
 def _markdown(document: Document) -> bytes:
-    lines = [f"# {document.title}", "", document.subtitle, ""]
+    lines = [f"# {document.title}", "", *([document.subtitle, ""] if document.subtitle else [])]
     for block in document.blocks:
         lines += [*_markdown_block(block), ""]
     return ("\n".join(lines).rstrip() + "\n").encode()
 
 
+def _indexed(text: str) -> str:
+    """Text for Markdown, which has HTML for subscripts."""
+    return "".join(f"<sub>{part}</sub>" if low else part for part, low in split_subscripts(text))
+
+
 def _markdown_block(block: Block) -> Iterator[str]:
     match block:
         case Heading(text, level, _):
-            yield f"{'#' * (level + 1)} {text}"
+            yield f"{'#' * (level + 1)} {_indexed(text)}"
         case Paragraph(text):
-            yield "  \n".join(text.split("\n"))
+            yield "  \n".join(map(_indexed, text.split("\n")))
         case Pictures(figures, captions):
             for k, figure in enumerate(figures):
                 data = base64.b64encode(figure.svg().encode("utf-8")).decode("ascii")
@@ -135,13 +140,13 @@ def _markdown_block(block: Block) -> Iterator[str]:
                 yield f"![{caption.replace('[', '(').replace(']', ')')}](data:image/svg+xml;base64,{data})"
         case Rows(headers, rows):
             for number, row in enumerate([headers, *rows]):
-                yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
+                yield f"| {' | '.join(_indexed(cell).replace('|', chr(92) + '|') for cell in row)} |"
                 if number == 0:
                     yield "|" + "---|" * len(headers)
         case Contents():
             yield from _markdown_block(block.without_pages)
         case AnswerLines(asked):
-            yield from (f"- {name} ________" for name in asked)
+            yield from (f"- {_indexed(name)} ________" for name in asked)
         case PageBreak():
             yield "---"
 
@@ -157,10 +162,11 @@ def _latex(document: Document) -> bytes:
     body = "\n".join(part for block in document.blocks for part in _latex_block(block))
     return (
         "\\documentclass[a4paper,11pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n"
+        "\\IfFileExists{lmodern.sty}{\\usepackage{lmodern}}{}\n"
         f"\\usepackage[{babel}]{{babel}}\n\\usepackage[margin=20mm]{{geometry}}\n\\usepackage{{tikz}}\n"
         "\\usepackage{longtable}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{6pt}\n"
         f"{colours}\n\\begin{{document}}\n\\section*{{{latex_text(document.title)}}}\n"
-        f"{{\\small {latex_text(document.subtitle)}}}\n\n{body}\n\\end{{document}}\n"
+        f"{{\\small {latex_text(document.subtitle)}\\par}}\n\n{body}\n\\end{{document}}\n"
     ).encode()
 
 
@@ -184,11 +190,12 @@ def _latex_block(block: Block) -> Iterator[str]:
                 yield f"\\begin{{minipage}}[b]{{{wide:.2f}\\linewidth}}{picture}{caption}\\end{{minipage}}%"
             yield "\\par\n"
         case Rows(headers, rows):
-            widest = max(range(len(headers)), key=lambda k: max(len(row[k]) for row in [headers, *rows]))
-            columns = "".join(r"p{0.5\linewidth}" if k == widest else "l" for k in range(len(headers)))
-            yield f"\\begin{{longtable}}[l]{{@{{}}{columns}@{{}}}}"
-            for number, row in enumerate([headers, *rows]):
-                yield " & ".join(map(latex_text, row)) + r" \\" + (r" \hline" if number == 0 else "")
+            yield f"\\begin{{longtable}}[l]{{@{{}}{_latex_columns(headers, rows)}@{{}}}}"
+            yield " & ".join(map(latex_text, headers)) + r" \\ \hline \endhead"
+            for number, row in enumerate(rows, 1):
+                # The first two rows stay with the head, the last two together.
+                kept = "*" if number < len(rows) and number in (1, len(rows) - 1) else ""
+                yield " & ".join(map(latex_text, row)) + r" \\" + kept
             yield "\\end{longtable}\n"
         case Contents(headers, rows):
             paragraphs = r"p{0.4\linewidth}" * (len(headers) - 2)
@@ -201,6 +208,28 @@ def _latex_block(block: Block) -> Iterator[str]:
             yield from (f"{latex_text(name)}\\enspace\\underline{{\\hspace{{40mm}}}}\\par\n" for name in asked)
         case PageBreak():
             yield "\\newpage"
+
+
+_LATEX_LETTERS = 86  # in a line of A4 with these margins, a little less than there are
+_LATEX_CELL = 24  # letters of a cell that is never wrapped
+
+
+def _latex_columns(headers: tuple[str, ...], rows: tuple[tuple[str, ...], ...]) -> str:
+    r"""As wide as their cells; where these do not fit, those of sentences share what the others leave.
+
+    >>> _latex_columns(("a", "b"), (("1", "2"),)), _latex_columns(("a", "b"), (("1", 100 * "x"),))
+    ('ll', 'lp{0.92\\linewidth}')
+    """
+    widths = [max(len(row[k]) for row in (headers, *rows)) + 3 for k in range(len(headers))]
+    spare = _LATEX_LETTERS - sum(width for width in widths if width <= _LATEX_CELL)
+    wide = sum(width for width in widths if width > _LATEX_CELL)
+    if wide <= spare:
+        return "l" * len(widths)
+    parts = (
+        f"p{{{(width / wide * spare - 3) / _LATEX_LETTERS:.2f}\\linewidth}}" if width > _LATEX_CELL else "l"
+        for width in widths
+    )
+    return "".join(parts)
 
 
 _WRITERS: dict[str, Callable[[Document], bytes]] = {"pdf": _pdf, "html": _html, "tex": _latex, "md": _markdown}

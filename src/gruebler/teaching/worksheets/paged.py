@@ -29,6 +29,7 @@ _SIZES = {1: 17.0, 2: 13.5, 3: 12.0}
 _GAP = 12.0
 _HEAD = 10.0
 _KEPT = 0.45 * HEIGHT  # what is higher than that may be divided
+_WHOLE_TABLE = 0.2 * HEIGHT
 _PASSES = 4
 _FILL = 1.04  # texts are set a little wider than estimated
 
@@ -64,10 +65,13 @@ def _divided(document: Document, numbers: Mapping[str, int]) -> tuple[list[list[
             continue
         # A heading stays with all that it heads, or with the beginning if that is much.
         more = _headed(blocks[number:]) if isinstance(block, Heading) else 0.0
-        for items, high in _parts(block):
+        for part, (items, high) in enumerate(_parts(block)):
             if y + high + more > _BOTTOM and pages[-1]:
                 pages.append([])
                 y = _TOP
+                if part and items and isinstance(block, Rows):
+                    head, y = _table_lines(block)[0][0], _TOP + _table_lines(block)[0][1]
+                    pages[-1] += [item.at(_TOP) for item in head]
             pages[-1] += [item.at(y) for item in items]
             y += high
         if isinstance(block, Heading) and block.key:
@@ -158,15 +162,29 @@ def _pictures(block: Pictures) -> Part:
 
 
 def _table(block: Rows) -> Iterator[Part]:
-    """The rows, each as high as its highest cell; columns as wide as their widest cell, the widest one wrapped."""
+    """A short table is not divided; of others the head stays with the first rows, and the last ones stay together."""
+    lines = _table_lines(block)
+    if sum(high for _, high in lines) <= _WHOLE_TABLE:
+        yield _below_one_another(lines)
+    else:
+        yield _below_one_another(lines[:3])
+        yield from lines[3:-2]
+        yield _below_one_another(lines[max(3, len(lines) - 2) :])
+    yield [], _GAP
+
+
+def _table_lines(block: Rows) -> list[Part]:
+    """The head and the rows, each as high as its highest cell; the widest column is wrapped where they do not fit."""
     cells = [block.headers, *block.rows]
     widths = [max(text_width(row[k], 10 * _FILL) for row in cells) + 14 for k in range(len(block.headers))]
     excess = sum(widths) - (_RIGHT - _LEFT)
     if excess > 0:
         widest = max(range(len(widths)), key=widths.__getitem__)
         widths[widest] = max(widths[widest] - excess, 90.0)
+    parts: list[Part] = []
     for number, row in enumerate(cells):
-        items, x, high = [], _LEFT, 0.0
+        items: list[_Lowered] = []
+        x, high = _LEFT, 0.0
         for cell, width in zip(row, widths, strict=True):
             lines = wrapped_text(cell, width - 10, 10 * _FILL)
             items += [
@@ -176,8 +194,18 @@ def _table(block: Rows) -> Iterator[Part]:
             x, high = x + width, max(high, 13.0 * len(lines))
         if number == 0:
             items.append(_Lowered(HorizontalRule(_LEFT, high + 2, min(sum(widths), _RIGHT - _LEFT))))
-        yield items, high + (6 if number == 0 else 3)
-    yield [], _GAP
+        parts.append((items, high + (6 if number == 0 else 3)))
+    return parts
+
+
+def _below_one_another(parts: Sequence[Part]) -> Part:
+    """Parts as one that is not divided."""
+    items: list[_Lowered] = []
+    y = 0.0
+    for each, high in parts:
+        items += [_Lowered(item.at(y)) for item in each]
+        y += high
+    return items, y
 
 
 def _headed(blocks: Sequence[Block]) -> float:
@@ -190,7 +218,12 @@ def _headed(blocks: Sequence[Block]) -> float:
 
     heights = [[high for _, high in _parts(block)] for block in takewhile(belongs, others)]
     whole = sum(map(sum, heights))
-    return whole if whole <= _KEPT else min(next((high for part in heights for high in part), 0.0), _KEPT)
+    if whole <= _KEPT:
+        return whole
+    # A picture that follows at once, or after one paragraph, stays there too.
+    first = next((k + 1 for k, block in enumerate(others[:2]) if isinstance(block, Pictures)), 0)
+    beginning = sum(map(sum, heights[:first])) or next((high for part in heights for high in part), 0.0)
+    return min(beginning, _KEPT)
 
 
 def _shortened(document: Document) -> str:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from itertools import cycle, islice
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import joined, message, translate
+from gruebler.base.text import joined, message, plural, translate
 from gruebler.files import Exercise
+from gruebler.files.catalog_records import source_text
 from gruebler.pictures.canvas.construction import Construction
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.structure import draw_structure
@@ -105,9 +106,11 @@ def worksheet(
     for k, each in enumerate(exercises, 1):
         solutions += _solution_blocks(each, k, lang)
     solutions += [PageBreak(), *_marking_key(exercises, lang)]
+    sheet = Document(title, translate("level {level}", lang, level=level), (Paragraph(name_line), *tasks), lang)
+    solved = Document(translate("Solutions: {kinds}", lang, kinds=names), subtitle, tuple(solutions), lang)
     return TaskSheet(
-        Document(title, translate("level {level}", lang, level=level), (Paragraph(name_line), *tasks), lang),
-        Document(translate("Solutions: {kinds}", lang, kinds=names), subtitle, tuple(solutions), lang),
+        sheet.typeset(),
+        solved.typeset(),
         tuple(each.id for each in exercises),
     )
 
@@ -224,15 +227,16 @@ def solution_document(exercises: Sequence[Exercise], *, lang: str = "en") -> Doc
     1
     """
     blocks = [block for each in exercises for block in _solution_blocks(each, 0, lang)]
-    names = ", ".join(each.id for each in exercises)
-    return Document(translate("Solutions: {kinds}", lang, kinds=names), "", tuple(blocks), lang)
+    title = plural("Solution", "Solutions of {count} exercises", len(exercises), lang)
+    return Document(title, "", tuple(blocks), lang).typeset()
 
 
 def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
-    """A solution; its heading has the number of the task, or its name for the number 0."""
+    """A solution; its heading has the number of the task, or for the number 0 its name and where it stands in print."""
     solution = solve(exercise)
     heading = translate("Task {number}: {id}", lang, number=number, id=exercise.id)
-    yield Heading(heading if number else f"{exercise.name.in_language(lang)} ({exercise.id})")
+    place = source_text(exercise.source, lang) if exercise.source else exercise.id
+    yield Heading(heading if number else f"{exercise.name.in_language(lang)} ({place})")
     yield Paragraph(exercise.task.in_language(lang))
     if number == 0 and (figure := exercise_figure(exercise, lang)) is not None:
         yield Pictures((figure,), height=170.0)
@@ -276,7 +280,7 @@ def _answers(exercise: Exercise, solution: Solution, lang: str) -> Rows:
         )
         for each in comparisons
     )
-    headers = (translate("answer", lang), translate("value", lang), translate("source", lang))
+    headers = (translate("answer", lang), translate("value", lang), translate("printed answer", lang))
     width = 3 if any(note for *_, note in rows) else 2
     return Rows(headers[:width], tuple(row[:width] for row in rows))
 
