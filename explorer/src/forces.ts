@@ -9,6 +9,7 @@ import { LoadForm } from "./loads";
 import type { Model } from "./model";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
+import type { Spring } from "./springs";
 import type { Transport } from "./transport";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
@@ -23,6 +24,7 @@ interface Answer {
   masses: number[];
   assumed: number[];
   speed: number | null;
+  springs: Spring[];
   drives?: number[];
   effort: Numbers;
   /** By joint, with the link on which it acts. */
@@ -100,9 +102,9 @@ export class Forces {
     this.result.classList.remove("waiting");
   }
 
-  private show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed }: Answer): void {
+  private show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed, springs }: Answer): void {
     const { drive, model } = linkage;
-    this.form.show(linkage, masses, speed ?? 0);
+    this.form.show(linkage, masses, speed ?? 0, springs);
     this.plot = null;
     this.forces = [];
     const assume = () => {
@@ -165,6 +167,10 @@ export class Forces {
     if (!this.opened()) return;
     this.plot?.at(drive);
     this.polar.at(drive);
+  }
+
+  get springs(): readonly Spring[] {
+    return this.opened() && this.model === this.view.linkage.model ? this.form.shown : [];
   }
 
   /** The forces on the stage where the drive is, against the largest of the range. */

@@ -3,6 +3,7 @@
 import { h, renew } from "./dom";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
+import { type End, endsOf, type Spring } from "./springs";
 
 const RPM = Math.PI / 30;
 const MOST = 1e9;
@@ -21,6 +22,9 @@ export class LoadForm {
   masses: number[] = [];
   /** In rad/s or lengths a second; the usual one if there is none. */
   speed: number | null = null;
+  /** As the library knows them. */
+  shown: readonly Spring[] = [];
+  private springs: Spring[] | null = null;
   private weight = true;
   private loads: Load[] = [];
 
@@ -28,17 +32,18 @@ export class LoadForm {
 
   /** Nothing is typed yet. */
   clear(): void {
-    Object.assign(this, { masses: [], speed: null, loads: [] });
+    Object.assign(this, { masses: [], speed: null, loads: [], springs: null, shown: [] });
     renew(this.element);
   }
 
   /** As the library is told of it. */
   get record(): Record<string, unknown> {
-    const { loads, masses, weight } = this;
-    return { masses, gravity: weight, loads };
+    const { loads, masses, springs, weight } = this;
+    return { masses, gravity: weight, loads, springs };
   }
 
-  show(linkage: Linkage, masses: number[], speed: number): void {
+  show(linkage: Linkage, masses: number[], speed: number, springs: readonly Spring[]): void {
+    this.shown = springs;
     const { drive, model, sizes } = linkage;
     const links = [...Array(model.own).keys()].filter((link) => link !== model.frame);
     const factor = drive?.turning ? RPM : 1;
@@ -70,7 +75,7 @@ export class LoadForm {
         const [on, which] = where.value.split(" ");
         this.loads.splice(k, 1, ...(on ? [{ x: 0, y: 0, ...load, on, number: Number(which) }] : []));
         this.changed();
-        this.show(linkage, masses, speed);
+        this.show(linkage, masses, speed, springs);
       };
       const options = places.map(([value, text]) => h("option", { value, selected: value === chosen }, text));
       const id = `force-load-${k}`;
@@ -84,12 +89,83 @@ export class LoadForm {
         part("y", "Fy", "N");
       }
     }
+    rows.push(...this.springRows(linkage, springs, (own) => this.show(linkage, masses, speed, own)));
     const weigh = () => {
       this.weight = weight.checked;
       this.changed();
     };
     const weight = h("input", { type: "checkbox", checked: this.weight, onchange: weigh });
     renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, h("label", {}, weight, t("Weight, downward"))));
+  }
+
+  /** For each spring its kind, its ends and its rates, and a row for another one. */
+  private springRows(linkage: Linkage, springs: readonly Spring[], again: (own: Spring[]) => void): HTMLElement[] {
+    const { unit } = linkage.model;
+    const places = endsOf(linkage);
+    const links = [...linkage.model.links.slice(0, linkage.model.own).keys()];
+    const rows: HTMLElement[] = [];
+    const select = (
+      id: string,
+      label: string,
+      options: [unknown, string][],
+      chosen: unknown,
+      take: (k: number) => void,
+    ) => {
+      const known = options.findIndex(([value]) => String(value) === String(chosen));
+      const choices = known < 0 ? [...options, [chosen, endName(linkage, chosen as End)] as const] : options;
+      const field = h(
+        "select",
+        { id, onchange: () => take(field.selectedIndex) },
+        ...choices.map(([, text], k) =>
+          h("option", { selected: known < 0 ? k === options.length : k === known }, text),
+        ),
+      );
+      rows.push(h("label", { for: id }, label), field, h("span", {}));
+    };
+    for (const [k, spring] of [...springs, null].entries()) {
+      const put = (more: Partial<Spring> | null) => {
+        const next = { ...spring!, ...more };
+        this.springs = [...springs.slice(0, k), ...(more ? [next] : []), ...springs.slice(k + 1)];
+        this.changed();
+        again(this.springs);
+      };
+      const kinds: [unknown, string][] = [
+        ["", t("none")],
+        [false, t("straight")],
+        [true, t("torsion")],
+      ];
+      select(`spring-${k}`, t("Spring, damper"), kinds, spring ? spring.turning : "", (kind) => {
+        const turning = kind === 2;
+        const away = places.find(([[link]]) => link !== places[0]![0][0]) ?? places[0]!;
+        const ends: Spring["ends"] = turning
+          ? [
+              [linkage.model.frame, 0, 0],
+              [links.find((link) => link !== linkage.model.frame)!, 0, 0],
+            ]
+          : [places[0]![0], away[0]];
+        put(kind ? { stiffness: 0, free: 0, preload: 0, damping: 0, known: null, turning, ends } : null);
+      });
+      if (!spring) break;
+      const { ends, turning } = spring;
+      const options: [End, string][] = turning ? links.map((link) => [[link, 0, 0], linkage.linkName(link)]) : places;
+      for (const side of [0, 1] as const)
+        select(`spring-${k}-${side}`, side ? t("to") : t("from"), options, ends[side], (which) => {
+          const other = [...ends] as Spring["ends"];
+          other[side] = options[which]?.[0] ?? ends[side];
+          put({ ends: other });
+        });
+      const force = turning ? `N·${unit}` : "N";
+      const [by, factor] = turning ? ["rad", Math.PI / 180] : [unit, 1];
+      const part = (key: "stiffness" | "free" | "preload" | "damping", label: string, its: string, scale = 1) =>
+        rows.push(
+          ...this.row(`${key}-${k}`, label, its, spring[key] / scale, (value) => put({ [key]: value * scale })),
+        );
+      part("stiffness", t("Stiffness"), `${force}/${by}`);
+      part("free", turning ? t("Free angle") : t("Free length"), turning ? "°" : unit, factor);
+      part("preload", t("Preload"), force);
+      part("damping", t("Damping"), `${force}·s/${by}`);
+    }
+    return rows;
   }
 
   private row(key: string, label: string, unit: string, value: number, take: (value: number) => void): HTMLElement[] {
@@ -106,4 +182,9 @@ export class LoadForm {
     const field = h("input", { id, value: value ? number(value) : "", inputmode: "decimal", onchange, onkeydown });
     return [h("label", { for: id }, label), field, h("span.unit", {}, unit)];
   }
+}
+
+/** What an end that is neither joint nor point is called. */
+function endName(linkage: Linkage, [link, x, y]: End): string {
+  return `${linkage.linkName(link)}: ${number(x)}; ${number(y)}`;
 }

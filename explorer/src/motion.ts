@@ -45,6 +45,7 @@ export class MotionView implements View, Editor, Driven {
     grid: true,
     link: 0,
     forces: () => this.arrows(),
+    springs: () => this.forces.springs,
   };
   linkage!: Linkage;
   dragging!: Dragging;

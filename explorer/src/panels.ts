@@ -270,7 +270,7 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
 
 export function optionsPanel(editor: Editor): HTMLElement {
   const { linkage, shown } = editor;
-  const option = (key: Exclude<keyof Shown, "link" | "forces">, text: string) => {
+  const option = (key: Exclude<keyof Shown, "link" | "forces" | "springs">, text: string) => {
     const onchange = () => {
       shown[key] = box.checked;
       editor.show();

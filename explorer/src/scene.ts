@@ -8,6 +8,7 @@ import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import { origin, type Pair, place, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
+import { springPath } from "./springs";
 import type { Viewport } from "./viewport";
 
 const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23 l5 -6 M13 23 l4 -5";
@@ -25,6 +26,7 @@ export class Scene {
   private readonly arrows = svg("path.velocity", {});
   private readonly changes = svg("path.acceleration", {});
   private readonly forces = svg("path.force", {});
+  private readonly springs = svg("path.spring-path", {});
   private readonly circle = svg("circle.inflection", { r: 0 });
   private readonly pole = svg("circle.pole", { r: 4 });
 
@@ -83,6 +85,7 @@ export class Scene {
       this.arrows,
       this.changes,
       this.forces,
+      this.springs,
       this.circle,
       this.pole,
     );
@@ -143,6 +146,8 @@ export class Scene {
     this.arrows.setAttribute("d", shown.velocities ? this.vectors(linkage, 1) : "");
     this.changes.setAttribute("d", shown.accelerations ? this.vectors(linkage, 2) : "");
     this.forces.setAttribute("d", this.forceArrows(linkage, shown));
+    const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
+    this.springs.setAttribute("d", springs.join(""));
     this.drawPole(linkage, shown);
   }
 

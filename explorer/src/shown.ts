@@ -1,5 +1,7 @@
 /** What of a linkage is shown, and in which colours. */
 
+import type { Spring } from "./springs";
+
 export interface Shown {
   curves: boolean;
   velocities: boolean;
@@ -13,6 +15,7 @@ export interface Shown {
   link: number;
   /** The forces that are drawn: joints, with parts against the largest force. */
   forces: () => [joint: number, x: number, y: number][];
+  springs: () => readonly Spring[];
 }
 
 const PALETTE = ["--motion", "--accent", "--green", "--purple"] as const;

@@ -126,6 +126,31 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     assert page.page.evaluate(POSE) == before
 
 
+def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
+    """A coil from the left bearing to C and a spiral about A: energies that the drive stores in them."""
+    page = tab().open(server.address)
+    page.page.evaluate("gruebler.motion.transport.pick(1)")
+    page.page.locator(f"{PANEL} summary").click()
+    page.page.locator("#spring-0").select_option(label="straight")
+    page.page.locator("#spring-0-1").select_option(label="R(coupler-rocker)")
+    page.page.locator("#force-stiffness-0").fill("2")
+    page.page.locator("#force-stiffness-0").press("Tab")
+    path = f"{ROOT}.querySelector('.stage path.spring-path').getAttribute('d')"
+    assert page.until(path).count("L") == 15  # one coil
+    page.until(f"![undefined, '0'].includes({READ})", 60)
+    read = float(page.page.evaluate(READ).replace("\N{MINUS SIGN}", "-"))
+    square = "((c) => c[0] ** 2 + c[1] ** 2)(gruebler.motion.linkage.jointAt(2))"  # A lies at the origin
+    stored = []
+    for drive in (1.001, 0.999):
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        stored.append(page.page.evaluate(square))  # 2/2 r²
+    assert read == pytest.approx((stored[0] - stored[1]) / 0.002, rel=5e-3)
+    page.page.locator("#spring-1").select_option(label="torsion")
+    page.until(f"{path}.split('M').length === 3")
+    page.page.locator("#spring-0").select_option(label="none")
+    page.until(f"{path}.split('M').length === 2")
+
+
 def test_without_the_library_it_says_so(tab, tmp_path):
     from gruebler.cli import main
 

@@ -1,0 +1,63 @@
+/** Springs and dampers between links: their ends, and how they are drawn. */
+
+import type { Linkage } from "./linkage";
+import { type Pair, place } from "./rows";
+import type { Viewport } from "./viewport";
+
+/** A link and a place there. */
+export type End = [link: number, x: number, y: number];
+
+/** As the library knows it: angles in radians; of a torsion spring the places of its ends say nothing. */
+export interface Spring {
+  turning: boolean;
+  ends: [End, End];
+  stiffness: number;
+  /** The length or angle at which only the preload acts. */
+  free: number;
+  preload: number;
+  damping: number;
+  /** The number of a spring of the library that has a law of its own, such as that of a gas. */
+  known: number | null;
+}
+
+/** Places at which a spring may end, with what they are called: joints, then points. */
+export function endsOf({ model, sizes }: Linkage): [End, string][] {
+  const joints = model.joints.flatMap(({ name }, joint): [End, string][] => {
+    const pin = sizes.elementsOf(joint).find((k) => sizes.is(k, "pin"));
+    return pin === undefined ? [] : [[[sizes.element(pin).link, ...sizes.xy(pin)], name]];
+  });
+  return [...joints, ...sizes.points.map(({ at, link, name }): [End, string] => [[link, ...at], name])];
+}
+
+/** A coil, a piston in its cylinder, or a spiral about the joint of two links. */
+export function springPath(linkage: Linkage, viewport: Viewport, spring: Spring): string {
+  const { damping, ends, known, stiffness, turning } = spring;
+  const at = ([link, ...own]: End) => viewport.screen(...place(linkage.pose, 0, link, ...own));
+  const [[x, y], [u, v]] = ends.map(at) as [Pair, Pair];
+  if (turning) {
+    const both = ({ links }: { links: number[] }) => ends.every(([link]) => links.includes(link));
+    const joint = linkage.model.joints.findIndex(both);
+    if (joint < 0) return "";
+    const [cx, cy] = viewport.screen(...linkage.jointAt(joint));
+    const arm = (k: number) => 8 + k / 4;
+    return line(Array.from({ length: 49 }, (_, k) => [cx + arm(k) * Math.cos(k / 4), cy - arm(k) * Math.sin(k / 4)]));
+  }
+  const along = (part: number, across: number): Pair => {
+    const far = Math.hypot(u - x, v - y) || 1;
+    return [x + (u - x) * part - ((v - y) / far) * across, y + (v - y) * part + ((u - x) / far) * across];
+  };
+  const shape = (...places: Pair[]) => line(places.map((one) => along(...one)));
+  if (damping && !stiffness && known === null)
+    return (
+      shape([0, 0], [0.5, 0]) +
+      shape([0.5, 6], [0.5, -6]) +
+      shape([0.35, 8], [0.7, 8], [0.7, -8], [0.35, -8]) +
+      shape([0.7, 0], [1, 0])
+    );
+  const coils = Array.from({ length: 12 }, (_, k): Pair => [0.16 + 0.68 * (k / 11), k % 2 ? 7 : -7]);
+  return shape([0, 0], [0.13, 0], ...coils, [0.87, 0], [1, 0]);
+}
+
+function line(places: readonly Pair[]): string {
+  return `M${places.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}`;
+}
