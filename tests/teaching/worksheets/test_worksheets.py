@@ -399,3 +399,12 @@ def test_exercise_12_has_its_graphical_way(tmp_path):
     assert "91,24" in text  # the frame, measured in the construction
     assert text.count("<svg") == 6  # three constructions, the linkages of 8 and 15, s(φ) of 15
     assert "55 &lt; d &lt; 85" in text
+
+
+def test_a_sheet_shows_every_output_and_the_machine_to_scale():
+    """Both pistons of the compressor, first function of the drive alike but for 90 degrees; an arm with three drives."""
+    pictures = blocks_of(machine_document(entries()["vcomp"], lang="de"), Pictures)
+    assert [block.captions for block in pictures[1:]] == [("Kolben 1",), ("Kolben 2",)]
+    arm = blocks_of(machine_document(entries()["excavator"], lang="de"), Pictures)
+    assert len(arm[0].figures) == 2
+    assert "Zähne" in [shape.text for shape in arm[0].figures[0].shapes if isinstance(shape, TextShape)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from math import hypot, radians
 
 from gruebler.base.errors import GrueblerError
@@ -62,11 +63,11 @@ def _entry_blocks(entry: Entry, lang: str) -> Iterator[Block]:
     yield Heading(entry.name.in_language(lang), 1, entry.id)
     if entry.remark is not None:
         yield Paragraph(entry.remark.in_language(lang))
+    source = source_text(entry.source, lang)
+    yield Paragraph(translate("Source: {source}", lang, source=source), small=True)
     linkage = None if shown.dimensions is None else shown.linkage()
     between = None if shown.dimensions is None else shown.dimensions.range
     yield from _machine_blocks(entry_mechanism(shown), linkage, lang, between, shown.outputs)
-    source = source_text(entry.source, lang)
-    yield Paragraph(translate("Source: {source}", lang, source=source), small=True)
 
 
 def _machine_blocks(
@@ -90,19 +91,20 @@ def _machine_blocks(
     )
     if linkage is None:
         return
+    values = _values(linkage, outputs, lang)
+    if values:
+        yield Heading(translate("Values", lang))
+        yield Paragraph(values)
     rows = tuple(_lengths(linkage, lang))
     if rows:
         yield Heading(translate("Dimensions in {unit}", lang, unit=linkage.unit))
         yield Rows((translate("link", lang), translate("joints or points", lang), translate("distance", lang)), rows)
     yield from _position(linkage, lang, shown)
-    diagram = _diagram(linkage, mechanism, lang, shown)
-    if diagram is not None:
+    diagrams = _diagrams(linkage, outputs, lang, shown)
+    if diagrams:
         yield Heading(translate("Main diagram", lang))
-        yield Pictures((diagram,), height=420.0)
-    values = _values(linkage, lang)
-    if values:
-        yield Heading(translate("Values", lang))
-        yield Paragraph(values)
+        for output, diagram in diagrams.items():
+            yield Pictures((diagram,), (output,) if len(diagrams) > 1 else (), 420.0)
 
 
 def _pictures(
@@ -118,7 +120,8 @@ def _pictures(
     caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
     if linkage is not None:
         try:
-            scheme = draw_linkage(linkage, between=between, curves=[*linkage.points][:_POINTS], labels=True, lang=lang)
+            curves = [*linkage.points][:_POINTS] if len(mechanism.drives) == 1 else []
+            scheme = draw_linkage(linkage, between=between, curves=curves, labels=True, lang=lang)
         except GrueblerError:
             return Pictures((structure,), (caption,))
         return Pictures((scheme, structure), (translate("To scale", lang), caption), 260.0)
@@ -150,30 +153,41 @@ def _position(linkage: Linkage, lang: str, between: tuple[float, float] | None) 
     yield Rows(headers(lang), tuple(places(linkage, posed.pose, lang)))
 
 
-def _diagram(linkage: Linkage, mechanism: Mechanism, lang: str, between: tuple[float, float] | None) -> Figure | None:
-    """The paths of named points, else the transfer function, else the transmission angle; None if there is none."""
-    ways: list[Callable[[], Figure]] = []
+def _diagrams(
+    linkage: Linkage, outputs: Sequence[str], lang: str, between: tuple[float, float] | None
+) -> dict[str, Figure]:
+    """The paths of named points, else the transfer function of every output, else the transmission angle."""
+    ways: list[dict[str, Callable[[], Figure]]] = [
+        {
+            output or "": partial(transfer_plot, linkage, output, between=between, lang=lang)
+            for output in outputs or [None]
+        },
+        {"": partial(transmission_plot, linkage, between=between, lang=lang)},
+    ]
     if linkage.points:
-        ways.append(lambda: coupler_plot(linkage, [*linkage.points][:_POINTS], between=between, lang=lang))
-    if len(mechanism.drives) == 1:
-        ways.append(lambda: transfer_plot(linkage, between=between, lang=lang))
-        ways.append(lambda: transmission_plot(linkage, between=between, lang=lang))
-    for branch in ways:
-        try:
-            return branch()
-        except GrueblerError:
-            continue
-    return None
+        ways.insert(0, {"": partial(coupler_plot, linkage, [*linkage.points][:_POINTS], between=between, lang=lang)})
+    drawn = ({key: figure for key, way in each.items() if (figure := _drawn(way)) is not None} for each in ways)
+    return next((figures for figures in drawn if figures), {})
 
 
-def _values(linkage: Linkage, lang: str) -> str:
-    """What the measures of a linkage with one drive say."""
+def _drawn(way: Callable[[], Figure]) -> Figure | None:
+    try:
+        return way()
+    except GrueblerError:
+        return None
+
+
+def _values(linkage: Linkage, outputs: Sequence[str], lang: str) -> str:
+    """What the measures of a linkage with one drive say, of every output; each line once."""
     if len(linkage.mechanism.drives) != 1:
         return ""
-    try:
-        return measures(linkage).explain(lang)
-    except GrueblerError:
-        return ""
+    lines: dict[str, None] = {}
+    for output in outputs or (None,):
+        try:
+            lines |= dict.fromkeys(measures(linkage, output=output).explain(lang).splitlines())
+        except GrueblerError:
+            continue
+    return "\n".join(lines)
 
 
 # --- the book ----------------------------------------------------------------------------------------
