@@ -356,7 +356,7 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
         case PositionTask():
             return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
         case FunctionTask():
-            return synthesise_function(task, demands, minimax=arguments.minimax, **more)
+            return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
         case DeadCentreTask():
             return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
         case PathTask():

@@ -291,3 +291,29 @@ def test_a_formula_knows_conditions_and_keeps_the_shape_of_its_variables():
         found, [[-np.exp(-1), -2 + 3 - 1, -4 + 3 - 1], [0.5 - np.exp(-1), 1 + 3 - 1, 2 + 3 - 1]]
     )
     assert Formula("2*deg", ("x",))(x=np.zeros(3)).tolist() == [2 * np.pi / 180] * 3
+
+
+@pytest.mark.parametrize("output", ["angle", "travel"])
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_families_of_pairs_are_searched_by_the_demands(count, output):
+    """Linkages whose crank turns fully at 40 degrees and more: none of 16 taken at random, for two and four pairs.
+
+    The closed forms by which they are found are those of positions; each is judged by motion.
+    """
+    inputs, outputs = [0.0, 0.5, 1.0, 1.5][:count], [0.0, 0.3, 0.7, 1.2][:count]
+    task = FunctionTask(inputs, outputs=outputs, output=output, start_input=False, start_output=False)
+    found = synthesise_function(task, Demands(crank=True, transmission=np.radians(40)), number=4)
+    forms = {"angle": "four-bar", "travel": "slider-crank"}
+    assert len([design for design in found.designs if design.form == forms[output]]) >= 2
+    assert not [design for design in found.rejected if design.form == forms[output]]
+    angles = [design.verdict.transmission for design in found.designs]
+    assert min(angles) >= np.radians(40)
+    tight = synthesise_function(task, Demands(crank=True, transmission=np.radians(89.9)), number=4)
+    assert tight.designs or "Without the demand of a transmission angle of 89.9°" in " ".join(map(str, tight.notes))
+
+
+def test_the_measure_that_is_asked_for_steers_the_search_of_pairs():
+    task = FunctionTask([0, 0.5, 1.0], outputs=[0, 0.3, 0.7], start_input=False, start_output=False)
+    by_angle = synthesise_function(task, number=4).designs[0]
+    by_ratio = synthesise_function(task, number=4, sort=["size-ratio"]).sorted_by("size-ratio").designs[0]
+    assert by_ratio.verdict.size_ratio < by_angle.verdict.size_ratio

@@ -7,7 +7,10 @@ as seen from the crank.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -22,11 +25,12 @@ from gruebler.design.synthesis.coordination import (
     coordinations_with_one_free_start,
     pair_arrays,
 )
-from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
-from gruebler.design.synthesis.positions import NEAR, guiding_dyads, ranked
+from gruebler.design.synthesis.pair_search import PairFacts, best_dyads, facts_of_pins
+from gruebler.design.synthesis.positions import NEAR, guiding_dyads, near_in_plane, near_on_curve, ranked
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.structural_errors import coordination_of
 from gruebler.design.synthesis.targets import Probe, Targets
@@ -40,12 +44,19 @@ _FAMILIES = {
     4: message("There are infinitely many solutions, one for each point of a curve; {count} were taken."),
 }
 """By how many pairs, with both starts free: what a dyad between crank and output can be."""
+_SAMPLE = 400
+"""Linkages of a family that are judged in closed form."""
 _FORMS = {"angle": "four-bar", "travel": "slider-crank"}
 """What crank, coupler and output form together; slides between crank and output name themselves."""
 
 
 def synthesise_function(
-    task: FunctionTask, demands: Demands | None = None, *, number: int = 16, minimax: bool = False
+    task: FunctionTask,
+    demands: Demands | None = None,
+    *,
+    number: int = 16,
+    minimax: bool = False,
+    sort: Sequence[str] = (),
 ) -> SynthesisResult:
     """All linkages that coordinate the pairs; the frame of four-bars has the length 1.
 
@@ -54,6 +65,9 @@ def synthesise_function(
         demands: besides one branch and the order.
         number: of dyads taken where there are infinitely many.
         minimax: the linkages near these whose largest structural error is as small as possible, the best first.
+        sort: by what the best of a family are sought: names as for `SynthesisResult.sorted_by`.
+
+    Two to four pairs with free starts leave families, which are searched by the demands.
 
     Raises `SynthesisError` for more pairs than can be met exactly, and for the minimax optimum of a table of pairs.
     Cost: below 1 ms and 10 ms for each verdict; a minimax optimum 0.3 s.
@@ -70,7 +84,11 @@ def synthesise_function(
     fitted = free == 2 and len(task) > 5
     if fitted and wanted.tolerance <= EXACT:
         wanted = replace(wanted, tolerance=NEAR)
-    met = _by_free_starts(task, wanted, number) if free == 2 else _by_given_starts(task, wanted, free)
+    met = (
+        _by_free_starts(task, wanted, number, None if minimax else sort)
+        if free == 2
+        else _by_given_starts(task, wanted, free)
+    )
     designs, rejected = ranked(met.candidates)
     notes = met.notes
     if not designs and task.law is None and free < 2:
@@ -131,11 +149,20 @@ def _by_given_starts(task: FunctionTask, wanted: Demands, free: int) -> _Candida
     return _Candidates([], SolutionCount(what=message("linkages"), theorem=None, found=0, real=0), (note,))
 
 
-def _by_free_starts(task: FunctionTask, wanted: Demands, number: int) -> _Candidates:
-    """By the dyads between crank and output, with both starts free."""
-    dyads = _connecting(task, number)
-    candidates = [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
+def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequence[str] | None) -> _Candidates:
+    """By the dyads between crank and output, with both starts free; families are searched unless ``sort`` is None."""
+    searched = sort is not None and len(task) < 5
+    dyads = _connecting(task, _SAMPLE if searched else number)
+    turning = [dyad for dyad in dyads if not dyad.slides]
     notes: tuple[Message, ...] = ()
+    if searched and turning:
+        seen = _seen_from_crank(task)
+        near = near_on_curve(seen) if len(task) == 4 else partial(near_in_plane, seen)
+        best, search = best_dyads(turning, partial(_facts, task), wanted, near, orders=sort or (), number=number)
+        notes = tuple(search)
+        some = turning[:: max(1, len(turning) // number)]
+        dyads = (best or some) + [dyad for dyad in dyads if dyad.slides]
+    candidates = [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
     theorem: int | None = None
     complex_count = len(dyads)
     if len(task) > 5:
@@ -150,12 +177,27 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int) -> _Candid
     elif len(task) == 5:
         theorem = complex_count = 3  # four dyads less the frame
     else:
-        notes = (_FAMILIES[len(task)].filled(count=len(dyads)),)
+        notes = (*notes, _FAMILIES[len(task)].filled(count=max(len(turning), len(dyads))))
     return _Candidates(
         candidates,
         SolutionCount(what=message("linkages"), theorem=theorem, found=complex_count, real=len(dyads)),
         notes,
     )
+
+
+def _facts(task: FunctionTask, dyads: Sequence[GuidingDyad]) -> PairFacts:
+    """What the linkages of crank, RR dyad and output do, in closed form: (dyads, 1)."""
+    phi, output = pair_arrays(task)
+    pins, far_pins = (np.array([getattr(dyad, name) for dyad in dyads])[:, None, None] for name in ("fixed", "moving"))
+    moved = output - output[0]
+    pins = pins * np.exp(1j * (phi - phi[0]))
+    none, inside = np.zeros((1, 1), np.complex128), np.ones((len(dyads), 1), bool)
+    if task.output == "angle":
+        other = 1 + (far_pins - 1) * np.exp(1j * moved), none + 1
+        return facts_of_pins((pins, none), other, none[..., None], CRANK, inside=inside, size=1.0)
+    other = far_pins + moved, far_pins[..., 0]
+    size = float(np.ptp(output)) or np.inf
+    return facts_of_pins((pins, none), other, 1 + none[..., None], SLIDER, inside=inside, size=size)
 
 
 def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:
@@ -234,8 +276,11 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
     """The dyads between crank and output, without the frame, which connects them too."""
     seen = _seen_from_crank(task)
     size = 1.0 if task.output == "angle" else seen.size
+    family = guiding_dyads(seen, number)
+    if len(task) == 2 and number >= _SAMPLE:
+        family = _on_bisectors(seen, size)
     connecting = []
-    for dyad in guiding_dyads(seen, number):
+    for dyad in family:
         if task.output == "angle" and not dyad.slides:
             frame = abs(dyad.moving - 1) + abs(dyad.fixed) < 1e-6
         else:
@@ -243,6 +288,19 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
         if not frame:
             connecting.append(dyad)
     return connecting
+
+
+def _on_bisectors(seen: PositionTask, size: float) -> tuple[GuidingDyad, ...]:
+    """A sample of the dyads of two positions: pivots in the plane about the frame, each with some on its bisector."""
+    given, origin, own = Displacements.of(seen.origins, seen.turns)
+    dyads = []
+    for x, y, step in product(np.linspace(-1.5, 2.5, 10), np.linspace(-2, 2, 10), np.linspace(-2, 2, 8)):
+        places = given.images((complex(x, y) * size - origin) / own) * own + origin
+        along = 1j * (places[1] - places[0])
+        if abs(along) > EXACT * size:
+            fixed = places.mean() + step * size * along / abs(along)
+            dyads.append(GuidingDyad(CRANK, complex(places[0]), complex(fixed)))
+    return tuple(dyads)
 
 
 def _connected(task: FunctionTask, demands: Demands, dyad: GuidingDyad) -> Design | None:

@@ -13,9 +13,9 @@ from math import degrees
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.text import Message, message
-from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
@@ -107,20 +107,30 @@ def pair_facts(
     (pins, own), (far_pins, far) = (_places(task, dyads) for dyads in (first, second))
     directions = np.array([dyad.direction for dyad in second], np.complex128)
     slides = directions[None, :, None] * (1 if second[0].kind == SLIDER else task.turns / task.turns[0])
+    driven, other = (pins[:, None], own[:, None]), (far_pins[None], far[None])
+    reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else _inside(far, demands)
+    inside = np.asarray(_inside(own, demands)[:, None] & reached[None, :])
+    size = task.size if np.ptp(task.origins) else np.inf
+    return facts_of_pins(driven, other, slides, second[0].kind, inside=inside, size=size)
+
+
+def facts_of_pins(
+    driven: Places, other: Places, slides: Complexes, kind: DyadKind, *, inside: Flags, size: float
+) -> PairFacts:
+    """What cranks do with rockers, sliders or blocks, from the pins of both in all positions and their pivots."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        closure = _CLOSURES[second[0].kind]((pins, own), (far_pins, far), slides)
+        closure = _CLOSURES[kind](driven, other, slides)
         moves, turns, transmission = motion_of_pairs(closure)
     # Two dyads with a common pivot are no linkage.
     lengths = closure.lengths
     usable = np.isfinite(transmission) & (np.nanmin(lengths, axis=0) > 1e-9 * np.nanmax(lengths, axis=0))
-    reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else _inside(far, demands)
     return PairFacts(
         lengths=lengths,
         moves=np.asarray(moves & usable),
         turns=np.asarray(turns & usable),
         transmission=np.where(usable, transmission, 0.0),
-        inside=np.asarray(_inside(own, demands)[:, None] & reached[None, :]),
-        most=BUILDABLE * task.size if np.ptp(task.origins) else np.inf,
+        inside=inside,
+        most=BUILDABLE * size,
     )
 
 
@@ -147,7 +157,8 @@ def motion_of_pairs(closure: PairClosure) -> tuple[Flags, Flags, Reals]:
     return np.asarray(moves), np.asarray(turns), np.asarray(transmission)
 
 
-_Places = tuple[NDArray[np.complex128], NDArray[np.complex128]]
+Places = tuple[Complexes, Complexes]
+"""Pins in all positions, (n, m, positions), and their pivots, (n, m); an axis may have the length 1."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,54 +176,50 @@ class PairClosure:
     """Of the transmission angle, from the cosine of the crank angle."""
 
 
-def _by_rocker(driven: _Places, other: _Places, _: NDArray[np.complex128]) -> PairClosure:
+def _by_rocker(driven: Places, other: Places, _: Complexes) -> PairClosure:
     (pins, own), (far_pins, far) = driven, other
-    frame = far[None, :] - own[:, None]
-    a, c = (np.abs(p[:, 0] - m) for p, m in (driven, other))
-    b, d = np.abs(far_pins[None, :, 0] - pins[:, None, 0]), np.abs(frame)
-    a, c = np.broadcast_to(a[:, None], b.shape), np.broadcast_to(c[None, :], b.shape)
-    arm = far_pins[None] - pins[:, None]
+    frame = far - own
+    a, c = (np.abs(p[..., 0] - m) for p, m in (driven, other))
+    a, b, c, d = np.broadcast_arrays(a, np.abs(far_pins[..., 0] - pins[..., 0]), c, np.abs(frame))
     return PairClosure(
         lengths=np.array([a, b, c, d]),
         low=(a * a + d * d - (b + c) ** 2) / (2 * a * d),
         high=(a * a + d * d - (b - c) ** 2) / (2 * a * d),
-        angle=np.angle((pins - own[:, None])[:, None] / frame[..., None]),
-        side=np.sign(np.imag(np.conj(arm) * (far[None, :, None] - pins[:, None]))),
+        angle=np.angle((pins - own[..., None]) / frame[..., None]),
+        side=np.sign(np.imag(np.conj(far_pins - pins) * (far[..., None] - pins))),
         cosine=lambda x: (b * b + c * c - a * a - d * d + 2 * a * d * x) / (2 * b * c),
     )
 
 
-def _by_slider(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> PairClosure:
+def _by_slider(driven: Places, other: Places, slides: Complexes) -> PairClosure:
     """The pin on a line at e from the crank's pivot: |a sin(phi) - e| <= b, phi from the line."""
     (pins, own), (far_pins, far) = driven, other
-    b = np.abs(far_pins[None, :, 0] - pins[:, None, 0])
-    a = np.broadcast_to(np.abs(pins[:, 0] - own)[:, None], b.shape)
-    e = np.imag(np.conj(slides[..., 0]) * (far[None, :] - own[:, None]))
+    a, b = np.broadcast_arrays(np.abs(pins[..., 0] - own), np.abs(far_pins[..., 0] - pins[..., 0]))
+    e = np.imag(np.conj(slides[..., 0]) * (far - own))
     none = np.full(b.shape, np.nan)
     return PairClosure(
         lengths=np.array([a, b, none, none]),
         low=(e - b) / a,
         high=(e + b) / a,
-        angle=np.angle((pins - own[:, None])[:, None] / (1j * slides)),
-        side=np.sign(np.real(np.conj(slides) * (far_pins[None] - pins[:, None]))),
+        angle=np.angle((pins - own[..., None]) / (1j * slides)),
+        side=np.sign(np.real(np.conj(slides) * (far_pins - pins))),
         cosine=lambda x: (a * x - e) / b,
     )
 
 
-def _by_block(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -> PairClosure:
+def _by_block(driven: Places, other: Places, slides: Complexes) -> PairClosure:
     """A line of the coupler, at e from the crank's pin, through the other pivot: their distance is at least |e|."""
     (pins, own), (_, far) = driven, other
-    frame = far[None, :] - own[:, None]
-    d = np.abs(frame)
-    a = np.broadcast_to(np.abs(pins[:, 0] - own)[:, None], d.shape)
-    seen = np.conj(slides) * (far[None, :, None] - pins[:, None])
+    frame = far - own
+    a, d = np.broadcast_arrays(np.abs(pins[..., 0] - own), np.abs(frame))
+    seen = np.conj(slides) * (far[..., None] - pins)
     along, e = np.real(seen), np.imag(seen[..., 0])
     none = np.full(d.shape, np.nan)
     return PairClosure(
         lengths=np.array([a, none, none, d]),
         low=np.full(d.shape, -np.inf),
         high=(a * a + d * d - e * e) / (2 * a * d),
-        angle=np.angle((pins - own[:, None])[:, None] / frame[..., None]),
+        angle=np.angle((pins - own[..., None]) / frame[..., None]),
         side=np.where(np.abs(along) > 1e-9 * (a + d)[..., None], np.sign(along), 0.0),
         cosine=lambda x: e / np.sqrt(np.maximum(a * a + d * d - 2 * a * d * x, 0)),
     )
@@ -221,7 +228,7 @@ def _by_block(driven: _Places, other: _Places, slides: NDArray[np.complex128]) -
 _CLOSURES = {CRANK: _by_rocker, SLIDER: _by_slider, BLOCK: _by_block}
 
 
-def _places(task: PositionTask, dyads: Sequence[GuidingDyad]) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+def _places(task: PositionTask, dyads: Sequence[GuidingDyad]) -> tuple[Complexes, Complexes]:
     """The moving pivots in all positions, (dyads, positions), and the fixed ones."""
     moving = np.array([dyad.moving for dyad in dyads], np.complex128)
     seen = (moving - task.origins[0]) / task.turns[0]
@@ -237,7 +244,7 @@ def _extreme(begin: Reals, travel: Reals, at: float) -> Reals:
     return np.where(passed, np.cos(at), nearest)
 
 
-def _inside(pivots: NDArray[np.complex128], demands: Demands) -> Flags:
+def _inside(pivots: Complexes, demands: Demands) -> Flags:
     if demands.region is None:
         return np.ones(len(pivots), bool)
     x1, y1, x2, y2 = demands.region
@@ -314,6 +321,51 @@ def best_pairs(
         if len(pairs) == number:
             break
     return FoundPairs(pairs=tuple(pairs), notes=tuple(notes))
+
+
+def best_dyads(
+    dyads: Sequence[GuidingDyad],
+    facts_of: Callable[[Sequence[GuidingDyad]], PairFacts],
+    demands: Demands,
+    near: Nearby,
+    *,
+    orders: Sequence[str] = (),
+    number: int = 16,
+) -> tuple[list[GuidingDyad], list[Message]]:
+    """The best of a family with one dyad to choose, as `best_pairs`, and notes on it; none if none meets all."""
+    if demands.size_ratio == Demands().size_ratio:
+        demands = replace(demands, size_ratio=BUILDABLE)
+
+    def ranked(some: Sequence[GuidingDyad]) -> tuple[NDArray[np.intp], Flags, list[tuple[Message, Flags]]]:
+        facts = facts_of(some)
+        met = facts.met(demands)
+        fails = np.sum([~flags for _, flags in met], axis=0)
+        costs = [fails.astype(float), *facts.costs(orders)]
+        return np.lexsort([cost.ravel() for cost in reversed(costs)]), (fails == 0).ravel(), met
+
+    ranks, good, met = ranked(dyads)
+    notes = [
+        message(
+            "Of {dyads} linkages of the family {count} meet all demands. The best are improved within the family to "
+            "{step:.1g} of it.",
+            dyads=len(dyads),
+            count=int(np.count_nonzero(good)),
+            step=_WIDTHS[-1],
+        )
+    ]
+    if not good.any():
+        return [], notes + tightest(met)
+    best: list[GuidingDyad] = []
+    for rank in ranks[: np.count_nonzero(good)]:
+        dyad = dyads[rank]
+        for width in _WIDTHS:
+            others = [dyad, *near(dyad, width)]
+            dyad = others[ranked(others)[0][0]]
+        if all(abs(dyad.moving - each.moving) + abs(dyad.fixed - each.fixed) > _ALIKE for each in best):
+            best.append(dyad)
+        if len(best) == number:
+            break
+    return best, notes
 
 
 _SEARCHED = {

@@ -51,6 +51,8 @@ _SAMPLE = {2: 256, 3: 256, 4: 300}
 """Dyads of a family that are taken, by the number of positions: each is tried with each."""
 _SLIDES = 64
 """Sliding dyads of each kind that are taken of two or three positions."""
+_BULGES = (0.25, -0.25, 1.0, -1.0)
+"""How far a third position between two lies beside them, by their distance: four pivots for a point of the plane."""
 _PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
 DYADS = message("dyads")
@@ -107,14 +109,16 @@ def guiding_dyads(
     if not chosen:
         construct = dyad_of_moving_pivot if region is None else dyad_of_fixed_pivot
         chosen = [(construct, pivot) for pivot in _grid(task, number, region)]
+    given = [displacements]
+    if count == 2:  # a third position between them chooses the pivot of the frame on the bisector, or of the body
+        bulges = _BULGES[:1] if task.moving_pivots or task.fixed_pivots else _BULGES
+        q, t = displacements
+        given = [Displacements(np.append(q, _halfway(q[0])), np.append(t, _halved(displacements, b))) for b in bulges]
     dyads = []
-    if count == 2:
-        displacements = Displacements(
-            np.append(displacements.q, _halfway(displacements.q[0])), np.append(displacements.t, _halved(displacements))
-        )
-    for construct, pivot in chosen:
+    for k, (construct, pivot) in enumerate(chosen):
         try:
-            dyads.append(construct(displacements, (pivot - origin) / size).moved(size, origin))
+            part = given[(k + k // round(len(chosen) ** 0.5)) % len(given)]
+            dyads.append(construct(part, (pivot - origin) / size).moved(size, origin))
         except SynthesisError:
             if task.moving_pivots or task.fixed_pivots:
                 raise
@@ -165,10 +169,10 @@ def _halfway(q: complex) -> complex:
     return complex(np.exp(0.5j * np.angle(q)))
 
 
-def _halved(given: Displacements) -> complex:
-    """The shift of a third position that bulges a little, so that the centres lie at hand."""
-    q, t = complex(given.q[0]), complex(given.t[0])
-    return t * 0.5 + 0.25j * t if abs(t) > 0 else 0.25 + 0j * q
+def _halved(given: Displacements, bulge: float) -> complex:
+    """The shift of a third position that bulges, so that the centres lie at hand."""
+    t = complex(given.t[0])
+    return t * (0.5 + 1j * bulge) if abs(t) > 0 else complex(bulge)
 
 
 def synthesise_positions(
@@ -267,7 +271,7 @@ def _judged_best(
     """The designs of the best pairs of a family, and of its sliding dyads with some of it; notes on the search."""
     turning = [dyad for dyad in dyads if not dyad.slides]
     sliding: list[GuidingDyad] = []
-    near = _near_on_curve(task) if len(task) == 4 and turning else partial(_near_in_plane, task)
+    near = near_on_curve(task) if len(task) == 4 and turning else partial(near_in_plane, task)
     searches: list[FoundPairs] = []
     if len(turning) > 1:
         searches.append(best_pairs(task, turning, demands, near, orders=sort, number=number))
@@ -300,7 +304,7 @@ def _slides(task: PositionTask, kind: DyadKind, demands: Demands) -> list[Guidin
     return sliding_family(task, kind, places)
 
 
-def _near_on_curve(task: PositionTask) -> Nearby:
+def near_on_curve(task: PositionTask) -> Nearby:
     """Dyads of four positions near one of them, by their places along the circle-point curve."""
     curves = burmester_curves(task)
     moving = np.concatenate([piece.moving for piece in curves.pieces])
@@ -324,7 +328,7 @@ def _near_on_curve(task: PositionTask) -> Nearby:
     return near
 
 
-def _near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+def near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
     """Dyads of two or three positions near one: their pivots on the body, or the directions of their slides."""
     reach = _PLANE * width * task.size
     if dyad.slides and len(task) == 3:
@@ -334,6 +338,12 @@ def _near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[
     if dyad.slides:
         return sliding_family(task, dyad.kind, pivots)
     others: list[GuidingDyad] = []
+    if len(task) == 2:  # along the bisector of the two places of the pivot
+        turn = task.turns[1] / task.turns[0]
+        along = 1j * (task.origins[1] + turn * (dyad.moving - task.origins[0]) - dyad.moving)
+        if along:
+            steps = (reach * share * along / abs(along) for share in (-1.0, -0.5, 0.5, 1.0))
+            others += [replace(dyad, fixed=dyad.fixed + step) for step in steps]
     for pivot in pivots:
         with suppress(SynthesisError):  # it serves any dyad
             others += guiding_dyads(replace(task, moving_pivots=((pivot.real, pivot.imag),), fixed_pivots=()))

@@ -49,7 +49,7 @@ def synthesise(
             (over the whole range of the drive), ``size``, ``size-ratio``, ``sensitivity`` (to wrong lengths),
             ``links``, ``full-turn``; of designs that are equal in the first the second decides. By default a full turn
             comes first, then the transmission angle; where targets are only approached, the error. Families of two to
-            four positions, and of dead centres, are searched for the best by these.
+            four positions or pairs, and of dead centres, are searched for the best by these.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         starts: of structures: how many are improved of each mechanism.
@@ -96,7 +96,7 @@ def synthesise(
         "progress": progress,
     }
     given: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
-    if orders and structures is None and isinstance(task, PositionTask | DeadCentreTask):
+    if orders and structures is None and not isinstance(task, PathTask):
         given["sort"] = orders
     result = _solved(task, structures, demands, given)
     return result.sorted_by(*orders) if orders else result
