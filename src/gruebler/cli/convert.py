@@ -9,7 +9,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.left_out import say_left_out
-from gruebler.cli.linkage_inputs import linkage_of_word
+from gruebler.cli.linkage_inputs import linkage_of_word, spatial_of_word
 from gruebler.cli.output import say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
@@ -53,6 +53,9 @@ def _write_value(word: str, target: str, form: str | None, notes: list[Message])
     from gruebler.files.values import write, write_loaded
     from gruebler.teaching.catalog import entry
 
+    if (spatial := spatial_of_word(word)) is not None:
+        write(spatial.linkage, target, format_name=form, left_out=notes)
+        return
     lengths = is_lengths(word) or (":" in word and "(" not in word)
     if is_structure_text(word) or not (lengths or entry(word).dimensions is not None):
         write(chain_from_word(word), target, format_name=form, left_out=notes)

@@ -300,14 +300,40 @@ def _write_dxf_of_links(value: Any, path: Path, left_out: list[Message]) -> None
     from gruebler.files.dxf import dxf_of_links
 
     texts = dxf_of_links(_as_linkage(value), left_out)
+    _write_in_folder(path, {f"{name}.dxf": text.encode("utf-8") for name, text in texts.items()})
+
+
+def _write_in_folder(path: Path, files: Mapping[str, bytes]) -> None:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise GrueblerError(
             "{path}: the folder cannot be made ({reason})", path=path, reason=reason_of(error)
         ) from None
-    for name, text in texts.items():
-        _write_text(path / f"{name}.dxf", text)
+    for name, content in files.items():
+        _write_bytes(path / name, content)
+
+
+def _write_glb(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.files.gltf import glb_from_linkage
+
+    _write_bytes(path, glb_from_linkage(_in_space(value), left_out))
+
+
+def _write_stl_of_links(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.files.gltf import stl_of_links
+
+    _write_in_folder(
+        path, {f"{link}.stl": content for link, content in stl_of_links(_in_space(value), left_out).items()}
+    )
+
+
+def _in_space(value: Any) -> SpatialLinkage:
+    from gruebler.mechanics.screws import SpatialLinkage
+
+    if not isinstance(value, SpatialLinkage):
+        raise GrueblerError("bodies are written of linkages in space, not of a {kind}", kind=type(value).__name__)
+    return value
 
 
 def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
@@ -467,6 +493,22 @@ FORMATS: tuple[Format, ...] = (
         message("robots (URDF)"),
         message("a linkage of pins, slides and slots as a tree: its loops are cut"),
         message("m"),
+    ),
+    Format(
+        name="glb",
+        suffixes=(".glb",),
+        title=message("glTF 2.0, viewers of bodies"),
+        carries=message("bodies of the links of a linkage in space, an animation for each drive"),
+        write=_write_glb,
+        lengths=message("m"),
+    ),
+    Format(
+        name="stl",
+        suffixes=(),
+        title=message("printers (STL), a file for each link"),
+        carries=message("a folder of bodies, one file per link of a linkage in space, in the reference pose"),
+        write=_write_stl_of_links,
+        lengths=message("as they are; programs take them for mm"),
     ),
     Format(
         name="spreadsheet",

@@ -20,7 +20,7 @@ from gruebler.files.values import format_of, read, write
 from gruebler.mechanics.linkages import Linkage
 
 _OWN = ("toml", "json")
-_NO_LINKAGES = frozenset({"csv", "spreadsheet", "parquet", "dxf-links"})
+_NO_LINKAGES = frozenset({"csv", "spreadsheet", "parquet", "dxf-links", "glb", "stl"})
 """Formats of tables and folders; the page writes its table by itself."""
 
 

@@ -1,0 +1,228 @@
+"""Links of a linkage in space as closed bodies of triangles: bars between joints, pins in sleeves, balls, wheels.
+
+The sizes of the bodies are chosen here; places and axes are those of the joints in the reference pose. A body of a
+link may run into another one of the same link, as a bar into its sleeve. docs/theory/formats.md has the rules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import cos, isfinite, pi, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Reals
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.structure.chain.spaces import Space
+
+_SIDES = 16
+_SLENDER = 45  # the size of a linkage over the radius of its bars
+_THIN = 0.45  # pins and rods against bars
+_LONG = 2.2  # of a sleeve to each side, in radii of a bar
+_DISC = 0.8
+_CONE = 0.75  # of the radius of the sphere, where a bevel wheel begins
+_BALL = 1.7
+_SAME = 1e-9
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Solid:
+    """A closed surface of triangles, counterclockwise as seen from outside."""
+
+    vertices: Reals
+    """(vertices, 3), in the linkage's unit."""
+    triangles: NDArray[np.intp]
+    """(triangles, 3)."""
+
+    @property
+    def volume(self) -> float:
+        """What it encloses: the sum of the tetrahedra from the origin to each triangle.
+
+        >>> round(box(np.zeros(3), np.eye(3), (1.0, 2.0, 3.0)).volume, 9)
+        48.0
+        """
+        a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
+        return float((a * np.cross(b, c)).sum() / 6)
+
+
+def lathe(start: Reals, end: Reals, profile: Reals, phase: float = 0.0) -> Solid:
+    """A turned body: (along, radius) from start (0) to end (1), beginning and ending on the axis.
+
+    Bars that begin at one place differ by their phase: bodies that share an edge are not closed to a reader.
+
+    >>> tip = lathe(np.zeros(3), np.array([0.0, 0, 3]), np.array([[0, 0], [0, 1], [1, 0.0]]))
+    >>> round(tip.volume, 2)  # of a pyramid with 16 sides
+    3.06
+    """
+    axis = end - start
+    unit = axis / np.linalg.norm(axis)
+    u = np.cross(unit, np.eye(3)[int(np.argmin(np.round(abs(unit), 6)))])
+    u /= np.linalg.norm(u)
+    v = np.cross(unit, u)
+    turn = 2 * pi * np.arange(_SIDES) / _SIDES + phase
+    ring = np.cos(turn)[:, None] * u + np.sin(turn)[:, None] * v
+    rings = [start + along * axis + radius * ring for along, radius in profile[1:-1]]
+    first, last = start + profile[0, 0] * axis, start + profile[-1, 0] * axis
+    k = np.arange(_SIDES)
+    after = (k + 1) % _SIDES
+    faces = [np.stack([0 * k, 1 + after, 1 + k], axis=1)]
+    for n in range(len(rings) - 1):
+        low = 1 + n * _SIDES
+        faces += [
+            np.stack([low + k, low + after, low + _SIDES + k], axis=1),
+            np.stack([low + after, low + _SIDES + after, low + _SIDES + k], axis=1),
+        ]
+    low, top = 1 + (len(rings) - 1) * _SIDES, 1 + len(rings) * _SIDES
+    faces.append(np.stack([low + k, low + after, 0 * k + top], axis=1))
+    return Solid(np.concatenate([[first], *rings, [last]]), np.concatenate(faces))
+
+
+def cylinder(start: Reals, end: Reals, radius: float, last: float | None = None, phase: float = 0.0) -> Solid:
+    """A cylinder, or a cone's piece with another radius at its end."""
+    profile = np.array([[0, 0], [0, radius], [1, radius if last is None else last], [1, 0]])
+    return lathe(start, end, profile, phase)
+
+
+def ball(middle: Reals, radius: float) -> Solid:
+    """A ball."""
+    angle = np.linspace(0, pi, _SIDES // 2 + 1)
+    profile = np.stack([(1 - np.cos(angle)) / 2, radius * np.sin(angle)], axis=1)
+    up = radius * np.array([0.0, 0.0, 1.0])
+    return lathe(middle - up, middle + up, profile)
+
+
+def box(middle: Reals, axes: Reals, halves: tuple[float, float, float]) -> Solid:
+    """A box along the columns of a rotation."""
+    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    triangles = [each for a, b, c, d in faces for each in ((a, b, c), (a, c, d))]
+    return Solid(middle + (signs * np.array(halves)) @ axes.T, np.array(triangles, np.intp))
+
+
+def link_solids(
+    linkage: SpatialLinkage, travels: Mapping[int, tuple[float, float]] | None = None
+) -> dict[str, tuple[Solid, ...]]:
+    """The bodies of every link in the reference pose.
+
+    Args:
+        linkage: in space or on the sphere, where the joints lie on a ball of the radius 1.
+        travels: between which values sliding joints move, by number: their rods are so long.
+    """
+    chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
+    spherical = chain.space is Space.SPHERICAL
+    radius = (1.0 if spherical else linkage.size) / _SLENDER
+    solids: dict[str, list[Solid]] = {link: [] for link in chain.links}
+    holds: dict[str, list[Reals]] = {link: [] for link in chain.links}
+    bearings = _joint_places(linkage, radius)
+    for number, joint in enumerate(chain.joints):
+        at = bearings[number]
+        ends = (travels or {}).get(number, (0.0, 0.0))
+        outer = frame if frame in joint.links else joint.links[-1]
+        for link in joint.links:
+            hold = at
+            if joint.pair.has_contours:
+                wheel, hold = _wheel(linkage, number, joint.links.index(link), radius)
+                solids[link].append(wheel)
+            else:
+                solids[link] += _symbol(linkage, number, at, radius, ends, outer=link == outer)
+            holds[link].append(hold)
+    for link, point in linkage.points.values():
+        holds[link].append(np.array(point))
+    for link, ends_of_bars in holds.items():
+        if link != frame:
+            solids[link] += [
+                cylinder(a, b, radius, phase=0.05 * k)
+                for k, (a, b) in enumerate(_bars(np.array(ends_of_bars)), 1)
+                if np.linalg.norm(b - a) > radius / 4
+            ]
+    return {link: _distinct(each) for link, each in solids.items()}
+
+
+def _distinct(solids: Sequence[Solid]) -> tuple[Solid, ...]:
+    """Without a wheel that meshes twice."""
+    return tuple({(np.round(each.vertices, 9) + 0.0).tobytes(): each for each in solids}.values())
+
+
+def _joint_places(linkage: SpatialLinkage, r: float) -> list[Reals]:
+    """Where the joints are; bearings at one place are shifted along their axes, which changes no motion."""
+    spherical = linkage.mechanism.chain.space is Space.SPHERICAL
+    places: list[Reals] = []
+    for number, joint in enumerate(linkage.mechanism.chain.joints):
+        frame = linkage.frames[number]
+        z = frame[:3, 2] * (_side(linkage, number) if spherical else 1.0)
+        at = z if spherical else frame[:3, 3]
+        if joint.pair.is_turning:
+            tried = [at + step * 2 * (_LONG + 1) * r * z for step in (0, 1, -1, 2, -2, 3, -3)]
+            at = next((t for t in tried if all(np.linalg.norm(t - other) > _LONG * r for other in places)), at)
+        places.append(at)
+    return places
+
+
+def _side(linkage: SpatialLinkage, number: int) -> float:
+    """On which side of the sphere a bearing lies: where its wheel is."""
+    chain = linkage.mechanism.chain
+    own = set(chain.joints[number].links) - {linkage.mechanism.frame}
+    near = [
+        float(linkage.frames[k, :3, 2] @ linkage.frames[number, :3, 2])
+        for k, joint in enumerate(chain.joints)
+        if joint.pair.has_contours and own & set(joint.links)
+    ]
+    return -1.0 if near and sum(near) < -_SAME else 1.0
+
+
+def _symbol(
+    linkage: SpatialLinkage, number: int, at: Reals, r: float, ends: tuple[float, float], *, outer: bool
+) -> Iterator[Solid]:
+    """The sleeve, block, ball or fork of one link of a joint."""
+    pair = linkage.mechanism.chain.joints[number].pair
+    axes = linkage.frames[number, :3, :3]
+    free = pair.freedoms[linkage.mechanism.chain.space]
+    slides = [f.axis for f in free if f.travels or f.has_pitch]
+    turns = [f.axis for f in free if f.turns]
+    if pair.is_ball:
+        yield ball(at, _BALL * r if outer else 1.2 * r)
+    elif pair.is_cross:
+        arm = axes[:, 1 if outer else 0]
+        yield cylinder(at - 2.4 * r * arm, at + 2.4 * r * arm, _THIN * r)
+    elif len(slides) == 1 and len(free) <= 2:
+        axis = axes[:, "xyz".index(slides[0])]
+        if not outer:
+            low, high = ends  # the sleeve goes from low to high along the rod
+            yield cylinder(at + (low - 4 * r) * axis, at + (high + 4 * r) * axis, _THIN * r)
+        elif turns:
+            yield cylinder(at - _LONG * r * axis, at + _LONG * r * axis, 1.3 * r)
+        else:
+            first = "xyz".index(slides[0])
+            yield box(at, axes[:, [first, (first + 1) % 3, (first + 2) % 3]], (_LONG * r, 1.4 * r, 1.4 * r))
+    elif turns and not slides and len(free) == 1:
+        axis = axes[:, "xyz".index(turns[0])]
+        half, thick = (_LONG, 1.3) if outer else (_LONG + 1.2, 0.7)
+        yield cylinder(at - half * r * axis, at + half * r * axis, thick * r)
+    else:
+        yield box(at, axes, (3 * r, 0.3 * r, 3 * r)) if outer else ball(at, r)
+
+
+def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[Solid, Reals]:
+    """The disc or cone of one body of a contact, and its middle."""
+    place, frame = linkage.places[number], linkage.frames[number]
+    assert place.radii is not None  # checked with the linkage
+    radius, sign = place.radii[index], (-1.0, 1.0)[index]
+    y, z = frame[:3, 1], frame[:3, 2]
+    if linkage.mechanism.chain.space is Space.SPHERICAL:
+        end = cos(radius) * (cos(radius) * z + sign * sin(radius) * y)
+        return cylinder(_CONE * end, end, _CONE * sin(radius), sin(radius)), end
+    at = frame[:3, 3]
+    if not isfinite(radius):
+        return box(at + sign * _DISC * r * y, frame[:3, :3], (6 * r, _DISC * r, 2 * r)), at
+    middle = at + sign * radius * y
+    return cylinder(middle - _DISC * r * z, middle + _DISC * r * z, max(abs(radius), r)), middle
+
+
+def _bars(places: Reals) -> Iterator[tuple[Reals, Reals]]:
+    """From the place in the middle of a link to all others: the one with the least sum of distances."""
+    if len(places) > 1:
+        distances = np.linalg.norm(places[:, None] - places[None], axis=2)
+        middle = int(np.argmin(np.round(distances.sum(axis=1), 9)))
+        yield from ((places[middle], place) for k, place in enumerate(places) if k != middle)

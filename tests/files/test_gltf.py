@@ -1,0 +1,133 @@
+"""Bodies of links: closed, of the right size and where the links are; glTF by a reader of its own, STL by its bytes."""
+
+import json
+from collections import Counter
+from math import pi
+
+import numpy as np
+import pytest
+
+from gruebler.base.errors import GrueblerError
+from gruebler.cli import main
+from gruebler.files import values as files
+from gruebler.files.gltf import stl_of_links
+from gruebler.files.link_solids import ball, box, cylinder, link_solids
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.space import move
+from gruebler.structure.chain.spaces import Space
+from gruebler.teaching.catalog import entries, entry
+
+IN_SPACE = [id for id, one in entries().items() if one.screws is not None and one.chain().space is not Space.PLANAR]
+
+
+def open_edges(triangles):
+    """Edges that are not passed once in each direction: none on a closed body whose faces all look outward."""
+    edges = Counter((int(t[k]), int(t[(k + 1) % 3])) for t in triangles for k in range(3))
+    return [edge for edge, count in edges.items() if count != 1 or edges[edge[::-1]] != 1]
+
+
+@pytest.mark.parametrize("id", IN_SPACE)
+def test_every_body_of_a_machine_is_closed(id):
+    solids = link_solids(entry(id).placed())
+    assert set(solids) == set(entry(id).links)
+    for link, bodies in solids.items():
+        assert bodies, link
+        for body in bodies:
+            assert open_edges(body.triangles) == []
+            assert body.volume > 0
+
+
+def test_volumes_by_their_formulas():
+    """A prism of 16 sides, a box, and a ball that is a little smaller than the round one."""
+    share = 8 * np.sin(pi / 8) / pi  # of the regular polygon in its circle
+    start, end = np.array([1.0, 2, 3]), np.array([4.0, 6, 3])
+    assert cylinder(start, end, 2.0).volume == pytest.approx(share * pi * 4 * 5)
+    assert cylinder(start, end, 2.0, 1.0, 0.3).volume == pytest.approx(share * pi * 5 / 3 * (4 + 2 + 1))
+    assert box(end, np.eye(3)[:, [2, 0, 1]], (1.0, 2.0, 3.0)).volume == pytest.approx(48)
+    assert 0.9 < ball(start, 3.0).volume / (4 / 3 * pi * 27) < 1
+
+
+def glb(path):
+    """Document and binary chunk, by the layout that the specification prints."""
+    data = path.read_bytes()
+    magic, version, length = data[:4], *np.frombuffer(data[4:12], "<u4")
+    assert (magic, version, length) == (b"glTF", 2, len(data))
+    size, kind = int(np.frombuffer(data[12:16], "<u4")[0]), data[16:20]
+    assert kind == b"JSON"
+    rest = data[20 + size :]
+    assert rest[4:8] == b"BIN\0"
+    return json.loads(data[20 : 20 + size]), rest[8:]
+
+
+def rows_of(document, binary, number):
+    accessor = document["accessors"][number]
+    view = document["bufferViews"][accessor["bufferView"]]
+    count = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor["type"]]
+    values = np.frombuffer(binary, "<f4", accessor["count"] * count, view["byteOffset"])
+    rows = values.reshape(-1, count).astype(float)
+    if "min" in accessor:
+        assert rows.min(axis=0) == pytest.approx(accessor["min"])
+        assert rows.max(axis=0) == pytest.approx(accessor["max"])
+    return rows
+
+
+def test_keys_of_the_animation_are_the_poses_of_the_links(tmp_path):
+    linkage = entry("wiper_rssr").placed()
+    document, binary = glb(files.write(linkage, tmp_path / "a.glb"))
+    (animation,) = document["animations"]
+    motion = move(linkage, np.linspace(0, 2 * pi, 73))
+    for channel in animation["channels"]:
+        sampler = animation["samplers"][channel["sampler"]]
+        link = document["nodes"][channel["target"]["node"]]["name"]
+        values = rows_of(document, binary, sampler["output"])
+        assert len(rows_of(document, binary, sampler["input"])) == len(values) == 73
+        pose = motion.pose(link)
+        if channel["target"]["path"] == "translation":
+            assert values == pytest.approx(pose[:, :3, 3] / 1000, abs=1e-6)  # mm in metres
+        else:
+            x, y, z, w = values.T
+            assert 1 - 2 * (y**2 + z**2) == pytest.approx(pose[:, 0, 0], abs=1e-6)
+            assert 2 * (x * z + y * w) == pytest.approx(pose[:, 0, 2], abs=1e-6)
+
+
+def test_a_machine_with_several_drives_has_an_animation_for_each(tmp_path):
+    document, _ = glb(files.write(entry("delta").placed(), tmp_path / "a.glb"))
+    assert [each["name"] for each in document["animations"]] == list(entry("delta").drives)
+    nodes = [each["name"] for each in document["nodes"]]
+    assert nodes == ["linkage", *entry("delta").links]
+
+
+def test_a_machine_without_drives_says_that_it_stands_still(tmp_path):
+    left_out = []
+    document, _ = glb(files.write(entry("susp_5link").placed(), tmp_path / "a.glb", left_out=left_out))
+    assert "animations" not in document
+    assert [str(each) for each in left_out] == ["a motion: the drives do not move the linkage"]
+
+
+def test_stl_has_a_file_for_each_link(tmp_path, capsys):
+    assert main(["convert", "sarrus", str(tmp_path / "bodies"), "--to", "stl"]) == 0
+    assert "motion, colours and the unit" in capsys.readouterr().err
+    assert {path.stem for path in (tmp_path / "bodies").iterdir()} == set(entry("sarrus").links)
+    for path in (tmp_path / "bodies").iterdir():
+        data = path.read_bytes()
+        (count,) = np.frombuffer(data[80:84], "<u4")
+        assert len(data) == 84 + 50 * count
+        rows = np.frombuffer(data[84:], np.dtype([("n", "<f4", 3), ("c", "<f4", (3, 3)), ("a", "<u2")]))
+        corners = rows["c"].astype(float)
+        assert (corners[:, 0] * np.cross(corners[:, 1], corners[:, 2])).sum() > 0
+        places, numbers = np.unique(corners.reshape(-1, 3).round(3), axis=0, return_inverse=True)
+        assert open_edges(numbers.reshape(-1, 3)) == []  # joined as a reader joins corners, over all bodies of the link
+        assert len(places) > 20
+
+
+@pytest.mark.parametrize("id", IN_SPACE)
+def test_bodies_of_one_link_share_no_edge(id):
+    for content in stl_of_links(entry(id).placed(), []).values():
+        rows = np.frombuffer(content[84:], np.dtype([("n", "<f4", 3), ("c", "<f4", (3, 3)), ("a", "<u2")]))
+        _, numbers = np.unique(rows["c"].reshape(-1, 3), axis=0, return_inverse=True)
+        assert open_edges(numbers.reshape(-1, 3)) == []
+
+
+def test_bodies_are_of_linkages_in_space(tmp_path):
+    with pytest.raises(GrueblerError, match="bodies are written of linkages in space, not of a Linkage"):
+        files.write(FourBar(25, 70, 40, 70), tmp_path / "a.glb")
