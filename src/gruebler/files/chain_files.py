@@ -18,7 +18,7 @@ from zlib import error as ZlibError
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, message, reason_of
 from gruebler.files.dot import dot_from_chain, graph_from_dot
 from gruebler.files.structures import chain_of_text
 from gruebler.files.text_files import parse_xml
@@ -260,7 +260,7 @@ def read_lines(path: Path, form: str) -> Iterator[Chain]:
             lines = gzip.GzipFile(fileobj=raw) if packed else raw
             yield from _chains(path, lines, LINES[form][0])
     except (OSError, EOFError, ZlibError) as error:
-        reason = getattr(error, "strerror", None) or error
+        reason = reason_of(error) if isinstance(error, OSError) and error.errno else error
         raise GrueblerError("{path}: cannot be read: {problem}", path=path, problem=reason) from None
 
 

@@ -18,6 +18,7 @@ import msgspec
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, UnitWarning
+from gruebler.base.text import reason_of
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
 from gruebler.files.angles import in_degrees, in_radians
@@ -242,7 +243,7 @@ def _text(path: Path) -> str:
     try:
         return path.read_bytes()[:1_000_001].decode("utf-8-sig")
     except OSError as error:
-        raise SynthesisError("cannot be read ({reason})", reason=error.strerror or error) from None
+        raise SynthesisError("cannot be read ({reason})", reason=reason_of(error)) from None
     except UnicodeDecodeError:
         raise SynthesisError("is not UTF-8 text") from None
 

@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.text import reason_of
 
 LARGEST = 2_000_000
 """Bytes of a file; drawings of a thousand links fit."""
@@ -23,7 +24,7 @@ def read_text(path: Path, largest: int = LARGEST) -> str:
         with path.open("rb") as file:
             content = file.read(largest + 1)
     except OSError as error:
-        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=error.strerror or error) from None
+        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
     if len(content) > largest:
         raise GrueblerError("{path}: larger than {limit:,} bytes", path=path, limit=largest)
     encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"

@@ -29,7 +29,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError, RunError
 from gruebler.base.private_folder import private_folder
-from gruebler.base.text import error_in_language
+from gruebler.base.text import error_in_language, reason_of
 from gruebler.page.page import module_text, served_page
 from gruebler.page.workers import CancelledError, Workers
 
@@ -298,7 +298,7 @@ def bound_socket(host: str, port: int, asked: bool) -> socket.socket:
                 "cannot listen on {host}, port {port}: {reason}",
                 host=host,
                 port=port,
-                reason=error.strerror or str(error),
+                reason=reason_of(error),
             ) from None
         connection.bind((host, 0))
     return connection
