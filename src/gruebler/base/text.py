@@ -53,11 +53,18 @@ def number(value: Any, lang: str = "en", form: str = ".6g") -> str:
 
     >>> number(1234.5), number(1234.5, "de"), number(19819281, "de", ",")
     ('1234.5', '1234,5', '19.819.281')
-    >>> number(77.71634, "de", "n"), number(12345.67, form="n"), number(15.001, form="n"), number(1e-17, form=".1e")
-    ('77,72', '12346', '15.001', '1.0×10⁻¹⁷')
+    >>> number(77.71634, "de", "n"), number(12345.67, form="n"), number(15.001, form="n")
+    ('77,72', '12346', '15.001')
+    >>> number(2.7e-17, form=".1e"), number(2.7e-17, "de", ".1e")
+    ('2.7×10⁻¹⁷', '2,7·10⁻¹⁷')
     """
     written = _written(value, form)
-    return written.translate(_DECIMAL_COMMA) if lang in _COMMA_LANGUAGES else written
+    return _in_comma_language(written) if lang in _COMMA_LANGUAGES else written
+
+
+def _in_comma_language(written: str) -> str:
+    """A number with decimal comma, and with the dot that stands for times there."""
+    return written.translate(_DECIMAL_COMMA).replace("×", "·")
 
 
 def _written(value: Any, form: str) -> str:
@@ -135,7 +142,7 @@ class _LocalFormatter(Formatter):
         counts = isinstance(value, Number | Decimal) and not isinstance(value, bool)
         written = _written(value, form) if counts else format(value, form)
         local = counts and self.lang in _COMMA_LANGUAGES
-        return written.translate(_DECIMAL_COMMA) if local else written
+        return _in_comma_language(written) if local else written
 
 
 def _filled(text: str, lang: str, values: Mapping[str, Any]) -> str:
@@ -333,4 +340,4 @@ def decimal_sign_in(numbers: str, lang: str) -> str:
     if lang not in _COMMA_LANGUAGES:
         return numbers
     numbers = re.sub(r"(\d\.\d+), (?=[-\d])|(?<=\d), (?=-?\d+\.\d)", r"\1; ", numbers)
-    return re.sub(r"(?<=\d)\.(?=\d)", ",", numbers)
+    return re.sub(r"(?<=\d)×(?=10)", "·", re.sub(r"(?<=\d)\.(?=\d)", ",", numbers))

@@ -101,6 +101,8 @@ def as_text(value: float, unit: str, lang: str = "en") -> str:
 
     >>> as_text(70.0, "mm"), as_text(40.311, "mm", "de"), as_text(3e7, "mm"), as_text(1e-6, "mm")
     ('70 mm', '40,31 mm', '3×10⁷ mm', '10⁻⁶ mm')
+    >>> as_text(3e7, "mm", "de")
+    '3·10⁷ mm'
     """
     plain = not value or 1e-3 <= abs(float(f"{value:.4g}")) < 1e5
     number = f"{float(f'{value:.4g}'):.10g}".replace("-", "−") if plain else _with_power(value).removeprefix("1×")

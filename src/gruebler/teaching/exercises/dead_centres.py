@@ -195,7 +195,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     builder.find("s_H2", message("slider in the middle of the stroke"), "(l_a + l_i)/2", rod, l_a=rod + a, l_i=rod - a)
     name = message("crank angle in the middle of the stroke, on either side of the outer dead centre")
     text = message(
-        "crank angle there: the triangle A0, A, B has two sides b, so its height from B stands on the middle of a"
+        "crank angle there: the triangle A₀, A, B has two sides b, so its height from B stands on the middle of a"
     )
     phi = degrees(acos(a / (2 * rod)))
     builder.find("φ_H2", name, "± arccos(a/(2·b))", phi, unit="°", text=text, either_sign=True, a=a, b=rod)
@@ -357,7 +357,7 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
     """
     size = FourBar.central(a=a, b=b, c=c)
     builder = SolutionBuilder(unit=unit)
-    text = message("frame: in both dead centres B lies on one line through A0, so the chord of the swing is 2a long")
+    text = message("frame: in both dead centres B lies on one line through A₀, so the chord of the swing is 2a long")
     name = message("length of the frame")
     builder.find("d", name, "√(b² + c² - a²)", sqrt(b**2 + c**2 - a**2), text=text, a=a, b=b, c=c)
     d = size.d
