@@ -19,6 +19,7 @@ from gruebler.pictures.canvas.free_space import distance_between
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.pictures.linkage.posed_linkage import posed_linkage
 from gruebler.teaching.catalog import entries, entry
 
 HALF = 4.0  # pixels: half the height of a digit, less the rounding of a place
@@ -123,3 +124,10 @@ def test_an_outline_of_a_drawing_lies_where_it_is_drawn():
 def test_neither_a_disc_nor_a_line_is_refused(outline):
     with pytest.raises(LinkageError, match=r"outlines\.crank: an outline is a place with a radius"):
         FourBar(25, 70, 40, 70).linkage().with_outlines({"crank": [outline]})
+
+
+def test_of_a_drive_without_end_one_turn_is_shown():
+    """The rope guide of the winch goes on as the spindle turns: 2 pi times the radius of 30, not eight turns each way."""
+    posed = posed_linkage(entry("winch_plane").linkage())
+    assert np.ptp(posed.path.drives) == pytest.approx(math.tau, rel=1e-5)
+    assert np.ptp(posed.path.displacement("P(frame-rope_guide)")) == pytest.approx(30 * math.tau, rel=1e-5)

@@ -211,14 +211,16 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
 def drive_rows(cycle: Course, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
     """Drive values: ``count`` even steps of each full turn, else of the range, denser at both ends.
 
+    Of a range without an end one turn is shown, or one and a half sizes to either side.
+
     Raises `LinkageError` if no part of the range lies between the two requested values.
     """
     span = cycle.span
     low, high = span.low, span.high
     if between is None and span.full:
         return np.linspace(low, high, count * span.turns + 1)
-    if not cycle.turning_drive:
-        middle, room = float(cycle.start.drives[0, 0]), _ENDLESS * cycle.size
+    if not span.full:
+        middle, room = float(cycle.start.drives[0, 0]), math.pi if cycle.turning_drive else _ENDLESS * cycle.size
         low = low if span.stops[0] is not None else max(low, middle - room)
         high = high if span.stops[1] is not None else min(high, middle + room)
     low, high = low + _INSIDE * (high - low), high - _INSIDE * (high - low)

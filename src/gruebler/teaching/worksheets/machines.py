@@ -160,7 +160,7 @@ def _diagrams(
     ways: list[dict[str, Callable[[], Figure]]] = [
         {
             output or "": partial(transfer_plot, linkage, output, between=between, lang=lang)
-            for output in outputs or [None]
+            for output in outputs or (None,)
         },
         {"": partial(transmission_plot, linkage, between=between, lang=lang)},
     ]
