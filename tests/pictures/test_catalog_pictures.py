@@ -127,7 +127,7 @@ def test_neither_a_disc_nor_a_line_is_refused(outline):
 
 
 def test_of_a_drive_without_end_one_turn_is_shown():
-    """The rope guide of the winch goes on as the spindle turns: 2 pi times the radius of 30, not eight turns each way."""
+    """The rope guide of the winch goes on with the spindle: 2 pi times the radius of 30, not eight turns each way."""
     posed = posed_linkage(entry("winch_plane").linkage())
     assert np.ptp(posed.path.drives) == pytest.approx(math.tau, rel=1e-5)
     assert np.ptp(posed.path.displacement("P(frame-rope_guide)")) == pytest.approx(30 * math.tau, rel=1e-5)

@@ -402,7 +402,7 @@ def test_exercise_12_has_its_graphical_way(tmp_path):
 
 
 def test_a_sheet_shows_every_output_and_the_machine_to_scale():
-    """Both pistons of the compressor, first function of the drive alike but for 90 degrees; an arm with three drives."""
+    """Both pistons of the compressor, each with its diagram; an arm with three drives."""
     pictures = blocks_of(machine_document(entries()["vcomp"], lang="de"), Pictures)
     assert [block.captions for block in pictures[1:]] == [("Kolben 1",), ("Kolben 2",)]
     arm = blocks_of(machine_document(entries()["excavator"], lang="de"), Pictures)
