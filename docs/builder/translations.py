@@ -1,6 +1,7 @@
 """A page that is German is German throughout: a text without translation is a warning, which stops `make docs`.
 
-Pages of which only the title is translated, and those that are made in the reader's language, are left out.
+Pages of which only the title is translated say that they are English; those that are made in the reader's language are
+left out.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from sphinx.util import logging
 
 _LOG = logging.getLogger(__name__)
 _ALIKE = {"gruebler", "Notebooks", "pylinkage", "Pyslvs", "DXF", "Python", "10"}  # the same in both languages
+_ENGLISH_ONLY = {"de": "Diese Seite gibt es nur auf Englisch; die Begriffe stehen auf Deutsch im Glossar."}
 _MADE = {"reference/commands", "reference/formats", "reference/front-door"}
 
 
@@ -25,13 +27,21 @@ def _is_complete(app: Any, page: str) -> bool:
 
 def _check(app: Any, tree: nodes.document) -> None:
     page = app.env.docname
-    if app.config.language == "en" or page in _MADE or not _is_complete(app, page):
+    if app.config.language == "en" or page in _MADE:
+        return
+    if not _is_complete(app, page):
+        title = next(iter(tree.findall(nodes.title)), None)
+        if title is not None:
+            notice = nodes.note("", nodes.paragraph(text=_ENGLISH_ONLY[app.config.language]), classes=["english-only"])
+            title.parent.insert(title.parent.index(title) + 1, notice)
         return
     for node in tree.findall(lambda each: isinstance(each, nodes.Element) and each.get("translated") is False):
         words = "".join(
             part.astext() for part in node.findall(nodes.Text) if not isinstance(part.parent, nodes.literal)
         )
-        if re.search(r"[A-Za-z]{2}", words) and node.astext() not in _ALIKE:
+        # A cell of a table may be a symbol, such as Q_G or VDI 2127.
+        word = r"[a-z]{3}" if isinstance(node.parent, nodes.entry) else r"[A-Za-z]{2}"
+        if re.search(word, words) and node.astext() not in _ALIKE:
             _LOG.warning("%s: no translation of %r", page, node.astext(), location=node)
 
 
