@@ -372,3 +372,15 @@ def test_processes_fit_the_same_designs(five, tmp_path, capsys):
 def test_a_task_of_another_kind_names_its_command(five, capsys):
     assert main(["synthesise", "path", str(five)]) == 2
     assert "this is a task for 'synthesise positions'" in capsys.readouterr().err
+
+
+def test_clearance_moves_the_targets_further(five, capsys):
+    def worst(clearance):
+        assert main(["synthesise", "positions", str(five), "--clearance", clearance]) == 0
+        out = capsys.readouterr().out
+        assert "99 % of random linkages" in out
+        return float(out.split("random linkages")[1].split()[1])
+
+    assert 0 < worst("0") < worst("0.01") < worst("0.02")
+    assert main(["synthesise", "positions", str(five), "--clearance", "-1"]) == 2
+    assert "--clearance: expected at least 0, but found -1" in capsys.readouterr().err

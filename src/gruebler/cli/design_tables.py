@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from math import degrees, isnan
 
+import numpy as np
+
+from gruebler.base.arrays import Reals
 from gruebler.base.events import GOOD
 from gruebler.base.text import joined, message, number, number_separator, numbers, plural, translate
 from gruebler.cli.tables import Cell, print_table, print_text
@@ -26,6 +29,10 @@ _COLUMNS = (
 )
 _SHIFT = message(
     "Shift: how far the most sensitive target moves if all lengths are wrong by 0.1 %, in the worst case; each drive "
+    "keeps its value."
+)
+_PLAY = message(
+    "Lengths wrong by up to 0.1 %, pins {clearance:g} beside the middle of their holes, to first order; each drive "
     "keeps its value."
 )
 _ANGLES = message(
@@ -144,15 +151,34 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
 
 def _shift(design: Design, lang: str) -> str:
     """How far a target moves at most for each quantity that is not the drive's own: lengths, and angles in degrees."""
-    if design.targets is None or design.sensitivity is None:
+    if design.sensitivity is None:
         return ""
-    worst = design.sensitivity.worst.max(axis=0, initial=0.0)
-    shifts = zip(design.targets.probes, map(float, worst), strict=True)
+    return _by_probe(design, design.sensitivity.worst, lang)
+
+
+def _by_probe(design: Design, moved: Reals, lang: str) -> str:
+    """The largest over the targets of what each quantity moves by, (targets, probes)."""
+    assert design.targets is not None
+    shifts = zip(design.targets.probes, map(float, moved.max(axis=0, initial=0.0)), strict=True)
     return " ".join(
         f"{number(degrees(shift / probe.length), lang, '.2g')}°" if probe.link else number(shift, lang, ".2g")
         for probe, shift in shifts
         if shift > EXACT * design.targets.size
     )
+
+
+def print_clearance(shown: SynthesisResult, clearance: float, lang: str) -> None:
+    """Print how far the targets of each design move with wrong lengths and play: at most, and in random linkages."""
+    rows: list[list[Cell]] = []
+    for k, design in enumerate(shown.designs, 1):
+        if (found := design.sensitivity) is not None:
+            usual = np.quantile(found.sampled(clearance=clearance), 0.99, axis=0)
+            worst = found.of_errors(clearance=clearance)
+            rows.append([str(k), _by_probe(design, worst, lang), _by_probe(design, usual, lang)])
+    if rows:
+        print()
+        print_table((message("design"), message("worst case"), message("99 % of random linkages")), rows, lang=lang)
+        print_text(_PLAY.filled(clearance=clearance).in_language(lang))
 
 
 def _transmission(mu: float, lang: str) -> str:

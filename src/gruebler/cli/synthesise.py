@@ -14,7 +14,7 @@ from typing import Any
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, joined_by_and, translate
 from gruebler.cli.design_files import check_picture, design_to_write, draw_designs
-from gruebler.cli.design_tables import print_designs, print_optimum
+from gruebler.cli.design_tables import print_clearance, print_designs, print_optimum
 from gruebler.cli.executors import executor_of
 from gruebler.cli.long_work import count_line
 from gruebler.cli.output import print_json, say_written
@@ -165,6 +165,7 @@ def add(parser: Parser) -> None:
             --size-ratio R float =10000  limit of longest to shortest length
             --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
                 sensitivity, links, full-turn; of equal ones the second key decides
+            --clearance C float  print how far targets move with lengths wrong by 0.1 % and pins C beside their holes
             --number N int  give the N best designs only, where there are infinitely many or targets are approached
             --rejected  also list the rejected designs with their reasons
             """
@@ -203,6 +204,8 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(result_to_json(shown))
     else:
         print_designs(result, shown, arguments.rejected, arguments.lang)
+        if arguments.clearance is not None:
+            print_clearance(shown, arguments.clearance, arguments.lang)
         law = task.law if isinstance(task, FunctionTask) else None
         if law is not None and result.designs and (optimum := result.designs[0].optimum) is not None:
             print_optimum(optimum, law, arguments.lang)
@@ -236,6 +239,8 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         )
     if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
+    if arguments.clearance is not None and not 0 <= arguments.clearance < math.inf:
+        raise SynthesisError("--clearance: expected at least 0, but found {clearance:g}", clearance=arguments.clearance)
     if arguments.design is not None and arguments.out is None:
         raise SynthesisError("--design: only with -o")
     for option in ("--number", "--initial-designs", "--design"):

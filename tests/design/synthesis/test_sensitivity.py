@@ -98,3 +98,39 @@ def test_designs_tell_their_sensitivity():
     values = [each.relative_sensitivity for each in ranked]
     assert values == pytest.approx(sorted(values), rel=1e-8)
     assert values[0] < values[-1]
+
+
+def test_play_of_a_slider_crank_by_hand():
+    """x = r cos(phi) + sqrt(l^2 - (r sin(phi) - e)^2): a pin beside its hole is a crank of another length and angle.
+
+    Of the crank pin (dx, dy) moves r cos(phi) and r sin(phi); across the guide e changes.
+    """
+    r, length, e = 1.0, 3.0, 0.5
+    phi = np.array([0.4, 1.2, 2.1])
+    linkage = SliderCrank(r, length, e).linkage()
+    linkage = linkage.with_reference_pose(move(linkage, phi[:1]).pose(0))
+    found = length_sensitivity(linkage, (Probe(joint=3),), phi[:, None])
+    slope = (r * np.sin(phi) - e) / np.sqrt(length**2 - (r * np.sin(phi) - e) ** 2)
+    reach = np.sqrt(1 + slope**2)  # of a pin by 1 in the worst direction: along the coupler, by the cosine of its angle
+    sizes = np.linalg.norm(found.plays[:, 0], axis=2)
+    expected = np.stack(
+        [reach, reach, reach, np.abs(slope)], axis=1
+    )  # both ends of the crank, that of the coupler, guide
+    assert np.sort(sizes, axis=1) == pytest.approx(np.sort(expected, axis=1), rel=1e-9)
+    bound = found.of_errors(1e-3, 0.02)
+    assert bound[:, 0] == pytest.approx(found.worst[:, 0] + 0.02 * expected.sum(axis=1), rel=1e-9)
+
+
+def test_random_errors_stay_within_the_bound_and_come_near_it():
+    rng = np.random.default_rng(1)
+    linkage = FourBar(1.0, 3.0, 2.5, 3.2).linkage({"P": (1.2, 0.8)})
+    found = length_sensitivity(linkage, PROBES, rng.uniform(0.5, 0.9, (3, 1)))
+    bound, seen = found.of_errors(2e-3, 1e-3), found.sampled(2e-3, 1e-3, samples=20_000)
+    assert (seen <= bound).all()
+    assert (seen.max(axis=0) > 0.6 * bound).all()
+    spread = found.sampled(1e-3, samples=20_000)
+    third = np.sqrt(
+        np.mean(spread**2, axis=0)
+    )  # of an even distribution the deviation is the half width by the root of 3
+    assert third == pytest.approx(found.statistical / np.sqrt(3), rel=0.03)
+    assert (found.sampled(1e-3, 1e-3, seed=4) == found.sampled(1e-3, 1e-3, seed=4)).all()

@@ -41,6 +41,43 @@ class Sensitivity:
     lengths: tuple[LinkLength, ...]
     moves: Complexes
     """(targets, probes, lengths), in the units of the probes: a place as x + iy, a direction by its length."""
+    plays: Complexes
+    """(targets, probes, joints, 2) for a pin that lies one unit of length beside its hole along x or y of a link; a
+    slide lies beside its guide only, its second entry is 0."""
+
+    def of_errors(self, error: float = _CHANGE, clearance: float = 0.0) -> Reals:
+        """(targets, probes) a bound of how far at most, with lengths wrong by a part and joints that have play.
+
+        Args:
+            error: by which part of itself every length may be wrong.
+            clearance: how far a pin may lie beside the middle of its hole, a slide beside its guide: half the play.
+
+        To first order: the worst case of the lengths and, of every joint, the worst direction are added.
+        """
+        parts = np.stack([self.plays.real, self.plays.imag], axis=-1)
+        along = np.linalg.svd(parts, compute_uv=False)[..., 0].sum(axis=2) if parts.size else 0.0
+        return np.asarray(self.worst * (error / _CHANGE) + clearance * along)
+
+    def sampled(self, error: float = _CHANGE, clearance: float = 0.0, *, samples: int = 10_000, seed: int = 0) -> Reals:
+        """(samples, targets, probes) how far, in random linkages: a Monte Carlo study to first order.
+
+        Every length is wrong by up to a part of itself, evenly distributed; every pin lies on the rim of its play, as a
+        loaded one does, in a direction that all targets share or not: it is drawn anew for each.
+
+        Args:
+            error: by which part of itself every length may be wrong.
+            clearance: as of `of_errors`.
+            samples: how many linkages.
+            seed: of the random numbers.
+        """
+        rng = np.random.default_rng(seed)
+        wrong = rng.uniform(-error / _CHANGE, error / _CHANGE, (samples, len(self.lengths)))
+        moved = np.einsum("tpl,sl->stp", self.moves, wrong)
+        targets, _, joints, _ = self.plays.shape
+        turns = rng.uniform(0, 2 * np.pi, (samples, targets, joints))
+        for k, share in enumerate((np.cos(turns), np.sin(turns))):
+            moved = moved + clearance * np.einsum("tpj,stj->stp", self.plays[..., k], share)
+        return np.asarray(np.abs(moved))
 
     @property
     def worst(self) -> Reals:
@@ -94,7 +131,12 @@ def length_sensitivity(linkage: Linkage, probes: tuple[Probe, ...], drives: Real
     poses = [motion.pose(k * _ROWS) for k in range(count)]
     q = np.array([[value for link in closure.links for value in pose[link]] for pose in poses], np.float64)
     lengths, changes, shifts = _lengths(closure, probes)
-    by_pose, direct = _of_probes(closure, q, probes, changes, shifts)
+    play = _plays(closure)
+    points: dict[str, Complexes] = {
+        name: np.concatenate([shift, np.zeros(play.shape[1], np.complex128)]) for name, shift in shifts.items()
+    }
+    changes = np.concatenate([changes, play], axis=1)
+    by_pose, direct = _of_probes(closure, q, probes, changes, points)
     held, held_direct = _of_drives(closure, q, changes)
     pose = closure.derivatives(q, closure.sizes, size=linkage.size)
     parts = np.concatenate([by_pose.real, by_pose.imag, held], axis=1)
@@ -104,7 +146,23 @@ def length_sensitivity(linkage: Linkage, probes: tuple[Probe, ...], drives: Real
     rates = still[:, :n] + 1j * still[:, n : 2 * n] + direct
     back = np.linalg.solve(along[:, 2 * n :], still[:, 2 * n :] + held_direct)
     moves = rates - (along[:, :n] + 1j * along[:, n : 2 * n]) @ back
-    return Sensitivity(lengths=lengths, moves=_CHANGE * moves)
+    known = len(lengths)
+    plays = moves[:, :, known:].reshape(count, n, -1, 2)
+    return Sensitivity(lengths=lengths, moves=_CHANGE * moves[:, :, :known], plays=plays)
+
+
+def _plays(closure: DesignClosure) -> Reals:
+    """(dimensions, 2 joints) a pin moved by one along x and y of its first link; a slide across itself."""
+    joints = closure.linkage.mechanism.chain.joints
+    changes = np.zeros((len(closure.sizes), 2 * len(joints)))
+    for k, joint in enumerate(joints):
+        at = closure.start[k, joint.links[0]]
+        if joint.pair.is_sliding:
+            direction = closure.sizes[at + 2]
+            changes[at : at + 2, 2 * k] = -np.sin(direction), np.cos(direction)
+        else:
+            changes[at, 2 * k] = changes[at + 1, 2 * k + 1] = 1
+    return changes
 
 
 def _between(drives: Reals) -> Reals:
