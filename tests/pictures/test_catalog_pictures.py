@@ -18,6 +18,7 @@ from gruebler.mechanics.linkages import Outline
 from gruebler.pictures.canvas.free_space import distance_between
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES
+from gruebler.pictures.linkage.bodies import slides
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
 from gruebler.teaching.catalog import entries, entry
@@ -131,3 +132,12 @@ def test_of_a_drive_without_end_one_turn_is_shown():
     posed = posed_linkage(entry("winch_plane").linkage())
     assert np.ptp(posed.path.drives) == pytest.approx(math.tau, rel=1e-5)
     assert np.ptp(posed.path.displacement("P(frame-rope_guide)")) == pytest.approx(30 * math.tau, rel=1e-5)
+
+
+def test_the_guide_of_a_tappet_ends_above_its_roller():
+    """In the highest position too: the roller of 10 stands 70 above the axis of the cam there."""
+    posed = posed_linkage(entry("cam_roller").linkage())
+    (tappet,) = slides(posed)
+    lowest = tappet.low.imag - (14 + 5) / posed.scale  # half a block and the guide's end below the lowest middle
+    assert lowest > 70 + 10
+    assert tappet.high.imag - tappet.low.imag == pytest.approx(20, rel=1e-3)

@@ -93,6 +93,8 @@ def _slide(posed: PosedLinkage, number: int) -> Slide:
     places = np.concatenate([_seen(motion, guide, block, middle) for motion in (posed.path, posed.pose)])
     offsets = ((places - start) * along.conjugate()).real
     low, high = float(offsets.min()), float(offsets.max())
+    beyond = _beyond_roller(posed, block, block_line.direction, high - low)
+    middle, low, high = middle + beyond * cmath.rect(1, block_line.direction), low + beyond, high + beyond
     sign = "block"
     if block not in posed.linkage.mechanism.chain.links and pins_of(lower, block):
         sign = "slot"
@@ -108,6 +110,27 @@ def _slide(posed: PosedLinkage, number: int) -> Slide:
         low=start + low * along,
         high=start + high * along,
     )
+
+
+def _beyond_roller(posed: PosedLinkage, block: str, along: float, travel: float) -> float:
+    """How far a block stands off its pin, along its line, so that the guide ends before a roller on that pin."""
+    linkage, pose = posed.linkage, posed.pose
+    joints = linkage.mechanism.chain.joints
+    if block not in linkage.mechanism.chain.links or len(pins_of(posed.lower, block)) != 1:
+        return 0.0
+    rollers = {link for joint in joints if block in joint.links and joint.pair.is_turning for link in joint.links}
+    for number, joint in enumerate(joints):
+        for roller in (rollers - {block, linkage.mechanism.frame}) & set(joint.links):
+            wheel = linkage.elements[number, roller]
+            partner = next(link for link in joint.links if link != roller)
+            touched = linkage.elements[number, partner]
+            if wheel.rim > 0 and partner != block:
+                away = pose.complex_point(LinkPoint(roller, wheel.x, wheel.y))
+                away = away - pose.complex_point(LinkPoint(partner, touched.x, touched.y))
+                line = pose.turns[0, pose.link_index(block)] * cmath.rect(1, along)
+                side = math.copysign(1.0, (complex(away[0]) * line.conjugate()).real)
+                return side * (wheel.rim + travel + (_BLOCK[0] + 2 * _BEYOND) / posed.scale)
+    return 0.0
 
 
 def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
