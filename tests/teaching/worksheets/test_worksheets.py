@@ -93,6 +93,10 @@ def test_moodle_marks_as_grade_does(sheet):
         assert all(base64.b64decode(file.text).startswith(b"<svg") for file in files)
         assert not any(b"Glieder" in base64.b64decode(file.text) for file in files)  # nothing gives the answer away
         assert question.get("type") in {"numerical", "truefalse", "shortanswer"}
+        # What import_numerical of Moodle's question/format/xml/format.php takes as default: a unit may be given (0)
+        # where there is one, else there is none (3). With 3 an answer such as "130 mm" is no number.
+        shown = {True: "0", False: "3"}[question.find("units/unit") is not None]
+        assert question.findtext("showunits") == (shown if question.get("type") == "numerical" else None)
         for answer in question.findall("answer"):
             text, fraction = answer.findtext("text"), answer.get("fraction")
             if question.get("type") == "numerical" and fraction == "50":

@@ -21,9 +21,10 @@ from gruebler.pictures.canvas.files import picture_bytes
 from gruebler.teaching.exercises import Result, Solution, solve
 from gruebler.teaching.exercises.grading import FINE, NEARLY
 from gruebler.teaching.exercises.messages import asked_text
+from gruebler.teaching.worksheets.blocks import typeset
 
 _NEAR = message("Right in principle; carry more digits on the way.")
-_UNIT_FIELDS = {"unitgradingtype": "0", "unitpenalty": "0.1", "showunits": "3", "unitsleft": "0"}  # a unit is optional
+_UNIT_OPTIONAL, _WITHOUT_UNITS = "0", "3"  # qtype_numerical::UNITOPTIONAL and UNITNONE of Moodle
 
 Task = tuple[Exercise, str, Figure | None]
 """An exercise with its text and its figure."""
@@ -71,16 +72,24 @@ def moodle_xml(tasks: Iterable[Task], lang: str = "en") -> bytes:
         for each in asked.answers:
             answer = SubElement(question, "answer", fraction=str(each.fraction), format="moodle_auto_format")
             _text(answer, each.text)
-            _text(SubElement(answer, "feedback", format="html"), escape(each.hint))
+            _text(SubElement(answer, "feedback", format="html"), escape(typeset(each.hint)))
             if each.tolerance:
                 SubElement(answer, "tolerance").text = each.tolerance
         if asked.unit:
             unit = SubElement(SubElement(question, "units"), "unit")
             SubElement(unit, "multiplier").text = "1"
             SubElement(unit, "unit_name").text = asked.unit
-        for key, setting in {"numerical": _UNIT_FIELDS, "shortanswer": {"usecase": "0"}}.get(asked.kind, {}).items():
+        for key, setting in _settings(asked).items():
             SubElement(question, key).text = setting
     return b'<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(quiz, encoding="unicode").encode("utf-8")
+
+
+def _settings(asked: _Question) -> dict[str, str]:
+    """The elements that belong to a kind of question."""
+    if asked.kind == "numerical":
+        shown = _UNIT_OPTIONAL if asked.unit else _WITHOUT_UNITS
+        return {"unitgradingtype": "0", "unitpenalty": "0.1", "showunits": shown, "unitsleft": "0"}
+    return {"usecase": "0"} if asked.kind == "shortanswer" else {}
 
 
 def gift(tasks: Iterable[Task], lang: str = "en") -> bytes:
@@ -100,7 +109,7 @@ def _gift_question(asked: _Question) -> str:
     else:
         answers = "#" * (asked.kind == "numerical") + "".join(
             f"\n=%{answer.fraction}%{_literal(answer.text)}{answer.tolerance and f':{answer.tolerance}'}"
-            f"{answer.hint and f'#{_literal(answer.hint)}'}"
+            f"{answer.hint and f'#{_literal(typeset(answer.hint))}'}"
             for answer in asked.answers
         )
     return f"::{_literal(asked.name)}::[html]{_literal(_html(asked, image))}{{{answers}}}"
@@ -134,7 +143,7 @@ def _questions(tasks: Iterable[Task], lang: str) -> Iterator[_Question]:
             yield _Question(
                 name=f"{exercise.id} ({number}/{len(exercise.asked)})",
                 kind=kind,
-                paragraphs=(text, asked_text(result, lang)),
+                paragraphs=(typeset(text), typeset(asked_text(result, lang))),
                 picture=picture,
                 answers=tuple(answers),
                 unit=result.unit if kind == "numerical" else "",
@@ -161,4 +170,4 @@ def _answers(solution: Solution, result: Result, lang: str) -> tuple[str, list[_
 
 
 def _allowed(value: float, part: float) -> str:
-    return "0" if isinstance(value, int) else repr(part * abs(value))
+    return "0" if isinstance(value, int) else f"{part * abs(value):.4g}"
