@@ -19,9 +19,12 @@ from gruebler.pictures.canvas.free_space import distance_between
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.linkage.bodies import slides
+from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
+from gruebler.pictures.structure import draw_structure
 from gruebler.teaching.catalog import entries, entry
+from gruebler.teaching.catalog.feature_query import entry_mechanism
 
 HALF = 4.0  # pixels: half the height of a digit, less the rounding of a place
 NEAR = 4.0 + HALF  # from the middle line of a text to the end of its leader
@@ -73,6 +76,18 @@ def test_no_text_lies_over_a_line_and_no_leader_ends_in_the_empty():
     assert len(found) > 60
     # Twelve links in little space: one number touches the circle of its joint by half a pixel.
     assert {id: fault for id, fault in found.items() if fault} == {"excavator": ["'10' over a line"]}
+
+
+def test_the_same_holds_for_their_structures():
+    found = {}
+    for id, record in entries().items():
+        shown = record.in_language("de")
+        if record.space == "planar":
+            contacts = None if shown.dimensions is None else contact_shapes(shown.linkage())
+            figure = draw_structure(entry_mechanism(shown), labels=True, contacts=contacts, lang="de")
+            found[id] = list(faults(figure))
+    assert len(found) > 80
+    assert not any(found.values()), found
 
 
 def test_the_check_itself_notices():
