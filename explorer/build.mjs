@@ -1,4 +1,5 @@
-// Builds the page into the folder given, else into the Python package: one ES module, and one more for static sites.
+// Builds the page into the folder given, else into the Python package: an ES module, one more for static sites, and one
+// for linkages in space.
 
 import { readFile } from "node:fs/promises";
 import path from "node:path";
@@ -61,7 +62,7 @@ const packed = {
 
 await build({
   absWorkingDir: here,
-  entryPoints: { explorer: "src/index.ts", site: "src/site/index.ts" },
+  entryPoints: { explorer: "src/index.ts", site: "src/site/index.ts", space: "src/space/index.ts" },
   outdir: target,
   bundle: true,
   format: "esm",

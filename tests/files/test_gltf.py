@@ -11,7 +11,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.files import values as files
 from gruebler.files.gltf import stl_of_links
-from gruebler.files.link_solids import ball, box, cylinder, link_solids
+from gruebler.files.link_solids import ball_solid, box_solid, cylinder_solid, link_solids
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.space import move
 from gruebler.structure.chain.spaces import Space
@@ -41,10 +41,10 @@ def test_volumes_by_their_formulas():
     """A prism of 16 sides, a box, and a ball that is a little smaller than the round one."""
     share = 8 * np.sin(pi / 8) / pi  # of the regular polygon in its circle
     start, end = np.array([1.0, 2, 3]), np.array([4.0, 6, 3])
-    assert cylinder(start, end, 2.0).volume == pytest.approx(share * pi * 4 * 5)
-    assert cylinder(start, end, 2.0, 1.0, 0.3).volume == pytest.approx(share * pi * 5 / 3 * (4 + 2 + 1))
-    assert box(end, np.eye(3)[:, [2, 0, 1]], (1.0, 2.0, 3.0)).volume == pytest.approx(48)
-    assert 0.9 < ball(start, 3.0).volume / (4 / 3 * pi * 27) < 1
+    assert cylinder_solid(start, end, 2.0).volume == pytest.approx(share * pi * 4 * 5)
+    assert cylinder_solid(start, end, 2.0, 1.0, 0.3).volume == pytest.approx(share * pi * 5 / 3 * (4 + 2 + 1))
+    assert box_solid(end, np.eye(3)[:, [2, 0, 1]], (1.0, 2.0, 3.0)).volume == pytest.approx(48)
+    assert 0.9 < ball_solid(start, 3.0).volume / (4 / 3 * pi * 27) < 1
 
 
 def glb(path):

@@ -47,6 +47,7 @@ def test_the_built_file_is_what_the_sources_give(tmp_path):
     assert (tmp_path / "explorer.js").read_text(encoding="utf-8") == BUILT.read_text(encoding="utf-8"), (
         "run `npm ci && npm run build` in explorer/ and commit src/gruebler/page/static/explorer.js"
     )
+    assert (tmp_path / "space.js").read_bytes() == (BUILT.parent / "space.js").read_bytes()
 
 
 def bytes_of(text: str) -> bytes:

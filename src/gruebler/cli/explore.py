@@ -10,6 +10,7 @@ from typing import Any
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES, translate
 from gruebler.cli.draw import entry_of, linkage_and_range
+from gruebler.cli.linkage_inputs import SpatialWord, spatial_of_word
 from gruebler.cli.long_work import progress
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
@@ -54,6 +55,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.port is not None and not 0 <= arguments.port < 65536:
         raise GrueblerError("--port: expected a number from 0 to 65535, but found {port}", port=arguments.port)
     word = arguments.linkage or _FIRST
+    if (spatial := spatial_of_word(word, arguments.lang)) is not None:
+        return _in_space(spatial, arguments)
     model = _model(word, arguments.lang) | {"plays": arguments.linkage is None}
     if arguments.out is not None:
         from gruebler.page.page import single_file
@@ -61,6 +64,20 @@ def run(arguments: argparse.Namespace) -> int:
         write_file(arguments.out, single_file(model, _page_language(arguments.lang)).encode("utf-8"), arguments.lang)
         return 0
     return _serve(model, arguments) if arguments.site is None else _write_site(model, arguments)
+
+
+def _in_space(spatial: SpatialWord, arguments: argparse.Namespace) -> int:
+    """Write the file of a linkage in space, which needs no server."""
+    from gruebler.page.space_page import space_file, space_model
+
+    if arguments.out is None:
+        raise GrueblerError("the page of a linkage in space is one file: give it by -o FILE.html")
+    record = entry_of(arguments.linkage)
+    name = arguments.linkage if record is None else record.name.in_language(arguments.lang)
+    between = spatial.range if len(spatial.linkage.mechanism.drives) == 1 else None
+    model = space_model(spatial.linkage, name=name, lang=arguments.lang, between=between)
+    write_file(arguments.out, space_file(model, arguments.lang).encode("utf-8"), arguments.lang)
+    return 0
 
 
 def _write_site(model: dict[str, Any], arguments: argparse.Namespace) -> int:

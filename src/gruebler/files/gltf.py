@@ -42,9 +42,19 @@ class MovingSolids:
     round: tuple[bool, ...]
     """Whether the drive of each motion turns fully."""
 
+    def named(self) -> list[tuple[str, int, SpatialMotion, bool]]:
+        """The name and number of the drive of each motion, the motion, whether the drive turns fully."""
+        names = self.linkage.mechanism.drive_names()
+        moving = [int(np.argmax(np.ptp(motion.drives, axis=0))) for motion in self.motions]
+        return [(names[k], k, motion, full) for k, motion, full in zip(moving, self.motions, self.round, strict=True)]
 
-def moving_solids(linkage: SpatialLinkage, frames: int = _FRAMES) -> MovingSolids:
+
+def moving_solids(
+    linkage: SpatialLinkage, frames: int = _FRAMES, between: tuple[float, float] | None = None
+) -> MovingSolids:
     """Bodies and motions: of one drive over its whole range, of several each alone about the reference pose.
+
+    ``between`` are other values of the one drive.
 
     Cost: a second.
     """
@@ -52,9 +62,10 @@ def moving_solids(linkage: SpatialLinkage, frames: int = _FRAMES) -> MovingSolid
     drives = linkage.mechanism.drives
     if len(drives) == 1:
         try:
-            span = spatial_range(linkage)
-            motions.append(followed(linkage, span.inside(frames)[:, None]))
-            full.append(span.full)
+            span = spatial_range(linkage) if between is None else None
+            values = np.linspace(*(between or (0.0, 0.0)), frames) if span is None else span.inside(frames)
+            motions.append(followed(linkage, values[:, None]))
+            full.append(span is not None and span.full)
         except LinkageError:
             motions.clear()
     for number, drive in enumerate(drives if len(drives) > 1 else ()):
@@ -120,15 +131,15 @@ def glb_from_linkage(linkage: SpatialLinkage, left_out: list[Message]) -> bytes:
     document = _Document(metres_a_unit(linkage))
     chain = linkage.mechanism.chain
     for number, link in enumerate(chain.links):
-        document.add_link(link, moving.solids[link], _COLOURS[number % len(_COLOURS)])
-    for name, motion, full in zip(_names(moving), moving.motions, moving.round, strict=True):
+        document.add_link(link, moving.solids[link], link_colour(number))
+    for name, _, motion, full in moving.named():
         document.add_animation(name, motion, full)
     return document.written()
 
 
-def _names(moving: MovingSolids) -> list[str]:
-    names = moving.linkage.mechanism.drive_names()
-    return [names[int(np.argmax(np.ptp(motion.drives, axis=0)))] for motion in moving.motions]
+def link_colour(number: int) -> tuple[float, float, float]:
+    """Red, green and blue of a link by its number."""
+    return _COLOURS[number % len(_COLOURS)]
 
 
 class _Document:

@@ -40,19 +40,19 @@ class Solid:
     def volume(self) -> float:
         """What it encloses: the sum of the tetrahedra from the origin to each triangle.
 
-        >>> round(box(np.zeros(3), np.eye(3), (1.0, 2.0, 3.0)).volume, 9)
+        >>> round(box_solid(np.zeros(3), np.eye(3), (1.0, 2.0, 3.0)).volume, 9)
         48.0
         """
         a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
         return float((a * np.cross(b, c)).sum() / 6)
 
 
-def lathe(start: Reals, end: Reals, profile: Reals, phase: float = 0.0) -> Solid:
+def turned_solid(start: Reals, end: Reals, profile: Reals, phase: float = 0.0) -> Solid:
     """A turned body: (along, radius) from start (0) to end (1), beginning and ending on the axis.
 
     Bars that begin at one place differ by their phase: bodies that share an edge are not closed to a reader.
 
-    >>> tip = lathe(np.zeros(3), np.array([0.0, 0, 3]), np.array([[0, 0], [0, 1], [1, 0.0]]))
+    >>> tip = turned_solid(np.zeros(3), np.array([0.0, 0, 3]), np.array([[0, 0], [0, 1], [1, 0.0]]))
     >>> round(tip.volume, 2)  # of a pyramid with 16 sides
     3.06
     """
@@ -79,21 +79,21 @@ def lathe(start: Reals, end: Reals, profile: Reals, phase: float = 0.0) -> Solid
     return Solid(np.concatenate([[first], *rings, [last]]), np.concatenate(faces))
 
 
-def cylinder(start: Reals, end: Reals, radius: float, last: float | None = None, phase: float = 0.0) -> Solid:
+def cylinder_solid(start: Reals, end: Reals, radius: float, last: float | None = None, phase: float = 0.0) -> Solid:
     """A cylinder, or a cone's piece with another radius at its end."""
     profile = np.array([[0, 0], [0, radius], [1, radius if last is None else last], [1, 0]])
-    return lathe(start, end, profile, phase)
+    return turned_solid(start, end, profile, phase)
 
 
-def ball(middle: Reals, radius: float) -> Solid:
+def ball_solid(middle: Reals, radius: float) -> Solid:
     """A ball."""
     angle = np.linspace(0, pi, _SIDES // 2 + 1)
     profile = np.stack([(1 - np.cos(angle)) / 2, radius * np.sin(angle)], axis=1)
     up = radius * np.array([0.0, 0.0, 1.0])
-    return lathe(middle - up, middle + up, profile)
+    return turned_solid(middle - up, middle + up, profile)
 
 
-def box(middle: Reals, axes: Reals, halves: tuple[float, float, float]) -> Solid:
+def box_solid(middle: Reals, axes: Reals, halves: tuple[float, float, float]) -> Solid:
     """A box along the columns of a rotation."""
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -133,7 +133,7 @@ def link_solids(
     for link, ends_of_bars in holds.items():
         if link != frame:
             solids[link] += [
-                cylinder(a, b, radius, phase=0.05 * k)
+                cylinder_solid(a, b, radius, phase=0.05 * k)
                 for k, (a, b) in enumerate(_bars(np.array(ends_of_bars)), 1)
                 if np.linalg.norm(b - a) > radius / 4
             ]
@@ -182,26 +182,26 @@ def _symbol(
     slides = [f.axis for f in free if f.travels or f.has_pitch]
     turns = [f.axis for f in free if f.turns]
     if pair.is_ball:
-        yield ball(at, _BALL * r if outer else 1.2 * r)
+        yield ball_solid(at, _BALL * r if outer else 1.2 * r)
     elif pair.is_cross:
         arm = axes[:, 1 if outer else 0]
-        yield cylinder(at - 2.4 * r * arm, at + 2.4 * r * arm, _THIN * r)
+        yield cylinder_solid(at - 2.4 * r * arm, at + 2.4 * r * arm, _THIN * r)
     elif len(slides) == 1 and len(free) <= 2:
         axis = axes[:, "xyz".index(slides[0])]
         if not outer:
             low, high = ends  # the sleeve goes from low to high along the rod
-            yield cylinder(at + (low - 4 * r) * axis, at + (high + 4 * r) * axis, _THIN * r)
+            yield cylinder_solid(at + (low - 4 * r) * axis, at + (high + 4 * r) * axis, _THIN * r)
         elif turns:
-            yield cylinder(at - _LONG * r * axis, at + _LONG * r * axis, 1.3 * r)
+            yield cylinder_solid(at - _LONG * r * axis, at + _LONG * r * axis, 1.3 * r)
         else:
             first = "xyz".index(slides[0])
-            yield box(at, axes[:, [first, (first + 1) % 3, (first + 2) % 3]], (_LONG * r, 1.4 * r, 1.4 * r))
+            yield box_solid(at, axes[:, [first, (first + 1) % 3, (first + 2) % 3]], (_LONG * r, 1.4 * r, 1.4 * r))
     elif turns and not slides and len(free) == 1:
         axis = axes[:, "xyz".index(turns[0])]
         half, thick = (_LONG, 1.3) if outer else (_LONG + 1.2, 0.7)
-        yield cylinder(at - half * r * axis, at + half * r * axis, thick * r)
+        yield cylinder_solid(at - half * r * axis, at + half * r * axis, thick * r)
     else:
-        yield box(at, axes, (3 * r, 0.3 * r, 3 * r)) if outer else ball(at, r)
+        yield box_solid(at, axes, (3 * r, 0.3 * r, 3 * r)) if outer else ball_solid(at, r)
 
 
 def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[Solid, Reals]:
@@ -212,12 +212,12 @@ def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[
     y, z = frame[:3, 1], frame[:3, 2]
     if linkage.mechanism.chain.space is Space.SPHERICAL:
         end = cos(radius) * (cos(radius) * z + sign * sin(radius) * y)
-        return cylinder(_CONE * end, end, _CONE * sin(radius), sin(radius)), end
+        return cylinder_solid(_CONE * end, end, _CONE * sin(radius), sin(radius)), end
     at = frame[:3, 3]
     if not isfinite(radius):
-        return box(at + sign * _DISC * r * y, frame[:3, :3], (6 * r, _DISC * r, 2 * r)), at
+        return box_solid(at + sign * _DISC * r * y, frame[:3, :3], (6 * r, _DISC * r, 2 * r)), at
     middle = at + sign * radius * y
-    return cylinder(middle - _DISC * r * z, middle + _DISC * r * z, max(abs(radius), r)), middle
+    return cylinder_solid(middle - _DISC * r * z, middle + _DISC * r * z, max(abs(radius), r)), middle
 
 
 def _bars(places: Reals) -> Iterator[tuple[Reals, Reals]]:

@@ -103,6 +103,11 @@ def served_page(model: Mapping[str, Any], lang: str = "") -> str:
 
 
 def _page(title: str, lang: str, host: str, values: Mapping[str, Any], script: str, policy: str) -> str:
+    return data_page(title, lang, values, script, policy, f'<div data-gruebler="{host}"></div>')
+
+
+def data_page(title: str, lang: str, values: Mapping[str, Any], script: str, policy: str, body: str = "") -> str:
+    """A page with data for its script."""
     data = json.dumps(values, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     return (
         f'<!doctype html><html lang="{lang or "en"}"><head><meta charset="utf-8">{policy}'
@@ -110,6 +115,6 @@ def _page(title: str, lang: str, host: str, values: Mapping[str, Any], script: s
         f'<meta name="description" content="{html.escape(_DESCRIPTION.in_language(lang or "en"))}">'
         '<meta name="referrer" content="no-referrer"><link rel="icon" href="data:,">'
         f"<title>{html.escape(title)}</title></head>"
-        f'<body><div data-gruebler="{host}"></div>'
+        f"<body>{body}"
         f'<script type="application/json" id="gruebler-model">{data}</script>{script}</body></html>\n'
     )

@@ -1,0 +1,85 @@
+// Rays, rigid motions (twelve numbers by rows) and projections, on plain arrays.
+
+export type Vector = [number, number, number];
+
+export const minus = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a: Vector, b: Vector): Vector => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
+
+/** A point after a rigid motion. */
+export function moved(pose: ArrayLike<number>, p: Vector): Vector {
+  const row = (k: number): number => pose[k]! * p[0] + pose[k + 1]! * p[1] + pose[k + 2]! * p[2] + pose[k + 3]!;
+  return [row(0), row(4), row(8)];
+}
+
+/** A point before a rigid motion. */
+export function before(pose: ArrayLike<number>, p: Vector): Vector {
+  const d: Vector = [p[0] - pose[3]!, p[1] - pose[7]!, p[2] - pose[11]!];
+  const column = (k: number): number => pose[k]! * d[0] + pose[k + 4]! * d[1] + pose[k + 8]! * d[2];
+  return [column(0), column(1), column(2)];
+}
+
+/** How far along a ray it meets a triangle; Infinity beside it (Möller and Trumbore, 1997). */
+export function meeting(from: Vector, along: Vector, a: Vector, b: Vector, c: Vector): number {
+  const [u, v] = [minus(b, a), minus(c, a)];
+  const p = cross(along, v);
+  const determinant = dot(u, p);
+  if (determinant === 0) return Infinity;
+  const s = minus(from, a);
+  const x = dot(s, p) / determinant;
+  const q = cross(s, u);
+  const y = dot(along, q) / determinant;
+  const t = dot(v, q) / determinant;
+  return x >= 0 && y >= 0 && x + y <= 1 && t > 0 ? t : Infinity;
+}
+
+/** A camera that goes round a middle: angles in radians, distance in lengths. */
+export interface Camera {
+  turn: number;
+  lift: number;
+  distance: number;
+  middle: Vector;
+}
+
+const OPENING = 1.9; // of the cotangent of half the angle of view
+
+/** The eye, and unit vectors to the right, up and towards the eye. */
+export function axes(camera: Camera): { eye: Vector; right: Vector; up: Vector; near: Vector } {
+  const [c, s] = [Math.cos(camera.lift), Math.sin(camera.lift)];
+  const near: Vector = [c * Math.cos(camera.turn), c * Math.sin(camera.turn), s];
+  const right: Vector = [-Math.sin(camera.turn), Math.cos(camera.turn), 0];
+  const eye = camera.middle.map((m, k) => m + camera.distance * near[k]!) as Vector;
+  return { eye, right, up: cross(near, right), near };
+}
+
+/** The projection as a matrix by columns, for a picture so many times as wide as high. */
+export function projection(camera: Camera, wide: number): Float32Array {
+  const { eye, right, up, near } = axes(camera);
+  const [close, far] = [camera.distance / 50, camera.distance * 50];
+  const [a, b] = [(far + close) / (close - far), (2 * far * close) / (close - far)];
+  const rows = [
+    [...right.map((v) => (v * OPENING) / Math.max(wide, 1)), (-dot(right, eye) * OPENING) / Math.max(wide, 1)],
+    [...up.map((v) => v * OPENING * Math.min(wide, 1)), -dot(up, eye) * OPENING * Math.min(wide, 1)],
+    [...near.map((v) => v * a), -dot(near, eye) * a + b],
+    [...near.map((v) => -v), dot(near, eye)],
+  ];
+  return new Float32Array([0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]!)));
+}
+
+/** Where a point is on the picture, -1 to 1 to the right and up. */
+export function seen(matrix: Float32Array, p: Vector): [number, number] {
+  const row = (k: number): number =>
+    matrix[k]! * p[0] + matrix[k + 4]! * p[1] + matrix[k + 8]! * p[2] + matrix[k + 12]!;
+  return [row(0) / row(3), row(1) / row(3)];
+}
+
+/** The ray through a place of the picture. */
+export function ray(camera: Camera, wide: number, x: number, y: number): { from: Vector; along: Vector } {
+  const { eye, right, up, near } = axes(camera);
+  const [h, v] = [(x * Math.max(wide, 1)) / OPENING, y / (OPENING * Math.min(wide, 1))];
+  return { from: eye, along: near.map((n, k) => h * right[k]! + v * up[k]! - n) as Vector };
+}

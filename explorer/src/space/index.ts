@@ -1,0 +1,225 @@
+// The page of a linkage in space: go round it, play it, pull a drive or a link, see the paths of points.
+
+import { axes, before, type Camera, meeting, moved, projection, ray, seen, type Vector } from "./algebra";
+import { type Body, Painter } from "./painter";
+
+interface Motion {
+  name: string;
+  round: boolean;
+  unit: string;
+  /** (rows) of the drive. */
+  values: number[];
+  /** (rows, links, 12). */
+  poses: number[][][];
+}
+
+interface Model {
+  title: string;
+  words: { play: string; stop: string; drive: string; help: string; none: string };
+  middle: Vector;
+  size: number;
+  bodies: Body[];
+  points: { name: string; link: number; at: Vector }[];
+  motions: Motion[];
+}
+
+const SECONDS = 4;
+const NEAR = 8; // rows before and behind among which a pulled link looks for its place
+const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
+
+const model: Model = JSON.parse(document.getElementById("gruebler-model")!.textContent!);
+const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+function element<K extends keyof HTMLElementTagNameMap>(
+  kind: K,
+  parent: HTMLElement,
+  style: Partial<CSSStyleDeclaration> = {},
+  text = "",
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(kind);
+  Object.assign(made.style, style);
+  made.textContent = text;
+  parent.append(made);
+  return made;
+}
+
+const ink = dark ? "#eee" : "#222";
+Object.assign(document.body.style, { margin: "0", font: "16px system-ui, sans-serif", color: ink, overflow: "hidden" });
+Object.assign(document.body.style, { display: "flex", flexDirection: "column", height: "100dvh" });
+document.body.style.background = dark ? "#171717" : "#fff";
+const bar = element("header", document.body, { display: "flex", flexWrap: "wrap", gap: "0.8em", padding: "0.6em 1em" });
+element("h1", bar, { font: "600 1em system-ui, sans-serif", margin: "0.3em 0" }, model.title);
+const canvas = element("canvas", document.body, { flex: "1", minHeight: "0", touchAction: "none", cursor: "grab" });
+canvas.tabIndex = 0;
+canvas.setAttribute("role", "img");
+canvas.setAttribute("aria-label", `${model.title}. ${model.words.help}`);
+element("p", document.body, { margin: "0", padding: "0.5em 1em", fontSize: "0.85em" }, model.words.help);
+
+const camera: Camera = { turn: 0.9, lift: 0.55, distance: 3.1 * model.size, middle: model.middle };
+let motion = model.motions[0];
+let row = 0;
+let playing = motion !== undefined && !calm;
+let pulled: { link: number; at: Vector } | undefined;
+let traced: { link: number; at: Vector } | undefined;
+
+const words = model.words;
+const button = element("button", bar, { minWidth: "5em" });
+const label = element("label", bar, { display: "flex", gap: "0.5em", alignItems: "center", flex: "1" });
+const choice = element("select", label);
+const slider = element("input", label, { flex: "1", minWidth: "8em" });
+const value = element("output", label, { minWidth: "5em" });
+slider.type = "range";
+slider.step = "any";
+slider.setAttribute("aria-label", words.drive);
+choice.setAttribute("aria-label", words.drive);
+for (const each of model.motions) element("option", choice, {}, each.name);
+if (!motion) label.replaceChildren(words.none);
+
+/** The poses of all links between two rows. */
+function posesAt(at: number): ArrayLike<number>[] {
+  if (!motion) return model.bodies.map(() => STILL);
+  const low = Math.min(Math.floor(at), motion.poses.length - 2);
+  const part = at - low;
+  const [a, b] = [motion.poses[low]!, motion.poses[low + 1]!];
+  return a.map((pose, link) => pose.map((v, k) => v + part * (b[link]![k]! - v)));
+}
+
+const wide = (): number => canvas.clientWidth / Math.max(canvas.clientHeight, 1);
+
+let painter: Painter | undefined;
+try {
+  painter = new Painter(canvas, model.bodies);
+} catch {
+  canvas.replaceWith(document.createTextNode("WebGL 2?"));
+}
+
+function paint(): void {
+  const ratio = Math.min(devicePixelRatio, 2);
+  const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  const points = [...model.points, ...(traced ? [traced] : [])];
+  const paths = motion ? points.map(({ link, at }) => motion!.poses.flatMap((poses) => moved(poses[link]!, at))) : [];
+  painter?.paint(projection(camera, wide()), axes(camera).eye, posesAt(row), paths, dark);
+  button.textContent = playing ? words.stop : words.play;
+  if (!motion) return;
+  const low = Math.min(Math.floor(row), motion.values.length - 2);
+  const shown = motion.values[low]! + (row - low) * (motion.values[low + 1]! - motion.values[low]!);
+  slider.max = String(motion.values.length - 1);
+  slider.value = String(row);
+  value.textContent = `${shown.toFixed(1)}${motion.unit}`;
+}
+
+let last = 0;
+let phase = 0;
+function tick(now: number): void {
+  const passed = Math.min(now - last, 100) / 1000;
+  last = now;
+  if (playing && motion) {
+    phase = (phase + passed / SECONDS) % 1;
+    const part = motion.round ? phase : 1 - Math.abs(1 - 2 * phase);
+    row = part * (motion.values.length - 1);
+    paint();
+  }
+  requestAnimationFrame(tick);
+}
+
+function stopAt(next: number): void {
+  playing = false;
+  row = next;
+  phase = next / Math.max((motion?.values.length ?? 2) - 1, 1) / (motion?.round ? 1 : 2);
+  paint();
+}
+
+/** Where an event is on the picture, -1 to 1. */
+const placed = (event: MouseEvent): [number, number] => {
+  const box = canvas.getBoundingClientRect();
+  return [(2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height];
+};
+
+/** The moving link under a place, and where on it. */
+function hit(x: number, y: number): { link: number; at: Vector } | undefined {
+  const { from, along } = ray(camera, wide(), x, y);
+  let [best, nearest] = [undefined as { link: number; at: Vector } | undefined, Infinity];
+  posesAt(row).forEach((pose, link) => {
+    const { vertices, triangles } = model.bodies[link]!;
+    const start = before(pose, from);
+    const end = before(pose, from.map((v, k) => v + along[k]!) as Vector);
+    const way = end.map((v, k) => v - start[k]!) as Vector;
+    const corner = (k: number): Vector => vertices.slice(3 * k, 3 * k + 3) as Vector;
+    for (let k = 0; k < triangles.length; k += 3) {
+      const t = meeting(start, way, corner(triangles[k]!), corner(triangles[k + 1]!), corner(triangles[k + 2]!));
+      if (t < nearest) [nearest, best] = [t, { link, at: start.map((v, n) => v + t * way[n]!) as Vector }];
+    }
+  });
+  return best;
+}
+
+/** The row near the present one at which the pulled place is nearest to the pointer. */
+function pull(x: number, y: number): void {
+  if (!pulled || !motion) return;
+  const { link, at } = pulled;
+  const view = projection(camera, wide());
+  const count = motion.values.length - 1;
+  let [best, nearest] = [row, Infinity];
+  for (let step = -NEAR; step <= NEAR; step += 0.25) {
+    const tried = motion.round ? (row + step + count) % count : Math.min(Math.max(row + step, 0), count);
+    const [u, v] = seen(view, moved(posesAt(tried)[link]!, at));
+    const off = (wide() * (u - x)) ** 2 + (v - y) ** 2;
+    if (off < nearest) [nearest, best] = [off, tried];
+  }
+  stopAt(best);
+}
+
+canvas.addEventListener("pointerdown", (event) => {
+  canvas.setPointerCapture(event.pointerId);
+  pulled = hit(...placed(event));
+  traced = pulled ?? traced;
+  canvas.style.cursor = "grabbing";
+  if (pulled) stopAt(row);
+});
+canvas.addEventListener("pointermove", (event) => {
+  if (!canvas.hasPointerCapture(event.pointerId)) return;
+  if (pulled) return pull(...placed(event));
+  camera.turn -= event.movementX / 150;
+  camera.lift = Math.min(Math.max(camera.lift + event.movementY / 150, -1.5), 1.5);
+  paint();
+});
+canvas.addEventListener("pointerup", () => {
+  pulled = undefined;
+  canvas.style.cursor = "grab";
+});
+canvas.addEventListener(
+  "wheel",
+  (event) => {
+    event.preventDefault();
+    camera.distance *= Math.exp(event.deltaY / 900);
+    paint();
+  },
+  { passive: false },
+);
+canvas.addEventListener("keydown", (event) => {
+  const steps: Record<string, [number, number]> = {
+    ArrowLeft: [0.1, 0],
+    ArrowRight: [-0.1, 0],
+    ArrowUp: [0, 0.1],
+    ArrowDown: [0, -0.1],
+  };
+  const step = steps[event.key];
+  if (!step) return;
+  event.preventDefault();
+  camera.turn += step[0];
+  camera.lift = Math.min(Math.max(camera.lift + step[1], -1.5), 1.5);
+  paint();
+});
+slider.addEventListener("input", () => stopAt(Number(slider.value)));
+choice.addEventListener("change", () => {
+  motion = model.motions[choice.selectedIndex];
+  stopAt(((motion?.values.length ?? 1) - 1) / 2);
+});
+button.addEventListener("click", () => {
+  playing = !playing && motion !== undefined;
+  paint();
+});
+new ResizeObserver(paint).observe(canvas);
+requestAnimationFrame(tick);

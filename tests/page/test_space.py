@@ -1,0 +1,100 @@
+"""The page of a linkage in space: it moves, is gone round and pulled, without a server and without the network."""
+
+import numpy as np
+import pytest
+
+from gruebler.cli import main
+from gruebler.mechanics.space import move
+from gruebler.page.space_page import space_file, space_model
+from gruebler.teaching.catalog import entry
+
+
+def test_poses_of_the_page_are_those_of_the_motion():
+    linkage = entry("sarrus").placed()
+    model = space_model(linkage, between=(-0.5, 0.6), lang="de")
+    (motion,) = model["motions"]
+    assert (motion["name"], motion["round"], motion["unit"]) == ("R(base-arm1)", False, "°")
+    assert motion["values"] == pytest.approx(np.degrees(np.linspace(-0.5, 0.6, 73)), rel=1e-5)
+    poses = np.array(motion["poses"]).reshape(73, 6, 3, 4)
+    there = move(linkage, [0.0, 0.6]).poses[0, -1, :, :3]
+    assert poses[-1] == pytest.approx(there, abs=1e-3)
+    assert model["points"] == [{"name": "C", "link": 5, "at": (0.0, 0.0, 96.0)}]
+    assert model["words"]["play"] == "Abspielen"
+
+
+def test_every_drive_of_a_delta_robot_has_a_motion():
+    assert [each["name"] for each in space_model(entry("delta").placed())["motions"]] == list(entry("delta").drives)
+
+
+def test_the_file_loads_nothing():
+    text = space_file(space_model(entry("bennett").placed()))
+    assert "default-src 'none'" in text
+    assert "http" not in text.replace('http-equiv="Content-Security-Policy"', "")
+
+
+def test_in_space_a_file_is_asked_for(capsys):
+    assert main(["explore", "gough", "--no-browser"]) == 2
+    assert "give it by -o FILE.html" in capsys.readouterr().err
+
+
+def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
+    from tests.page.conftest import find_browser
+
+    path = tmp_path / "wiper.html"
+    assert main(["explore", "wiper_rssr", "-o", str(path)]) == 0
+    if not (found := find_browser(chromium)):
+        pytest.skip("no browser")
+    options = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
+    browser = chromium.launch(executable_path=found, args=options)
+    page = browser.new_page(viewport={"width": 900, "height": 700})
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
+    page.goto(path.as_uri())
+    page.wait_for_selector("canvas")
+    output = page.locator("output")
+    first = output.inner_text()
+    page.wait_for_function("old => document.querySelector('output').textContent !== old", arg=first)
+    page.get_by_role("button", name="Stop").click()
+    slider = page.get_by_role("slider")
+    slider.fill("18")  # of 72: a quarter of a turn
+    assert output.inner_text() == "90.0°"
+
+    def picture():
+        return page.evaluate("document.querySelector('canvas').toDataURL()")
+
+    still = picture()
+    slider.fill("36")
+    turned = picture()
+    assert turned != still
+    box = page.locator("canvas").bounding_box()
+    x, y = box["x"] + 20, box["y"] + 20  # beside the bodies
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 120, y, steps=4)
+    page.mouse.up()
+    assert picture() != turned
+    assert output.inner_text() == "180.0°"
+    canvas = page.locator("canvas")
+    canvas.focus()
+    page.keyboard.press("ArrowLeft")
+    assert output.inner_text() == "180.0°"
+    spot = page.evaluate(
+        """() => { const c = document.querySelector('canvas'), g = c.getContext('webgl2'), r = c.width / c.clientWidth;
+        const p = new Uint8Array(4 * c.width * c.height);
+        g.readPixels(0, 0, c.width, c.height, g.RGBA, g.UNSIGNED_BYTE, p);
+        const found = [];
+        for (let k = 0; k < p.length; k += 4)  // the crank: blue
+          if (p[k + 2] > p[k] + 40 && p[k + 2] > 90) found.push(k / 4);
+        const k = found[found.length >> 1];
+        return [(k % c.width) / r, c.clientHeight - Math.floor(k / c.width) / r]; }"""
+    )
+    box = page.locator("canvas").bounding_box()
+    page.mouse.move(box["x"] + spot[0], box["y"] + spot[1])
+    page.mouse.down()
+    for step in range(12):
+        page.mouse.move(box["x"] + spot[0] + 4 * step, box["y"] + spot[1] - 5 * step)
+    page.mouse.up()
+    assert output.inner_text() != "180.0°"
+    assert errors == []
+    browser.close()
