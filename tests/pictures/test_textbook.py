@@ -8,9 +8,11 @@ import pytest
 
 import gruebler as gr
 from gruebler.cli import main
-from gruebler.pictures.canvas.shapes import Polylines, TextShape
+from gruebler.pictures.canvas.free_space import Obstacles, complexes
+from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES, TEXTBOOK
 from gruebler.pictures.linkage.letters import joint_letters
+from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
 
 MILLIMETRE = 96 / 25.4
@@ -110,3 +112,18 @@ def test_command(tmp_path, capsys):
     assert "To scale" not in chain.read_text(encoding="utf-8")
     assert "textbook-outline-bar" in machine.read_text(encoding="utf-8")
     capsys.readouterr()
+
+
+@pytest.mark.parametrize("lengths", ["lengths", "dimensions"])
+def test_letters_of_joints_stay_beside_them(lengths):
+    """An arc about a joint has room within its circle, and a letter stands on no line drawn later."""
+    show = ["angles", "transmission", "joints", lengths]
+    figure = draw_linkage(gr.FourBar(25, 70, 40, 70).linkage(), show=show)
+    pins = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape)]
+    texts = [shape for shape in figure.shapes if isinstance(shape, TextShape)]
+    letters = {text.text: text for text in texts if text.text in {"A", "B", "A_0", "B_0"}}
+    assert len(letters) == len(pins) == 4
+    far = {letter: min(text.at.minus(pin).length for pin in pins) for letter, text in letters.items()}
+    assert max(far.values()) < 36, far  # B stood 60 pixels off its joint
+    lines = Obstacles([shape for shape in figure.shapes if not isinstance(shape, TextShape)])
+    assert [name for name, text in letters.items() if lines.free(complexes([text.at]), text_width(name))[0] < 0] == []

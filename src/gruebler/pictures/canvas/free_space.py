@@ -17,6 +17,7 @@ HALF = 7.0
 """Half the height of a text."""
 _FILLED = ("body", "frame", "area", "block", "block-frame")
 _ROUND = ("area", "block-frame")
+_ARC_STEP = 0.2  # radians
 _RIM = 36  # edges of a circle
 _FAR = 1e5
 _FROM_ANCHOR = {"start": 0.5, "middle": 0.0, "end": -0.5}
@@ -99,6 +100,10 @@ def _strokes(shape: Shape) -> Iterator[_Stroke]:
             for part in parts:
                 ends = [*part, part[0]] if closed else list(part)
                 yield from ((complex(*a), complex(*b), half) for a, b in pairwise(ends))
+        case ArcShape(style="measure"):  # of an angle: beside it there is room
+            steps = max(2, math.ceil(abs(shape.extent) / _ARC_STEP))
+            places = [shape.place(k / steps) for k in range(steps + 1)]
+            yield from ((complex(*a), complex(*b), STYLES["measure"].width / 2) for a, b in pairwise(places))
         case CircleShape(at, radius) | ArcShape(at, radius=radius):
             yield complex(*at), complex(*at), radius
 

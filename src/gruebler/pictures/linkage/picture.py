@@ -37,7 +37,6 @@ from gruebler.pictures.linkage.bodies import (
     shapes_at_pose,
     slides,
 )
-from gruebler.pictures.linkage.dimensions import dimension_lines
 from gruebler.pictures.linkage.instant_centres import pole_numbers
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.layers import BELOW, coupler_curve_lines, drive_arrows, ghosts, layer, point_names
@@ -69,6 +68,8 @@ _LAYER_NAMES = {
     "lengths": message("letters of the lengths"),
 }
 _MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
+_LAST = ("dimensions", "joints")
+"""Layers that give way to all others, and letters of joints to the lines of dimensions."""
 _CENTRODES = {"p": message("fixed centrode"), "q": message("moving centrode")}
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 
@@ -142,15 +143,15 @@ def draw_linkage(
         *(shape for shape in below if shape.style in _MARKS),
         *_of_loads(posed, loads, speed),
     ]
-    for key in (key for key in layers if key not in BELOW and key != "dimensions"):
+    for key in (key for key in layers if key not in BELOW and key not in _LAST):
         layer_shapes[key] = layers[key](context._replace(drawn=shapes))
         shapes += layer_shapes[key]
     shapes += point_names(posed, shapes)
     texts, rows = _named(posed, pieces, shapes, names) if labels else ([], {})
     shapes += texts
-    if "dimensions" in layers:
-        layer_shapes["dimensions"] = dimension_lines(context._replace(drawn=shapes))
-        shapes += layer_shapes["dimensions"]
+    for key in (key for key in _LAST if key in layers):
+        layer_shapes[key] = layers[key](context._replace(drawn=shapes))
+        shapes += layer_shapes[key]
     shapes += scale_bars(context._replace(drawn=shapes), tuple(layers))
     if "poles" in layers:
         numbers = pole_numbers(linkage.mechanism.chain.links)
