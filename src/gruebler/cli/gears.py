@@ -172,9 +172,15 @@ def _of_the_catalog(word: str, lang: str) -> TrainReading | None:
     if first.strip() not in entries():
         return None
     from gruebler.mechanics.linkages import train_of
+    from gruebler.mechanics.screws import SpatialLinkage
+    from gruebler.mechanics.space.wheels import bevel_train
 
     record = entry(first.strip())
-    meshes = "; ".join(str(mesh) for mesh in train_of(record.linkage()).meshes)
+    if record.dimensions is None and isinstance(placed := record.placed(), SpatialLinkage):
+        train = bevel_train(placed)
+    else:
+        train = train_of(record.linkage())
+    meshes = "; ".join(str(mesh) for mesh in train.meshes)
     spelled = {each: [_word(link) for link in record.in_language(each).chain().links] for each in LANGUAGES}
     names = {name: new for each in spelled.values() for name, new in zip(each, spelled[lang], strict=True)}
     text = f"{meshes}; {others}" if others.strip() else meshes

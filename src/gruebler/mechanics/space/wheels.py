@@ -6,6 +6,8 @@ the axis of the first wheel and β about that of the second, on the sphere with 
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from math import sin
 from typing import NamedTuple
 
@@ -13,9 +15,13 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
+from gruebler.machines.gears import Mesh, Train
+from gruebler.machines.gears.train import FRAME
 from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.structure.chain import Chain
 from gruebler.structure.chain.spaces import Space
 
+_TEETH = 1000  # ratios of whole numbers up to this one are found again in radii
 _SAME = 1e-9  # sizes and cosines: axes that differ by more are not those of the wheels
 
 
@@ -115,3 +121,59 @@ def _along(linkage: SpatialLinkage, joint: int, axis: Reals) -> int:
     cosine = float(frame[:3, 2] @ axis[1])
     same = abs(abs(cosine) - 1) < _SAME and (linkage.mechanism.chain.space is Space.SPHERICAL or aside < _SAME)
     return int(np.sign(cosine)) if same else 0
+
+
+def bevel_train(linkage: SpatialLinkage) -> Train:
+    """The train of the bevel wheels of a linkage on the sphere, with the radii of their circles in place of teeth.
+
+    Raises `LinkageError` for contacts that are no wheels, and for a wheel whose carrier does not bear the other one.
+
+    >>> from gruebler.machines.gears import ratio
+    >>> from gruebler.structure.mechanism import Mechanism
+    >>> text = "spherical: R(frame-small) R(frame-large) G(small-large)"
+    >>> bearings = {0: {"z": (0, 0, 1)}, 1: {"z": (1, 0, 0)}}
+    >>> contact = {2: {"z": (3, 0, 4), "y": (4, 0, -3), "radii": (np.arctan2(3, 4), np.arctan2(4, 3)), "pressure": 0}}
+    >>> str(ratio(bevel_train(SpatialLinkage(Mechanism.parse(text), bearings | contact)), "small", "large"))
+    '-4/3'
+    """
+    chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
+    meshes = []
+    if not (rows := gear_rows(linkage)):
+        raise LinkageError("the linkage has no wheels")
+    for row in rows:
+        title = chain.joint_title(row.joint)
+        weights = dict(row.turns)
+        wheels = chain.joints[row.joint].links
+        arms = [link for link in chain.links if link not in wheels and _borne(chain, link, wheels, weights)]
+        if not arms:
+            raise LinkageError("{joint}: no link bears one of the wheels and is borne beside the other", joint=title)
+        arm = min(arms, key=lambda link: link == frame)
+        own = {link: _bearing(chain, link, weights) for link in wheels}
+        planet = next(link for link in reversed(wheels) if arm in chain.joints[own[link]].links)
+        sun = wheels[wheels[0] == planet]
+        signed = {
+            link: weights[own[link]] * (1.0 if chain.joints[own[link]].links[1] == link else -1.0) for link in wheels
+        }
+        share = Fraction(signed[sun] / signed[planet]).limit_denominator(_TEETH)
+        names = {each: FRAME if each == frame else each for each in (sun, planet, arm)}
+        meshes.append(
+            Mesh(
+                a=names[sun],
+                b=names[planet],
+                size_a=Fraction(share.numerator),
+                size_b=Fraction(share.denominator),
+                carrier=names[arm],
+                kind="bevel",
+            )
+        )
+    return Train(meshes)
+
+
+def _bearing(chain: Chain, wheel: str, weights: Mapping[int, float]) -> int:
+    """The weighted joint of a wheel."""
+    return next(k for k in weights if wheel in chain.joints[k].links)
+
+
+def _borne(chain: Chain, link: str, wheels: Sequence[str], weights: Mapping[int, float]) -> bool:
+    """Whether a link bears one of the wheels by a weighted joint."""
+    return any(link in chain.joints[k].links and set(wheels) & set(chain.joints[k].links) for k in weights)
