@@ -7,7 +7,7 @@ from gruebler.design.synthesis import Demands, PositionTask, synthesise_position
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, misfit
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
-from gruebler.design.synthesis.positions import _slides, _targets, guiding_dyads, linkage_of_dyads
+from gruebler.design.synthesis.positions import _targets, guiding_dyads, linkage_of_dyads, sliding_sample
 
 FOUR = [(2.071235, -0.032527, 19.8126), (2.036152, 1.429641, 44.4843), (0.706012, 1.606846, 68.1715)]
 FOUR += [(0.329970, 2.223983, 92.2134)]
@@ -24,7 +24,7 @@ def _against_motion(seed, count, samples, kind=CRANK):
     dyads = [dyad for dyad in family if not dyad.slides]
     second = dyads
     if kind != CRANK:
-        second = [dyad for dyad in family if dyad.kind == kind] if count == 4 else _slides(task, kind, Demands())
+        second = [dyad for dyad in family if dyad.kind == kind] if count == 4 else sliding_sample(task, kind, Demands())
     facts = pair_facts(task, dyads, second, Demands())
     moving = np.argwhere(facts.moves & (facts.size_ratio < 50))
     others = np.argwhere(~facts.moves & (facts.size_ratio < 50))
@@ -57,7 +57,7 @@ def test_closed_forms_of_a_thousand_pairs_against_the_verdict_by_motion(count, k
 def test_families_of_sliding_dyads_guide_the_body(count, kind):
     task = PositionTask([(0, 0, 0), (2, 1, 0.4), (3, 1, 0.9)][:count])
     given, origin, size = Displacements.of(task.origins, task.turns)
-    dyads = _slides(task, kind, Demands())
+    dyads = sliding_sample(task, kind, Demands())
     assert len(dyads) > 50
     assert max(misfit(given, dyad.moved(1 / size, -origin / size)) for dyad in dyads) < 1e-11 * 1000
 

@@ -17,9 +17,17 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
-from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import Demands, best_of, decided_by_path, judge_design, rejected_alike
-from gruebler.design.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
+from gruebler.design.synthesis.pair_search import best_pairs
+from gruebler.design.synthesis.positions import (
+    four_bar_linkages,
+    guiding_dyads,
+    near_in_plane,
+    ranked,
+    sliding_sample,
+    synthesise_positions,
+)
 from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets, position_targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, SAME, PathTask, PositionTask
@@ -27,6 +35,9 @@ from gruebler.mechanics.linkages import Linkage
 
 MOST_ON_CIRCLE = 6
 MOST_TIMED = 5
+TIMED_POSITIONS = 3
+_TIMED_SAMPLE = 1600
+"""Dyads that are tried with the one crank of three positions with crank angles."""
 """Points that are met with any crank angles."""
 _TURNS = (90, 150, 210, 270)
 """Degrees by which the crank turns from the first point to the last, in one sense and the other, where it is free."""
@@ -114,9 +125,56 @@ class _Run:
 
 
 def _with_crank_angles(run: _Run) -> SynthesisResult:
+    if len(run.oriented) == len(run.task) == TIMED_POSITIONS and not run.task.fixed_pivots:
+        return _timed_positions(run)
     if run.oriented or run.task.fixed_pivots:
-        raise SynthesisError("crank angles go with points alone, without coupler angles and fixed pivots")
+        raise SynthesisError(
+            "crank angles go with points alone, or with {count} points that have coupler angles, without fixed pivots",
+            count=TIMED_POSITIONS,
+        )
     return _timed(run.task, run.demands, run.number)
+
+
+def _timed_positions(run: _Run) -> SynthesisResult:
+    """Three positions with crank angles: one crank does it, with any other dyad of the positions; the best are sought.
+
+    With w from the crank's pivot to its pin and v on to the point, w e^(i phi) + v e^(i theta) moves as the point does.
+    """
+    task = run.task
+    turned, carried = (np.exp(1j * (np.array(a) - a[0])) for a in (task.crank_angles, [a or 0.0 for a in task.angles]))
+    matrix = np.stack([turned[1:] - 1, carried[1:] - 1], axis=1)
+    if abs(np.linalg.det(matrix)) < SAME:
+        raise SynthesisError("the crank turns as the coupler does: no crank has these angles, or any has")
+    w, v = np.linalg.solve(matrix, task.z[1:] - task.z[0])
+    pin = complex(task.z[0] - v)
+    own = GuidingDyad(CRANK, pin, complex(pin - w))
+    if own.length < SAME * task.size:
+        raise SynthesisError("the crank with these angles has no length")
+    positions = PositionTask(tuple((z.real, z.imag, a or 0.0) for z, a in zip(task.z, task.angles, strict=True)))
+
+    def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+        return [] if dyad == own else near_in_plane(positions, dyad, width)
+
+    # One crank leaves time for a wide plane: five sizes about the first point.
+    x, y, far = task.z[0].real, task.z[0].imag, 5 * task.size
+    region = run.demands.region or (x - far, y - far, x + far, y + far)
+    others = [dyad for dyad in guiding_dyads(positions, _TIMED_SAMPLE, region) if not dyad.slides]
+    families = [[dyad for dyad in others if dyad != own]]
+    families += [sliding_sample(positions, kind, run.demands) for kind in (SLIDER, BLOCK)]
+    searches = [
+        best_pairs(positions, [own], run.demands, near, second=family, number=2 * run.number) for family in families
+    ]
+    designs = [
+        design
+        for search in searches
+        for _, other in search.pairs
+        for design in _judged_timed(task, run.demands, own, other)
+    ]
+    accepted, rejected = ranked(designs)
+    notes = [note for search in searches for note in search.notes]
+    notes.append(message("Three positions with crank angles have one crank; the other dyad is any of the positions."))
+    count = SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
 
 
 def _open_points(run: _Run) -> SynthesisResult:
@@ -469,8 +527,13 @@ def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: Gui
         return []
     timing = np.array(task.crank_angles)
     crank = task.size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
-    probes = (Probe("P"), Probe(link="crank", length=task.size))
-    targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
+    first = linkage.required_pose["coupler"].angle
+    angles: list[float | None] = [None] * len(task)
+    if task.angles:
+        angles = [first + (a or 0.0) - (task.angles[0] or 0.0) for a in task.angles]
+    placed = position_targets("P", "coupler", task.z, angles, task.size)
+    probes = (*placed.probes, Probe(link="crank", length=task.size))
+    targets = Targets(probes, np.concatenate([placed.values, crank[:, None]], axis=1), task.size)
     return [judge_design(linkage, targets, demands, f"{own.kind.form}-{other.kind.form}")]
 
 

@@ -276,7 +276,9 @@ def _judged_best(
     if len(turning) > 1:
         searches.append(best_pairs(task, turning, demands, near, orders=sort, number=number))
     for kind in (SLIDER, BLOCK):
-        second = [dyad for dyad in dyads if dyad.kind == kind] if len(task) == 4 else _slides(task, kind, demands)
+        second = (
+            [dyad for dyad in dyads if dyad.kind == kind] if len(task) == 4 else sliding_sample(task, kind, demands)
+        )
         sliding += second[:: max(1, len(second) // 2)]
         if turning and second:
             searches.append(
@@ -295,7 +297,7 @@ def _judged_best(
     return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
 
 
-def _slides(task: PositionTask, kind: DyadKind, demands: Demands) -> list[GuidingDyad]:
+def sliding_sample(task: PositionTask, kind: DyadKind, demands: Demands) -> list[GuidingDyad]:
     """A sample of the sliding dyads of two or three positions, in the order of their family."""
     if len(task) == 2:
         places = _grid(task, _SLIDES, demands.region if kind == BLOCK else None)
