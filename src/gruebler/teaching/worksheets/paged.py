@@ -124,11 +124,9 @@ def _parts(block: Block) -> Iterator[Part]:
         case Rows():
             yield from _table(block)
         case AnswerLines(asked, space):
+            ruled = _LEFT + max((text_width(name, _BODY) for name in asked), default=0.0) + 14
             items = [_Lowered(TextLine(x=_LEFT, y=space + _BODY + 22.0 * k, text=name)) for k, name in enumerate(asked)]
-            rules = [
-                _Lowered(HorizontalRule(_LEFT + text_width(name, _BODY) + 14, space + _BODY + 22.0 * k + 2, 150.0))
-                for k, name in enumerate(asked)
-            ]
+            rules = [_Lowered(HorizontalRule(ruled, space + _BODY + 22.0 * k + 2, 150.0)) for k in range(len(asked))]
             yield [*items, *rules], space + 22.0 * len(asked) + _GAP
 
 
