@@ -171,9 +171,9 @@ def print_clearance(shown: SynthesisResult, clearance: float, lang: str) -> None
     """Print how far the targets of each design move with wrong lengths and play: at most, and in random linkages."""
     rows: list[list[Cell]] = []
     for k, design in enumerate(shown.designs, 1):
-        if (found := design.sensitivity) is not None:
-            usual = np.quantile(found.sampled(clearance=clearance), 0.99, axis=0)
-            worst = found.of_errors(clearance=clearance)
+        if (sensitivity := design.sensitivity) is not None:
+            usual = np.quantile(sensitivity.sampled(clearance=clearance), 0.99, axis=0)
+            worst = sensitivity.of_errors(clearance=clearance)
             rows.append([str(k), _by_probe(design, worst, lang), _by_probe(design, usual, lang)])
     if rows:
         print()
