@@ -51,15 +51,25 @@ void check_shape(int positions, int points) {
            "positions give two equations, points one: 0 to 8 of them");
 }
 
+Family family_of(const std::string& name, int positions, int points) {
+    if (name.empty()) {
+        check_shape(positions, points);
+        return Family::four_bars;
+    }
+    expect(positions == 0 && (points == 7 || points == 8), "six-bars have 7 or 8 points: pairs besides the first");
+    expect(name == "Watt II" || name == "Stephenson III", "no family " + name);
+    return name == "Watt II" ? Family::watt_2 : Family::stephenson_3;
+}
+
 nb::tuple track(const Unknowns& starts, const Task& begin, const Task& end, int positions, int points, double loose,
-                const std::string& level) {
-    check_shape(positions, points);
+                const std::string& family, const std::string& level) {
+    const Family own = family_of(family, positions, points);
     expect(loose > 0, "loose must be positive");
     Track* kernel = level_of(level).track;
     const std::size_t count = starts.shape(0);
     std::vector<Number> ends(count * 8);
     std::vector<std::int64_t> status(count), steps(count);
-    const Paths paths{positions, points, static_cast<std::int64_t>(count), parts(starts.data()), parts(begin.data()),
+    const Paths paths{own, positions, points, static_cast<std::int64_t>(count), parts(starts.data()), parts(begin.data()),
                       parts(end.data()), loose, reinterpret_cast<double*>(ends.data()), status.data(), steps.data()};
     run([&](Watch& watch) { return kernel(paths, watch); });
     return nb::make_tuple(hand_over<Number>(std::move(ends), {count, 8}),
@@ -67,13 +77,14 @@ nb::tuple track(const Unknowns& starts, const Task& begin, const Task& end, int 
                           hand_over<std::int64_t>(std::move(steps), {count}));
 }
 
-nb::tuple refine_solutions(const Unknowns& z, const Task& task, int positions, int points, const std::string& level) {
-    check_shape(positions, points);
+nb::tuple refine_solutions(const Unknowns& z, const Task& task, int positions, int points, const std::string& family,
+                           const std::string& level) {
+    const Family own = family_of(family, positions, points);
     Refine* kernel = level_of(level).refine;
     const std::size_t count = z.shape(0);
     std::vector<Number> refined(z.data(), z.data() + 8 * count);
     std::vector<double> last_steps(count);
-    const Solutions solutions{positions, points, static_cast<std::int64_t>(count), parts(task.data()),
+    const Solutions solutions{own, positions, points, static_cast<std::int64_t>(count), parts(task.data()),
                               reinterpret_cast<double*>(refined.data()), last_steps.data()};
     run([&](Watch& watch) { return kernel(solutions, watch); });
     return nb::make_tuple(hand_over<Number>(std::move(refined), {count, 8}),
@@ -196,16 +207,21 @@ void add_algebra(nb::module_& module) {
     module.def("reduce", reduce, nb::arg("matrix").noconvert(),
                "The reduced row echelon form modulo 2^31 - 1 of a dense matrix int64[m, n], without rows of zeros.");
     module.def("track", track, nb::arg("starts").noconvert(), nb::arg("begin").noconvert(), nb::arg("end").noconvert(),
-               nb::arg("positions"), nb::arg("points"), nb::arg("loose"), nb::kw_only(), nb::arg("level") = "",
+               nb::arg("positions"), nb::arg("points"), nb::arg("loose"), nb::kw_only(), nb::arg("family") = "",
+               nb::arg("level") = "",
                "Solutions of one task of four-bars followed to another, straight in the space of tasks: the ends "
                "complex[paths, 8], how each ended int64[paths] (0 arrived, 1 failed, 2 infinite), steps int64[paths]."
                "\n\n"
                "starts: complex[paths, 8], moving pivots x, x*, y, y*, fixed pivots a, a*, b, b*; begin, end: "
                "complex[4, 8], displacements t and their conjugates s of the positions, then of the points, turns g of "
                "the positions, values of the unknowns that no equation is left for; loose: how far the corrector may "
-               "change a prediction; level: compiled for this instruction set, the best one by default.");
+               "change a prediction; family: '' for four-bars, 'Watt II' or 'Stephenson III' for six-bars whose input and "
+               "output turn through points + 1 pairs: starts are a, a*, f, f*, p, p*, q, q* of "
+               "docs/theory/synthesis-functions.md, a task has the turns of input and output, then the coefficients of "
+               "the last equation: of the unknowns, and r, k, c, c*; level: compiled for this instruction set, the best "
+               "one by default.");
     module.def("refine_solutions", refine_solutions, nb::arg("z").noconvert(), nb::arg("task").noconvert(),
-               nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("level") = "",
+               nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("family") = "", nb::arg("level") = "",
                "Newton's method for solutions of one task, with residuals of twice the digits: the solutions "
                "complex[n, 8] and the last relative step of each float64[n], infinite where the matrix is singular.\n\n"
                "The arguments are those of `track`.");

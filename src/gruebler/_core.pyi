@@ -94,10 +94,17 @@ def track(
     points: int,
     loose: float,
     *,
+    family: str = "",
     level: str = "",
 ) -> tuple[NDArray[np.complex128], NDArray[np.int64], NDArray[np.int64]]: ...
 def refine_solutions(
-    z: NDArray[np.complex128], task: NDArray[np.complex128], positions: int, points: int, *, level: str = ""
+    z: NDArray[np.complex128],
+    task: NDArray[np.complex128],
+    positions: int,
+    points: int,
+    *,
+    family: str = "",
+    level: str = "",
 ) -> tuple[NDArray[np.complex128], NDArray[np.float64]]: ...
 def certify(
     z: NDArray[np.complex128], task: NDArray[np.complex128], positions: int, points: int

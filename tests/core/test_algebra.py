@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import KroghInterpolator
 
+from benchmarks.six_bars import known_solution, random
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, load_generic_solutions
 from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.test_points import random_parameters
@@ -168,3 +169,56 @@ def test_a_signal_ends_a_long_call(core):
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
+
+
+def common_turns(family, z, task, pairs):
+    """(pairs, 2) T and T* of the link that both loops have, from their two linear equations."""
+    a, ac, f, fc, p, pc, q, qc = z
+    c, cc = task[3, 2:4]
+    rows = []
+    for turn, out in task[:2, : pairs - 1].T:
+
+        def vectors(x, y):
+            if family == "Watt II":
+                return 1 - a * x, 1 - ac / x, 1 - f * y, 1 - fc / y
+            return a * x - 1, ac / x - 1, a * x - c - f * y, ac / x - cc - fc / y
+
+        w, wc, v, vc = vectors(turn, out)
+        w0, w0c, v0, v0c = vectors(1, 1)
+        left = [[p * wc, pc * w], [q * vc, qc * v]]
+        right = [
+            (w0 + p) * (w0c + pc) - p * pc - w * wc,
+            (v0 + q) * (v0c + qc) - q * qc - v * vc,
+        ]
+        rows.append(np.linalg.solve(left, right))
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("pairs", [8, 9])
+@pytest.mark.parametrize("family", ["Watt II", "Stephenson III"])
+def test_six_bars_turn_through_pairs(core, family, pairs):
+    """Paths from a known six-bar to another task, in which both loops have one link that turns; all levels alike."""
+    rng = np.random.default_rng(5)
+    z, task = known_solution(family, pairs, "arm", rng)
+    other = np.where(np.abs(task) > 0, random(rng, 4, 8), task)
+    other[:2, pairs - 1 :] = 1
+    found = core.track(z, task, other, 0, pairs - 1, 1e-3, family=family)
+    assert found[1].tolist() == [0]
+    sharp, steps = core.refine_solutions(found[0], other, 0, pairs - 1, family=family)
+    assert steps.max() < 1e-12
+    for end, given in ((z[0], task), (sharp[0], other)):
+        turns = common_turns(family, end, given, pairs)
+        assert np.abs(turns[:, 0] * turns[:, 1] - 1).max() < 1e-8
+        if pairs == 8:
+            assert given[3, 1] * end[4] * end[5] == pytest.approx(given[3, 0])
+    for level in core.level_names():
+        same = core.track(z, task, other, 0, pairs - 1, 1e-3, family=family, level=level)
+        assert [row.tobytes() for row in same] == [row.tobytes() for row in found]
+
+
+def test_families_that_are_none(core):
+    z, task = known_solution("Watt II", 8, "arm", np.random.default_rng(0))
+    with pytest.raises(ValueError, match="no family Watt"):
+        core.refine_solutions(z, task, 0, 7, family="Watt")
+    with pytest.raises(ValueError, match="7 or 8 points"):
+        core.refine_solutions(z, task, 0, 5, family="Watt II")

@@ -159,4 +159,23 @@ inline void evaluate_sharply(const Complex* z, const Parameters& p, Shape shape,
     for (int r = shape.equations(); r < unknowns; ++r) out.set(r, z[r] - p.fixed.at(r));
 }
 
+// The same as a system that a tracker follows.
+struct FourBarSystem {
+    using Parameters = algebra::Parameters;
+    using Way = algebra::Way;
+    Shape shape;
+
+    void evaluate(const Complex* z, const Parameters& p, Matrix& jacobian, Lanes& values) const {
+        Lanes none;
+        algebra::evaluate<Wanted::values>(z, p, {}, shape, jacobian, values, none);
+    }
+    void evaluate_with_rates(const Complex* z, const Parameters& p, const Parameters& speed, Matrix& jacobian,
+                             Lanes& values, Lanes& rates) const {
+        algebra::evaluate<Wanted::values_and_rates>(z, p, speed, shape, jacobian, values, rates);
+    }
+    void evaluate_sharply(const Complex* z, const Parameters& p, Lanes& out) const {
+        algebra::evaluate_sharply(z, p, shape, out);
+    }
+};
+
 }  // namespace gruebler::algebra::inline GRUEBLER_LEVEL

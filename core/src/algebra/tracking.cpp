@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "algebra/six_bar_system.hpp"
 #include "algebra/system.hpp"
 
 namespace gruebler::algebra::inline GRUEBLER_LEVEL {
@@ -78,10 +79,11 @@ void subtract(Point& point, const Point& change) {
 }
 
 // The memory of a call, and one path after another.
+template <class System>
 class Tracker {
 public:
-    Tracker(Shape shape, const double* begin, const double* end, double loose)
-        : shape_(shape), way_(Way::between(Parameters::read(begin), Parameters::read(end))), loose_(loose) {}
+    Tracker(const System& system, const double* begin, const double* end, double loose)
+        : system_(system), way_(Way::between(Parameters::read(begin), Parameters::read(end))), loose_(loose) {}
 
     std::int64_t steps = 0;
 
@@ -121,13 +123,16 @@ public:
     }
 
 private:
+    using Parameters = typename System::Parameters;
+    using Way = typename System::Way;
+
     // A place of the path, and how fast the path goes there.
     struct Known {
         double time;
         Point place, slope;
     };
 
-    Shape shape_;
+    System system_;
     Way way_;
     double loose_;
     Parameters task_;  // of the moment
@@ -176,8 +181,8 @@ private:
     // The correction of a place, and the slope there; false for a singular matrix.
     bool evaluate_and_solve(Known& at) {
         way_.at(at.time, task_);
-        evaluate<Wanted::values_and_rates>(at.place.z, task_, way_.speed, shape_, jacobian_, right_[0], right_[1]);
-        if (loose_ < fine || norm(at.place) > large) evaluate_sharply(at.place.z, task_, shape_, right_[0]);
+        system_.evaluate_with_rates(at.place.z, task_, way_.speed, jacobian_, right_[0], right_[1]);
+        if (loose_ < fine || norm(at.place) > large) system_.evaluate_sharply(at.place.z, task_, right_[0]);
         if (!solve(jacobian_, right_, solution_)) return false;
         for (int k = 0; k < unknowns; ++k) at.slope.z[k] = -solution_[1][k];
         return true;
@@ -206,13 +211,14 @@ private:
 };
 
 // Newton's method for one solution; returns the last relative step.
-double sharpen(Point& point, const Parameters& task, const Parameters& still, Shape shape) {
+template <class System>
+double sharpen(Point& point, const System& system, const typename System::Parameters& task) {
     Matrix jacobian;
-    Lanes residuals[1], none;
+    Lanes residuals[1];
     double last = infinity, step = infinity;
     for (int turn = 0; turn < newton_steps; ++turn) {
-        evaluate<Wanted::values>(point.z, task, still, shape, jacobian, residuals[0], none);
-        evaluate_sharply(point.z, task, shape, residuals[0]);
+        system.evaluate(point.z, task, jacobian, residuals[0]);
+        system.evaluate_sharply(point.z, task, residuals[0]);
         Complex solution[1][unknowns];
         if (!solve(jacobian, residuals, solution)) return infinity;
         Point correction;
@@ -225,10 +231,9 @@ double sharpen(Point& point, const Parameters& task, const Parameters& still, Sh
     return step;
 }
 
-}  // namespace
-
-bool track(const Paths& paths, Watch& watch) {
-    Tracker tracker({paths.positions, paths.points}, paths.begin, paths.end, paths.loose);
+template <class System>
+bool track_all(const System& system, const Paths& paths, Watch& watch) {
+    Tracker<System> tracker(system, paths.begin, paths.end, paths.loose);
     for (std::int64_t k = 0; k < paths.count; ++k) {
         tracker.here() = read(paths.starts + 2 * unknowns * k);
         PathEnd end;
@@ -240,15 +245,29 @@ bool track(const Paths& paths, Watch& watch) {
     return true;
 }
 
-bool refine(const Solutions& solutions, Watch& watch) {
-    const Parameters task = Parameters::read(solutions.task), still{};
+template <class System>
+bool refine_all(const System& system, const Solutions& solutions, Watch& watch) {
+    const typename System::Parameters task = System::Parameters::read(solutions.task);
     for (std::int64_t k = 0; k < solutions.count; ++k) {
         if (!spend(watch, work_of_a_step)) return false;
         Point point = read(solutions.z + 2 * unknowns * k);
-        solutions.last_steps[k] = sharpen(point, task, still, {solutions.positions, solutions.points});
+        solutions.last_steps[k] = sharpen(point, system, task);
         write(point, solutions.z + 2 * unknowns * k);
     }
     return true;
+}
+
+}  // namespace
+
+bool track(const Paths& paths, Watch& watch) {
+    if (paths.family == Family::four_bars) return track_all(FourBarSystem{{paths.positions, paths.points}}, paths, watch);
+    return track_all(SixBarSystem{paths.family, paths.points}, paths, watch);
+}
+
+bool refine(const Solutions& solutions, Watch& watch) {
+    if (solutions.family == Family::four_bars)
+        return refine_all(FourBarSystem{{solutions.positions, solutions.points}}, solutions, watch);
+    return refine_all(SixBarSystem{solutions.family, solutions.points}, solutions, watch);
 }
 
 }  // namespace gruebler::algebra::inline GRUEBLER_LEVEL

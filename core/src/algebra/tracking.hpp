@@ -15,10 +15,15 @@ namespace gruebler::algebra {
 // besides the first, two equations each, and points, one equation each; the rest of the eight fix unknowns of those
 // numbers.
 
+// Whose equations they are: of four-bars through positions and points, or of six-bars whose input and output turn through
+// pairs of angles, each an equation (`points`): Watt's second and Stephenson's third; six_bar_system.hpp.
+enum class Family : int { four_bars, watt_2, stephenson_3 };
+
 // How a path ended: at a finite solution; steps too small or too many; growing without bound.
 enum class PathEnd : std::int64_t { arrived, failed, infinite };
 
 struct Paths {
+    Family family;
     int positions, points;
     std::int64_t count;
     const double* starts;
@@ -31,6 +36,7 @@ struct Paths {
 };
 
 struct Solutions {
+    Family family;
     int positions, points;
     std::int64_t count;
     const double* task;

@@ -1,0 +1,136 @@
+"""Thirty closed and open curves by name: how near four-bars and six-bars come, with the measures of learners.
+
+`python -m benchmarks.yardstick FILE ...` takes curves of others instead: .npy of (curves, points, 2), closed.
+"""
+
+import sys
+import time
+from math import pi
+
+import numpy as np
+
+from benchmarks.synthesis import targets
+from gruebler.design.synthesis.curve_matching import resampled
+from gruebler.design.synthesis.curves import fit_curve
+from gruebler.design.synthesis.four_bar_curves import curve_points
+from gruebler.design.synthesis.structure_atlas import DyadStructure, dyad_structure, link_motions, structure_atlas
+from gruebler.design.synthesis.structure_curves import fit_drawings
+from gruebler.structure.mechanism import Mechanism
+
+SIX_BARS = {
+    "Stephenson III": ("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive=R(0-1)", "4"),
+    "Watt I": ("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0; drive=R(0-1)", "5"),
+    "Watt I, ternary crank": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2); frame=0; drive=R(0-1)", "5"),
+    "Stephenson II": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-3); frame=0; drive=R(0-1)", "4"),
+}
+NEIGHBOURS = 400
+LONGER = 1.1  # than the polygon of the points: a path that is, leaves it between them
+TURN = np.linspace(0, 2 * pi, 2001)
+EVEN = 200  # points of curves that are compared, as in LInK and in the challenge of MIT 2.156
+
+
+def thirty() -> dict[str, tuple[np.ndarray, bool]]:
+    """The 22 curves of `benchmarks.synthesis`, and eight of an independent examination."""
+    s = np.linspace(0, 2 * pi, 64, endpoint=False)
+    power = np.abs(np.cos(s)) ** 0.5 * np.sign(np.cos(s)) + 1j * np.abs(np.sin(s)) ** 0.5 * np.sign(np.sin(s))
+    side = np.linspace(-1, 1, 16, endpoint=False)
+    bow = np.exp(1j * pi * np.arange(16) / 16)
+    cassini = np.sqrt(np.cos(2 * s) + np.sqrt(1.05**4 - np.sin(2 * s) ** 2))
+    t = np.linspace(0, 1, 48)
+    return targets() | {
+        "superellipse n = 4": (power, True),
+        "limacon": ((1 + 0.8 * np.cos(s)) * np.exp(1j * s), True),
+        "limacon with loop": ((1 + 1.6 * np.cos(s)) * np.exp(1j * s), True),
+        "teardrop m = 3": (np.cos(s) + 1j * np.sin(s) * np.sin(s / 2) ** 3, True),
+        "stadium": (np.concatenate([side - 1j, 1 - 1j * bow, -side + 1j, -1 + 1j * bow]), True),
+        "Cassini oval": (cassini * np.exp(1j * s), True),
+        "cycloid arch": (2 * pi * t - np.sin(2 * pi * t) + 1j * (1 - np.cos(2 * pi * t)), False),
+        "spiral": ((0.3 + 0.7 * t) * np.exp(1.5j * pi * t), False),
+    }
+
+
+def distance(z: np.ndarray, path: np.ndarray, *, closed: bool) -> float:
+    """The root mean square distance of points from a path of places, by the longer side of the points."""
+    first, second = path, np.roll(path, -1)
+    if not closed:
+        first, second = path[:-1], path[1:]
+    along = second - first
+    part = np.real((z[:, None] - first) * np.conj(along)) / (np.abs(along) ** 2 + 1e-300)
+    gaps = np.abs(z[:, None] - first - np.clip(part, 0, 1) * along).min(axis=1)
+    return float(np.sqrt(np.mean(gaps**2)) / max(np.ptp(z.real), np.ptp(z.imag)))
+
+
+def learners_measures(z: np.ndarray, path: np.ndarray) -> tuple[float, float]:
+    """Chamfer distance as LInK computes it, and the ordered distance of the challenge, of closed curves.
+
+    Both of 200 points evenly along each curve, in units of the target's root mean square radius: the mean distance to
+    the nearest point, both ways added; and 2 pi times the mean distance of points in order, the best of all beginnings.
+    """
+    target, own = resampled(z, EVEN, closed=True)[0], resampled(path, EVEN, closed=True)[0]
+    size = np.sqrt(np.mean(np.abs(target - target.mean()) ** 2))
+    gaps = np.abs(target[:, None] - own) / size
+    chamfer = gaps.min(axis=0).mean() + gaps.min(axis=1).mean()
+    ordered = [
+        gaps[np.arange(EVEN), (begin + sense * np.arange(EVEN)) % EVEN].mean()
+        for begin in range(EVEN)
+        for sense in (1, -1)
+    ]
+    return float(chamfer), 2 * pi * min(ordered)
+
+
+def four_bar(z: np.ndarray, *, closed: bool) -> tuple[str, np.ndarray]:
+    """The best four-bar or slider-crank and its path past the points."""
+    best = fit_curve(z, closed=closed)[0]
+    turned = TURN if closed else np.linspace(best.phi[0], best.phi[-1], len(TURN))
+    return best.kind.name, curve_points(best.kind, best.row[:, None], turned, best.side).z
+
+
+def six_bar(structure: DyadStructure, link: str, z: np.ndarray, *, closed: bool) -> np.ndarray:
+    """The path of the best six-bar of a kind whose crank passes all points in order, and no others far from them."""
+    fits = fit_drawings(structure, link, z, closed=closed, number=NEIGHBOURS)
+    polygon = np.abs(np.diff(np.append(z, z[0]) if closed else z)).sum()
+    for places, turned in zip(fits.places, fits.turned, strict=True):
+        sense = np.sign(turned[-1] - turned[0])
+        end = turned[0] + 2 * pi * sense if closed else turned[-1]
+        if not np.all(np.diff(np.append(turned, end) if closed else turned) * sense > 0):
+            continue  # the points are met in another order
+        rotation, shift = link_motions(structure, places[:-1], np.linspace(turned[0], end, len(TURN)))[link]
+        path = rotation * places[-1] + shift
+        if np.isfinite(path).all() and np.abs(np.diff(path)).sum() < LONGER * polygon:
+            return path
+    return np.full(len(TURN), np.nan + 0j)
+
+
+def main(files: tuple[str, ...] = ()) -> None:
+    fit_curve(np.exp(1j * np.linspace(0, 6, 20)), closed=True)  # the atlas
+    structures = {}
+    for name, (text, link) in SIX_BARS.items():
+        structure = dyad_structure(Mechanism.parse(text))
+        assert structure is not None
+        structure_atlas(structure)
+        structures[name] = structure, link
+    curves = thirty()
+    if files:
+        rows = [(f"{file} {k + 1}", row) for file in files for k, row in enumerate(np.load(file))]
+        curves = {name: (row[:, 0] + 1j * row[:, 1], True) for name, row in rows}
+    heads = f"{'six links':>9}{'time':>8}{'chamfer':>10}{'ordered':>10}"
+    print(f"{'curve':22}{'':>14}{'four links':>11}{'time':>8}  {'':22}{heads}")
+    for name, (z, closed) in curves.items():
+        start = time.process_time()
+        kind, path = four_bar(z, closed=closed)
+        four, first = distance(z, path, closed=closed), time.process_time() - start
+        best, six, own = "", np.inf, path
+        for each, (structure, link) in structures.items():
+            found = six_bar(structure, link, z, closed=closed)
+            if (error := distance(z, found, closed=closed)) < six:
+                best, six, own = each, error, found
+        second = time.process_time() - start - first
+        near = path if four < six else own
+        told = "".join(f"{value:>10.4f}" for value in learners_measures(z, near)) if closed else ""
+        print(
+            f"{name:22}{kind:>14}{four:>11.4%}{first:>6.1f} s  {best:22}{six:>9.4%}{second:>6.1f} s{told}", flush=True
+        )
+
+
+if __name__ == "__main__":
+    main(tuple(sys.argv[1:]))
