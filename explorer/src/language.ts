@@ -29,14 +29,15 @@ export function angle(radians: number, digits = 4): string {
   return `${number(Math.round((radians * 180e6) / Math.PI) / 1e6, digits)}°`;
 }
 
-/** A number with so many significant digits and the decimal sign of the language. */
+/** A number with so many significant digits, a minus sign as long as the plus, and the decimal sign of the language. */
 export function number(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "–";
-  const text = String(Number(value.toPrecision(digits)) + 0);
+  const text = String(Number(value.toPrecision(digits)) + 0).replaceAll("-", "−");
   return language === "de" ? text.replace(".", ",") : text;
 }
 
 /** A number that a reader typed, with a comma or a point; NaN if it is none. */
-export function parsed(text: string): number {
+export function parsed(typed: string): number {
+  const text = typed.replaceAll("−", "-");
   return /^\s*-?[\d.,]+(e-?\d+)?\s*$/i.test(text) ? Number(text.replace(",", ".")) : NaN;
 }

@@ -80,7 +80,7 @@ export class LoadForm {
       const options = places.map(([value, text]) => h("option", { value, selected: value === chosen }, text));
       const id = `force-load-${k}`;
       const where = h("select", { id, onchange }, ...options);
-      rows.push(h("label", { for: id }, t("Load on")), where, h("span", {}));
+      rows.push(h("label", { for: id }, t("Load on")), where);
       const part = (key: "x" | "y", label: string, unit: string) =>
         rows.push(...this.row(`${key}-${k}`, label, unit, load![key], (v) => (load![key] = v)));
       if (load?.on === "link") part("x", t("Moment"), `N·${model.unit}`);
@@ -120,7 +120,7 @@ export class LoadForm {
           h("option", { selected: known < 0 ? k === options.length : k === known }, text),
         ),
       );
-      rows.push(h("label", { for: id }, label), field, h("span", {}));
+      rows.push(h("label", { for: id }, label), field);
     };
     for (const [k, spring] of [...springs, null].entries()) {
       const put = (more: Partial<Spring> | null) => {

@@ -368,16 +368,20 @@ export class MotionView implements View, Editor, Driven {
       this.forces.at(drive);
     }
     const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
-    this.facts.replaceChildren(
-      ...facts.map(({ name, text, style, note }) =>
-        h(
-          "div",
-          {},
-          h("dt", {}, name),
-          h("dd", { class: style ?? "" }, text, note ? h("small", {}, ` ${note}`) : null),
-        ),
-      ),
-    );
+    facts.forEach(({ name, text, style, note }, k) => {
+      const told = [name, text, style, note].join();
+      const old = this.facts.children[k] as HTMLElement | undefined;
+      if (old?.dataset.told === told) return; // most stay as they are
+      const made = h(
+        "div",
+        { "data-told": told },
+        h("dt", {}, name),
+        h("dd", { class: style ?? "" }, text, note ? h("small", {}, ` ${note}`) : null),
+      );
+      if (old) old.replaceWith(made);
+      else this.facts.append(made);
+    });
+    while (this.facts.childElementCount > facts.length) this.facts.lastChild!.remove();
   }
 
   // --- what is taken away --------------------------------------------------------------------------------------------

@@ -37,7 +37,9 @@ export class Plot {
   private readonly here = svg("circle.here", { r: 3 });
   private readonly title = svg("text.title", { x: 2, y: 13 });
   private readonly value = svg("text.read", { y: TOP + 10 });
-  private readonly ticks = svg("g");
+  private readonly mesh = svg("path.mesh", {});
+  private readonly upward = svg("g");
+  private readonly across = svg("g");
   private ticked = "";
   private pointed = NaN;
   private drive = NaN;
@@ -58,10 +60,22 @@ export class Plot {
       d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}`,
       fill: "none",
     });
-    const { band, cursor, curve, element, here, ticks, title, value, zero } = this;
+    const { band, cursor, curve, element, here, title, value, zero } = this;
     // what is enlarged ends at the axes
     const inner = { x: LEFT, y: 0, width: WIDE, height: HEIGHT, viewBox: `${LEFT} 0 ${WIDE} ${HEIGHT}` };
-    element.append(band, ticks, frame, zero, svg("svg", inner, curve), cursor, here, title, value);
+    element.append(
+      band,
+      this.mesh,
+      this.upward,
+      this.across,
+      frame,
+      zero,
+      svg("svg", inner, curve),
+      cursor,
+      here,
+      title,
+      value,
+    );
     const partOf = (x: number) => {
       const box = element.getBoundingClientRect();
       return (((x - box.left) / box.width) * WIDTH - LEFT) / WIDE;
@@ -174,14 +188,16 @@ export class Plot {
       ...upward.map((value) => `M${LEFT} ${this.y(value).toFixed(1)}H${WIDTH - RIGHT}`),
       ...across.map((value) => `M${this.x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
     ];
-    this.ticks.replaceChildren(
-      svg("path.mesh", { d: lines.join("") }),
-      ...upward.map((value) =>
-        svg("text", { x: LEFT - 4, y: this.y(value) + 4, "text-anchor": "end" }, number(value, 4)),
-      ),
-      ...across.map((value) =>
-        svg("text", { x: this.x(value * unit), y: HEIGHT - 4, "text-anchor": "middle" }, number(value, 4)),
-      ),
+    this.mesh.setAttribute("d", lines.join(""));
+    relabel(
+      this.upward,
+      upward.map((value) => [LEFT - 4, this.y(value) + 4, number(value, 4)]),
+      "end",
+    );
+    relabel(
+      this.across,
+      across.map((value) => [this.x(value * unit), HEIGHT - 4, number(value, 4)]),
+      "middle",
     );
   }
 
@@ -213,6 +229,17 @@ export class Plot {
 
   private y(value: number): number {
     return HEIGHT - BOTTOM - ((value - this.low) / (this.high - this.low)) * (HEIGHT - BOTTOM - TOP);
+  }
+}
+
+/** Texts at places; those that stay are moved, since to write one takes long. */
+function relabel(group: SVGGElement, labels: readonly (readonly [number, number, string])[], anchor: string): void {
+  while (group.childElementCount > labels.length) group.lastChild!.remove();
+  for (const [k, [x, y, text]] of labels.entries()) {
+    const old = group.children[k] ?? group.appendChild(svg("text", { "text-anchor": anchor }));
+    const place = `translate(${x.toFixed(1)} ${y.toFixed(1)})`;
+    if (old.getAttribute("transform") !== place) old.setAttribute("transform", place);
+    if (old.textContent !== text) old.textContent = text;
   }
 }
 

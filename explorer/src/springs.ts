@@ -54,7 +54,8 @@ export function springPath(linkage: Linkage, viewport: Viewport, spring: Spring)
       shape([0.35, 8], [0.7, 8], [0.7, -8], [0.35, -8]) +
       shape([0.7, 0], [1, 0])
     );
-  const coils = Array.from({ length: 12 }, (_, k): Pair => [0.16 + 0.68 * (k / 11), k % 2 ? 7 : -7]);
+  const count = 2 * Math.max(3, Math.min(20, Math.round(Math.hypot(u - x, v - y) / 16)));
+  const coils = Array.from({ length: count }, (_, k): Pair => [0.16 + (0.68 * k) / (count - 1), k % 2 ? 7 : -7]);
   return shape([0, 0], [0.13, 0], ...coils, [0.87, 0], [1, 0]);
 }
 

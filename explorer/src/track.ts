@@ -2,7 +2,7 @@
 
 import { type Cycle, TURN, wrapped } from "./cycle";
 import { h, svg } from "./dom";
-import { angle, number, t } from "./language";
+import { angle, currentLanguage, number, t } from "./language";
 
 export class Track {
   readonly element: HTMLElement;
@@ -13,6 +13,8 @@ export class Track {
   private from = 0;
   private to = 1;
   private limits: [number, number] = [0, 1];
+  /** Of what the marks tell. */
+  private told = "";
 
   constructor(private readonly pick: (value: number, beyond: boolean) => void) {
     this.element = h("div.track", { role: "slider", tabindex: 0 }, this.root);
@@ -45,6 +47,10 @@ export class Track {
     unit: string,
   ): void {
     this.cycle = cycle;
+    const { full, turns, low: from, high: to, stops } = cycle;
+    const told = JSON.stringify([turning, between, dead, least, unit, full, turns, from, to, stops, currentLanguage()]);
+    if (told === this.told) return;
+    this.told = told;
     this.unit = turning ? TURN / 360 : 1;
     const [low, high] = limitsOf(cycle, turning, between);
     this.limits = [low, high];
@@ -80,10 +86,14 @@ export class Track {
         "M0 26 L-4.5 33 H4.5 Z",
         t("Smallest transmission angle at {value}", { value: shown(least) }),
       );
+    const part = least === null ? NaN : wrap(least);
     const label = (value: number, anchor: string) => {
+      // beside the mark that stands there
+      const covered = Math.abs(part - value) < 0.03 * (this.to - this.from);
+      const dx = (anchor === "middle" ? 24 : 8) * (value === low ? 1 : -1);
       const text = svg(
         "text",
-        { x: x(value), y: 39, "text-anchor": anchor },
+        { x: x(value), y: 39, "text-anchor": anchor, dx: covered && dx },
         turning ? angle(value) : number(value, 4),
       );
       parts.push(text);

@@ -182,7 +182,7 @@ test("all lengths kept, a joint pulled beyond its reach ends on its circle, and 
   assert.ok(dragging.draggable(A));
 });
 
-test("a direction that is kept is that of the drag, at any length; joints of files that are not there do no harm", () => {
+test("a direction that is kept stays at any length; joints of files that are not there do no harm", () => {
   const { linkage, dragging } = upright();
   const [frame, , coupler] = dragging.lengths() as [Length, Length, Length];
   dragging.locks.keep("direction", coupler.first, coupler.second);

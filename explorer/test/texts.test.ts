@@ -46,7 +46,7 @@ test("numbers", () => {
   assert.equal(number(Infinity), "–");
   assert.equal(angle(Math.PI / 3), "60°");
   assert.equal(angle(1e-12), "0°");
-  assert.equal(angle(-Math.PI / 7, 5), "-25.714°");
+  assert.equal(angle(-Math.PI / 7, 5), "−25.714°");
   inGerman(() => {
     assert.equal(number(2.5), "2,5");
     assert.equal(angle(Math.PI / 8), "22,5°");
@@ -57,6 +57,7 @@ test("numbers that are typed", () => {
   assert.equal(parsed("2.5"), 2.5);
   assert.equal(parsed(" 2,5 "), 2.5);
   assert.equal(parsed("-1e-3"), -0.001);
+  assert.equal(parsed(number(-1.5e-9)), -1.5e-9);
   for (const text of ["", "two", "1 2", "1.2.3", "--1"]) assert.ok(Number.isNaN(parsed(text)), text);
 });
 
