@@ -212,6 +212,22 @@ def bricard(kind, error=0.0, seed=3):
     return planar(text, {k: {"at": tuple(points[k]), "z": tuple(ways[k])} for k in range(6)})
 
 
+def schatz(x, y=None, lengths=(1.0, 1.0, 1.0), offsets=(0.0, 0.0)):
+    """Six axes at right angles but for two shafts, by the cosines of docs/theory/freedoms.md; Schatz's y if None.
+
+    The shafts' distance and heights are what closes the loop; offsets of axes 3 and 4 lie between their links.
+    """
+    y = x / (x - 1) if y is None else y
+    (first, middle, last), (sine, other) = lengths, np.sqrt(1 - np.square([x, y]))
+    c, d = np.array([0, -offsets[0], 0]), np.array([middle, 0, offsets[1]])
+    a, b = c + first * np.array([x, 0, sine]), d + last * np.array([-y, other, 0])
+    second, fifth = (-sine, 0, x), (other, y, 0)
+    shaft = tuple(np.cross(second, fifth))
+    points, axes = [a, a, c, d, b, b], [shaft, second, (0, 1, 0), (0, 0, 1), fifth, shaft]
+    text = "spatial: R(0-1) R(1-2) R(2-3) R(3-4) R(4-5) R(5-0)"
+    return planar(text, {k: {"at": tuple(points[k]), "z": axes[k]} for k in range(6)})
+
+
 def sarrus(tilt=0.0):
     """Two pairs of plates, hinged about x on one side and about y on the other."""
     one = [{"at": (0, y, z), "x": (1, 0, 0), "z": (1, 0, 0)} for y, z in ((0, 0), (1.5, 1.0), (0, 2.0))]

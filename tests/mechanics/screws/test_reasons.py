@@ -6,7 +6,7 @@ import pytest
 from gruebler.mechanics.screws import Closing, freedoms
 from gruebler.mechanics.screws.instant_mobility import instant_mobility
 from gruebler.mechanics.screws.joint_geometry import JointGeometry
-from gruebler.mechanics.screws.loops import bricard
+from gruebler.mechanics.screws.loops import bricard, schatz
 from tests.mechanics.screws import machines as m
 
 
@@ -59,3 +59,49 @@ def test_a_plane_symmetric_bricard_has_no_offsets_in_its_mirror(upright):
     kinds = [r.kind for r in bricard(JointGeometry(instant_mobility(closing, closing.reference, 1e-8)))]
     assert ("plane_symmetric" in kinds) is not upright
     assert freedoms(mirrored(upright)).mobility == (not upright)
+
+
+def shafts(linkage):
+    """Distance of the first and last axis, and the height of their joints above each other."""
+    first, last = linkage.places[0], linkage.places[5]
+    across, axis = np.subtract(last.at, first.at), np.array(first.z) / np.linalg.norm(first.z)
+    height = across @ axis
+    return np.linalg.norm(across - height * axis), abs(height)
+
+
+# xy - x - y = h²/2 and x² + y² - x²y² = h²/4 for h = 0.3: x + y = -0.114525 / 2.09 and xy = x + y + 0.045
+SUM = -0.114525 / 2.09
+LEVEL = np.roots([1, -SUM, SUM + 0.045])
+
+
+@pytest.mark.parametrize(
+    ("linkage", "distance", "height"),
+    [
+        (m.schatz(*LEVEL), np.sqrt(3), 0.3),
+        (m.schatz(-0.4, 2 / 7 + 0.01), None, None),
+        (m.schatz(-0.4, lengths=(1, 1.01, 1)), None, None),
+        (m.schatz(-0.4, lengths=(1, 1, 1.01)), None, None),
+        (m.schatz(-0.4, offsets=(0.01, 0)), None, None),
+        (m.schatz(-0.4, offsets=(0.01, -0.01)), None, None),
+    ],
+    ids=["shafts not level", "shafts apart", "vessel", "fork", "offset", "two offsets"],
+)
+def test_almost_a_schatz_is_rigid(linkage, distance, height):
+    """All axes as Schatz's, one condition of docs/theory/freedoms.md broken."""
+    closing = Closing.of(linkage)
+    assert list(schatz(JointGeometry(instant_mobility(closing, closing.reference, 1e-8)))) == []
+    assert freedoms(linkage).mobility == 0
+    if distance is not None:
+        assert shafts(linkage) == pytest.approx((distance, height), abs=1e-12)
+
+
+@pytest.mark.parametrize("x", [-0.9, -0.4, 0.2, 0.45])
+def test_a_schatz_is_found_in_every_pose_and_by_any_point_of_its_shafts(x):
+    linkage = m.schatz(x)
+    assert shafts(linkage) == pytest.approx((np.sqrt(3), 0), abs=1e-12)
+    places = list(linkage.places)
+    axis = 0.7 * np.array(places[0].z)
+    places[0] = type(places[0])(tuple(np.add(places[0].at, axis)), z=places[0].z)
+    for loop in (linkage, type(linkage)(linkage.mechanism, tuple(places))):
+        found = freedoms(loop)
+        assert (found.mobility, [r.kind for r in found.reasons]) == (1, ["schatz"])

@@ -40,6 +40,8 @@ REFERENCE = [
     ("bricard, plane-symmetric", m.bricard("plane"), [1, 29, 30], 1, "plane_symmetric"),
     ("bricard off", m.bricard("line", 0.01), [0, 30, 30], 0, None),
     ("sarrus", m.sarrus(), [1, 29, 30], 1, "sarrus"),
+    ("schatz", m.schatz(-0.4), [1, 29, 30], 1, "schatz"),
+    ("schatz, a fork 1 % longer", m.schatz(-0.4, lengths=(1.01, 1, 1)), [0, 30, 30], 0, None),
     ("hooke", m.hooke(), [1, 17, 20], 1, "group_sphere"),
     ("hooke, axes apart", m.hooke(apart=0.1), [0, 18, 20], 0, None),
     ("double cardan", m.cardan(), [1, 17, 18], 1, "cardan"),

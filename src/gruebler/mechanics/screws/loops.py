@@ -1,4 +1,4 @@
-"""Loops of skew axes that move although almost all such loops are rigid: Bennett, Bricard, Sarrus, two cross joints."""
+"""Loops of skew axes that move although almost all are rigid: Bennett, Bricard, Sarrus, Schatz, two cross joints."""
 
 from __future__ import annotations
 
@@ -13,10 +13,16 @@ from gruebler.mechanics.screws.joint_geometry import SAME, JointGeometry, Reason
 from gruebler.structure.chain.spaces import Space
 
 
+def _turning_loop(s: JointGeometry, joints: int) -> list[int]:
+    """The joints in order, if the chain is in space and one loop of so many turning joints; else none."""
+    ring = s.ring() if s.chain.space is Space.SPATIAL else None
+    return ring if ring is not None and len(ring) == joints and s.turning == sorted(ring) else []
+
+
 def bennett(s: JointGeometry) -> Iterator[Reason]:
     """Four skew axes, opposite links equal, length over sine of the twist the same for all, no offsets."""
-    ring = s.ring()
-    if ring is None or len(ring) != 4 or s.turning != sorted(ring) or s.chain.space is not Space.SPATIAL:
+    ring = _turning_loop(s, 4)
+    if not ring:
         return
     bars = [_bar(s, ring[k], ring[(k + 1) % 4]) for k in range(4)]
     if any(bar is None for bar in bars):
@@ -43,8 +49,8 @@ def _bar(s: JointGeometry, first: int, second: int) -> tuple[float, float, tuple
 
 def bricard(s: JointGeometry) -> Iterator[Reason]:
     """Six turning joints in a loop that a half-turn, or a mirror, takes to itself: Bricard's movable octahedra."""
-    ring = s.ring()
-    if ring is None or len(ring) != 6 or s.turning != sorted(ring) or s.chain.space is not Space.SPATIAL:
+    ring = _turning_loop(s, 6)
+    if not ring:
         return
     bars = [_bar(s, ring[k], ring[(k + 1) % 6]) for k in range(6)]
     feet = np.array([bar[2] for bar in bars if bar is not None])
@@ -71,8 +77,8 @@ def _maps(points: Reals, images: Reals, sense: int) -> bool:
 
 def sarrus(s: JointGeometry) -> Iterator[Reason]:
     """Six axes in a loop, three and three parallel."""
-    ring = s.ring()
-    if ring is None or len(ring) != 6 or s.turning != sorted(ring) or s.chain.space is not Space.SPATIAL:
+    ring = _turning_loop(s, 6)
+    if not ring:
         return
     for k in range(3):
         turned = ring[k:] + ring[:k]
@@ -81,6 +87,23 @@ def sarrus(s: JointGeometry) -> Iterator[Reason]:
         if parallel and np.linalg.norm(np.cross(sides[0][0], sides[1][0])) > SAME:
             yield Reason("sarrus", (), tuple(turned))
             return
+
+
+def schatz(s: JointGeometry) -> Iterator[Reason]:
+    """Six axes at right angles but for two parallel shafts: lengths 0, a, a, a, 0 and √3 a, feet level, no offsets."""
+    ring = _turning_loop(s, 6)
+    for turned in (ring[k:] + ring[:k] for k in range(len(ring))):
+        bars = [bar for bar in (_bar(s, turned[k], turned[k + 1]) for k in range(5)) if bar is not None]
+        if len(bars) < 5 or np.linalg.norm(np.cross(s.axis(turned[0]), s.axis(turned[5]))) > SAME:
+            continue
+        twists = [s.axis(turned[k]) @ s.axis(turned[k + 1]) for k in range(5)]
+        lengths, length = np.array([bar[0] for bar in bars]), bars[2][0]
+        offsets = [np.linalg.norm(bars[k][2][1] - bars[k + 1][2][0]) for k in range(4)]
+        across = bars[4][2][1] - bars[0][2][0]
+        sizes = lengths - [0, length, length, length, 0]
+        shafts = abs(np.linalg.norm(across) - np.sqrt(3) * length), abs(across @ s.axis(turned[0]))
+        if max(*np.abs(twists), *offsets, *np.abs(sizes), *shafts) < 10 * SAME < length:
+            yield Reason("schatz", (), tuple(turned))
 
 
 @compared_by_value

@@ -79,6 +79,10 @@ _REASONS = {
         "Sarrus's linkage: three parallel axes and three others, parallel too; each three keep the plate parallel to "
         "itself."
     ),
+    "schatz": message(
+        "Schatz's linkage: neighbouring axes are at right angles but for two parallel shafts, three links are of one "
+        "length, and the shafts are √3 times as far apart."
+    ),
     "cardan": message(
         "the centres of both cross joints lie on the axes of their bearings and stand still, so that {links} only "
         "turns about the line through them."

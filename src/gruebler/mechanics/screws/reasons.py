@@ -13,7 +13,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.instant_mobility import InstantMobility
 from gruebler.mechanics.screws.joint_geometry import SAME, JointGeometry, Reason
-from gruebler.mechanics.screws.loops import bennett, bricard, cardan, sarrus
+from gruebler.mechanics.screws.loops import bennett, bricard, cardan, sarrus, schatz
 from gruebler.mechanics.screws.motion_groups import MotionGroupKind, common_group, screws_of
 from gruebler.mechanics.screws.rigid_motions import adjoint
 from gruebler.structure.chain.spaces import Space
@@ -243,6 +243,7 @@ _RECOGNISERS: tuple[Recogniser, ...] = (
     bennett,
     bricard,
     sarrus,
+    schatz,
     cardan,
     _copies,
     _pole,
