@@ -279,9 +279,11 @@ def _met(designs: Sequence[Design], demands: Demands) -> list[tuple[Message, NDA
     return met
 
 
+_LINKS = {"a": "crank", "b": "coupler", "c": "rocker", "d": "frame"}
+
+
 def _named_lengths(linkage: FourBar | SliderCrank) -> dict[str, float]:
-    lengths = {"crank": linkage.a, "coupler": linkage.b}
-    return lengths if isinstance(linkage, SliderCrank) else {**lengths, "rocker": linkage.c, "frame": linkage.d}
+    return {_LINKS[letter]: length for letter, length in linkage.named.items() if letter in _LINKS}
 
 
 def _of_given_lengths(family: DeadCentreFamily, demands: Demands) -> list[FamilyMember] | None:
