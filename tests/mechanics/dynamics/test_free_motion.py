@@ -294,6 +294,29 @@ def test_motors_that_do_not_start_and_ends_that_are_reached():
     assert swing.explain().splitlines()[0].startswith("From R(frame-crank) = 17.19° at 0 s")
 
 
+SLIDE = Linkage.from_drawing(  # with a disc that rests on it
+    Mechanism.parse("P(0-1) R(1-2); frame=0; drive=P(0-1); drive=R(1-2)"), {"P(0-1)": (0, 0, 0), "R(1-2)": (0, 0)}
+)
+ONE_KILOGRAM = {"1": RigidBody(1.0), "2": RigidBody(0.0, (0, 0), 1.0)}
+
+
+def test_a_motion_that_a_jump_of_a_load_holds_ends_with_the_loads_name():
+    """By hand: 1 kg, 1 m/s, braked by 50 N, rests after 20 ms; 100 N would push it on at once, 50 N back again."""
+    loads = Loads({("1", 0, 0): ("where(vx < 0, 100, 0) - 50", 0)}, bodies=ONE_KILOGRAM, gravity=(0, 0))
+    held = simulate(SLIDE, loads, at=(0, 0), speed=(1000, 0), until=0.1, tolerance=1e-8)
+    assert "the force at '1:0,0' jumps" in held.message()
+    assert "springt" in held.message("de")
+    assert held.times[-1] == pytest.approx(0.02, abs=0.1 / 400)
+    assert held.drives[-1, 0] == pytest.approx(10.0, rel=1e-3)
+
+
+def test_a_jump_that_is_passed_ends_nothing():
+    """By hand: braked by 50 N while it goes forth and driven by 20 N back: 10 mm forth, then 20 m/s² back."""
+    loads = Loads({("1", 0, 0): ("where(vx < 0, -20, -50)", 0)}, bodies=ONE_KILOGRAM, gravity=(0, 0))
+    passed = simulate(SLIDE, loads, at=(0, 0), speed=(1000, 0), until=0.1, times=[0.02, 0.1])
+    np.testing.assert_allclose(passed.drives[:, 0], [10.0, 10.0 - 20e3 * 0.08**2 / 2], rtol=1e-8)
+
+
 def test_a_joint_between_moving_links_reaches_its_end_where_the_free_motion_passes_it():
     weights = Loads(bodies={"coupler": RigidBody(1.0, (35, 0), 400.0)})
     free = simulate(FourBar(25, 70, 40, 70), weights, at=1.0, branch="+", until=0.1)

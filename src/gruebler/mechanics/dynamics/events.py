@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.coordinates import JointFreedom, freedom_of
@@ -19,7 +19,15 @@ _STILL = 1e-9  # of the fastest speed so far: a motor that is slower backwards h
 
 _AT_END = message("{joint} reaches the end of its range at {time:n} s, {values}.")
 _NOT_STARTED = message("The motor at {joint} does not start: at {values} it gives {give}, and the loads need {need}.")
+_HELD = message(
+    "At {time:n} s, {values}, {load} jumps, and on either side of the jump it drives the motion back to it: what it is "
+    "there is not given. A steep but continuous law, such as tanh(vx/0.1) for a sign, has an answer."
+)
 _STALLED = message("The motor at {joint} stalls at {time:n} s, {values}: the loads turn it back.")
+
+
+_JUMPS = 1e-3  # of all loads: what changes by more while the state does not is a jump
+_TO_AND_FRO = 8  # such changes from one step to the next: an oscillation is resolved by more steps than that
 
 
 class Watch(NamedTuple):
@@ -102,6 +110,21 @@ def why_not_started(free: FreeLinkage, first: Instant, acceleration: Reals) -> M
                 need=message("{value:n} {unit}", value=need, unit=unit),
             )
     return None
+
+
+def held_on_a_jump(free: FreeLinkage, recent: Sequence[Instant]) -> Message | None:
+    """The reason if a load jumps to and fro among instants that are one place, one speed and one time."""
+    named = list[tuple[Message, Complexes]]()
+    for now in recent:
+        named += free.equations.acting.named_values(now.moving)
+    loads = len(named) // len(recent)
+    values = np.array([value[0] for _, value in named]).reshape(len(recent), loads)
+    ranges = np.abs(values - values[0]).max(axis=0, initial=0.0)
+    turns = (np.abs(np.diff(values, axis=0)) > ranges / 2).sum(axis=0)
+    held = (ranges > _JUMPS * np.abs(values).max(initial=0.0)) & (turns > _TO_AND_FRO)
+    if not held.any():
+        return None
+    return _HELD.filled(time=recent[0].time, values=_values(free, recent[0]), load=named[int(held.argmax())][0])
 
 
 def _motors_at_rest(free: FreeLinkage, first: Instant) -> Iterator[tuple[int, float]]:

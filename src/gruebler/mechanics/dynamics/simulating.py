@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
@@ -19,7 +20,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.charts import Blocked
-from gruebler.mechanics.dynamics.events import Watch, watched_ends, watched_motors, why_not_started
+from gruebler.mechanics.dynamics.events import Watch, held_on_a_jump, watched_ends, watched_motors, why_not_started
 from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instant
 from gruebler.mechanics.dynamics.simulation import Simulation
 from gruebler.mechanics.dynamics.starts import starting_pose
@@ -33,6 +34,7 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 _ROWS = 401
 _ABSOLUTE = 0.1  # of the tolerance: what is allowed of values near zero, in their usual size
 _FINEST, _COARSEST = 1e-13, 1e-2
+_SHORT, _PATIENCE = 1e-4, 50  # of the time that is followed: so many steps that are shorter together look for a jump
 _LOOKS = 4  # in each step, at what may end the motion
 
 
@@ -182,6 +184,7 @@ class _Run:
         self.method = Radau if stiff else partial(ChartedSteps, free)
         self.rows: list[_Row] = []
         self.steps = 0
+        self.recent = deque[Instant](maxlen=_PATIENCE)
         self.reason: Message | None = None
         self.count = free.coordinates.count
         self.watched: list[Watch] = []
@@ -228,6 +231,9 @@ class _Run:
                     self.reason = end[1]
                     return
             now = self._at(solver.t, solver.y)
+            self.reason = self._held(now)
+            if self.reason is not None:
+                return
             other = self.free.sets.exchanged(self.free.coordinates, now.jets, self._parts(solver.y)[1])
             if other is not None:
                 self.free.coordinates, q, v = other
@@ -237,6 +243,15 @@ class _Run:
                 if solver.t < self.until:
                     solver = self._solver(solver.t, y, self.free.acceleration(now), solver.h_abs)
             self.free.keep(now)
+
+    def _held(self, now: Instant) -> Message | None:
+        """The reason if the steps do not get on because a load jumps."""
+        self.recent.append(now)
+        if len(self.recent) < _PATIENCE or now.time - self.recent[0].time > _SHORT * self.until:
+            return None
+        held = held_on_a_jump(self.free, self.recent)
+        self.recent.clear()
+        return held
 
     def _solver(self, t: float, y: Reals, acceleration: Reals, step: float | None = None) -> DOP853 | Radau:
         """An integrator; what is small is measured by the size of the coordinates and the time the motion takes."""

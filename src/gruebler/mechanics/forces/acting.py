@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -238,6 +238,17 @@ class ActingLoads:
             part for given in loads.forces.values() for part in (given if isinstance(given, tuple | list) else [given])
         ]
         return not (loads.motors or loads.torsion_springs or any(map(_varies, [*parts, *loads.moments.values()])))
+
+    def named_values(self, moving: MovingLinks) -> Iterator[tuple[Message, Complexes]]:
+        """Forces, moments, motors that may vary, each with its name and its values, (rows,)."""
+        for k, (name, given) in enumerate(self.loads.forces.items()):
+            yield message("the force at {point}", point=_point_text(name)), self._force(moving, k, name, given)
+        for link, given in self.loads.moments.items():
+            what, k = message("the moment on {link!r}", link=link), self.links.index(link)
+            yield what, self._amount(what, given, moving, k, 0j).astype(np.complex128)
+        efforts = self.motor_efforts(moving).sum(axis=1).astype(np.complex128)
+        for joint in self.loads.motors:
+            yield message("the motor of {joint}", joint=joint), efforts
 
     # --- parts ---------------------------------------------------------------------------------------
 
