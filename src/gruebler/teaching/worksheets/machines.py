@@ -166,13 +166,13 @@ def _diagrams(
     ]
     if linkage.points:
         ways.insert(0, {"": partial(coupler_plot, linkage, [*linkage.points][:_POINTS], between=between, lang=lang)})
-    drawn = ({key: figure for key, way in each.items() if (figure := _drawn(way)) is not None} for each in ways)
+    drawn = ({key: figure for key, plot in each.items() if (figure := _drawn(plot)) is not None} for each in ways)
     return next((figures for figures in drawn if figures), {})
 
 
-def _drawn(way: Callable[[], Figure]) -> Figure | None:
+def _drawn(plot: Callable[[], Figure]) -> Figure | None:
     try:
-        return way()
+        return plot()
     except GrueblerError:
         return None
 
