@@ -203,6 +203,8 @@ def test_files_that_cannot_be_read(tmp_path):
 def test_an_unknown_id_gets_the_nearest_ones():
     with pytest.raises(CatalogError, match=r"no entry 'vcom'; did you mean vcomp"):
         entry("vcom")
+    with pytest.raises(CatalogError, match=r"'nope\.csv' is neither a file here nor a catalog entry"):
+        entry("nope.csv")
 
 
 def test_files_are_named_as_their_entries():

@@ -73,6 +73,11 @@ def entry(id: str) -> Entry:
             raise CatalogError(
                 "{id!r} is a folder; expected a file, a chain or the id of a catalog entry", id=id
             ) from None
+        if Path(id).suffix:
+            raise CatalogError(
+                "{id!r} is neither a file here nor a catalog entry; `gruebler catalog list` shows all entries",
+                id=id,
+            ) from None
         close = near_words(id, entries(), 3)
         raise CatalogError(
             "the catalog has no entry {id!r}; did you mean {nearest}?"
