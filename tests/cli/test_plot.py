@@ -30,6 +30,8 @@ def run(capsys, *arguments):
         (["mzc", "--kind", "ratio", "--ratio", "0.005"], "relative deviation of K"),
         (["compressor", "--kind", "torque"], "Piston compressor with slider-crank: torque and power of the drive"),
         (["compressor", "--kind", "forces", "--point", "P(frame-piston)", "--lang", "de"], "Gelenkkräfte"),
+        (["wiper_rssr", "--lang", "de"], "Übertragungsfunktionen von D("),
+        (["susp_spatial", "--output", "R(body-upper_wishbone)"], "transfer functions of R(body-upper_wishbone)"),
     ],
 )
 def test_every_kind(capsys, arguments, title):
@@ -69,6 +71,9 @@ def test_the_speed_is_in_turns_a_minute(capsys):
         (["mzc", "--kind", "family", "--link", "frame"], "'frame' is the frame"),
         (["mzc", "--kind", "hodograph", "--speed", "0"], "a speed that is not 0"),
         (["mzc", "--kind", "ratio", "--point", "K", "--point", "B"], "shows one point"),
+        (["wiper_rssr", "--kind", "curves"], "--kind curves does not go with a linkage in space"),
+        (["wiper_rssr", "--branch", "+"], "--branch does not go with a linkage in space"),
+        (["diff_bevel", "--output", "R(frame-sun2)"], "a range needs one drive, but the mechanism has 2"),
         ([FOUR_BAR, "--dark"], "--dark does not go with SVG"),
     ],
 )

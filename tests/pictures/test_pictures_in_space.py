@@ -11,10 +11,11 @@ import gruebler as gr
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import message
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space import Bennett
+from gruebler.mechanics.space import Bennett, UniversalJoint
 from gruebler.mechanics.space.drive_range import spatial_range
+from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
-from gruebler.pictures.space import animate_spatial, draw_spatial
+from gruebler.pictures.space import animate_spatial, draw_spatial, plots
 from gruebler.pictures.space.painting import covering_order
 from gruebler.pictures.space.parts import LOOKS, link_bar, sleeve
 from gruebler.pictures.space.scene import scene_of
@@ -24,6 +25,7 @@ from gruebler.structure.chain.pairs import PAIRS
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
+from tests.mechanics.screws import machines
 
 Z = (0.0, 0.0, 1.0)
 RSSR = SpatialLinkage(
@@ -256,3 +258,41 @@ def test_paths_of_points_are_drawn_over_the_range():
     radii = np.linalg.norm(seen, axis=0)
     assert radii / radii.mean() == pytest.approx(np.ones(len(radii)), abs=0.02)  # a circle in space
     assert not re.search(r"curve", gr.draw(RSSR).svg())
+
+
+# --- diagrams over the drive -------------------------------------------------------------------------
+
+
+@pytest.fixture
+def plotted(monkeypatch):
+    """The panels of a diagram."""
+
+    def panels_of(linkage, **options):
+        seen = []
+        monkeypatch.setattr(
+            plots, "draw_panels", lambda panels, *rest: seen.append(panels) or draw_panels(panels, *rest)
+        )
+        return gr.plot(linkage, **options), *seen
+
+    return panels_of
+
+
+@pytest.mark.parametrize("between", [None, (0.3, 2.0)])
+def test_the_diagram_of_a_universal_joint_is_its_closed_form(plotted, between):
+    _, panels = plotted(machines.hooke(0.5), between=between)
+    (curves,) = zip(*(panel.curves for panel in panels), strict=True)
+    phi = np.radians(curves[0].x)
+    assert phi[[0, -1]] == pytest.approx(between or (0, 2 * pi))
+    expected = UniversalJoint(0.5).motion(phi).output
+    assert np.radians(curves[0].y) == pytest.approx(expected.value, abs=1e-10)
+    assert curves[1].y == pytest.approx(expected.velocity, abs=1e-10)
+    assert curves[2].y == pytest.approx(expected.acceleration, abs=1e-9)
+
+
+def test_dead_centres_in_a_diagram_are_where_the_rate_changes_sign(plotted):
+    picture, panels = plotted(RSSR, between=(-7.0, 7.0))
+    rate = panels[1].curves[0]
+    crossings = [(a + b) / 2 for a, b, p, q in zip(rate.x, rate.x[1:], rate.y, rate.y[1:], strict=False) if p * q < 0]
+    assert [mark.x for mark in panels[1].marks] == pytest.approx(crossings, abs=float(rate.x[1] - rate.x[0]))
+    assert len(crossings) == 5  # two a turn; the first comes three times from -401 to 401 degrees
+    assert "18.06°, 216.4°, 378.1°." in picture.figure.description

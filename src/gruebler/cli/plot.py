@@ -12,7 +12,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined_by_or, translate
 from gruebler.cli.draw import called, entry_of, linkage_and_range, picture_path, picture_suffix, write_picture
 from gruebler.cli.drive_rows import given_speeds, turning_drives
-from gruebler.cli.linkage_inputs import loaded_linkage, with_points
+from gruebler.cli.linkage_inputs import SpatialWord, loaded_linkage, spatial_of_word, with_points
 from gruebler.cli.parser import Parser
 from gruebler.mechanics.dynamics import InverseDynamics, inverse_dynamics
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -29,7 +29,8 @@ def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
         description="Diagrams of a linkage with one drive. transfer: the output and its derivatives of order 1 and 2, "
-        "with dead centres. transmission: the transmission angle, with the range below 40 degrees. hodograph: the tips "
+        "with dead centres, also in space. transmission: the transmission angle, "
+        "with the range below 40 degrees. hodograph: the tips "
         "of velocity vectors. curves: paths of points. family: paths of points on a line of one link. ratio: Q_G and "
         "L/l1 of a straight-line linkage over its crank angle. Of a linkage with loads, at constant speed, torque: the "
         "effort of the drive and its power; forces: those of joints, as curves of the tips of their arrows.",
@@ -43,7 +44,7 @@ def add(parser: Parser) -> None:
         linkage
         --kind {transfer,transmission,hodograph,curves,family,ratio,torque,forces} =transfer  the kind of diagram
             (default: transfer)
-        --output LINK  transfer, transmission: the link or sliding joint observed
+        --output LINK  transfer, transmission: the link or sliding joint observed, in space a joint
         --point POINT ...  hodograph, curves, ratio: a named point, a joint, or LINK:X,Y (default: all named points,
             for ratio the first); forces: a joint (default: the pins on the frame); repeatable
         --speed N float  hodograph, torque, forces: drive speed in turns per minute, or in lengths per second
@@ -65,6 +66,11 @@ def run(arguments: argparse.Namespace) -> int:
     arguments.out = picture_path(arguments.out, arguments.linkage, arguments.kind)
     suffix = picture_suffix(arguments.out, arguments.dark)
     _check(arguments)
+    spatial = spatial_of_word(arguments.linkage, arguments.lang)
+    if spatial is not None:
+        figure = _in_space(arguments, spatial)
+        write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
+        return 0
     linkage, between = linkage_and_range(arguments.linkage, arguments.lang)
     linkage = with_points(linkage, arguments.point)
     name, names = called(entry_of(arguments.linkage, arguments.lang), arguments.lang)
@@ -73,6 +79,18 @@ def run(arguments: argparse.Namespace) -> int:
     )
     write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
     return 0
+
+
+def _in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> Figure:
+    """The transfer functions of a linkage in space, which has no other diagram."""
+    from gruebler.pictures.space import plot_spatial
+
+    kind = arguments.kind
+    for option, given in ((f"kind {kind}", kind != "transfer"), ("branch", arguments.branch)):
+        if given:
+            raise GrueblerError("--{option} does not go with a linkage in space", option=option)
+    name, _ = called(entry_of(arguments.linkage, arguments.lang), arguments.lang)
+    return plot_spatial(spatial.linkage, arguments.output, between=spatial.range, lang=arguments.lang, name=name)
 
 
 _ONLY: Mapping[str, tuple[Any, tuple[str, ...]]] = {

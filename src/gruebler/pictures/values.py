@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from gruebler.mechanics.linkages.branch import Branch
     from gruebler.mechanics.linkages.conversion import LinkageLike
     from gruebler.mechanics.linkages.points import PointLike
+    from gruebler.mechanics.screws import SpatialLinkage
     from gruebler.pictures.canvas.moving_frames import FramePicture
     from gruebler.pictures.canvas.moving_picture import MovingPicture
     from gruebler.structure.mechanism import Mechanism
@@ -129,7 +130,8 @@ _FORCE_PLOTS = {
     "forces": ("linkage.force_plots", "force_plot"),
 }
 _PHASE_PLOTS = {"phase": ("linkage.force_plots", "phase_plot")}
-_PLOTS_OF = {"InverseDynamics": _FORCE_PLOTS, "Simulation": _PHASE_PLOTS}
+_SPATIAL_PLOTS = {"transfer": ("space", "plot_spatial")}
+_PLOTS_OF = {"InverseDynamics": _FORCE_PLOTS, "Simulation": _PHASE_PLOTS, "SpatialLinkage": _SPATIAL_PLOTS}
 """Diagrams of other values than linkages and motions, the usual one first."""
 
 _OF_PICTURE = message("the picture of a {kind} has no option {option!r}{suggestion}; it has {known}")
@@ -298,7 +300,7 @@ def animate(
 
 @door
 def plot(
-    linkage: LinkageLike | Motion | InverseDynamics | Simulation,
+    linkage: LinkageLike | SpatialLinkage | Motion | InverseDynamics | Simulation,
     kind: str = "transfer",
     *,
     branch: Branch = None,
@@ -322,13 +324,14 @@ def plot(
         linkage: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`; a `Motion` stands for its linkage on its
             branch, between its smallest and largest drive value. What `inverse_dynamics` returns has diagrams of its
             own, ``torque`` (with the power; the usual one) and ``forces`` (of joints, in polar form); what `simulate`
-            returns has ``phase`` (speed over drive).
+            returns has ``phase`` (speed over drive); a `SpatialLinkage` has ``transfer``.
         kind: ``transfer`` (the output and its derivatives), ``transmission`` (transmission angle), ``hodograph``,
             ``curves`` (paths of points) or ``family`` (paths of points on a line of one link).
         branch: the assembly mode, such as ``"+-"``.
         between: drive values between which it is plotted (radians, or lengths); by default the full range.
         speed: of ``hodograph``: that of the drive, in rad/s or lengths a second; without it velocities are by drive.
-        output: of ``transfer`` and ``transmission``: a link or sliding joint; by default the linkage's own output.
+        output: of ``transfer`` and ``transmission``: a link or sliding joint, in space a joint; by default the
+            linkage's own output.
         points: of ``hodograph``, ``curves`` and ``forces``: names of points or joints, at most eight.
         link: of ``family``: the link of the points.
         start: of ``family``: one end of the line, x + iy in coordinates of the link.
@@ -346,7 +349,7 @@ def plot(
         LinkageError: several drives, unknown points or links, a linkage that cannot be assembled.
 
     Cost:
-        That of the drive cycle, 10 to 500 ms.
+        That of the drive cycle, 10 to 500 ms; in space 1 to 2 s.
 
     Example:
         >>> import gruebler as gr

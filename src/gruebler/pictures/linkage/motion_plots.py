@@ -20,6 +20,7 @@ from gruebler.mechanics.analysis.transmission import measure_transmission
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.pictures.canvas.axes import Axis, angles, decimals
+from gruebler.pictures.canvas.drive_axes import order_words
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import AxisMarker, Band, DwellMarker, Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.pictures.canvas.shapes import Point
@@ -74,7 +75,8 @@ def transfer_plot(
             values = np.degrees(values)
         values = np.where(np.abs(values) < _least(run, output_quantity, max(order, 1)), 0.0, values)
         scale = angles if output_quantity.turning and order == 0 else decimals
-        axis = Axis(_order_words(run, output_quantity, order), scale(*run.bulk(values), few=6))
+        words = order_words(output_quantity.turning, run.cycle.turning_drive, run.unit, order)
+        axis = Axis(words, scale(*run.bulk(values), few=6))
         shown = marks if order == 0 else tuple(replace(mark, text="") for mark in marks)
         curves = (PlottedCurve(x=run.x, y=values, name="", style=LINES[0]),)
         named = dwells if order == 0 else tuple(replace(dwell, text="") for dwell in dwells)
@@ -126,23 +128,6 @@ def _described(run: PlotRun, marks: tuple[AxisMarker, ...], dwells: tuple[DwellM
     to = math.radians if run.cycle.turning_drive else float
     ranges = ", ".join(f"{run.value(to(dwell.low))} – {run.value(to(dwell.high))}" for dwell in dwells)
     return centres + (" " + translate("Dwells, shaded: {values}.", run.lang, values=ranges) if ranges else "")
-
-
-def _order_words(run: PlotRun, output: Output, order: int) -> str:
-    """The name of a transfer function, with its unit."""
-    letter, over = "ψ" if output.turning else "s", "φ" if run.cycle.turning_drive else "s₁"
-    if order == 0:
-        return f"{letter} in {'°' if output.turning else run.unit}"
-    mark = ("", "", "²")[order]
-    units = {
-        (True, True): "",
-        (True, False): f"rad/{run.unit}{mark}",
-        (False, True): f"{run.unit}/rad{mark}",
-        (False, False): "" if order == 1 else f"1/{run.unit}",
-    }
-    unit = units[output.turning, run.cycle.turning_drive]
-    text = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
-    return f"{text} in {unit}" if unit else text
 
 
 def _least(run: PlotRun, output: Output, order: int) -> float:

@@ -10,24 +10,21 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import number, translate
+from gruebler.base.text import translate
 from gruebler.mechanics.analysis.courses import Course
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
-from gruebler.pictures.canvas.axes import Axis, angles, as_text, decimals
+from gruebler.pictures.canvas.axes import Axis, angles, decimals
+from gruebler.pictures.canvas.drive_axes import ROWS, bulk, drive_axis, drive_text
 from gruebler.pictures.linkage.posed_linkage import drive_rows
 from gruebler.pictures.structure.messages import title
 
 Between = tuple[float, float] | None
 
-ROWS = 720
-"""Poses of a turn, or of the range."""
 _DOZEN = 12
 _TINY = 1e-9  # of a period or range
-_BULK = 0.9  # the middle part of all values
-_STEEP = {False: 1.5, True: 20.0}  # widths of it beyond which values are cut off; True: full turns
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,9 +56,7 @@ class PlotRun:
     @property
     def across(self) -> Axis:
         """The axis of the drive."""
-        scale = angles if self.cycle.turning_drive else decimals
-        text = "φ in °" if self.cycle.turning_drive else f"s₁ in {self.unit}"
-        return Axis(text, scale(float(self.x.min()), float(self.x.max()), tight=True))
+        return drive_axis(self.x, self.cycle.turning_drive, self.unit)
 
     def within(self, drive: float) -> float | None:
         """The first value of the same position in the plotted range; None if there is none."""
@@ -77,9 +72,7 @@ class PlotRun:
 
     def value(self, drive: float) -> str:
         """A drive value as text."""
-        if not self.cycle.turning_drive:
-            return as_text(drive, self.unit, self.lang)
-        return number(round(self.drive_in_units(drive), 6) + 0.0, self.lang, ".4g") + "°"
+        return drive_text(self.drive_in_units(drive), self.cycle.turning_drive, self.unit, self.lang)
 
     @cached_property
     def round_drives(self) -> Reals:
@@ -90,17 +83,8 @@ class PlotRun:
         return np.radians(inner) if self.cycle.turning_drive else np.array(inner)
 
     def bulk(self, values: Reals) -> tuple[float, float]:
-        """The range of values, cut off where some are far beyond the bulk of them, as near limits."""
-        finite = np.isfinite(values)
-        if not finite.any():
-            return 0.0, 1.0
-        even = np.interp(np.linspace(self.drives[0], self.drives[-1], ROWS), self.drives[finite], values[finite])
-        low, high = float(values[finite].min()), float(values[finite].max())
-        first, last = (float(np.quantile(even, q)) for q in ((1 - _BULK) / 2, (1 + _BULK) / 2))
-        most, noise = _STEEP[self.cycle.span.full] * (last - first), _TINY * max(abs(low), abs(high))
-        if most > noise:
-            low, high = max(low, first - most), min(high, last + most)
-        return (low, high) if high - low > noise else ((low + high) / 2 - 0.5, (low + high) / 2 + 0.5)
+        """The range of values that is shown."""
+        return bulk(values, self.drives, self.cycle.span.full)
 
     @property
     def range(self) -> str:

@@ -1,4 +1,5 @@
 from .animation import animate_spatial
 from .picture import draw_spatial
+from .plots import plot_spatial
 
-__all__ = ["animate_spatial", "draw_spatial"]
+__all__ = ["animate_spatial", "draw_spatial", "plot_spatial"]

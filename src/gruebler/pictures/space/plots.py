@@ -1,0 +1,106 @@
+"""Diagrams of linkages in space over their drive."""
+
+from __future__ import annotations
+
+from math import ceil, degrees, floor, tau
+
+import numpy as np
+
+from gruebler.base.doors import door_that_raises
+from gruebler.base.errors import LinkageError
+from gruebler.base.text import translate
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.space.drive_range import followed
+from gruebler.mechanics.space.measuring import SpatialMeasures, measures, spatial_table
+from gruebler.pictures.canvas.axes import Axis, angles, decimals
+from gruebler.pictures.canvas.drive_axes import ROWS, bulk, drive_axis, drive_text, order_words
+from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.panels import AxisMarker, Panel, PlottedCurve, draw_panels
+from gruebler.pictures.canvas.shapes import Point
+from gruebler.pictures.canvas.styles import LINES
+from gruebler.pictures.structure.messages import title
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.chain.spaces import Freedom
+
+_LOW = Point(520.0, 190.0)
+_NOISE = 1e-9  # of the largest value of a joint's rates: smaller ones are shown as 0
+
+
+@door_that_raises(LinkageError)
+def plot_spatial(
+    linkage: SpatialLinkage,
+    output: str | None = None,
+    *,
+    between: tuple[float, float] | None = None,
+    lang: str = "en",
+    name: str = "",
+) -> Figure:
+    """The output and its first and second derivative over the drive, one below the other, with dead centres.
+
+    The values are those of `gruebler.mechanics.space.measuring.spatial_table`, 0 in the reference pose.
+
+    Args:
+        linkage: with one drive.
+        output: a joint; by default that of the linkage's own output.
+        between: drive values between which it is plotted (radians, or a length); by default a turn, or the range.
+        lang: ``en`` or ``de``.
+        name: of the linkage; by default its kind.
+
+    Raises `LinkageError` for several drives, a joint without values, drive values that cannot be reached.
+
+    >>> from gruebler.mechanics.space import Bennett
+    >>> plot_spatial(Bennett(2, 1, 0.5).linkage(), name="Bennett").title
+    'Bennett: transfer functions of R(3-0)'
+    """
+    measured = measures(linkage, output=output)
+    turning, turns = linkage.mechanism.drives[0].turning, Freedom(measured.freedom).turns
+    drives = measured.rows(ROWS + 1) if between is None else np.linspace(*between, ROWS + 1)[:, None]
+    columns = spatial_table(followed(linkage, drives, order=2), (measured.output,), (), lang).columns
+    x = np.asarray(columns[0].values, float)
+    marks = _dead_centres(measured, float(drives.min()), float(drives.max()), lang)
+    panels = []
+    for order, column in enumerate(columns[1:]):
+        values = np.asarray(column.values, float)
+        values = np.where(abs(values) < _NOISE * max(abs(columns[2].values).max(), 1.0), 0.0, values)
+        scale = angles if turns and not order else decimals
+        panels.append(
+            Panel(
+                across=drive_axis(x, turning, linkage.unit),
+                up=Axis(
+                    order_words(turns, turning, linkage.unit, order),
+                    scale(*bulk(values, drives[:, 0], measured.range.full), few=6),
+                ),
+                curves=(PlottedCurve(x=x, y=values, name="", style=LINES[0]),),
+                marks=tuple(AxisMarker(each.x, "" if order else each.text) for each in marks),
+                size=_LOW,
+                marked=translate("dead centre", lang),
+            )
+        )
+    chain = linkage.mechanism.chain
+    called = chain.joint_names(Alphabet.of_language(lang))[chain.joint_number(measured.output)]
+    heading = translate(
+        "{name}: transfer functions of {output}", lang, name=title(linkage.mechanism, lang, name), output=called
+    )
+    ends = [drive_text(float(end), turning, linkage.unit, lang) for end in x[[0, -1]]]
+    about = translate(
+        "Output {output} and its first and second derivative over the drive, {range}.",
+        lang,
+        range=translate("drive from {low} to {high}", lang, low=ends[0], high=ends[1]),
+        output=called,
+    )
+    values_said = ", ".join(mark.text for mark in marks)
+    said = " " + translate("Dead centres at {values}.", lang, values=values_said) if marks else ""
+    return draw_panels(panels, heading, about + said, lang)
+
+
+def _dead_centres(measured: SpatialMeasures, low: float, high: float, lang: str) -> list[AxisMarker]:
+    """Those between two values of the drive; of a drive that turns fully they come again with every turn."""
+    linkage, marks = measured.linkage, []
+    turning = linkage.mechanism.drives[0].turning
+    for centre in measured.dead_centres:
+        laps = range(floor((low - centre.drive) / tau), ceil((high - centre.drive) / tau) + 1)
+        for drive in (centre.drive + tau * lap for lap in (laps if measured.range.full else (0,))):
+            if low <= drive <= high:
+                x = degrees(drive) if turning else drive
+                marks.append(AxisMarker(x, drive_text(x, turning, linkage.unit, lang)))
+    return sorted(marks, key=lambda mark: mark.x)
