@@ -129,5 +129,5 @@ def test_bodies_of_one_link_share_no_edge(id):
 
 
 def test_bodies_are_of_linkages_in_space(tmp_path):
-    with pytest.raises(GrueblerError, match="bodies are written of linkages in space, not of a Linkage"):
+    with pytest.raises(GrueblerError, match="bodies are written of linkages in space only"):
         files.write(FourBar(25, 70, 40, 70), tmp_path / "a.glb")

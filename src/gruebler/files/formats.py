@@ -332,7 +332,7 @@ def _in_space(value: Any) -> SpatialLinkage:
     from gruebler.mechanics.screws import SpatialLinkage
 
     if not isinstance(value, SpatialLinkage):
-        raise GrueblerError("bodies are written of linkages in space, not of a {kind}", kind=type(value).__name__)
+        raise GrueblerError("bodies are written of linkages in space only; a plane linkage and a chain have none")
     return value
 
 
