@@ -9,9 +9,10 @@ import pytest
 from scipy.optimize import minimize, nnls
 
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis import function_task, minimax, synthesise_function
+from gruebler.design.synthesis import Demands, function_task, minimax, synthesise_function
 from gruebler.design.synthesis.coordination import Coordination
 from gruebler.design.synthesis.formulas import FunctionLaw
+from gruebler.design.synthesis.functions import _by_free_starts
 from gruebler.design.synthesis.structural_errors import ErrorFamily, coordination_of
 from gruebler.mechanics.linkages.branch import branch_of_side
 
@@ -98,8 +99,13 @@ def free_steps(law):
 @cache
 def found(law, output, count):
     """The answers from each linkage that meets the pairs and can be assembled throughout."""
-    exact = synthesise_function(function_task(law, count, output=output))
-    starts = [coordination_of(d, exact.task, law) for d in (*exact.designs, *exact.rejected)]
+    task = function_task(law, count, output=output)
+    if law.input_start is None and law.output_start is None:
+        exact = _by_free_starts(task, Demands(), 16, None).candidates  # anywhere in a family, not the best of it
+    else:
+        result = synthesise_function(task)
+        exact = [*result.designs, *result.rejected]
+    starts = [coordination_of(design, task, law) for design in exact]
     return [minimax(s, law) for s in starts if s is not None and is_assemblable(s, law)]
 
 

@@ -249,12 +249,13 @@ def test_verdicts_of_nine_points_and_mixed_tasks(kind, seed):
 @pytest.mark.parametrize(
     ("demands", "reason"),
     [
-        (Demands(transmission=np.radians(38)), "the transmission angle falls to"),
-        (Demands(size_ratio=3), "its lengths differ too much"),
+        (Demands(transmission=np.radians(60)), "the transmission angle falls to"),
+        (Demands(size_ratio=1.5), "its lengths differ too much"),
         (Demands(region=(10, 10, 11, 11)), "outside the region"),
     ],
 )
 def test_rejected_dead_centre_designs_fail_as_said(demands, reason):
+    """No crank-rocker of this family meets these demands: its best transmission angle is 47.3 degrees."""
     result = synthesise(DeadCentreTask(swing=1, time_ratio=1.1), demands=demands, number=8)
     assert result.rejected
     for design in result.rejected:
@@ -263,8 +264,16 @@ def test_rejected_dead_centre_designs_fail_as_said(demands, reason):
         assert mu == pytest.approx(design.verdict.transmission, abs=1e-4)
         assert reason in reasons
         assert (mu < demands.transmission) == ("transmission" in reasons)
+    assert not result.designs
+
+
+@pytest.mark.parametrize("demands", [Demands(transmission=np.radians(38)), Demands(size_ratio=3)])
+def test_dead_centre_designs_meet_demands_that_part_of_the_family_meets(demands):
+    result = synthesise(DeadCentreTask(swing=1, time_ratio=1.1), demands=demands, number=8)
+    assert len(result.designs) == 8
     for design in result.designs:
-        assert design.verdict.transmission >= demands.transmission
+        mu = transmission_angle(move(design.linkage, np.linspace(0, 2 * np.pi, 721), order=2)).min()
+        assert mu >= demands.transmission - 1e-4
         assert design.verdict.size_ratio <= demands.size_ratio
 
 
@@ -303,7 +312,8 @@ def test_a_task_far_from_the_origin_is_judged_all_the_same():
     )
     assert len(far.designs) + len(far.rejected) == len(near.designs) + len(near.rejected)
     assert len(far.designs) >= 1
-    assert len(middle.designs) == len(near.designs) == 9
+    assert len(middle.designs) == len(near.designs)
+    assert len(near.designs) >= 9
     ratios = [sorted(design.verdict.size_ratio for design in result.designs) for result in (middle, near)]
     assert ratios[0] == pytest.approx(ratios[1], rel=1e-6)
 
