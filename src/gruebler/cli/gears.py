@@ -173,7 +173,7 @@ def _of_the_catalog(word: str, lang: str) -> TrainReading | None:
         return None
     from gruebler.mechanics.linkages import train_of
     from gruebler.mechanics.screws import SpatialLinkage
-    from gruebler.mechanics.space.wheels import bevel_train
+    from gruebler.mechanics.screws.wheels import bevel_train
 
     record = entry(first.strip())
     if record.dimensions is None and isinstance(placed := record.placed(), SpatialLinkage):

@@ -8,8 +8,8 @@ import pytest
 from gruebler.base.errors import LinkageError
 from gruebler.cli import main
 from gruebler.machines.gears import speeds
+from gruebler.mechanics.screws.wheels import bevel_train
 from gruebler.mechanics.space import move
-from gruebler.mechanics.space.wheels import bevel_train
 from gruebler.teaching.catalog import entry
 
 

@@ -230,6 +230,60 @@ def test_a_bevel_differential_by_willis(id):
     assert abs(motion.joint(planet)) == pytest.approx(turns[:, 0] - turns[:, 1], abs=1e-11)  # equal wheels
 
 
+def worm(lead):
+    """A worm of radius 1 along x under a wheel of radius 4 about z; its thread leads at this angle at (0, 1, 0)."""
+    normal = (cos(lead), 0, -sin(lead))
+    contact = {"at": (0, 1, 0), "x": normal, "y": (0, 1, 0), "radii": (sin(lead), 4 * cos(lead)), "pressure": 0.35}
+    return {0: {"z": (1, 0, 0)}, 1: {"at": (0, 5, 0), "z": Z}, 2: contact}
+
+
+@pytest.mark.parametrize(
+    ("places", "ratio"),
+    [
+        ({0: {"z": Z}, 1: {"at": (0, 3, 0), "z": Z}, 2: {"at": (0, 1, 0), "z": Z, "radii": (1, 2)}}, -0.5),
+        ({0: {"z": Z}, 1: {"z": (0, 1, 0)}, 2: {"at": (0, 2, 1), "z": (0, 2, 1), "radii": (2, 1)}}, -2.0),
+        (worm(0.1), -tan(0.1) / 4),  # a turn shifts the thread by its lead, 2 pi tan 0.1, and the wheel by as much
+    ],
+    ids=["spur", "bevel", "worm"],
+)
+def test_wheels_on_axes_anywhere(places, ratio):
+    mechanism = Mechanism.parse("spatial: R(0-1) R(0-2) G(1-2); drive=R(0-1)")
+    places = {**places, 2: {"pressure": 0.35, "x": (1, 0, 0)} | places[2]}
+    linkage = SpatialLinkage(mechanism, places).moved(exponential([0.3, -0.5, 1.0, 2.0, 0.1, -3.0]))
+    motion = move(linkage, np.linspace(0, 40.5, 41), order=1)
+    assert motion.joint(1) == pytest.approx(ratio * motion.drives[:, 0], abs=1e-11)
+    assert motion.joint(1, order=1) == pytest.approx([ratio] * 41, abs=1e-12)
+    mobility = gr.freedoms(linkage)  # the other model: slip of the teeth as a function of where the wheels are
+    assert (mobility.instant.mobility, mobility.finite.mobility) == (1, 1)
+    poses = follow_joint(linkage, 0, np.array([0.2, 0.4]))
+    poses[..., :3, 3] *= linkage.size
+    poses[..., :3, 3] += linkage.centre - poses[..., :3, :3] @ linkage.centre
+    assert abs(move(linkage, [0.2, 0.4]).poses[0] - poses).max() < 1e-10
+
+
+def test_wheels_drive_a_closed_loop_in_space():
+    """A bevel pair whose second wheel is the crank of an RSSR: the loop moves as with the crank itself driven."""
+    crank = rssr()
+    text = "spatial: R(0-9) G(9-1) R(0-1) S(1-2) S(2-3) R(0-3); drive=R(0-9)"
+    contact = {"at": (0, 0.6, -0.2), "x": (1, 0, 0), "z": (0, 3, -1), "radii": (0.2, 0.6), "pressure": 0.35}
+    places = [{"z": (0, 1, 0)}, contact, *crank.places]
+    motion = move(SpatialLinkage(Mechanism.parse(text), dict(enumerate(places))), 3 * TURN, order=1)
+    turned = motion.joint("R(0-1)")
+    assert abs(turned) == pytest.approx(TURN, abs=1e-12)
+    wanted = move(crank, turned, order=1)
+    assert motion.joint("R(0-3)") == pytest.approx(wanted.joint("R(0-3)"), abs=1e-11)
+    slope = np.sign(turned[-1]) / 3 * wanted.joint("R(0-3)", order=1)
+    assert motion.joint("R(0-3)", order=1) == pytest.approx(slope, abs=1e-11)
+
+
+def test_radii_of_wheels_in_space_fit_their_axes():
+    mechanism = Mechanism.parse("spatial: R(0-1) R(0-2) G(1-2); drive=R(0-1)")
+    contact = {"at": (0, 2, 1), "x": (1, 0, 0), "z": (0, 2, 1), "radii": (2, 1.1), "pressure": 0.35}
+    linkage = SpatialLinkage(mechanism, {0: {"z": Z}, 1: {"z": (0, 1, 0)}, 2: contact})
+    with pytest.raises(LinkageError, match=r"the radii 2 and 1.1 are not in the ratio of 2 and 1"):
+        move(linkage, [0.0, 1.0])
+
+
 def test_a_differential_with_one_drive_says_what_still_moves():
     with pytest.raises(LinkageError, match=r"F = 1 is left: R\(frame-sun1\), R\(frame-sun2\)"):
         move(entry("diff_bevel").placed().with_drives(["R(frame-carrier)"]), [0.0, 1.0])

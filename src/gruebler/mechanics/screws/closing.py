@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gruebler.base.arrays import Reals, compared_by_value, same
-from gruebler.mechanics.screws.closing_rows import Bent, joint_rows
+from gruebler.mechanics.screws.closing_rows import Bent, WheelAxes, joint_rows
 from gruebler.mechanics.screws.joint_places import JointPlace
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import exponential, exponential_rate, inverse_motion
+from gruebler.mechanics.screws.wheels import mesh_row
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 
@@ -46,6 +47,8 @@ class JointFrames:
     on_second: Reals
     place: JointPlace
     """Pitch and radii, in units of the linkage's size."""
+    wheels: WheelAxes | None = None
+    """Of a contact of teeth in space."""
 
 
 class Closing:
@@ -70,7 +73,7 @@ class Closing:
         weights: list[Reals] = []
         self._bent: list[tuple[int, Bent]] = []
         for k, tie in enumerate(ties):
-            for row in joint_rows(chain.joints[tie.joint].pair, chain.space, tie.place):
+            for row in joint_rows(chain.joints[tie.joint].pair, chain.space, tie.place, tie.wheels):
                 if callable(row):
                     self._bent.append((len(owners), row))
                 owners.append(k)
@@ -113,6 +116,7 @@ class Closing:
                         on_first=frames[number],
                         on_second=frames[number],
                         place=scaled,
+                        wheels=mesh_row(linkage, number, size),
                     )
                 )
         return cls(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import cos, inf, sin, tan
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,15 +24,28 @@ from gruebler.mechanics.screws.joint_places import JointPlace
 from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Freedom, Space
 
+_PARALLEL = 1e-9  # the sine of the angle of axes
+
 Bent = Callable[[Reals], tuple[float, Reals]]
 """From E to the value of a row and its derivatives by the entries of E, (4, 4)."""
 Row = Reals | Bent
 """Weights (4, 4) of the entries of E, or a function."""
 
 
-def joint_rows(pair: Pair, space: Space, place: JointPlace) -> list[Row]:
+class WheelAxes(NamedTuple):
+    """Axes of two wheels in space in the frame of their contact, point and direction (2, 3); speeds of teeth."""
+
+    first: Reals
+    second: Reals
+    first_speed: float
+    second_speed: float
+
+
+def joint_rows(pair: Pair, space: Space, place: JointPlace, wheels: WheelAxes | None = None) -> list[Row]:
     """The rows of a joint, u of them."""
     free = pair.freedoms[space]
+    if wheels is not None:
+        return [_mesh(wheels)]
     if pair.has_contours and space is not Space.SPATIAL:
         on_sphere = space is Space.SPHERICAL
         touch, arcs = (_cone_touch, _cone_arcs) if on_sphere else (_touch, _arcs)
@@ -161,6 +175,35 @@ def _arcs(r: float, s: float, pressure: float = 0.0) -> Bent:
         gradient[:2] = sign * np.outer(by_u, centre)
         gradient[:2, :2] += s * np.outer(u, from_w)
         return float(value), gradient
+
+    return row
+
+
+def _mesh(wheels: WheelAxes) -> Bent:
+    """By how much the teeth of two wheels have slipped: each axis shows how far the other wheel has turned.
+
+    Seen from a wheel that turns by an angle about its axis the other axis turns back by it.
+    """
+    (start, along), (end, across) = wheels.first, wheels.second
+    aside = end - start - ((end - start) @ along) * along
+    crossed = bool(np.linalg.norm(np.cross(along, across)) > _PARALLEL)
+    mark = across - (across @ along) * along if crossed else aside
+    back = along - (along @ across) * across if crossed else (aside @ across) * across - aside
+    q, s = mark / np.linalg.norm(mark), back / np.linalg.norm(back)
+    p, r = np.cross(along, q), np.cross(across, s)
+
+    def row(e: Reals) -> tuple[float, Reals]:
+        turn, gradient = e[:3, :3], np.zeros((4, 4))
+        m = turn @ across if crossed else turn @ end + e[:3, 3] - start
+        n = turn.T @ along if crossed else turn.T @ (start - e[:3, 3]) - end
+        a, b, c, d = p @ m, q @ m, r @ n, s @ n
+        by_m = -wheels.first_speed * (b * p - a * q) / (a * a + b * b)
+        by_n = wheels.second_speed * (d * r - c * s) / (c * c + d * d)
+        gradient[:3, :3] = np.outer(by_m, across if crossed else end)
+        gradient[:3, :3] += np.outer(along if crossed else start - e[:3, 3], by_n)
+        if not crossed:
+            gradient[:3, 3] = by_m - turn @ by_n
+        return float(wheels.second_speed * np.arctan2(c, d) - wheels.first_speed * np.arctan2(a, b)), gradient
 
     return row
 

@@ -14,8 +14,8 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import inverse_motion
+from gruebler.mechanics.screws.wheels import GearRow, gear_rows, is_gear
 from gruebler.mechanics.space.bodies import Bodies, Rod, motions
-from gruebler.mechanics.space.wheels import GearRow, gear_rows, is_gear
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism.model import Drive
 

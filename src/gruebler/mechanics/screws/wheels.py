@@ -1,13 +1,16 @@
 """Wheels on a common carrier: how their turns go together, as a row that is linear in the values of their bearings.
 
 Pitch circles (on a sphere pitch cones) roll on each other: r₁ α + r₂ β = 0 for the turns against the carrier, α about
-the axis of the first wheel and β about that of the second, on the sphere with the sines of the cones' angles.
+the axis of the first wheel and β about that of the second, on the sphere with the sines of the cones' angles. In space
+the axes lie anywhere (spur, bevel, worm, hypoid gears), and the weights are the speeds of the teeth along the contact's
+x axis.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from itertools import product
 from math import sin
 from typing import NamedTuple
 
@@ -17,11 +20,13 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.machines.gears import Mesh, Train
 from gruebler.machines.gears.train import FRAME
+from gruebler.mechanics.screws.closing_rows import WheelAxes
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.spaces import Space
 
 _TEETH = 1000  # ratios of whole numbers up to this one are found again in radii
+_RATIO = 1e-9  # by how much the ratio of radii may miss that of speeds
 _SAME = 1e-9  # sizes and cosines: axes that differ by more are not those of the wheels
 
 
@@ -52,9 +57,7 @@ def gear_rows(linkage: SpatialLinkage) -> tuple[GearRow, ...]:
                 "their teeth",
                 joint=title,
             )
-        if chain.space is Space.SPATIAL:
-            raise LinkageError("{joint}: wheels are moved in a plane or on a sphere", joint=title)
-        bearings = _bearings(linkage, number)
+        bearings = (_bearings_in_space if chain.space is Space.SPATIAL else _bearings)(linkage, number)
         if not bearings:
             raise LinkageError(
                 "{joint}: no link carries the axes of both wheels, directly or by joints on the same axes", joint=title
@@ -79,6 +82,88 @@ def _bearings(linkage: SpatialLinkage, contact: int) -> tuple[tuple[int, float],
         return ()
     arm = min(arms, key=lambda link: len(ways[0][link]) + len(ways[1][link]))
     return (*ways[0][arm], *ways[1][arm])
+
+
+def _bearings_in_space(linkage: SpatialLinkage, contact: int) -> tuple[tuple[int, float], ...]:
+    """The same for axes that lie anywhere."""
+    pair = _mesh(linkage, contact)
+    return () if pair is None else pair.turns
+
+
+class WheelPair(NamedTuple):
+    """Two wheels in space: their axes (point, direction) in the contact's frame, speeds of teeth, turns of bearings."""
+
+    axes: tuple[Reals, Reals]
+    speeds: tuple[float, float]
+    turns: tuple[tuple[int, float], ...]
+
+
+def mesh_row(linkage: SpatialLinkage, contact: int, scale: float) -> WheelAxes | None:
+    """The axes and speeds of a contact of teeth in space, in lengths of a scale.
+
+    None for other contacts, and for wheels in a plane whose axes lie where those of circles with these radii do.
+    """
+    if linkage.mechanism.chain.space is not Space.SPATIAL or not is_gear(linkage, contact):
+        return None
+    pair = _mesh(linkage, contact)
+    if pair is None or _as_in_plane(linkage, contact, pair):
+        return None
+    points = [axis * np.array([[1 / scale], [1.0]]) for axis in pair.axes]
+    return WheelAxes(points[0], points[1], pair.speeds[0] / scale, pair.speeds[1] / scale)
+
+
+def _as_in_plane(linkage: SpatialLinkage, contact: int, pair: WheelPair) -> bool:
+    radii = linkage.places[contact].radii
+    assert radii is not None
+    along = all(np.hypot(*axis[1, :2]) < _SAME for axis in pair.axes)
+    wanted = np.array([[0.0, -radii[0]], [0.0, radii[1]]])
+    points = np.array([axis[0, :2] for axis in pair.axes])
+    return along and bool(abs(points - wanted).max() < _SAME * linkage.size)
+
+
+def _mesh(linkage: SpatialLinkage, contact: int) -> WheelPair | None:
+    """The wheels of a contact on a common carrier: what both teeth do along its x axis is the same.
+
+    Raises `LinkageError` for radii in another ratio.
+    """
+    chain, frame = linkage.mechanism.chain, linkage.frames[contact]
+    radii = linkage.places[contact].radii
+    assert radii is not None  # checked with the linkage
+    wheels = chain.joints[contact].links
+    best: WheelPair | None = None
+    for first, second in product(_axes_of(linkage, wheels[0]), _axes_of(linkage, wheels[1])):
+        ways = _coaxial_ways(linkage, wheels[0], first, 1.0), _coaxial_ways(linkage, wheels[1], second, 1.0)
+        speeds = [float(frame[:3, 0] @ np.cross(axis[1], frame[:3, 3] - axis[0])) for axis in (first, second)]
+        for arm in (arm for arm in ways[0] if arm in ways[1]):
+            turns = [(joint, weight * speeds[0] / linkage.size) for joint, weight in ways[0][arm]]
+            turns += [(joint, -weight * speeds[1] / linkage.size) for joint, weight in ways[1][arm]]
+            if best is None or len(turns) < len(best.turns):
+                seen = [(axis - np.array([frame[:3, 3], [0, 0, 0]])) @ frame[:3, :3] for axis in (first, second)]
+                best = WheelPair((seen[0], seen[1]), (speeds[0], speeds[1]), tuple(turns))
+    if best is None:
+        return None
+    first_speed, second_speed = best.speeds
+    if (
+        abs(abs(first_speed * radii[1]) - abs(second_speed * radii[0])) > _RATIO * abs(second_speed * radii[0])
+        or not first_speed * second_speed
+    ):
+        raise LinkageError(
+            "{joint}: the radii {first:g} and {second:g} are not in the ratio of {one:.6g} and {other:.6g}, the speeds "
+            "of teeth at the contact along its x axis",
+            joint=chain.joint_title(contact),
+            first=radii[0],
+            second=radii[1],
+            one=abs(first_speed),
+            other=abs(second_speed),
+        )
+    return best
+
+
+def _axes_of(linkage: SpatialLinkage, wheel: str) -> list[Reals]:
+    """The axes about which a wheel turns, point and direction (2, 3)."""
+    joints = enumerate(linkage.mechanism.chain.joints)
+    frames = [linkage.frames[k] for k, joint in joints if joint.pair.is_turning and wheel in joint.links]
+    return [np.array([frame[:3, 3], frame[:3, 2]]) for frame in frames]
 
 
 def _coaxial_ways(
