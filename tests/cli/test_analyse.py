@@ -316,7 +316,7 @@ def test_a_file_of_screws_is_told_from_one_of_sizes(capsys, tmp_path):
     status, out, _ = run(capsys, str(path), "--range", "0:90:45")
     assert status == 0
     assert "that is 12 mm" in out
-    assert main(["plot", str(path)]) == 2
+    assert main(["statics", str(path), "--moment", "nut=1"]) == 2
     said = capsys.readouterr().err
     assert (
         f"has the screws of its joints in one position, not the dimensions of its links: `gruebler check {path}" in said
