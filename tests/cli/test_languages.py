@@ -1,13 +1,15 @@
 """What a command gives in each language: links by their names there, and JSON whose keys are always the same."""
 
+import argparse
 import json
 import re
+from itertools import chain
 from pathlib import Path
 
 import pytest
 
 from gruebler.cli import main
-from gruebler.cli.commands import command, command_names
+from gruebler.cli.commands import GROUPS, command, command_names
 from gruebler.files.catalog_records import source_text
 from gruebler.files.linkages import linkage_from_json, linkage_to_json
 from gruebler.structure.isomorphism import code
@@ -204,3 +206,13 @@ def test_no_source_is_left_in_english():
     german = [source_text(source, "de").replace(title, "") for source in sources]
     assert [text for text in german if english.search(text)] == []
     assert any(english.search(source_text(source, "en")) for source in sources)
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize("command", [each for _, commands in GROUPS for each in commands], ids=lambda each: each.name)
+def test_every_help_can_be_printed(command, lang):
+    """To argparse a lone per cent sign is a place for a value: "0.1 % a" printed all values, "0,1 % f" was an error."""
+    parser = command.parser(lang)
+    below = [action.choices.values() for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
+    for each in [parser, *chain.from_iterable(below)]:
+        assert "{'" not in each.format_help()

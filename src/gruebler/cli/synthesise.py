@@ -165,7 +165,7 @@ def add(parser: Parser) -> None:
             --size-ratio R float =10000  limit of longest to shortest length
             --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
                 sensitivity, links, full-turn; of equal ones the second key decides
-            --clearance C float  print how far targets move with lengths wrong by 0.1 % and pins C beside their holes
+            --clearance C float  print how far targets move, lengths wrong by a thousandth and pins C beside their holes
             --number N int  give the N best designs only, where there are infinitely many or targets are approached
             --rejected  also list the rejected designs with their reasons
             """
