@@ -60,8 +60,8 @@ Followed follow(const std::vector<Number>& starts, const std::vector<Number>& be
     Followed out{std::vector<Number>(8), PathEnd::failed, 0, false};
     std::int64_t status = 1;
     Watch watch{goes_on, nullptr, 1};
-    out.done = baseline::track({positions, points, 1, parts(starts), parts(begin), parts(end), 1e-3, parts(out.ends),
-                                &status, &out.steps}, watch);
+    out.done = baseline::track({Family::four_bars, positions, points, 1, parts(starts), parts(begin), parts(end), 1e-3,
+                                parts(out.ends), &status, &out.steps}, watch);
     out.end = static_cast<PathEnd>(status);
     return out;
 }
