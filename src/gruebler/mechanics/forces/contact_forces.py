@@ -11,7 +11,7 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.contacts import MovingTouch, law_at, moving_touch
-from gruebler.mechanics.kinematics.contours import PiecewiseLaw, cam_law, geneva_law, noncircular_law
+from gruebler.mechanics.kinematics.contours import cam_law, geneva_law, noncircular_law
 from gruebler.mechanics.linkages import (
     CamDisc,
     Circle,
@@ -105,26 +105,22 @@ def _circle_on_line(touch: MovingTouch[Circle, Line]) -> list[ContactForce]:
 # --- cams, Geneva drives, non-circular wheels --------------------------------------------------------------
 
 
-def _slopes(law: PiecewiseLaw, angles: Reals, order: int = 1) -> Reals:
-    return np.array([law_at(law, float(angle), order) for angle in angles])
-
-
 def _cam_and_roller(touch: MovingTouch[CamDisc, Element]) -> list[ContactForce]:
-    slope = _slopes(cam_law(touch.first), np.angle(touch.gap / touch.directions))
+    slope = law_at(cam_law(touch.first), np.angle(touch.gap / touch.directions), 1)
     return [_pressing(touch.turned.centre, _unit(touch.gap * (1 - 1j * slope)))]
 
 
 def _cam_and_face(touch: MovingTouch[CamDisc, Line]) -> list[ContactForce]:
     normal = 1j * touch.turned.directions
     normal = normal * np.sign((np.conj(normal) * touch.gap).real)
-    slope = _slopes(cam_law(touch.first), np.angle(normal / touch.directions))
+    slope = law_at(cam_law(touch.first), np.angle(normal / touch.directions), 1)
     return [_pressing(touch.centre + 1j * normal * slope, normal)]
 
 
 def _geneva(touch: MovingTouch[GenevaDriver, GenevaWheel]) -> list[ContactForce]:
     driver, wheel = touch.first, touch.second
     drive, along = Geneva(wheel.slots, internal=wheel.internal, pins=driver.pins), _unit(touch.gap)
-    resting = _slopes(geneva_law(driver, wheel), np.angle(touch.directions / along)) == 0
+    resting = law_at(geneva_law(driver, wheel), np.angle(touch.directions / along), 1) == 0
     pitch = 2 * np.pi / driver.pins
     pin = touch.directions * np.exp(-1j * pitch * np.round(np.angle(touch.directions / along) / pitch))
     side = -1 if wheel.internal else 1  # inside the wheel a pin steps on the far side of its axis
@@ -138,7 +134,7 @@ def _noncircular(touch: MovingTouch[NonCircular, NonCircular]) -> list[ContactFo
         return [force._replace(force=-force.force, apart=-force.apart) for force in _noncircular(touch.turned)]
     law, along = noncircular_law(touch.first, touch.second), _unit(touch.gap)
     angles = np.angle(touch.directions / along)
-    ratio, change = -_slopes(law, angles), -_slopes(law, angles, 2)
+    ratio, change = -law_at(law, angles, 1), -law_at(law, angles, 2)
     slant = np.arctan(-change / (ratio * (1 + ratio)))  # of the common tangent, against the line across the centres
     pressure = 0.0 if touch.rolls and not touch.first.teeth else PRESSURE_ANGLE
     forward, back = np.tan(slant + pressure), np.tan(slant - pressure)

@@ -12,7 +12,7 @@ from math import degrees, floor, pi
 from typing import Any, Generic
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
@@ -234,7 +234,7 @@ def _cam_and_face(touch: Touch[CamDisc, Line]) -> list[Condition]:
 
 def _roller_opening(touch: MovingTouch[CamDisc, Element]) -> float:
     law, gap = cam_law(touch.first), touch.gap
-    wanted = np.exp([law_at(law, float(t)) for t in np.angle(gap / touch.directions)])
+    wanted = np.exp(law_at(law, np.angle(gap / touch.directions)))
     return float(np.abs(np.abs(gap) - wanted).max())
 
 
@@ -242,7 +242,7 @@ def _face_opening(touch: MovingTouch[CamDisc, Line]) -> float:
     law, normal = cam_law(touch.first), 1j * touch.turned.directions
     height = (np.conj(normal) * touch.gap).real
     normal, height = normal * np.sign(height), np.abs(height)
-    wanted = np.array([law_at(law, float(t)) for t in np.angle(normal / touch.directions)])
+    wanted = law_at(law, np.angle(normal / touch.directions))
     return float(np.abs(height - wanted).max())
 
 
@@ -281,7 +281,7 @@ def _law_opening(touch: MovingTouch[Element, Element], law: PiecewiseLaw) -> flo
     turned = poses.angle(a) + touch.first.direction - bearing
     turned += np.angle(touch.directions[0] / gap[0] * abs(gap[0])) - turned[0]
     wheel = poses.angle(b) - bearing
-    off = np.array([law_at(law, float(t)) for t in turned]) - wheel
+    off = law_at(law, turned) - wheel
     return _since_first(off) * poses.linkage.size
 
 
@@ -344,21 +344,24 @@ def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
     if raw.kind == RACK:
         second = _way(lower, keys, raw.sides).real
     elif raw.law.pieces:
-        first = law_at(raw.law, first)
+        first = float(law_at(raw.law, first))
     return replace(raw, values=(a, b, a * first + b * second))
 
 
-def law_at(law: PiecewiseLaw, angle: float, order: int = 0) -> float:
-    """The value of a law, or a derivative by the angle."""
-    turns = floor((angle - law.pieces[0][0] + law.pieces[0][1]) / (2 * pi))
-    place = angle - 2 * pi * turns
-    middle, half, *coefficients = next(p for p in reversed(law.pieces) if place >= p[0] - p[1] or p is law.pieces[0])
+def law_at(law: PiecewiseLaw, angles: ArrayLike, order: int = 0) -> Reals:
+    """The values of a law, or a derivative by the angle, in the shape of the angles."""
+    table, angles = np.array(law.pieces), np.asarray(angles, np.float64)
+    starts = table[:, 0] - table[:, 1]
+    turns = np.floor((angles - starts[0]) / (2 * pi))
+    places = angles - 2 * pi * turns
+    piece = np.maximum(np.searchsorted(starts, places, side="right") - 1, 0)
+    middle, half, *coefficients = table[piece].T
     for _ in range(order):
         coefficients = [k * c / half for k, c in enumerate(coefficients)][1:]
-    value = 0.0
+    value = np.zeros_like(places)
     for c in reversed(coefficients):
-        value = value * (place - middle) / half + c
-    return value if order else value + turns * law.advance
+        value = value * (places - middle) / half + c
+    return np.asarray(value if order else value + turns * law.advance)
 
 
 def reference_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
