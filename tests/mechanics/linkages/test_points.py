@@ -36,7 +36,7 @@ def test_every_form_of_a_point_is_the_same_point(taken):
     expected = taken("K")
     assert np.isfinite(expected).any()
     for form in FORMS[1:]:
-        np.testing.assert_allclose(taken(form), expected, rtol=1e-11, atol=1e-11)  # sizes of 100: the last bits are free
+        np.testing.assert_allclose(taken(form), expected, rtol=1e-11, atol=1e-11)  # of 100: the last bits are free
 
 
 @pytest.mark.parametrize("form", FORMS, ids=repr)
