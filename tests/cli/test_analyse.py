@@ -57,6 +57,15 @@ def test_real_modes_and_possible_ones(capsys, machine, possible, most):
     assert 1 <= len(document["other_branches"]) + 1 <= most
 
 
+def test_lengths_without_a_unit_get_none(capsys):
+    status, out, _ = run(capsys, "slider-crank:20,50,5", "--speed", "60", "--point", "coupler:10,5")
+    assert status == 0
+    assert "mm" not in out
+    assert "stroke of 40.24." in out  # sqrt(70² - 5²) - sqrt(30² - 5²)
+    assert "slider′ [1/rad]" in out
+    assert "a slider [1/s²]" in out
+
+
 def test_german(capsys):
     status, out, _ = run(capsys, "slidercrank", "--lang", "de", "--at", "55", "--speed", "60")
     assert status == 0

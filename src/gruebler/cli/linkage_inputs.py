@@ -31,14 +31,14 @@ def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
     return linkage
 
 
-def linkage_of_lengths(size: ClosedForm, lang: str = "en") -> Linkage:
+def linkage_of_lengths(size: ClosedForm, lang: str = "en", *, unit: str = "mm") -> Linkage:
     """The linkage of given lengths, its links by their names in a language.
 
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> linkage_of_lengths(FourBar(25, 70, 40, 70), "de").mechanism.chain.links
     ('Gestell', 'Kurbel', 'Koppel', 'Schwinge')
     """
-    linkage = size.linkage()
+    linkage = size.linkage(unit=unit)
     return linkage.renamed({link: translate(link, lang) for link in linkage.mechanism.chain.links})
 
 

@@ -32,8 +32,7 @@ class MeasureUnits:
         return self._length(value)
 
     def _length(self, value: float) -> Message:
-        rounded = 0.0 if abs(value) < _NOTHING * self.size else value
-        return message("{length:n} {unit}", length=rounded, unit=self.unit)
+        return length_message(0.0 if abs(value) < _NOTHING * self.size else value, self.unit)
 
     def range(self, full: bool, low: float, high: float) -> Message:
         """How far the drive moves."""
@@ -51,6 +50,11 @@ def drive_units(linkage: Linkage) -> MeasureUnits:
     """How the values of the first drive of a linkage are written."""
     turning = linkage.mechanism.drives[0].turning
     return MeasureUnits(turning, turning, linkage.unit, linkage.size)
+
+
+def length_message(value: float, unit: str) -> Message:
+    """A length, with its unit if it has one."""
+    return message("{length:n} {unit}" if unit else "{length:n}", length=value, unit=unit)
 
 
 def angle_message(value: float) -> Message:

@@ -119,7 +119,7 @@ def motion_table(
             values = in_time(order, partial(output.values, motion))
             usually = natural * usual[order - 1] / unit**order
             columns.append(
-                Column(name, unit=f"{own}/{_seconds(order)}", values=values, natural=usually, noise=noise[order])
+                Column(name, unit=f"{own or 1}/{_seconds(order)}", values=values, natural=usually, noise=noise[order])
             )
     if transmission is not None:
         angle = transmission_angle(motion, transmission)
@@ -134,7 +134,7 @@ def motion_table(
         ]
         for order in orders:
             values = in_time(order, _rates_of(motion, point))
-            written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
+            written = f"{linkage.unit or 1}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
             natural = linkage.size * usual[order - 1] / unit**order
             columns += [
                 Column(f"{name} {axis}", unit=written, values=values[:, k], natural=natural, noise=noise[order])
@@ -169,12 +169,12 @@ def _scaled(name: str, turning: bool, linkage: Linkage, values: Reals) -> Column
 def _by(own: str, per: str, order: int) -> str:
     """The unit of a derivative by the drive.
 
-    >>> _by("mm", "rad", 2), _by("rad", "rad", 1), _by("mm", "mm", 2)
-    ('mm/rad²', '', '1/mm')
+    >>> _by("mm", "rad", 2), _by("rad", "rad", 1), _by("mm", "mm", 2), _by("", "rad", 1), _by("rad", "", 1)
+    ('mm/rad²', '', '1/mm', '1/rad', 'rad')
     """
     if own == per:
-        return "" if order == 1 else f"1/{per}"
-    return f"{own}/{per}{'' if order == 1 else '²'}"
+        return "" if order == 1 or not per else f"1/{per}"
+    return f"{own or 1}/{per}{'' if order == 1 else '²'}" if per else own
 
 
 def default_rows(span: CycleSpan, between: tuple[float, float] | None, turning: bool) -> Reals:
