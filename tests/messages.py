@@ -172,7 +172,7 @@ def updated(old: Catalog, lang: str) -> Catalog:
 
 def is_translated(entry: Message) -> bool:
     """Whether all forms of a message have a translation: a missing plural is a pair of empty texts."""
-    return all([entry.string] if isinstance(entry.string, str) else entry.string)
+    return all([entry.string] if isinstance(entry.string, str) else entry.string or [""])
 
 
 def main() -> None:

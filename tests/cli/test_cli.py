@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -173,7 +174,7 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["analyse", "."], "'.' is a folder; expected a file"),
         # from Python 3.14 on, such a name is one of no file
         (["check", "a" * 3000], "File name too long" if sys.version_info < (3, 14) else "no entry 'aaa"),
-        (["catalog"], "required"),
+        (["atlas"], "required"),
         (["catalog", "show", "nothing"], "no entry 'nothing'"),
         (["catalog", "search", "--pair", "revolut"], "did you mean 'revolute'"),
     ],
@@ -221,6 +222,24 @@ def test_a_wrong_claim_is_status_1_and_says_file_key_printed_derived(capsys, tmp
     assert status == 1
     assert "WRONG" in out
     assert err == f"{path}: claims.n: printed 5, derived 4\n"
+
+
+def test_catalog_alone_lists_it(capsys):
+    assert run(capsys, "catalog") == run(capsys, "catalog", "list")
+
+
+def test_a_path_that_cannot_be_written_is_named_as_it_was_given(capsys):
+    status, _, err = run(capsys, "draw", "quad", "-o", "no/such/k.svg")
+    assert (status, err.count("no/such/k.svg")) == (2, 1)
+    assert str(Path.cwd()) not in err
+
+
+def test_the_columns_of_the_atlas_in_german(capsys):
+    german, english = (
+        json.loads(run(capsys, "atlas", "columns", "--json", "--lang", lang)[1]) for lang in ("de", "en")
+    )
+    assert [row["name"] for row in german] == [row["name"] for row in english]
+    assert all(own["definition"] != other["definition"] for own, other in zip(german, english, strict=True))
 
 
 def test_standard_input_and_a_closed_pipe():

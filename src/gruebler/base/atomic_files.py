@@ -57,9 +57,9 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
     """
     if not path.name:
         raise RunError("{path!r} names no file to write", path=str(path))
-    path = _target(path)
+    given, path = path, _target(path)
     if path.exists() and not path.is_file():
-        raise RunError("{path} cannot be written: it is not an ordinary file", path=path)
+        raise RunError("{path} cannot be written: it is not an ordinary file", path=given)
     if tidy:
         remove_abandoned_files(path.parent, path.name)
     temporary = path
@@ -80,7 +80,7 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
         about = str(path) if error.filename is None else str(error.filename)
         if about != str(path) and not about.endswith(PARTIAL):  # not the file written here
             raise RunError("{file} cannot be used: {reason}", file=about, reason=reason_of(error)) from None
-        raise RunError("{path} cannot be written: {reason}", path=path, reason=reason_of(error)) from None
+        raise RunError("{path} cannot be written: {reason}", path=given, reason=reason_of(error)) from None
     finally:
         if temporary != path:
             temporary.unlink(missing_ok=True)

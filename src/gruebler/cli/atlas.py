@@ -7,12 +7,12 @@ import csv
 import io
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, astuple, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from gruebler.base.columns import FORMULA, harmless_cell
 from gruebler.base.errors import GrueblerError, visible
-from gruebler.base.text import plural
+from gruebler.base.text import message, plural
 from gruebler.cli.executors import executor_of
 from gruebler.cli.long_work import ask_before, run_progress
 from gruebler.cli.output import print_json, say_written
@@ -151,15 +151,30 @@ def _query(arguments: argparse.Namespace) -> int:
     return 0
 
 
+_HEADS = (
+    message("table"),
+    message("name"),
+    message("type"),
+    message("unit"),
+    message("definition"),
+    message("origin"),
+)
+
+
 def _columns(arguments: argparse.Namespace) -> int:
     from gruebler.structure.atlas import columns_of
     from gruebler.structure.atlas.schema import TABLES, arrow_library
 
-    rows = [column for table in TABLES for column in columns_of(table)]
+    rows = [
+        {field.name: getattr(column, field.name) for field in fields(column)}
+        | {"definition": column.definition.in_language(arguments.lang)}
+        for table in TABLES
+        for column in columns_of(table)
+    ]
     if arguments.out is None and not arguments.json:
-        print_table([field.name for field in fields(rows[0])], [astuple(row) for row in rows])
+        print_table([head.in_language(arguments.lang) for head in _HEADS], [[*row.values()] for row in rows])
         return 0
-    _answer(arrow_library().Table.from_pylist([asdict(row) for row in rows]), arguments)
+    _answer(arrow_library().Table.from_pylist(rows), arguments)
     return 0
 
 

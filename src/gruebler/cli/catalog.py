@@ -24,7 +24,8 @@ from gruebler.teaching.catalog import entries, entry, exercises
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(description="The machines and exercises of the teaching documents.")
-    listing = parser.add_command("list", help="list all entries")
+    parser.set_defaults(action="list", json=False, all=False, out=None)
+    listing = parser.add_command("list", help="list all entries; done without a word, too")
     show = parser.add_command("show", help="show entries in full")
     show.take(
         """

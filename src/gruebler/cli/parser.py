@@ -104,10 +104,13 @@ class Parser(argparse.ArgumentParser):
         take(self, table)
 
     def add_command(self, name: str, *, help: str, description: str | None = None, epilog: str = "") -> Parser:
-        """A command below this one; its name is kept as `action`."""
+        """A command below this one; its name is kept as `action`, and must be given unless a default is set."""
         if self._commands is None:
             kind: Any = partial(Parser, lang=self.lang)
-            self._commands = self.add_subparsers(dest="action", metavar="ACTION", required=True, parser_class=kind)
+            default = self.get_default("action")
+            required = default is None
+            self._commands = self.add_subparsers(dest="action", metavar="ACTION", required=required, parser_class=kind)
+            self._commands.default = default
         command: Parser = self._commands.add_parser(name, help=help, description=description or help, epilog=epilog)
         command._first = self
         return command
