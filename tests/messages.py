@@ -165,7 +165,7 @@ def updated(old: Catalog, lang: str) -> Catalog:
         if isinstance(entry, Found):
             key = (entry.text, entry.many) if entry.many else entry.text
             known = old.get(entry.text, entry.context or None)
-            string = known.string if known else None
+            string = known.string if known else ""
             new.add(key, string, locations=[(entry.file, 0)], context=entry.context or None)
     return new
 

@@ -87,6 +87,41 @@ def test_springs_of_the_loads_are_fitted(capsys, tmp_path):
     assert (status, err) == (2, "the drives do not reach all values of --range")
 
 
+ARM = """
+unit = "mm"
+joints = "R(frame-upper) R(upper-lower)"
+drives = ["R(frame-upper)", "R(upper-lower)"]
+
+[elements]
+frame = { "R(frame-upper)" = [0, 0] }
+upper = { "R(frame-upper)" = [0, 0], "R(upper-lower)" = [30, 0] }
+lower = { "R(upper-lower)" = [0, 0] }
+
+[loads]
+bodies = { lower = { mass = "2 kg", centre = [20, 0] } }
+springs = [{ between = ["frame:0,40", "upper:10,0"] }]
+"""
+
+
+def test_ranges_of_two_drives_are_combined(capsys, tmp_path):
+    """Stretched out level, which the ranges side by side do not contain, the shoulder holds 2 kg at 50 mm."""
+    path = tmp_path / "arm.toml"
+    path.write_text(ARM)
+    arguments = ("balance", str(path), "--fit-springs", "--range", "0:60:30", "--range=-60:0:20", "--json")
+    whole = json.loads(run_command(capsys, *arguments)[1])
+    # an open chain: 2 kg at 20 mm behind the elbow, and all that behind the shoulder at 30 mm
+    weights = {each["link"]: each for each in whole["counterweights"]}
+    assert weights["lower"]["product"] == pytest.approx(2 * 20)
+    assert weights["upper"]["product"] == pytest.approx((2 + weights["lower"]["mass"]) * 30)
+    found = whole["fitted"]
+    assert found["largest_before"] == pytest.approx(2 * 9.80665 * 50)
+    pairs = [(upper, lower) for upper in (0, 30, 60) for lower in (-60, -40, -20, 0)]
+    elbow = [2 * 9.80665 * 20 * math.cos(math.radians(upper + lower)) for upper, lower in pairs]
+    upper = [2 * 9.80665 * 30 * math.cos(math.radians(angle)) for angle, _ in pairs]
+    shoulder = [a + b for a, b in zip(elbow, upper, strict=True)]
+    assert found["mean_before"] == pytest.approx(math.sqrt(sum(x * x for x in elbow + shoulder) / 24))
+
+
 def test_springs_that_cannot_help_are_called_so(capsys, tmp_path):
     """A spring below the weight pulls it down; its preload stays when its stiffness is 0."""
     path = tmp_path / "pulled.toml"

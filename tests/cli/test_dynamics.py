@@ -89,10 +89,14 @@ def test_it_says_how_well_energy_is_kept(capsys):
         (["dynamics", ENGINE, "--speed", "0"], "--speed: expected a number that is not 0"),
         (["simulate", ENGINE, "--until", "-1"], "--until: expected a time in seconds after 0"),
         (["simulate", ENGINE, "--until", "1", "--rows", "1"], "--rows: expected a number from 2 to 100000"),
-        (["dynamics", "lambda", "--speed", "60"], "the catalog entry 'lambda' has no masses and no loads; these have"),
-        (["dynamics", "25,70,40,70", "--speed", "60"], "25,70,40,70: lengths have no masses and no loads"),
+        (["dynamics", "lambda", "--speed", "60"], "'lambda' has no masses and no loads; the table [loads]"),
+        (["dynamics", "25,70,40,70", "--speed", "60"], "'25,70,40,70' has no masses and no loads"),
         (["simulate", ENGINE, "--until", "1"], "engine.toml has no position to start from"),
-        (["dynamics", "lambada", "--speed", "60"], "a linkage is in a .toml or .json file"),
+        (["dynamics", "lambada", "--speed", "60"], "the catalog has no entry 'lambada'; did you mean lambda, lamp?"),
+        (["dynamics", "delta", "--speed", "60"], "'delta' does not move in a plane, and this command takes linkages"),
+        (["dynamics", "tri", "--speed", "60"], "'tri' has the screws of its joints in one position"),
+        (["dynamics", "lost.csv", "--speed", "60"], "'lost.csv' is neither a file here nor a catalog entry"),
+        (["dynamics", "lost.toml", "--speed", "60"], "lost.toml: cannot be read"),
     ],
 )
 def test_absurd_input(capsys, arguments, sentence):

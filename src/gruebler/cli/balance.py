@@ -67,8 +67,8 @@ def add(parser: Parser) -> None:
         --springs HEIGHT float  also springs of free length 0 that hold the weights, hung HEIGHT above the pins
         --fit-springs  also the stiffnesses with which the springs of the loads leave the drives the least effort; their
             places, free lengths and preloads stay
-        --range FROM:TO:STEP ...  with --fit-springs drive values that count, in degrees or the unit (default: a full
-            turn, or the whole range)
+        --range FROM:TO:STEP ...  with --fit-springs drive values that count, in degrees or the unit, once per drive
+            and in all combinations (default: a full turn, or the whole range)
         --irregularity D float  also the flywheel with which the speed varies by no more than D of its mean
         --speed N float  speed of the drive in rpm (default: that of the loads)
         --branch
@@ -100,7 +100,7 @@ def run(arguments: argparse.Namespace) -> int:
             _spring(each, linkage) for each in balance_weights(linkage, loads, height=arguments.springs)
         ]
     if arguments.fit_springs:
-        motion = driven_motion(linkage, shown, spans=arguments.range, branch=arguments.branch)
+        motion = driven_motion(linkage, shown, spans=arguments.range, branch=arguments.branch, grid=True)
         fit = _fit(motion, loads, minimax=arguments.minimax)
         document["fitted"] = _fit_document(fit, linkage)
     if arguments.irregularity is not None:

@@ -28,8 +28,11 @@ def turning_drives(linkage: Linkage) -> list[bool]:
     return [drive.turning for drive in mechanism.drives]
 
 
-def given_rows(spans: Sequence[str], at: Sequence[str], turning: Sequence[bool]) -> Reals | None:
-    """(rows, drives) of --range, or of --at, a row each; None if neither is given."""
+def given_rows(spans: Sequence[str], at: Sequence[str], turning: Sequence[bool], *, grid: bool = False) -> Reals | None:
+    """(rows, drives) of --range, or of --at, a row each; None if neither is given.
+
+    Several drives go through their ranges side by side; as a grid in all combinations, to and fro.
+    """
     if not spans and not at:
         return None
     if spans and at:
@@ -47,6 +50,8 @@ def given_rows(spans: Sequence[str], at: Sequence[str], turning: Sequence[bool])
             count=len(spans),
         )
     paths = [_path(text, turns) for text, turns in zip(spans, turning, strict=True)]
+    if grid:
+        return _combined(paths)
     longest = max(map(len, paths))
     for text, path in zip(spans, paths, strict=True):
         if len(path) not in (1, longest):
@@ -57,6 +62,18 @@ def given_rows(spans: Sequence[str], at: Sequence[str], turning: Sequence[bool])
                 longest=longest,
             )
     return np.column_stack([np.broadcast_to(path, longest) for path in paths])
+
+
+def _combined(paths: Sequence[Reals]) -> Reals:
+    """All combinations, of which one drive alone moves from each to the next."""
+    count = math.prod(map(len, paths))
+    if count > _MOST_ROWS:
+        raise GrueblerError("--range: {count:,} combinations are more than {most:,}", count=count, most=_MOST_ROWS)
+    rows = np.zeros((1, 0))
+    for path in paths:
+        columns = [path if k % 2 == 0 else path[::-1] for k in range(len(rows))]
+        rows = np.column_stack([np.repeat(rows, len(path), axis=0), np.concatenate(columns)])
+    return rows
 
 
 def given_speeds(given: Sequence[float], turning: Sequence[bool], *, from_rest: bool = False) -> list[float]:

@@ -24,10 +24,14 @@ def driven_motion(
     spans: Sequence[str],
     at: Sequence[str] = (),
     branch: str | None = None,
+    grid: bool = False,
 ) -> Motion:
-    """The motion, with first derivatives, through --range or --at, else through the range in which it is shown."""
+    """The motion, with first derivatives, through --range or --at, else through the range in which it is shown.
+
+    Several ranges are passed side by side, as a grid in all combinations.
+    """
     turning = turning_drives(linkage)
-    rows = given_rows(spans, at, turning)
+    rows = given_rows(spans, at, turning, grid=grid)
     if rows is None and len(turning) > 1:
         raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
     if rows is not None:

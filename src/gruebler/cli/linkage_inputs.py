@@ -81,16 +81,13 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
         )
     record = entry(word).in_language(lang)
     if record.dimensions is None:
-        sized = ", ".join(each.id for each in entries().values() if each.dimensions is not None)
-        if record.screws is None:
-            raise GrueblerError(
-                "the catalog entry {word!r} has no dimensions; these have: {sized}", word=word, sized=sized
-            )
         raise GrueblerError(
-            "the catalog entry {word!r} has the screws of its joints in one position, not the dimensions of its "
-            "links: `gruebler check {word} --explain` shows how it moves; these have dimensions: {sized}",
+            "{word!r} has the screws of its joints in one position, not the dimensions of its links: `gruebler check "
+            "{word} --explain` shows how it moves"
+            if record.chain().space is Space.PLANAR
+            else "{word!r} does not move in a plane, and this command takes linkages in the plane alone: `gruebler "
+            "analyse {word}` shows how it moves",
             word=word,
-            sized=sized,
         )
     return record.linkage(), record.dimensions.range
 
@@ -157,19 +154,19 @@ def loaded_linkage(word: str, lang: str = "en") -> Loaded:
     from gruebler.files.linkages import read_loaded
     from gruebler.teaching.catalog import entries
 
-    if not Path(word).is_file() and (record := entries().get(word)) is not None:
-        if record.loads is None:
+    path = Path(word)
+    if not path.is_file() and path.suffix.lower() not in (".toml", ".json"):
+        linkage_of_word(word)  # what is wrong with other words
+        record = entries().get(word)
+        if record is None or record.loads is None:
             raise GrueblerError(
-                "the catalog entry {word!r} has no masses and no loads; these have some: {loaded}",
+                "{word!r} has no masses and no loads; the table [loads] of a linkage file has some, and these catalog "
+                "entries: {loaded}",
                 word=word,
                 loaded=", ".join(each.id for each in entries().values() if each.loads is not None),
             )
-        shown = record.dimensions.range if record.dimensions is not None else None
-        return Loaded(*record.in_language(lang).loaded(), shown)
-    if size_of(word) is not None:
-        raise GrueblerError(
-            "{word}: lengths have no masses and no loads; files and catalog entries have some", word=word
-        )
+        assert record.dimensions is not None
+        return Loaded(*record.in_language(lang).loaded(), record.dimensions.range)
     linkage, loads, speed = read_loaded(word)
     if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
         raise GrueblerError(

@@ -111,7 +111,7 @@ def mass_moments(linkage: Linkage, loads: Loads) -> MassMoments:
         lower=lower,
         links=links,
         total=total,
-        relations=_independent(relations, [k for k, link in enumerate(links) if link not in pins]),
+        relations=_independent(relations, len(links), [k for k, link in enumerate(links) if link not in pins]),
         paths=paths,
         pins=pins,
         blocked=tuple(dict.fromkeys(blocked)),
@@ -173,9 +173,8 @@ def _place(lower: Linkage, joint: int, link: str) -> complex:
     return complex(element.x, element.y)
 
 
-def _independent(relations: list[Complexes], without: list[int]) -> Complexes:
-    """A basis of the relations that say nothing of some links, each of size 1."""
-    width = len(relations[0]) if relations else 0
+def _independent(relations: list[Complexes], width: int, without: list[int]) -> Complexes:
+    """A basis of the relations that say nothing of some links, each of size 1; an open chain has none."""
     rows = np.array([row / size for row in relations if (size := np.abs(row).max(initial=0.0)) > 0], np.complex128)
     rows = rows.reshape(-1, width)
     if without and len(rows):
