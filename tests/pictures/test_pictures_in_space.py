@@ -267,12 +267,12 @@ def test_paths_of_points_are_drawn_over_the_range():
 def plotted(monkeypatch):
     """The panels of a diagram."""
 
-    def panels_of(linkage, **options):
+    def panels_of(linkage, plot=gr.plot, **options):
         seen = []
         monkeypatch.setattr(
             plots, "draw_panels", lambda panels, *rest: seen.append(panels) or draw_panels(panels, *rest)
         )
-        return gr.plot(linkage, **options), *seen
+        return plot(linkage, **options), *seen
 
     return panels_of
 
@@ -296,3 +296,26 @@ def test_dead_centres_in_a_diagram_are_where_the_rate_changes_sign(plotted):
     assert [mark.x for mark in panels[1].marks] == pytest.approx(crossings, abs=float(rate.x[1] - rate.x[0]))
     assert len(crossings) == 5  # two a turn; the first comes three times from -401 to 401 degrees
     assert "18.06°, 216.4°, 378.1°." in picture.figure.description
+
+
+@pytest.mark.parametrize(("drive", "rate"), [("R(frame-carrier)", 2), ("R(frame-sun1)", -1)])
+def test_one_of_several_drives_moves_in_a_diagram(plotted, drive, rate):
+    """Willis: sun1 + sun2 = 2 carrier."""
+    _, panels = plotted(entry("diff_bevel").placed(), plots.plot_spatial, output="R(frame-sun2)", drive=drive)
+    value, first, second = (panel.curves[0].y for panel in panels)
+    assert value[[0, -1]] == pytest.approx([0, 360 * rate])
+    assert first == pytest.approx(rate, abs=1e-9)
+    assert second == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("id", "drive", "words"),
+    [
+        ("diff_bevel", "R(frame-sun2)", "is not driven"),
+        ("gough", None, "needs values between which it moves"),
+        ("susp_5link", None, "needs a driven joint"),
+    ],
+)
+def test_why_there_is_no_diagram(id, drive, words):
+    with pytest.raises(LinkageError, match=words):
+        plots.plot_spatial(entry(id).placed(), drive=drive)

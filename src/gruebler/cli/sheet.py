@@ -10,7 +10,7 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.plain_data import plain
 from gruebler.base.text import decimal_sign_in, error_in_language, joined, message, number, translate
 from gruebler.cli.arguments import take
-from gruebler.cli.linkage_inputs import linkage_of_word
+from gruebler.cli.linkage_inputs import linkage_of_word, spatial_of_word
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
@@ -141,6 +141,8 @@ def _draw_machine(arguments: argparse.Namespace) -> None:
         document = machine_document(entries()[word], lang=lang)
     elif "(" in word:
         document = machine_document(Mechanism.parse(word), lang=lang)
+    elif (spatial := spatial_of_word(word, lang)) is not None:
+        document = machine_document(spatial.linkage, lang=lang)
     else:
         linkage, between = linkage_of_word(word, lang)
         size = size_of(word)

@@ -7,6 +7,7 @@ from functools import lru_cache
 from math import pi
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
@@ -64,16 +65,17 @@ def spatial_range(linkage: SpatialLinkage) -> SpatialRange:
     return SpatialRange(low=ends[0], high=ends[1], full=False, stops=(down.stop, up.stop))
 
 
-def followed(linkage: SpatialLinkage, values: Reals, order: int = 0) -> SpatialMotion:
+def followed(linkage: SpatialLinkage, values: Reals, order: int = 0, speed: ArrayLike = 1.0) -> SpatialMotion:
     """The motion over values of the drives, (rows, drives), reached from the reference pose; only those rows.
 
-    Derivatives up to the order are those by the drives' common time, in which each has the speed 1.
+    Derivatives up to the order are those by the drives' common time, in which each has the speed, a number for all or
+    for each.
 
     Raises `LinkageError` if one of them cannot be reached.
     """
     path = np.concatenate([np.zeros((1, values.shape[1])), values])
     rates = np.zeros((order, *path.shape))
-    rates[:1] = 1.0
+    rates[:1] = speed
     motion = moved(_setting(linkage), path, rates)
     if motion.stop is not None:
         raise LinkageError("{reason}", reason=motion.stop.message)

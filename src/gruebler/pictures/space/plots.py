@@ -11,7 +11,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import translate
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space.drive_range import followed
-from gruebler.mechanics.space.measuring import SpatialMeasures, measures, spatial_table
+from gruebler.mechanics.space.measuring import SpatialMeasures, measures, output_freedom, spatial_table
 from gruebler.pictures.canvas.axes import Axis, angles, decimals
 from gruebler.pictures.canvas.drive_axes import ROWS, bulk, drive_axis, drive_text, order_words
 from gruebler.pictures.canvas.figure import Figure
@@ -31,44 +31,66 @@ def plot_spatial(
     linkage: SpatialLinkage,
     output: str | None = None,
     *,
+    drive: str | None = None,
     between: tuple[float, float] | None = None,
     lang: str = "en",
     name: str = "",
 ) -> Figure:
     """The output and its first and second derivative over the drive, one below the other, with dead centres.
 
+    Of several drives one moves, and the others stay at 0; dead centres are not marked then.
+
     The values are those of `gruebler.mechanics.space.measuring.spatial_table`, 0 in the reference pose.
 
     Args:
-        linkage: with one drive.
+        linkage: with a drive.
         output: a joint; by default that of the linkage's own output.
-        between: drive values between which it is plotted (radians, or a length); by default a turn, or the range.
+        drive: of several drives the one that moves; by default the first.
+        between: drive values between which it is plotted (radians, or a length); by default a turn, or the range of
+            the only drive.
         lang: ``en`` or ``de``.
         name: of the linkage; by default its kind.
 
-    Raises `LinkageError` for several drives, a joint without values, drive values that cannot be reached.
+    Raises `LinkageError` for a joint without values, drive values that cannot be reached, slides among several drives
+    without values between which they move.
 
     >>> from gruebler.mechanics.space import Bennett
     >>> plot_spatial(Bennett(2, 1, 0.5).linkage(), name="Bennett").title
     'Bennett: transfer functions of R(3-0)'
     """
-    measured = measures(linkage, output=output)
-    turning, turns = linkage.mechanism.drives[0].turning, Freedom(measured.freedom).turns
-    drives = measured.rows(ROWS + 1) if between is None else np.linspace(*between, ROWS + 1)[:, None]
-    columns = spatial_table(followed(linkage, drives, order=2), (measured.output,), (), lang).columns
-    x = np.asarray(columns[0].values, float)
-    marks = _dead_centres(measured, float(drives.min()), float(drives.max()), lang)
+    mechanism = linkage.mechanism
+    moving = _moving_drive(linkage, drive)
+    turning = mechanism.drives[moving].turning
+    measured = measures(linkage, output=output) if len(mechanism.drives) == 1 else None
+    number, freedom = output_freedom(linkage, output)
+    turns = Freedom(freedom).turns
+    if measured is not None and between is None:
+        row = measured.rows(ROWS + 1)[:, 0]
+    elif between is None and not turning:
+        raise LinkageError(
+            "{drive} slides: of several drives it needs values between which it moves",
+            drive=mechanism.drive_names()[moving],
+        )
+    else:
+        row = np.linspace(*(between or (0.0, tau)), ROWS + 1)
+    alone = np.eye(len(mechanism.drives))[moving]
+    motion = followed(linkage, row[:, None] * alone, order=2, speed=alone)
+    names = mechanism.chain.joint_names()
+    columns = spatial_table(motion, (names[number],), (), lang).columns[len(alone) :]
+    x = np.degrees(row) if turning else row
+    marks = [] if measured is None else _dead_centres(measured, float(row.min()), float(row.max()), lang)
+    full = measured.range.full if measured is not None else turning
     panels = []
-    for order, column in enumerate(columns[1:]):
+    for order, column in enumerate(columns):
         values = np.asarray(column.values, float)
-        values = np.where(abs(values) < _NOISE * max(abs(columns[2].values).max(), 1.0), 0.0, values)
+        values = np.where(abs(values) < _NOISE * max(abs(columns[1].values).max(), 1.0), 0.0, values)
         scale = angles if turns and not order else decimals
         panels.append(
             Panel(
                 across=drive_axis(x, turning, linkage.unit),
                 up=Axis(
                     order_words(turns, turning, linkage.unit, order),
-                    scale(*bulk(values, drives[:, 0], measured.range.full), few=6),
+                    scale(*bulk(values, row, full), few=6),
                 ),
                 curves=(PlottedCurve(x=x, y=values, name="", style=LINES[0]),),
                 marks=tuple(AxisMarker(each.x, "" if order else each.text) for each in marks),
@@ -76,10 +98,9 @@ def plot_spatial(
                 marked=translate("dead centre", lang),
             )
         )
-    chain = linkage.mechanism.chain
-    called = chain.joint_names(Alphabet.of_language(lang))[chain.joint_number(measured.output)]
+    called = mechanism.chain.joint_names(Alphabet.of_language(lang))[number]
     heading = translate(
-        "{name}: transfer functions of {output}", lang, name=title(linkage.mechanism, lang, name), output=called
+        "{name}: transfer functions of {output}", lang, name=title(mechanism, lang, name), output=called
     )
     ends = [drive_text(float(end), turning, linkage.unit, lang) for end in x[[0, -1]]]
     about = translate(
@@ -91,6 +112,20 @@ def plot_spatial(
     values_said = ", ".join(mark.text for mark in marks)
     said = " " + translate("Dead centres at {values}.", lang, values=values_said) if marks else ""
     return draw_panels(panels, heading, about + said, lang)
+
+
+def _moving_drive(linkage: SpatialLinkage, drive: str | None) -> int:
+    """The place of a joint among the drives; `LinkageError` if there are none or it is not driven."""
+    mechanism = linkage.mechanism
+    if not mechanism.drives:
+        raise LinkageError("a diagram over the drive needs a driven joint, but the mechanism has none")
+    if drive is None:
+        return 0
+    joint = mechanism.chain.joint_number(drive, error=LinkageError)
+    driven = [k for k, each in enumerate(mechanism.drives) if each.joint == joint]
+    if not driven:
+        raise LinkageError("{joint} is not driven", joint=drive)
+    return driven[0]
 
 
 def _dead_centres(measured: SpatialMeasures, low: float, high: float, lang: str) -> list[AxisMarker]:

@@ -12,14 +12,17 @@ from gruebler.files import Entry
 from gruebler.files.catalog_records import source_text
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.linkages import Linkage, Pin
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.linkage.curve_plots import coupler_plot
 from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.pictures.linkage.picture import draw_linkage, picture_notes
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
+from gruebler.pictures.space import draw_spatial
 from gruebler.pictures.structure import draw_structure
 from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.inversion import family
 from gruebler.structure.mobility import mobility_report
@@ -27,19 +30,20 @@ from gruebler.teaching.catalog import entries
 from gruebler.teaching.catalog.feature_query import entry_mechanism
 from gruebler.teaching.catalog.features import access_features, purpose
 from gruebler.teaching.worksheets.blocks import Block, Contents, Document, Heading, PageBreak, Paragraph, Pictures, Rows
+from gruebler.teaching.worksheets.machines_in_space import blocks_in_space
 from gruebler.teaching.worksheets.places import headers, places
 
 _POINTS = 3  # paths in one diagram
 
 
 def machine_document(
-    machine: Entry | Linkage | Mechanism,
+    machine: Entry | Linkage | SpatialLinkage | Mechanism,
     *,
     lang: str = "en",
     between: tuple[float, float] | None = None,
     name: str = "",
 ) -> Document:
-    """The collection sheet of a machine: a catalog entry, a linkage, or a mechanism without dimensions.
+    """The collection sheet of a machine: a catalog entry, a linkage (also in space), a mechanism without dimensions.
 
     ``between`` are the drive values, in degrees or the unit, between which a linkage is shown. Cost: a second.
 
@@ -51,10 +55,10 @@ def machine_document(
     if isinstance(machine, Entry):
         title = machine.name.in_language(lang)
         return Document(title, machine.id, tuple(_entry_blocks(machine, lang)), lang)
-    mechanism = machine.mechanism if isinstance(machine, Linkage) else machine
-    linkage = machine if isinstance(machine, Linkage) else None
+    linkage = None if isinstance(machine, Mechanism) else machine
+    mechanism = machine if isinstance(machine, Mechanism) else machine.mechanism
     title = name or family(mechanism, lang) or translate("mechanism", lang)
-    blocks = _machine_blocks(mechanism, linkage, lang, between, machine.outputs if isinstance(machine, Linkage) else ())
+    blocks = _machine_blocks(mechanism, linkage, lang, between, () if linkage is None else linkage.outputs)
     return Document(title, "", (Heading(title, 1), *blocks), lang)
 
 
@@ -65,14 +69,17 @@ def _entry_blocks(entry: Entry, lang: str) -> Iterator[Block]:
         yield Paragraph(entry.remark.in_language(lang))
     source = source_text(entry.source, lang)
     yield Paragraph(translate("Source: {source}", lang, source=source), small=True)
-    linkage = None if shown.dimensions is None else shown.linkage()
-    between = None if shown.dimensions is None else shown.dimensions.range
-    yield from _machine_blocks(entry_mechanism(shown), linkage, lang, between, shown.outputs)
+    linkage: Linkage | SpatialLinkage | None = None if shown.dimensions is None else shown.linkage()
+    if shown.chain().space is not Space.PLANAR:
+        linkage = shown.placed()
+    sizes = shown.dimensions or shown.screws
+    mechanism = entry_mechanism(shown) if linkage is None else linkage.mechanism
+    yield from _machine_blocks(mechanism, linkage, lang, None if sizes is None else sizes.range, shown.outputs)
 
 
 def _machine_blocks(
     mechanism: Mechanism,
-    linkage: Linkage | None,
+    linkage: Linkage | SpatialLinkage | None,
     lang: str,
     between: tuple[float, float] | None,
     outputs: Sequence[str],
@@ -89,8 +96,16 @@ def _machine_blocks(
     yield Paragraph(
         f"{report.count.formula()}. {translate('Generic mobility: {mobility}.', lang, mobility=report.generic)}"
     )
-    if linkage is None:
-        return
+    if isinstance(linkage, SpatialLinkage):
+        yield from blocks_in_space(linkage, lang, shown)
+    elif linkage is not None:
+        yield from _blocks_in_plane(linkage, lang, shown, outputs)
+
+
+def _blocks_in_plane(
+    linkage: Linkage, lang: str, shown: tuple[float, float] | None, outputs: Sequence[str]
+) -> Iterator[Block]:
+    """Values, lengths, the position of the picture, the main diagram."""
     values = _values(linkage, outputs, lang)
     if values:
         yield Heading(translate("Values", lang))
@@ -109,19 +124,22 @@ def _machine_blocks(
 
 def _pictures(
     mechanism: Mechanism,
-    linkage: Linkage | None,
+    linkage: Linkage | SpatialLinkage | None,
     lang: str,
     outputs: Sequence[str],
     between: tuple[float, float] | None,
 ) -> Pictures:
     """The linkage to scale, if there are dimensions, and the structure with the symbols of the joints."""
-    contacts = None if linkage is None else contact_shapes(linkage)
+    contacts = contact_shapes(linkage) if isinstance(linkage, Linkage) else None
     structure = draw_structure(mechanism, labels=True, symbols=True, contacts=contacts, outputs=outputs, lang=lang)
     caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
     if linkage is not None:
         try:
             curves = [*linkage.points][:_POINTS] if len(mechanism.drives) == 1 else []
-            scheme = draw_linkage(linkage, between=between, curves=curves, labels=True, lang=lang)
+            if isinstance(linkage, SpatialLinkage):
+                scheme = draw_spatial(linkage, between=between, curves=curves, labels=True, lang=lang)
+            else:
+                scheme = draw_linkage(linkage, between=between, curves=curves, labels=True, lang=lang)
         except GrueblerError:
             return Pictures((structure,), (caption,))
         return Pictures((scheme, structure), (translate("To scale", lang), caption), 260.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 
 from gruebler.base.text import Message, message, number, number_separator, translate
@@ -62,12 +62,12 @@ def places(linkage: Linkage, pose: Motion, lang: str) -> Iterator[tuple[str, ...
             shown = name if len(elements) == 1 else f"{name}: {link}"
             yield (
                 shown,
-                *_numbers((at.real, at.imag, angle), linkage.size, lang),
+                *written_numbers((at.real, at.imag, angle), linkage.size, lang),
                 number_separator(lang).join(_sizes(element, lang)),
             )
     for name, point in linkage.points.items():
         at, _ = _placed(pose, point.link, point.x, point.y)
-        yield f"{name} ({point.link})", *_numbers((at.real, at.imag, None), linkage.size, lang), ""
+        yield f"{name} ({point.link})", *written_numbers((at.real, at.imag, None), linkage.size, lang), ""
 
 
 def _placed(pose: Motion, link: str, x: float, y: float) -> tuple[complex, float]:
@@ -77,10 +77,10 @@ def _placed(pose: Motion, link: str, x: float, y: float) -> tuple[complex, float
     return complex(pose.places[0, 0, k]) + turn * complex(x, y), cmath.phase(turn)
 
 
-def _numbers(values: tuple[float | None, ...], size: float, lang: str) -> Iterator[str]:
-    """Six digits, those of roundings left out."""
+def written_numbers(values: Iterable[float | None], size: float, lang: str, digits: int = 6) -> Iterator[str]:
+    """Values with so many digits, those of roundings left out."""
     for value in values:
-        yield "" if value is None else number(0.0 if abs(value) < 1e-9 * size else value, lang, ".6g")
+        yield "" if value is None else number(0.0 if abs(value) < 1e-9 * size else value, lang, f".{digits}g")
 
 
 def _sizes(element: Element, lang: str) -> Iterator[str]:
