@@ -1,9 +1,10 @@
 """Forces between teeth, belts, cams, Geneva drives: by hand, by free bodies, by virtual work, by closed forms."""
 
-from math import cos, sin, sqrt, tan
+from math import cos, inf, sin, sqrt, tan
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from gruebler.base.errors import LinkageError
 from gruebler.machines.cams import Cam, Roller, read_lift
@@ -15,6 +16,7 @@ from gruebler.mechanics.kinematics import from_degrees, move
 from gruebler.mechanics.kinematics.contacts import CONTACT_MOTIONS
 from gruebler.mechanics.linkages import Linkage, LinkPoint, Wheel
 from gruebler.structure.mechanism import Mechanism
+from tests.mechanics.forces.test_friction import put_back
 from tests.mechanics.kinematics import test_cams_in_linkages as cams
 from tests.mechanics.kinematics import test_noncircular_wheels as noncircular
 from tests.mechanics.kinematics import test_wheels as wheels
@@ -179,8 +181,45 @@ def test_wheels_whose_distance_nothing_holds_are_pitch_circles():
     held = statics(move(wheels.eccentric_pair(), [0.3, 0.4]), Loads(moments={"2": 100.0}))
     assert "G(1-2) no link holds the distance" in held.message()
     assert "kein Glied" in held.message("de")
-    with pytest.raises(LinkageError, match="friction beside teeth"):
-        statics(move(two_wheels(30.0, 20.0), [0.4]), Loads(moments={"2": 1.0}), friction=0.1)
+
+
+@pytest.mark.parametrize("name", ["five-bar", "five-bar with a belt", "rack", "ellipses", "lobes"])
+def test_friction_of_pins_beside_teeth_put_back_as_a_load(name):
+    linkage = LINKAGES[name]
+    loads, motion = loads_on(linkage), move(linkage, np.linspace(0.1, 5.9, 9), speed=1.0)
+    friction = Friction(0.12, pin_radius=0.02 * linkage.size)
+    held, rival = statics(motion, loads, friction=friction), put_back(motion, loads, friction, 30)
+    assert np.allclose(held.drive, rival.drive, rtol=1e-9)
+    assert np.abs(held.drive - held.friction.frictionless).max() > 1e-3 * np.abs(held.drive).max()
+    assert held.disagreement < 1e-12
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_gears_whose_shafts_rub_by_hand(sense):
+    """W_t (r2 ∓ mu rho/cos 20°) = M: the shaft takes W_t/cos 20°, and its friction acts against the turning."""
+    held = statics(
+        move(two_wheels(30.0, 20.0), [0.4], speed=sense),
+        Loads(moments={"2": 100.0}),
+        friction=Friction(0.3, pin_radius=4.0),
+    )
+    circle = sense * 0.3 * 4 / cos(ALPHA)
+    tooth = 100 / (20 - circle)
+    assert held.force("G(1-2)", link="2")[0] == pytest.approx([tooth * tan(ALPHA), tooth])
+    assert held.drive[0, 0] == pytest.approx(tooth * (30 + circle))
+    assert held.friction.locking_factor[0] == pytest.approx(20 / circle if sense > 0 else inf, rel=1e-7)
+
+
+def test_friction_of_a_shaft_may_press_the_other_flank():
+    """By hand: 30 N·mm drive the second wheel on, its shaft carries 400 N and rubs with 0.1 · 2 mm · 400 N: the first
+    must push it. 20 t = -30 + 0.2 |(400 + t tan 20°, t)|."""
+    loads = Loads({("2", 0.0, 0.0): (400.0, 0.0)}, moments={"2": -30.0})
+    motion = move(two_wheels(30.0, 20.0), [0.0])
+    assert statics(motion, loads).force("G(1-2)", link="2")[0] == pytest.approx([1.5 * tan(ALPHA), -1.5])
+    held = statics(motion, loads, friction=Friction({"R(0-2)": 0.1}, pin_radius=2.0))
+    tooth = brentq(lambda t: 20 * t + 30 - 0.2 * np.hypot(400 + t * tan(ALPHA), t), 0, 10, xtol=1e-14)
+    assert tooth > 2
+    assert held.force("G(1-2)", link="2")[0] == pytest.approx([tooth * tan(ALPHA), tooth])
+    assert held.drive[0, 0] == pytest.approx(30 * tooth)
 
 
 def test_inertia_behind_gears_and_cams():

@@ -345,7 +345,7 @@ def sense(motion, joint, shift=1e-6):
 def put_back(motion, loads, friction, rounds):
     """Friction as a load of the statics without friction, until it stays: long slides and pins of two links."""
     linkage, chain = motion.linkage, motion.linkage.mechanism.chain
-    senses = [sense(motion, number) for number in range(len(chain.joints))]
+    senses = [sense(motion, number) * joint.pair.is_basic for number, joint in enumerate(chain.joints)]
     held = statics(motion, loads)
     for _ in range(rounds):
         forces, moments = dict(loads.forces), dict(loads.moments)
@@ -534,12 +534,17 @@ def all_equilibria(loads, mutual):
     return found
 
 
+def long_slides(loads, mutual):
+    shapes = {"leaning": np.zeros((1, 2)), "round": np.zeros(2, bool), "rubs": np.ones(2, bool)}
+    return Contacts(loads=loads[None], mutual=mutual[None], **shapes)
+
+
 @pytest.mark.parametrize("seed", range(30))
 def test_continuation_against_all_pieces(seed):
     """The equilibria at factor 1 are all; the branch is followed by small steps among all, to where it ends."""
     draws = np.random.default_rng(seed)
     loads, mutual = draws.normal(size=(2, 2)), draws.normal(size=(2, 2, 2)) * 0.8
-    contacts = Contacts(loads[None], mutual[None], leaning=np.zeros((1, 2)), round=np.zeros(2, bool))
+    contacts = long_slides(loads, mutual)
     found = continued(contacts, 8.0)
     assert found.equilibria[0] == len(all_equilibria(loads, mutual))
     assert not found.single[0] or found.equilibria[0] == 1
@@ -573,9 +578,9 @@ def test_the_way_does_not_leave_its_branch(seed, count, number, end, step, gap):
     draws = np.random.default_rng(seed)
     loads = draws.normal(size=(count, 2, 2))[number]
     mutual = (draws.normal(size=(count, 2, 2, 2)) * 0.8)[number]
-    found = continued(Contacts(loads[None], mutual[None], leaning=np.zeros((1, 2)), round=np.zeros(2, bool)), 8.0)
+    found = continued(long_slides(loads, mutual), 8.0)
     last = end - 100 * step
-    start = Contacts(loads[None], mutual[None] * last, leaning=np.zeros((1, 2)), round=np.zeros(2, bool))
+    start = long_slides(loads, mutual * last)
     branch = continued(start, 2.0).normal[0]
     while last < 8:
         choices = all_equilibria(loads, mutual * (last + step))

@@ -133,7 +133,8 @@ def test_link_by_link_is_all_links_at_once(name, monkeypatch):
     monkeypatch.setattr(equilibrium, "removal_steps", lambda _: None)
     wanted = statics(motion, loads).reactions
     assert not wanted.singular.any()
-    for part, other_part in zip(found[:3], wanted[:3], strict=True):
+    for kind in ("forces", "couples", "drives"):
+        part, other_part = getattr(found, kind), getattr(wanted, kind)
         np.testing.assert_allclose(part, other_part, rtol=1e-10, atol=1e-10 * np.abs(wanted.forces).max())
 
 

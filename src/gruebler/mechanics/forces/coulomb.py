@@ -1,13 +1,14 @@
 """Coulomb friction on bare arrays: normal forces and friction together, by continuation in the coefficients.
 
 All normal forces s of one row solve s = size(a + c M s), where a is what the loads bring into each contact, M what a
-unit of each normal force brings there through its friction, and c a factor on all coefficients. docs/theory/statics.md
-has the theorem on existence and uniqueness.
+unit of each normal force brings there through its friction, and c a factor on all coefficients. What teeth and belts
+transmit is such a contact too, whose column, what they press, has no factor. docs/theory/statics.md has the theorem on
+existence and uniqueness.
 """
 
 from __future__ import annotations
 
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import dataclass
 from itertools import islice, product
 from typing import NamedTuple
 
@@ -31,7 +32,7 @@ _WITH_PINS = 64  # the same where pins rub: their forces have no pieces, so that
 _SAME = 1e-6  # of the forces: closer equilibria are one
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Contacts:
     """The contacts of many rows: what loads and friction bring into each, as two components.
 
@@ -43,26 +44,34 @@ class Contacts:
     mutual: Reals
     """(rows, contacts, contacts, 2): M, what the second contact's friction brings into the first for each unit of its
     normal force."""
-    _: KW_ONLY
     leaning: Reals
     """(rows, contacts): what the friction on the faces of a guide adds to its couple, by the normal force."""
     round: Flags
     """(contacts,): pins, with forces of any direction; else slides, with two edges."""
+    rubs: Flags
+    """(contacts,): else what it brings is not friction and does not grow with the factor."""
 
     def __len__(self) -> int:
         return len(self.loads)
 
     def at(self, rows: Rows) -> Contacts:
         """Some rows."""
-        return Contacts(self.loads[rows], self.mutual[rows], leaning=self.leaning[rows], round=self.round)
+        return Contacts(
+            loads=self.loads[rows],
+            mutual=self.mutual[rows],
+            leaning=self.leaning[rows],
+            round=self.round,
+            rubs=self.rubs,
+        )
 
     def sizes(self, normal: Reals, factor: Reals) -> tuple[Reals, Reals, Reals]:
         """Normal forces that normal forces make, with their derivatives by these (rows, n, n) and by the factor."""
-        brought = np.einsum("rijk,rj->rik", self.mutual, normal)
-        inside = self.loads + factor[:, None, None] * brought
-        slopes = factor[:, None, None, None] * self.mutual
+        weights = np.where(self.rubs, factor[:, None], 1.0)
+        inside = self.loads + np.einsum("rijk,rj->rik", self.mutual, weights * normal)
+        slopes = weights[:, None, :, None] * self.mutual
+        brought = np.einsum("rijk,rj->rik", self.mutual, self.rubs * normal)
         lean = factor[:, None] * self.leaning
-        by_factor = brought.copy()
+        by_factor = brought
         by_factor[..., 1] += self.leaning * inside[..., 0] + lean * brought[..., 0]
         inside[..., 1] += lean * inside[..., 0]
         slopes[..., 1] += lean[..., None] * slopes[..., 0]
@@ -138,8 +147,9 @@ class _State(NamedTuple):
 
 def _follow(contacts: Contacts, normal: Reals, limit: float, bounds: Reals) -> tuple[Rows, _State]:
     """Fill the normal forces at factor 1; which rows end before the limit, and the last state of all."""
-    size = contacts.sizes(np.zeros(normal.shape), np.zeros(len(contacts)))[0]
-    state = _State(size, np.zeros(len(contacts)))
+    none = np.zeros(len(contacts))
+    size = contacts.sizes(contacts.sizes(np.zeros(normal.shape), none)[0], none)[0]  # teeth press by what they transmit
+    state = _State(size, none.copy())
     step = np.minimum(0.5 / np.maximum(bounds, 0.5 / limit), limit)
     active, ends = np.flatnonzero(size.max(axis=1, initial=0.0) > 0), list[int]()
     normal[size.max(axis=1, initial=0.0) == 0] = 0.0
@@ -230,7 +240,7 @@ def _culprits(contacts: Contacts, normal: Reals, factor: Reals) -> Rows:
         right, left = _solved(slopes, right)[0], _solved(slopes.swapaxes(1, 2), left)[0]
         right, left = (v / np.maximum(np.abs(v).max(axis=1, keepdims=True), 1e-300) for v in (right, left))
     share = left * right / np.where((left * right).sum(axis=1) == 0, 1.0, (left * right).sum(axis=1))[:, None]
-    return np.asarray(np.argmax(np.round(share, 6), axis=1))
+    return np.asarray(np.argmax(np.where(contacts.rubs, np.round(share, 6), -np.inf), axis=1))
 
 
 def _all_found(contacts: Contacts, known: Reals) -> list[Reals]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.arrays import Complexes, Flags, Reals, compared_by_value
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.forces.acting import Rows, Wrench
 from gruebler.mechanics.forces.contact_forces import contact_forces
@@ -42,7 +42,9 @@ class JointConnection(NamedTuple):
     slides: bool
 
 
-class Reactions(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Reactions:
     """What joints and drives exert; NaN in rows where it is not determined."""
 
     forces: Complexes
@@ -53,6 +55,17 @@ class Reactions(NamedTuple):
     """(rows, drives): torques, or forces along slides, on the link that is moved."""
     singular: Flags
     """(rows,): whether the links are not held in this pose."""
+    carried: Reals
+    """(rows, pairs): what each pair of teeth or belt that presses its wheels apart or together transmits, with sign."""
+
+    def plus(self, parts: Iterable[tuple[Reals, Reactions]]) -> Reactions:
+        """The sum with sizes, (rows,) each, times other reactions."""
+        total = self
+        for size, part in parts:
+            names = ("forces", "couples", "drives", "carried")
+            more = {name: getattr(total, name) + size[:, None] * getattr(part, name) for name in names}
+            total = replace(total, **more)
+        return total
 
 
 def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
@@ -87,8 +100,8 @@ def pressed_apart(motion: Motion) -> tuple[set[int], set[int]]:
     if removal_steps(motion.lower_linkage) is not None:
         return set(), set()
     held, before, units = joint_connections(motion), joint_of_connection(motion), _unit_forces(motion)
-    pressing = [(own, left) for own, left in zip(units, _held_apart(motion, units), strict=True) if own.apart.any()]
-    joints = [(before[held[own.number].joint], bool(left.apart.any())) for own, left in pressing]
+    pressing = [(own, left) for own, left in zip(units, _held_apart(motion, units), strict=True) if own.presses]
+    joints = [(before[held[own.number].joint], left.presses) for own, left in pressing]
     return {joint for joint, apart in joints if apart}, {joint for joint, apart in joints if not apart}
 
 
@@ -109,10 +122,17 @@ def link_loads(motion: Motion, wrenches: Iterable[Wrench]) -> LinkLoads:
     return total
 
 
-def reactions(motion: Motion, cases: Sequence[LinkLoads]) -> tuple[Reactions, ...]:
-    """The forces of all joints and drives that hold each case of loads, from three equations for each link.
+def reactions(motion: Motion, loads: LinkLoads) -> Reactions:
+    """The forces of all joints and drives that hold loads, without friction. Cost: as `responses`."""
+    (free,), pressing = responses(motion, [loads])
+    return free.plus((np.abs(free.carried[:, k]), part) for k, part in enumerate(pressing))
 
-    Teeth and belts press their wheels apart or together by what the first of the cases makes them carry.
+
+def responses(motion: Motion, cases: Sequence[LinkLoads]) -> tuple[list[Reactions], list[Reactions]]:
+    """What holds each case of loads if teeth and belts do not press wheels apart or together, linear in the loads.
+
+    Second, for each pair that presses, in the order of `Reactions.carried`, what one unit of the size that it transmits
+    adds by pressing.
 
     Cost: 0.1 us for each dyad at each row; where links are not all dyads and driven ones, a linear system of three rows
     for each moving link, at each row, once for all cases.
@@ -128,12 +148,11 @@ def reactions(motion: Motion, cases: Sequence[LinkLoads]) -> tuple[Reactions, ..
         blocks.append(
             _at_once(motion, own, loads, rows) if steps is None else _link_by_link(motion, steps, loads, rows)
         )
-    if len(blocks) == 1:
-        return tuple(blocks[0])
-    return tuple(
-        Reactions(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    joined = [
+        Reactions(**{f.name: np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Reactions)})
         for parts in zip(*blocks, strict=True)
-    )
+    ]
+    return joined[: len(cases)], joined[len(cases) :]
 
 
 def _link_by_link(
@@ -170,7 +189,11 @@ def _link_by_link(
     nowhere = ~joint_forces.held
     for array in (forces, couples, efforts):
         array[:, nowhere] = np.nan
-    return [Reactions(*parts, nowhere) for parts in zip(forces, couples, efforts, strict=True)]
+    carried = np.zeros((len(nowhere), 0))
+    return [
+        Reactions(forces=force, couples=couple, drives=effort, singular=nowhere, carried=carried)
+        for force, couple, effort in zip(forces, couples, efforts, strict=True)
+    ]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -186,14 +209,12 @@ class _UnitForce:
     apart: Complexes
     """What acts there besides for each unit of the unknown's size: teeth and belts press wheels apart or together."""
     apart_couple: Reals
+    presses: bool
+    """Whether there is such a thing in any row of the motion."""
 
     def of_rows(self, rows: slice | Rows) -> _UnitForce:
         arrays = ("at", "force", "couple", "apart", "apart_couple")
         return replace(self, **{name: getattr(self, name)[rows] for name in arrays})
-
-    @property
-    def without_apart(self) -> _UnitForce:
-        return replace(self, apart=0 * self.apart, apart_couple=0 * self.apart_couple)
 
 
 def _unit_forces(motion: Motion) -> list[_UnitForce]:
@@ -207,7 +228,7 @@ def _unit_forces(motion: Motion) -> list[_UnitForce]:
         if lower.mechanism.chain.joints[connection.joint].pair.is_basic:
             both = ((1j * line, none), (zero, along.real)) if connection.slides else ((along, none), (1j * along, none))
             units += [
-                _UnitForce(number=k, at=at, force=force, couple=couple, apart=zero, apart_couple=none)
+                _UnitForce(number=k, at=at, force=force, couple=couple, apart=zero, apart_couple=none, presses=False)
                 for force, couple in both
             ]
             continue
@@ -223,6 +244,7 @@ def _unit_forces(motion: Motion) -> list[_UnitForce]:
                     couple=sign * ((arm * its.force).imag + its.couple / lower.size),
                     apart=sign * its.apart,
                     apart_couple=sign * (arm * its.apart).imag,
+                    presses=bool(its.apart.any()),
                 )
             )
     return units
@@ -234,21 +256,29 @@ def _at_once(motion: Motion, units: Sequence[_UnitForce], given: LinkLoads, rows
     loads = each.reshape(cases, -1, each.shape[-1]).transpose(2, 1, 0)
     answer, singular = _responses(motion, units, loads, rows)
     turning = np.array([drive.turning for drive in lower.mechanism.drives], bool)
-    pressing = [k for k, unit in enumerate(units) if unit.apart.any()]
-    senses, parts = np.sign(answer[:, :count, 0]), []
-    for case in range(cases):
-        unknowns = answer[..., case].copy()
-        sizes = senses * answer[:, :count, case]
-        for k, column in zip(pressing, range(cases, answer.shape[2]), strict=True):
-            unknowns += sizes[:, k, None] * answer[..., column]
+    pressing, driven = [k for k, unit in enumerate(units) if unit.presses], len(motion.linkage.mechanism.drives)
+    parts = []
+    for column in range(answer.shape[2]):
+        unknowns = answer[..., column]
         forces = np.zeros((len(unknowns), len(joint_connections(motion))), np.complex128)
         couples = np.zeros(forces.shape)
         for k, unit in enumerate(units):
-            forces[:, unit.number] += unknowns[:, k] * unit.force + sizes[:, k] * unit.apart
-            couples[:, unit.number] += unknowns[:, k] * unit.couple + sizes[:, k] * unit.apart_couple
+            forces[:, unit.number] += unknowns[:, k] * unit.force
+            couples[:, unit.number] += unknowns[:, k] * unit.couple
+        if column >= cases:
+            unit = units[pressing[column - cases]]
+            forces[:, unit.number] += unit.apart
+            couples[:, unit.number] += unit.apart_couple
         drives = unknowns[:, count:] * np.where(turning, lower.size, 1.0)
-        driven = len(motion.linkage.mechanism.drives)
-        parts.append(Reactions(forces, couples * lower.size, drives[:, :driven], singular))
+        parts.append(
+            Reactions(
+                forces=forces,
+                couples=couples * lower.size,
+                drives=drives[:, :driven],
+                singular=singular,
+                carried=unknowns[:, pressing],
+            )
+        )
     return parts
 
 
@@ -275,15 +305,15 @@ def _responses(motion: Motion, units: Sequence[_UnitForce], loads: Reals, rows: 
 
 def _held_apart(motion: Motion, units: Sequence[_UnitForce]) -> list[_UnitForce]:
     """The unknowns, without what presses apart where the distance is not held: pitch circles, which do no work so."""
-    if not any(unit.apart.any() for unit in units):
+    if not any(unit.presses for unit in units):
         return list(units)
     rows = np.unique(np.linspace(0, len(motion) - 1, _LOOKS).astype(int))
     nothing = np.zeros((len(rows), 3 * len(motion.links), 0))
     answer, _ = _responses(motion, [unit.of_rows(rows) for unit in units], nothing, rows)
-    pressing = [k for k, unit in enumerate(units) if unit.apart.any()]
+    pressing = [k for k, unit in enumerate(units) if unit.presses]
     working = np.abs(answer[:, [*pressing, *range(len(units), answer.shape[1])]]).max(axis=1, initial=0.0)
     freed = {k for k, size in zip(pressing, np.nan_to_num(working).max(axis=0), strict=True) if size > _WORKLESS}
-    return [unit.without_apart if k in freed else unit for k, unit in enumerate(units)]
+    return [replace(unit, presses=False) if k in freed else unit for k, unit in enumerate(units)]
 
 
 def _columns(motion: Motion, units: Sequence[_UnitForce], rows: slice | Rows) -> tuple[Reals, Reals]:
@@ -294,7 +324,7 @@ def _columns(motion: Motion, units: Sequence[_UnitForce], rows: slice | Rows) ->
     lower, (places, turns) = motion.lower_linkage, _pose(motion, rows)
     links, count = places.shape
     held, drives = joint_connections(motion), range(len(lower.mechanism.drives))
-    pressing = [unit for unit in units if unit.apart.any()]
+    pressing = [unit for unit in units if unit.presses]
     acts = _Actions(places, np.zeros((count, 3 * links, len(units) + len(drives))))
     sideways = _Actions(places, np.zeros((count, 3 * links, len(pressing))))
     for column, unit in enumerate(units):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from cmath import rect
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,8 +20,7 @@ from gruebler.mechanics.forces.equilibrium import (
     joint_connections,
     joint_of_connection,
     link_loads,
-    pressed_apart,
-    reactions,
+    responses,
 )
 from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
@@ -195,20 +194,19 @@ def with_friction(
     Raises `LinkageError` for joints that are not there or have no such size, and for drives without a direction.
     """
     expect(friction, Friction)
-    if any(pressed_apart(motion)):
-        raise LinkageError(
-            "friction beside teeth or belts is not solved: on which flank or strand they press would depend on it"
-        )
     contacts = _contacts(motion, friction)
     rates = _rates(motion, contacts)
     directions = _directions(motion, contacts, rates, friction.backward)
     unknown: Flags = np.asarray(np.isnan(directions).any(axis=1))
     directions = np.where(unknown[:, None], 0.0, directions)
     units = [_unit(motion, contact, directions[:, k]) for k, contact in enumerate(contacts)]
-    free, *mutual = reactions(motion, [link_loads(motion, case) for case in (wrenches, *units)])
-    branches = _branches(motion, wrenches, contacts, directions, [free, *mutual], unknown)
+    (free, *mutual), pressing = responses(motion, [link_loads(motion, case) for case in (wrenches, *units)])
+    branches = _branches(motion, wrenches, contacts, directions, [free, *mutual, *pressing], unknown)
+    normal, carried = np.split(branches.normal, [len(contacts)], axis=1)
+    branches = branches._replace(normal=normal)
     forces = FrictionForces(contacts=contacts, branches=branches, directions=directions, rates=rates, frictionless=work)
-    return _total(motion, free, mutual, forces), forces
+    pressed = free.plus(zip(carried.T, pressing, strict=True))
+    return _total(motion, pressed, mutual, forces), forces
 
 
 # --- what rubs -------------------------------------------------------------------------------------
@@ -402,34 +400,41 @@ def _branches(
     cases: Sequence[Reactions],
     unknown: Flags,
 ) -> Branches:
-    """The normal forces of all rows; NaN where the links are not held, or their velocities are not known."""
-    brought = np.zeros((len(motion), len(contacts), len(cases), 2))
+    """The normal forces of all rows, then the sizes of what teeth and belts transmit that press.
+
+    NaN where the links are not held, or their velocities are not known.
+    """
+    rubbing, count = len(contacts), len(cases) - 1
+    brought = np.zeros((len(motion), count, len(cases), 2))
     for k, contact in enumerate(contacts):
         brought[:, k] = _components(motion, contact, cases)
+    brought[:, rubbing:, :, 0] = np.stack([case.carried for case in cases], axis=2)
     total = sum((np.abs(w.force) + np.abs(w.moment) / motion.size for w in wrenches), np.zeros(len(motion)))
-    levers = np.array([c.coefficient * (1.0 if c.slides else c.radius / motion.size) for c in contacts])
-    scales = np.concatenate([total[:, None], np.broadcast_to(levers, (len(motion), len(contacts)))], axis=1)
+    levers = [c.coefficient * (1.0 if c.slides else c.radius / motion.size) for c in contacts]
+    each = np.array(levers + [1.0] * (count - rubbing))
+    scales = np.concatenate([total[:, None], np.broadcast_to(each, (len(motion), count))], axis=1)
     brought = np.where(np.abs(brought) <= _NOISE * scales[:, None, :, None], 0.0, brought)
     halves = [2 * motion.size / c.length if c.slides else 1.0 for c in contacts]
-    brought[..., 1] *= np.array(halves)[:, None]
-    signed = [c.coefficient * c.height / c.length if c.slides else 0.0 for c in contacts]
+    brought[:, :rubbing, :, 1] *= np.array(halves)[:, None]
+    leaning = np.zeros((len(motion), count))
+    leaning[:, :rubbing] = directions * [c.coefficient * c.height / c.length if c.slides else 0.0 for c in contacts]
     held = np.flatnonzero(~cases[0].singular & ~unknown)
-    rubbing = Contacts(
-        brought[:, :, 0],
-        brought[:, :, 1:],
-        leaning=directions * np.array(signed),
-        round=np.array([not contact.slides for contact in contacts], bool),
+    many = Contacts(
+        loads=brought[:, :, 0],
+        mutual=brought[:, :, 1:],
+        leaning=leaning,
+        round=np.array([k < rubbing and not contacts[k].slides for k in range(count)], bool),
+        rubs=np.arange(count) < rubbing,
     ).at(held)
     largest = max((contact.coefficient for contact in contacts), default=_LARGEST)
     limit = max(2.0, min(_LARGEST / largest, _FACTORS))
-    followed = continued(rubbing, limit)
-    count = len(motion)
+    followed, rows = continued(many, limit), len(motion)
     filled = Branches(
-        np.full((count, len(contacts)), np.nan),
-        np.full(count, np.nan),
-        np.full(count, -1),
-        np.zeros(count, np.int64),
-        np.zeros(count, bool),
+        np.full((rows, count), np.nan),
+        np.full(rows, np.nan),
+        np.full(rows, -1),
+        np.zeros(rows, np.int64),
+        np.zeros(rows, bool),
     )
     for whole, part in zip(filled, followed, strict=True):
         whole[held] = part
@@ -453,15 +458,12 @@ def _components(motion: Motion, contact: RubbingContact, cases: Sequence[Reactio
 
 def _total(motion: Motion, free: Reactions, mutual: Sequence[Reactions], forces: FrictionForces) -> Reactions:
     """Forces, couples and efforts with friction; those of joints contain it."""
-    joints, couples, drives = free.forces.copy(), free.couples.copy(), free.drives.copy()
-    for k, (contact, unit) in enumerate(zip(forces.contacts, mutual, strict=True)):
-        normal = forces.normal[:, k]
-        joints += normal[:, None] * unit.forces
-        couples += normal[:, None] * unit.couples
-        drives += normal[:, None] * unit.drives
-        rubbing = -contact.lever * forces.directions[:, k] * normal
+    total = free.plus(zip(forces.normal.T, mutual, strict=True))
+    joints, couples = total.forces.copy(), total.couples.copy()
+    for k, contact in enumerate(forces.contacts):
+        rubbing = -contact.lever * forces.directions[:, k] * forces.normal[:, k]
         if contact.slides:
             joints[:, contact.connection] += rubbing * _line(motion, contact)[0][1]
         else:
             couples[:, contact.connection] += rubbing
-    return Reactions(joints, couples, drives, free.singular)
+    return replace(total, forces=joints, couples=couples)

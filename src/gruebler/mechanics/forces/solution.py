@@ -377,7 +377,7 @@ def equilibrium(
     loads_of_links = link_loads(motion, wrenches)
     work = _virtual_work(motion, loads_of_links)
     if friction is None:
-        return Statics(motion=motion, wrenches=wrenches, reactions=reactions(motion, [loads_of_links])[0], work=work)
+        return Statics(motion=motion, wrenches=wrenches, reactions=reactions(motion, loads_of_links), work=work)
     forces, rubbing = with_friction(motion, wrenches, as_friction(friction), work)
     return Statics(motion=motion, wrenches=wrenches, reactions=forces, work=work + rubbing.effort, friction=rubbing)
 
