@@ -69,14 +69,14 @@ class ClosureStructure:
     rows: NDArray[np.int64]
     dimension: tuple[Dimension | None, ...]
     """Of each node the joint and link whose place it is."""
-    is_spherical: bool
+    space: Space
     unknowns: int
     balls: int
     node_of: tuple[int, ...]
     """The node of each node of the tree."""
 
     def _key(self) -> tuple[object, ...]:
-        return self.nodes.tobytes(), self.rows.tobytes(), self.dimension, self.is_spherical
+        return self.nodes.tobytes(), self.rows.tobytes(), self.dimension, self.space
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ClosureStructure) and self._key() == other._key()
@@ -88,7 +88,7 @@ class ClosureStructure:
         self, begin: ComplexDimensions, end: ComplexDimensions, starts: Positions, loose: float
     ) -> tuple[Positions, Reals, int]:
         """Where paths end on a straight way of the dimensions, the times that they reached, the steps taken."""
-        twists = twists_between(begin.frames, end.frames, self.is_spherical)
+        twists = twists_between(begin.frames, end.frames)
         lengths = np.stack([begin.lengths, end.lengths - begin.lengths])
         given = np.stack([begin.given, end.given - begin.given])
         q, turns, frames, times, steps = _core.follow_modes(
@@ -159,7 +159,7 @@ def structure_of(tree: ClosureTree, held: frozenset[int]) -> tuple[ClosureStruct
         nodes=np.array(nodes, np.int64),
         rows=np.array(rows, np.int64).reshape(-1, 5),
         dimension=tuple(dimension),
-        is_spherical=tree.linkage.mechanism.chain.space is Space.SPHERICAL,
+        space=tree.linkage.mechanism.chain.space,
         unknowns=len(passive),
         balls=balls,
         node_of=tuple(node_of),
@@ -185,7 +185,7 @@ def exponentials(twists: Complexes) -> Complexes:
     return np.asarray(np.eye(4) + x + second * (x @ x) + third * (x @ x @ x))
 
 
-def twists_between(begin: Complexes, end: Complexes, is_spherical: bool) -> Complexes:
+def twists_between(begin: Complexes, end: Complexes) -> Complexes:
     """Twists (n, 6) with end = begin exp(twist), (n, 4, 4) each."""
     between = _inverse(begin) @ end
     cosine = (np.trace(between[:, :3, :3], axis1=1, axis2=2) - 1) / 2
@@ -199,8 +199,7 @@ def twists_between(begin: Complexes, end: Complexes, is_spherical: bool) -> Comp
     left = np.eye(3) + second * k + third * (k @ k)
     twists = np.zeros((len(between), 6), complex)
     twists[:, 0], twists[:, 1], twists[:, 2] = k[:, 2, 1], k[:, 0, 2], k[:, 1, 0]
-    if not is_spherical:
-        twists[:, 3:] = np.linalg.solve(left, between[:, :3, 3:])[..., 0]
+    twists[:, 3:] = np.linalg.solve(left, between[:, :3, 3:])[..., 0]
     return twists
 
 
@@ -219,14 +218,18 @@ def _random(rng: np.random.Generator, shape: tuple[int, ...]) -> Complexes:
     return np.asarray(rng.normal(size=shape) + _NEAR * rng.normal(size=shape))
 
 
+def _in_space(space: Space) -> Reals:
+    """1 for each component of a twist in a space, 0 for the others."""
+    return np.array([sum(parts) for parts in zip(*(freedom.twist() for freedom in space.directions), strict=True)])
+
+
 def shifted(
     structure: ClosureStructure, dimensions: ComplexDimensions, rng: np.random.Generator, size: float
 ) -> ComplexDimensions:
     """Random dimensions around these; the place of one joint on one link stays the same wherever it stands."""
     own = {what: _random(rng, (6,)) for what in dict.fromkeys(structure.dimension) if what is not None}
     twists = np.array([np.zeros(6) if what is None else size * own[what] for what in structure.dimension], complex)
-    if structure.is_spherical:
-        twists[:, 3:] = 0
+    twists *= _in_space(structure.space)
     change = _LENGTHS * abs(dimensions.lengths) * _random(rng, dimensions.lengths.shape)
     return ComplexDimensions(
         dimensions.frames @ exponentials(twists), dimensions.lengths + change * size / _LOOP, dimensions.given

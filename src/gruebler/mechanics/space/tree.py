@@ -301,7 +301,10 @@ class _Builder:
             first, free = self._moved(tie.joint, first, True, known=False), ()
         turns = ["xyz".index(freedom.axis) for freedom in free if freedom.turns]
         shifts = {"xyz".index(freedom.axis) for freedom in free if freedom.travels}
-        if not turns:
+        if self.space is Space.PLANAR:  # no joint leaves the plane
+            shifts.add(2)
+            across = [] if turns else [(0, 1)]
+        elif not turns:
             across = [(0, 1), (0, 2), (1, 2)]
         elif len(turns) == 1:
             across = [(axis, turns[0]) for axis in range(3) if axis != turns[0]]
